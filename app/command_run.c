@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint run: numbers, no pictures. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/commands.h"
+#include "app/drive.h"
+
+struct outcome {
+    struct gm_drive drive;
+    double *maxima; /* one per observable; NULL without --max */
+};
+
+static void print_json_number(double value)
+{
+    if (isfinite(value)) {
+        printf("%.17g", value);
+    } else {
+        fputs("null", stdout);
+    }
+}
+
+static void print_json_parameters(const struct gm_lane *lane)
+{
+    const struct gm_scene *scene = lane->scene;
+    char text[96];
+    printf("\"parameters\":{");
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        const struct gm_parameter *row = &scene->parameters[i];
+        printf("%s\"%s\":", i ? "," : "", row->key);
+        if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
+            printf("\"%s\"", gm_parameter_format(row, lane->parameters, text, sizeof text));
+        } else {
+            print_json_number(gm_parameter_get(row, lane->parameters));
+        }
+    }
+    for (const struct gm_parameter *const *row = lane->scheme->family->parameters; row && *row; row++) {
+        printf(",\"%s\":\"%s\"", (*row)->key, gm_parameter_format(*row, &lane->settings, text, sizeof text));
+    }
+    printf("}");
+}
+
+static void print_json(const struct outcome *outcome, const struct gm_options *options)
+{
+    const struct gm_lane *lane = outcome->drive.lane;
+    const struct gm_run *run = lane->run;
+    char sentence[GM_SENTENCE];
+    gm_failure_sentence(lane, sentence, sizeof sentence);
+    printf("{\"scene\":\"%s\",\"scheme\":\"%s\",", lane->scene->name, lane->scheme->name);
+    print_json_parameters(lane);
+    printf(",\"status\":\"%s\",\"message\":\"%s\",\"t\":", gm_status_name(run->status), sentence);
+    print_json_number(run->t);
+    printf(",\"steps\":%ld,\"evaluations\":%.0f,\"solves\":%.0f,\"seconds\":%.6g,\"observables\":{", run->steps,
+           gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves), outcome->drive.seconds);
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        printf("%s\"%s\":", i ? "," : "", lane->scene->observables[i].key);
+        print_json_number(gm_lane_observe(lane, i));
+    }
+    for (size_t i = 0; outcome->maxima && i < lane->scene->observable_count; i++) {
+        printf(",\"%s_max\":", lane->scene->observables[i].key);
+        print_json_number(outcome->maxima[i]);
+    }
+    printf("}");
+    if (options->state) {
+        const double *y = gm_run_state(run);
+        printf(",\"layout\":\"y[component * m + member], n = %zu components, m = %zu members\",\"state\":[",
+               lane->problem.n, lane->problem.m);
+        for (size_t i = 0; i < lane->problem.n * lane->problem.m; i++) {
+            printf("%s%.17g", i ? "," : "", y[i]);
+        }
+        printf("]");
+    }
+    printf("}\n");
+}
+
+static void print_text(const struct outcome *outcome)
+{
+    const struct gm_lane *lane = outcome->drive.lane;
+    const struct gm_run *run = lane->run;
+    const char *separator = lane->shown.colour_name[0] && lane->shown.panel_name[0] ? ", " : "";
+    printf("%s  %s%s%s%s\n", lane->scene->name, lane->scheme->name,
+           lane->shown.panel_name[0] || lane->shown.colour_name[0] ? "  " : "", lane->shown.panel_name,
+           separator);
+    if (lane->shown.colour_name[0]) {
+        printf("  %s\n", lane->shown.colour_name);
+    }
+    printf("  %-20s %s\n", "status", gm_status_name(run->status));
+    printf("  %-20s %.10g\n  %-20s %ld\n  %-20s %.0f\n  %-20s %.0f\n  %-20s %.3g\n", "t", run->t, "steps",
+           run->steps, "evaluations", gm_run_per_member(run, run->evaluations), "solves",
+           gm_run_per_member(run, run->solves), "seconds",
+           outcome->drive.seconds);
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        printf("  %-20s %.10g\n", lane->scene->observables[i].key, gm_lane_observe(lane, i));
+    }
+    char name[64];
+    for (size_t i = 0; outcome->maxima && i < lane->scene->observable_count; i++) {
+        snprintf(name, sizeof name, "%s_max", lane->scene->observables[i].key);
+        printf("  %-20s %.10g\n", name, outcome->maxima[i]);
+    }
+}
+
+static void write_row(FILE *csv, const struct gm_lane *lane, size_t index)
+{
+    fprintf(csv, "%s,%zu,%s,%.17g", lane->scene->name, index, lane->scheme->name, lane->run->t);
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        fprintf(csv, ",%.17g", gm_lane_observe(lane, i));
+    }
+    fputc('\n', csv);
+}
+
+static void take_maxima(struct outcome *outcome)
+{
+    for (size_t i = 0; outcome->maxima && i < outcome->drive.lane->scene->observable_count; i++) {
+        outcome->maxima[i] = fmax(outcome->maxima[i], gm_lane_observe(outcome->drive.lane, i));
+    }
+}
+
+/* Runs one lane to its end. Looks at every step only where that is asked for. */
+static bool run_lane(struct outcome *outcome, long steps, const struct gm_options *options, FILE *csv,
+                     char *message)
+{
+    struct gm_drive *drive = &outcome->drive;
+    const struct gm_run *run = drive->lane->run;
+    const long every = outcome->maxima ? 1 : options->every ? options->every : 1;
+    const long row = options->every ? options->every : 1;
+    if (csv) {
+        write_row(csv, drive->lane, drive->index);
+    }
+    take_maxima(outcome);
+    if (!csv && !outcome->maxima) {
+        return gm_drive_to(drive, steps, false, message);
+    }
+    while (run->steps < steps && run->status == GM_OK && !gm_interrupted) {
+        const long next = run->steps + every < steps ? run->steps + every : steps;
+        const long before = run->steps;
+        if (!gm_drive_to(drive, next, false, message)) {
+            return false;
+        }
+        if (run->steps == before) {
+            break;
+        }
+        take_maxima(outcome);
+        if (csv && (run->steps % row == 0 || run->steps == steps || run->status != GM_OK)) {
+            write_row(csv, drive->lane, drive->index);
+        }
+    }
+    return true;
+}
+
+static FILE *open_csv(const char *path, const struct gm_scene *scene)
+{
+    FILE *csv = strcmp(path, "-") == 0 ? stdout : fopen(path, "w");
+    if (!csv) {
+        return NULL;
+    }
+    fputs("scene,lane,scheme,t", csv);
+    for (size_t i = 0; i < scene->observable_count; i++) {
+        fprintf(csv, ",%s", scene->observables[i].key);
+    }
+    fputc('\n', csv);
+    return csv;
+}
+
+static bool close_csv(FILE *csv)
+{
+    const bool failed = ferror(csv) != 0;
+    if (csv == stdout) {
+        return !failed;
+    }
+    return fclose(csv) == 0 && !failed;
+}
+
+int gm_command_run(const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    struct gm_request request;
+    if (options->state && !options->json) {
+        gm_complain("--state needs --json");
+        return GM_EXIT_USAGE;
+    }
+    if (!gm_request_parse(&request, options->word_count, options->words, 1, message)) {
+        gm_complain("%s", message);
+        return GM_EXIT_USAGE;
+    }
+    gm_catch_interrupts();
+    FILE *csv = NULL;
+    int status = GM_EXIT_OK;
+    if (options->csv && !(csv = open_csv(options->csv, request.scene))) {
+        gm_complain("%s could not be written: %s", options->csv, strerror(errno));
+        status = GM_EXIT_FILE;
+    }
+    for (size_t i = 0; i < request.count && status != GM_EXIT_FILE && !gm_interrupted; i++) {
+        struct outcome outcome = {.drive = {.request = &request, .index = i}};
+        outcome.drive.lane = gm_request_open_lane(&request, i, message);
+        if (outcome.drive.lane && options->maximum) {
+            outcome.maxima = malloc(request.scene->observable_count * sizeof(double));
+            for (size_t k = 0; outcome.maxima && k < request.scene->observable_count; k++) {
+                outcome.maxima[k] = -INFINITY;
+            }
+        }
+        if (!outcome.drive.lane || !run_lane(&outcome, request.lanes[i].steps, options, csv, message)) {
+            gm_complain("%s", message);
+            status = GM_EXIT_USAGE;
+        } else {
+            if (options->json) {
+                print_json(&outcome, options);
+            } else {
+                print_text(&outcome);
+            }
+            if (outcome.drive.lane->run->status != GM_OK && status == GM_EXIT_OK) {
+                status = GM_EXIT_NUMERICAL;
+            }
+        }
+        free(outcome.maxima);
+        gm_lane_close(outcome.drive.lane);
+        if (csv && ferror(csv)) {
+            break;
+        }
+    }
+    if (csv && !close_csv(csv) && csv != stdout) {
+        gm_complain("%s could not be written: %s", options->csv, strerror(errno));
+        status = GM_EXIT_FILE;
+    }
+    gm_request_close(&request);
+    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+}

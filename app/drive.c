@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/drive.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+volatile sig_atomic_t gm_interrupted;
+
+static void interrupt(int number)
+{
+    (void)number;
+    gm_interrupted = 1;
+}
+
+void gm_catch_interrupts(void)
+{
+    struct sigaction action = {.sa_handler = interrupt};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+static double processor_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble. */
+static long burst_of(const struct gm_lane *lane)
+{
+    const double members = (double)(lane->problem.n * lane->problem.m);
+    const double burst = 2e5 / members;
+    return burst < 1 ? 1 : burst > 1e5 ? 100000 : (long)burst;
+}
+
+static bool make_changes(struct gm_drive *drive, char *message)
+{
+    const struct gm_request *request = drive->request;
+    while (drive->next_change < request->change_count) {
+        const struct gm_change *change = &request->changes[drive->next_change];
+        if (change->lane == drive->index && change->step > drive->lane->run->steps) {
+            return true;
+        }
+        if (change->lane == drive->index && !gm_change_apply(drive->lane, change->text, message)) {
+            return false;
+        }
+        drive->next_change++;
+    }
+    return true;
+}
+
+/* The step before which the next change is due; `step` if none is. */
+static long next_stop(const struct gm_drive *drive, long step)
+{
+    const struct gm_request *request = drive->request;
+    for (size_t i = drive->next_change; i < request->change_count; i++) {
+        if (request->changes[i].lane == drive->index) {
+            return request->changes[i].step < step ? request->changes[i].step : step;
+        }
+    }
+    return step;
+}
+
+bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
+{
+    struct gm_lane *lane = drive->lane;
+    const long burst = record ? 1 : burst_of(lane);
+    while (lane->run->status == GM_OK && !gm_interrupted) {
+        if (!make_changes(drive, message)) {
+            return false;
+        }
+        const long left = next_stop(drive, step) - lane->run->steps;
+        if (left <= 0) {
+            break;
+        }
+        const long before = lane->run->steps;
+        const double start = processor_seconds();
+        gm_run_advance(lane->run, left < burst ? left : burst);
+        drive->seconds += processor_seconds() - start;
+        if (record && lane->run->steps > before) {
+            gm_lane_record(lane);
+        }
+    }
+    return true;
+}
+
+long gm_drive_step_at(const struct gm_drive *drive, double t)
+{
+    const struct gm_run *run = drive->lane->run;
+    const double ahead = (t - run->t) / run->dt;
+    return run->steps + (long)floor(fmin(ahead * (1 + 1e-12) + 1e-6, 1e15));
+}
+
+void gm_complain(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fputs("geomint: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+    va_end(arguments);
+}
+
+void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
+{
+    const struct gm_run *run = lane->run;
+    text[0] = '\0';
+    switch (run->status) {
+    case GM_OK:
+        return;
+    case GM_BLOW_UP:
+        snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to no number at all", run->t, run->limit);
+        return;
+    case GM_NO_CONVERGENCE:
+        snprintf(text, size, "the implicit equations of the step after t = %.6g were not solved to round-off "
+                 "(%.0f iterations so far)", run->t, gm_run_per_member(run, run->iterations));
+        return;
+    case GM_MESH_CROSSING:
+        snprintf(text, size, "the mesh would have tangled in the step after t = %.6g", run->t);
+        return;
+    case GM_STEP_COLLAPSE:
+        snprintf(text, size, "the scheme found no step to continue with after t = %.6g", run->t);
+        return;
+    }
+}
+
+int gm_finish(int status)
+{
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        if (errno == EPIPE) {
+            return GM_EXIT_PIPE;
+        }
+        gm_complain("standard output could not be written: %s", strerror(errno));
+        return GM_EXIT_FILE;
+    }
+    return status;
+}

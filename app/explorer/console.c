@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/explorer/console.h"
+
+#include <curses.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "app/explorer/terminal.h"
+#include "app/request.h"
+
+static SCREEN *screen;
+static WINDOW *keys; /* a pad: reading a key from it does not make ncurses draw */
+static int wake_fd = -1;
+static struct termios before; /* as the shell had it */
+static char parting[256];     /* what restores the terminal, for handlers that may call hardly anything */
+static size_t parting_size;
+static volatile sig_atomic_t active, leaving, resized, stopping;
+
+/* ---- signals ---- */
+
+static void announce(void)
+{
+    int error = errno;
+    const uint64_t one = 1;
+    if (write(wake_fd, &one, sizeof one) < 0) {
+        /* the count is full: it is awake already */
+    }
+    errno = error;
+}
+
+static void on_leave(int number)
+{
+    leaving = number;
+    announce();
+}
+
+static void on_resize(int number)
+{
+    (void)number;
+    resized = 1;
+    announce();
+}
+
+static void on_stop(int number)
+{
+    (void)number;
+    stopping = 1;
+    announce();
+}
+
+static const int leave_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+static const int crash_signals[] = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};
+enum {
+    LEAVE_COUNT = sizeof leave_signals / sizeof *leave_signals,
+    CRASH_COUNT = sizeof crash_signals / sizeof *crash_signals,
+};
+static struct sigaction leave_before[LEAVE_COUNT], crash_before[CRASH_COUNT], resize_before, stop_before, pipe_before;
+
+/* The process is lost; the shell behind it must not be. */
+static void on_crash(int number)
+{
+    if (active) {
+        active = 0;
+        if (write(STDOUT_FILENO, parting, parting_size) < 0) {
+            /* nothing can be done about it */
+        }
+        tcsetattr(STDIN_FILENO, TCSANOW, &before);
+    }
+    for (int i = 0; i < CRASH_COUNT; i++) {
+        if (crash_signals[i] == number)
+            sigaction(number, &crash_before[i], NULL);
+    }
+    raise(number);
+}
+
+static void handle(int number, void (*handler)(int), struct sigaction *old)
+{
+    struct sigaction action = {.sa_handler = handler};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, old);
+}
+
+static void handle_all(void)
+{
+    for (int i = 0; i < LEAVE_COUNT; i++)
+        handle(leave_signals[i], on_leave, &leave_before[i]);
+    for (int i = 0; i < CRASH_COUNT; i++)
+        handle(crash_signals[i], on_crash, &crash_before[i]);
+    /* Set before ncurses looks, so that it leaves these two to us: its own handlers would draw. */
+    handle(SIGWINCH, on_resize, &resize_before);
+    handle(SIGTSTP, on_stop, &stop_before);
+    handle(SIGPIPE, SIG_IGN, &pipe_before);
+}
+
+static void unhandle_all(void)
+{
+    for (int i = 0; i < LEAVE_COUNT; i++)
+        sigaction(leave_signals[i], &leave_before[i], NULL);
+    for (int i = 0; i < CRASH_COUNT; i++)
+        sigaction(crash_signals[i], &crash_before[i], NULL);
+    sigaction(SIGWINCH, &resize_before, NULL);
+    sigaction(SIGTSTP, &stop_before, NULL);
+    sigaction(SIGPIPE, &pipe_before, NULL);
+}
+
+/* ---- the terminal ---- */
+
+static void add_parting(const char *text)
+{
+    if (!text || text == (char *)-1)
+        return;
+    /* without padding, which means nothing to today's terminals */
+    while (*text && parting_size < sizeof parting) {
+        const char *end = text[0] == '$' && text[1] == '<' ? strchr(text, '>') : NULL;
+        if (end)
+            text = end + 1;
+        else
+            parting[parting_size++] = *text++;
+    }
+}
+
+static void prepare_parting(bool modern)
+{
+    parting_size = 0;
+    if (modern)
+        add_parting("\030\033[?2026l"); /* cancels what may be half written */
+    add_parting(tigetstr("sgr0"));
+    add_parting(tigetstr("rmkx"));
+    add_parting(tigetstr("cnorm"));
+    add_parting(tigetstr("rmcup"));
+}
+
+static void take_over(void)
+{
+    /* Draws one blank screen: this is where ncurses switches to the alternate one. It never draws again. */
+    clearok(stdscr, TRUE);
+    refresh();
+    active = 1;
+}
+
+bool gm_console_open(int wake, char *message)
+{
+    wake_fd = wake;
+    leaving = resized = stopping = 0;
+    if (tcgetattr(STDIN_FILENO, &before) != 0) {
+        snprintf(message, GM_MESSAGE, "The terminal does not say how it is set: %s.", strerror(errno));
+        return false;
+    }
+    handle_all();
+    screen = newterm(NULL, stdout, stdin);
+    if (!screen) {
+        unhandle_all();
+        snprintf(message, GM_MESSAGE, "ncurses cannot use the terminal \"%.40s\".", getenv("TERM"));
+        return false;
+    }
+    set_escdelay(25);
+    cbreak();
+    noecho();
+    nonl();
+    curs_set(0);
+    keys = newpad(1, 1);
+    if (!keys) {
+        gm_console_close();
+        snprintf(message, GM_MESSAGE, "There is not enough memory.");
+        return false;
+    }
+    keypad(keys, TRUE);
+    nodelay(keys, TRUE);
+    prepare_parting(tigetnum("colors") >= 256);
+    take_over();
+    static bool registered;
+    if (!registered)
+        registered = atexit(gm_console_close) == 0;
+    return true;
+}
+
+void gm_console_close(void)
+{
+    if (!screen)
+        return;
+    endwin();
+    active = 0;
+    if (keys)
+        delwin(keys);
+    delscreen(screen);
+    keys = NULL;
+    screen = NULL;
+    unhandle_all();
+}
+
+int gm_console_key(void)
+{
+    int key = wgetch(keys);
+    return key == ERR ? -1 : key;
+}
+
+int gm_console_leaving(void) { return leaving; }
+
+bool gm_console_resized(void)
+{
+    bool was = resized;
+    resized = 0;
+    if (was) {
+        int columns, rows;
+        gm_terminal_size(&columns, &rows);
+        resizeterm(rows, columns);
+    }
+    return was;
+}
+
+bool gm_console_stopping(void)
+{
+    bool was = stopping;
+    stopping = 0;
+    return was;
+}
+
+void gm_console_stop(void)
+{
+    endwin();
+    active = 0;
+    raise(SIGSTOP);
+    reset_prog_mode();
+    curs_set(0);
+    take_over();
+    resized = 1;
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_EXPLORER_CONSOLE_H
+#define GM_APP_EXPLORER_CONSOLE_H
+
+#include <stdbool.h>
+
+/* The terminal as a device: taken over by ncurses at the start, given back on every way out, its keys and signals
+   read. */
+
+/* Takes the terminal over. `wake` is an eventfd that signals are announced on. False with a sentence (GM_MESSAGE
+   bytes). */
+bool gm_console_open(int wake, char *message);
+/* Gives it back. Harmless if it was given back before. */
+void gm_console_close(void);
+
+/* The next key of those that have come, as ncurses numbers them; -1 if there is none. */
+int gm_console_key(void);
+
+/* The signal that asks to leave, or 0. */
+int gm_console_leaving(void);
+/* Whether the size may have changed since the last call. */
+bool gm_console_resized(void);
+/* Whether the user asked to suspend (Ctrl-Z) since the last call. */
+bool gm_console_stopping(void);
+/* Gives the terminal back, stops the process, and takes the terminal over again when it goes on. */
+void gm_console_stop(void);
+
+#endif

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_EXPLORER_SHOT_H
+#define GM_APP_EXPLORER_SHOT_H
+
+#include "app/explorer/session.h"
+#include "app/explorer/slider.h"
+
+/* A finished look at a session: everything the screen shows, as a copy. The thread that steps fills one while the
+   screen shows another, so neither waits for the other. */
+
+enum {
+    GM_SHOT_OBSERVABLES = 24,
+    GM_SHOT_PARAMETERS = 48,
+    GM_SHOT_SCHEMES = 256,
+    GM_SPARK = 16, /* places of a tiny graph */
+};
+
+struct gm_spark {
+    double low[GM_SPARK], high[GM_SPARK]; /* low > high where there is nothing */
+};
+
+struct gm_shot_lane {
+    struct gm_shown shown;
+    const struct gm_scheme *scheme;
+    enum gm_status status;
+    double t;
+    double values[GM_SHOT_OBSERVABLES];
+    struct gm_spark sparks[GM_SHOT_OBSERVABLES];
+};
+
+struct gm_shot_parameter {
+    const struct gm_parameter *row;
+    bool of_scheme;
+    bool differs;    /* from lane to lane; the value is the selected one's */
+    double position; /* 0 to 1 in its range, or -1 */
+    char value[GM_VALUE_TEXT];
+};
+
+struct gm_shot {
+    const struct gm_scene *scene;
+    struct gm_picture *picture;
+    size_t lane_count, selected;
+    struct gm_shot_lane lanes[GM_MOST_LANES];
+    size_t observable_count;
+    size_t parameter_count;
+    struct gm_shot_parameter parameters[GM_SHOT_PARAMETERS];
+    size_t scheme_count;
+    const struct gm_scheme *schemes[GM_SHOT_SCHEMES]; /* all that fit */
+    double t, speed;
+    bool paused;
+    bool behind; /* the steps cost more than the speed allows */
+    char message[GM_MESSAGE];
+    unsigned long message_number; /* changes with every message */
+};
+
+bool gm_shot_open(struct gm_shot *shot);
+void gm_shot_close(struct gm_shot *shot);
+
+/* Fills in what comes from the session; looks only. */
+void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected);
+
+#endif

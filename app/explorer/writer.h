@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_EXPLORER_WRITER_H
+#define GM_APP_EXPLORER_WRITER_H
+
+#include "app/explorer/terminal.h"
+
+/* Writes screens of cells to the terminal, only what changed since the last one, and never waits for it.
+ *
+ * The whole screen goes this way, not the picture's rectangle alone. Were ncurses to own the rest, two
+ * writers would keep two ideas of the cursor, the colours in force and of what the terminal shows; every
+ * resize, scroll and suspension would have to be healed in both. ncurses knows true colour only where TERM
+ * ends in -direct, and its output blocks. So ncurses sets the terminal up, reads the keys, knows terminfo and
+ * restores everything at the end; its own screen stays blank and is refreshed once, at the start. */
+
+struct gm_writer {
+    int fd;
+    bool own_fd;
+    enum gm_colours colours;
+    enum gm_theme theme;
+    bool bright;           /* 16 colours: the terminal has the upper eight as colours of their own */
+    /* capabilities of terminfo; NULL where it has none */
+    const char *place, *plain, *strong, *reversed, *set_foreground, *set_background;
+    bool corner;           /* the last cell of the screen may be written without a scroll */
+    struct gm_cells shown; /* what the terminal shows, once all is sent */
+    bool known;            /* that is so */
+    char *out;
+    size_t length, capacity, sent;
+    bool failed; /* memory is short or the terminal is gone */
+    /* the state of the terminal */
+    int column, row;
+    long foreground, background; /* -1: unknown */
+    bool bold, reverse;
+    int16_t *nearest; /* 256 colours: the index for 15 bits of colour, -1 if not yet known */
+};
+
+bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal);
+/* Waits up to half a second for what is under way, so that no sequence is cut in two. */
+void gm_writer_close(struct gm_writer *writer);
+
+/* Whether everything was sent, so that another screen may be drawn. */
+bool gm_writer_idle(const struct gm_writer *writer);
+/* Takes a screen; what differs from the last one is put in line. Only when idle. */
+void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells);
+/* Sends what the terminal takes now. False when it is gone. */
+bool gm_writer_send(struct gm_writer *writer);
+/* The terminal may show anything: the next screen is written in full. */
+void gm_writer_forget(struct gm_writer *writer);
+
+#endif

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OPTIONS_H
+#define GM_APP_OPTIONS_H
+
+#include "app/request.h"
+#include "render/theme.h"
+
+/* The commands, as bits: an option says which of them take it. */
+enum gm_command {
+    GM_TUI = 1 << 0,
+    GM_LIST = 1 << 1,
+    GM_RUN = 1 << 2,
+    GM_RENDER = 1 << 3,
+    GM_FIGURES = 1 << 4,
+    GM_CERTIFY = 1 << 5,
+    GM_AGAIN = 1 << 6,
+    GM_TERMINAL = 1 << 7,
+};
+
+/* The --options of a command line; what is not given is 0, NULL or as said. */
+struct gm_options {
+    int json, state, maximum, strict, longer, quick;
+    const char *csv, *out, *movie;
+    long every, frames;
+    double fps, rate;      /* NAN: not given */
+    double from, at;       /* NAN: not given */
+    int width, height;     /* 1280 x 720 */
+    enum gm_theme theme;   /* light */
+    char **words;          /* what is left: scene, key=value, names */
+    int word_count;
+};
+
+/* Reads argv[first..]; words point into argv, options->words is malloc'ed. False with a sentence. */
+bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
+                      char *message);
+void gm_options_close(struct gm_options *options);
+
+/* Writes the options of a command for --help. */
+void gm_options_help(enum gm_command command);
+
+#endif

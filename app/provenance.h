@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_PROVENANCE_H
+#define GM_APP_PROVENANCE_H
+
+#include "app/request.h"
+#include "render/png.h"
+#include "render/theme.h"
+
+/* What a PNG tells of how it was made: enough for `geomint again`. */
+
+enum { GM_PROVENANCE_TEXTS = 9 };
+
+struct gm_provenance {
+    struct gm_png_text texts[GM_PROVENANCE_TEXTS];
+    size_t count;
+    char *owned[GM_PROVENANCE_TEXTS]; /* the texts' memory */
+};
+
+/* Keys of the chunks that `again` reads. */
+#define GM_KEY_ARGUMENTS "geomint:arguments"
+#define GM_KEY_CHANGES "geomint:changes"
+#define GM_KEY_STEPS "geomint:steps" /* of each lane, separated by blanks */
+#define GM_KEY_PICTURE "geomint:picture" /* WIDTHxHEIGHT theme */
+
+/* Everything but the steps. False when memory is short. */
+bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width, int height,
+                        enum gm_theme theme, const char *backend);
+void gm_provenance_close(struct gm_provenance *provenance);
+
+/* The steps of the lanes now, as the text of GM_KEY_STEPS; malloc'ed, NULL when memory is short. */
+char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count);
+
+#endif

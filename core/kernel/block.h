@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A block: GM_LANES members in registers. Loading and storing, compensated addition, the blow-up test. */
+
+struct K(block) {
+    real y[GM_COMPONENTS];
+    real carry[GM_COMPONENTS]; /* what rounding lost from y, for compensated summation */
+    real force[GM_COMPONENTS]; /* splitting: of the last kick, while q has not moved since */
+    bool force_known;
+};
+
+/* What the steps cost, summed over the lanes that are members. */
+struct K(counts) {
+    int lanes;      /* members in this block */
+    bool continued; /* these are not the run's first steps */
+    unsigned long evaluations, solves, iterations;
+};
+
+/* Members from `first` on; a block that sticks out repeats the last member, which changes nothing. */
+GM_INLINE void K(block_load)(struct K(block) *block, const struct gm_task *task, size_t first)
+{
+    size_t m = task->problem->m;
+    block->force_known = false;
+    for (int c = 0; c < GM_COMPONENTS; c++) {
+        block->carry[c] = K(constant)(0);
+        if (first + GM_LANES <= m) {
+            memcpy(&block->y[c], task->y + (size_t)c * m + first, sizeof(real));
+            if (task->carry) {
+                memcpy(&block->carry[c], task->carry + (size_t)c * m + first, sizeof(real));
+            }
+            continue;
+        }
+        for (int l = 0; l < GM_LANES; l++) {
+            size_t member = first + (size_t)l < m ? first + (size_t)l : m - 1;
+            K(set_lane)(&block->y[c], l, task->y[(size_t)c * m + member]);
+            if (task->carry) {
+                K(set_lane)(&block->carry[c], l, task->carry[(size_t)c * m + member]);
+            }
+        }
+    }
+}
+
+GM_INLINE void K(block_store)(const struct K(block) *block, const struct gm_task *task, size_t first)
+{
+    size_t m = task->problem->m;
+    size_t lanes = first + GM_LANES <= m ? GM_LANES : m - first;
+    for (int c = 0; c < GM_COMPONENTS; c++) {
+        memcpy(task->out + (size_t)c * m + first, &block->y[c], lanes * sizeof(double));
+        if (task->carry) {
+            memcpy(task->carry_out + (size_t)c * m + first, &block->carry[c], lanes * sizeof(double));
+        }
+    }
+}
+
+/* y += increment; compensated: the rounding error goes into carry (Kahan; Hairer, Lubich & Wanner VIII.5). */
+GM_INLINE void K(add)(real *y, real *carry, real increment, bool compensated)
+{
+    if (!compensated) {
+        *y += increment;
+        return;
+    }
+    real old = *y;
+    *carry += increment;
+    *y = old + *carry;
+    *carry += old - *y;
+}
+
+/* Which lanes are finite and below the limit (a NaN compares false). */
+GM_INLINE mask K(within)(const struct K(block) *block, double limit)
+{
+    mask good = K(magnitude)(block->y[0]) <= K(constant)(limit);
+    for (int c = 1; c < GM_COMPONENTS; c++) {
+        good &= K(magnitude)(block->y[c]) <= K(constant)(limit);
+    }
+    return good;
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_PARAMETER_H
+#define GM_CORE_PARAMETER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* A parameter is one row of a table. The row makes the key=value of the command line, the slider of the
+   explorer, the help, the axis of a sweep, the text chunk of a PNG and the range that is fuzzed. */
+
+enum gm_type {
+    GM_REAL,    /* stored as double */
+    GM_INTEGER, /* stored as long */
+    GM_CHOICE,  /* stored as int, an index into choices */
+    GM_BOOLEAN, /* stored as int, 0 or 1; written no, yes */
+};
+
+struct gm_parameter {
+    const char *key;
+    const char *unit; /* "" if it has none */
+    const char *help;
+    enum gm_type type;
+    size_t offset;            /* of the value in the owner's struct */
+    const char *standard;     /* the default, as it would be typed ("pi/12") */
+    double lowest, highest;   /* inclusive range of a real or an integer */
+    bool logarithmic;         /* a slider moves by factors */
+    bool live;                /* a change acts on the present state; otherwise the run starts again */
+    const char *const *choices; /* NULL-terminated, for GM_CHOICE */
+};
+
+enum gm_parse {
+    GM_PARSED,
+    GM_NOT_UNDERSTOOD, /* not a number, not one of the choices */
+    GM_OUT_OF_RANGE,   /* below lowest, above highest, or not finite */
+};
+
+/* Evaluates text such as "1e-3", "pi/60", "2*pi", "sqrt(2/3)", ".5/800"; + - * / ( ) pi sqrt.
+   Returns false, and leaves *value alone, if the text is anything else. The value may be infinite or NaN. */
+bool gm_number_parse(const char *text, double *value);
+
+/* Writes value so that gm_number_parse gives the same double: multiples and fractions of pi as such,
+   otherwise the shortest decimal. Returns text. */
+char *gm_number_format(double value, char *text, size_t size);
+
+/* Reads text as a value of row and stores it in owner. owner is unchanged unless GM_PARSED is returned. */
+enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, const char *text);
+
+/* The value of row in owner as a double (choices and booleans as their index). */
+double gm_parameter_get(const struct gm_parameter *row, const void *owner);
+
+/* Writes the value of row in owner as it would be typed. Returns text. */
+char *gm_parameter_format(const struct gm_parameter *row, const void *owner, char *text, size_t size);
+
+/* Sets every row of the table to its default. */
+void gm_parameters_reset(const struct gm_parameter *rows, size_t count, void *owner);
+
+#endif

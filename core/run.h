@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_RUN_H
+#define GM_CORE_RUN_H
+
+#include "core/scheme.h"
+
+/* A run: one problem advanced by one scheme. Everything that influences the next step lies in the
+   run's one block of memory, so a snapshot is a copy. Looking at a run takes const. */
+struct gm_run {
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    struct gm_settings settings;
+    double t0, dt;    /* the present segment: t = t0 + n dt */
+    long n;           /* steps in this segment */
+    double t;         /* the present time */
+    double limit;     /* blow-up bound on the components */
+    long steps;       /* steps in all */
+    unsigned long evaluations, solves, iterations; /* sums over the members */
+    enum gm_status status;
+    int current; /* which half of the block holds the state */
+};
+
+/* Opens a run at time t0 in the state y0 (n * m, copied). NULL when memory is short.
+   The problem outlives the run; the scheme must fit it. */
+struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                           const struct gm_settings *settings, double t0, double dt, const double *y0);
+void gm_run_close(struct gm_run *run);
+
+/* The present state, [component * m + member]; valid until the next step. */
+const double *gm_run_state(const struct gm_run *run);
+
+/* A count of the run for one member: the mean over the ensemble. */
+double gm_run_per_member(const struct gm_run *run, unsigned long count);
+
+/* Makes up to `steps` steps. After a failure the run stays at its last good step, run->status says why,
+   and further calls do nothing. Never allocates. */
+enum gm_status gm_run_advance(struct gm_run *run, long steps);
+
+/* Starts a new segment at the present time with another step (its sign may change). */
+void gm_run_set_step(struct gm_run *run, double dt);
+
+/* Continues from the present state with another scheme that fits: a new run with the old one's time,
+   step and counts. NULL when memory is short; the old run is untouched. */
+struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *scheme);
+
+/* Snapshots: bytes needed, save, and load into a run of the same problem and scheme. */
+size_t gm_run_snapshot_size(const struct gm_run *run);
+void gm_run_save(const struct gm_run *run, void *snapshot);
+void gm_run_load(struct gm_run *run, const void *snapshot);
+
+#endif

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_SCHEME_H
+#define GM_CORE_SCHEME_H
+
+#include "core/parameter.h"
+#include "core/problem.h"
+
+/* What a scheme says of itself; certify and the tests hold every row to it. */
+enum gm_claim {
+    GM_SYMPLECTIC = 1u << 0,
+    GM_SYMMETRIC = 1u << 1,           /* step(-dt) undoes step(dt) */
+    GM_REVERSIBLE = 1u << 2,          /* under p -> -p */
+    GM_KEEPS_ENERGY = 1u << 3,        /* of every Hamiltonian */
+    GM_KEEPS_QUADRATIC = 1u << 4,     /* every quadratic invariant */
+    GM_KEEPS_LINEAR = 1u << 5,        /* every linear invariant */
+    GM_KEEPS_VOLUME = 1u << 6,
+    GM_MULTISYMPLECTIC = 1u << 7,
+    GM_EQUIVARIANT = 1u << 8,         /* commutes with the problem's symmetry group */
+    GM_CLAIM_COUNT = 9,
+};
+
+/* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */
+const char *gm_claim_letter(unsigned bit);
+const char *gm_claim_word(unsigned bit);
+
+/* Parameters that schemes bring; every lane whose scheme uses one shares it. */
+struct gm_settings {
+    int compensated; /* compensated summation of the increments */
+};
+extern const struct gm_parameter gm_settings_parameters[];
+extern const size_t gm_settings_parameter_count;
+
+/* A scheme is a row of data. A number at the end of a name is the order. */
+struct gm_scheme {
+    const char *name;      /* "rk4" */
+    const char *title;     /* "RK4", as pictures write it */
+    const char *formula;   /* Unicode, lines separated by \n */
+    const char *reference; /* where it comes from */
+    const struct gm_family *family;
+    const void *coefficients; /* the family knows their type */
+    int order;
+    unsigned needs;  /* facets, GM_NEEDS_*; all of them */
+    unsigned claims; /* GM_SYMPLECTIC | ... */
+};
+
+struct gm_family {
+    enum gm_family_id id;
+    const char *title;
+    const struct gm_scheme *schemes;
+    size_t count;
+    const struct gm_parameter *const *parameters; /* rows of gm_settings_parameters, NULL-terminated */
+};
+
+size_t gm_scheme_count(void);
+const struct gm_scheme *gm_scheme_at(size_t index);
+/* NULL if there is no scheme of that name */
+const struct gm_scheme *gm_scheme_find(const char *name);
+/* whether the problem has what the scheme needs */
+bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem);
+
+#endif

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/status.h"
+
+const char *gm_status_name(enum gm_status status)
+{
+    switch (status) {
+    case GM_OK:
+        return "ok";
+    case GM_BLOW_UP:
+        return "blow-up";
+    case GM_NO_CONVERGENCE:
+        return "no-convergence";
+    case GM_MESH_CROSSING:
+        return "mesh-crossing";
+    case GM_STEP_COLLAPSE:
+        return "step-collapse";
+    }
+    return "unknown";
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_STATUS_H
+#define GM_CORE_STATUS_H
+
+/* How a run stands. Anything but GM_OK is final: the run is frozen at its last good step. */
+enum gm_status {
+    GM_OK,
+    GM_BLOW_UP,        /* a state that is not finite, or whose norm left the problem's bound */
+    GM_NO_CONVERGENCE, /* an implicit equation was not solved to round-off */
+    GM_MESH_CROSSING,  /* a moving mesh would have tangled */
+    GM_STEP_COLLAPSE,  /* a scheme that chooses its step found none */
+};
+
+/* The name of a status as the command line prints it ("blow-up"). */
+const char *gm_status_name(enum gm_status status);
+
+#endif

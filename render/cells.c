@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/cells.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "render/cells_blocks.h"
+#include "render/cells_raster.h"
+#include "render/cells_text.h"
+#include "render/layout.h"
+
+/* A cell on the layout's surface. Twice as high as wide, like the cells of nearly every font, and divisible
+   by the sub-pixels of every kind of block. */
+enum { CELL_WIDTH = 8, CELL_HEIGHT = 16 };
+
+/* Below this there is room for the states and one graph. */
+enum { ROOMY_COLUMNS = 72, ROOMY_ROWS = 27 };
+
+static double measure(const void *self, enum gm_text_size size, const char *text) {
+    (void)size;
+    return CELL_WIDTH * gm_text_width(text, *(const bool *)self);
+}
+
+struct painter {
+    struct gm_cells *cells;
+    enum gm_theme theme;
+    bool ascii;
+    bool *taken; /* cells that hold text */
+};
+
+static bool is_free(const struct painter *painter, int column, int row, int width) {
+    if (row < 0 || row >= painter->cells->rows || column < 0 || column + width > painter->cells->columns)
+        return false;
+    /* a cell of air on both sides */
+    for (int i = column - 1; i <= column + width; i++) {
+        if (i >= 0 && i < painter->cells->columns &&
+            painter->taken[(size_t)row * (size_t)painter->cells->columns + (size_t)i])
+            return false;
+    }
+    return true;
+}
+
+/* Writes a text whose anchor is at x, top at y. On cells texts move by up to half a cell, so what no longer
+   fits is left out here even though the layout had room for it. */
+static void paint_text(struct painter *painter, double x, double y, enum gm_anchor anchor, const char *text,
+                       enum gm_role role, bool bold, bool on_paper) {
+    int width = gm_text_width(text, painter->ascii);
+    double left = x / CELL_WIDTH - (anchor == GM_ANCHOR_RIGHT    ? width
+                                    : anchor == GM_ANCHOR_CENTRE ? 0.5 * width
+                                                                 : 0);
+    if (!(fabs(left) < 1e6) || !(fabs(y) < 1e6) || width == 0)
+        return;
+    int column = (int)floor(left + 0.5), row = (int)floor(y / CELL_HEIGHT + 0.5);
+    if (column + width > painter->cells->columns && column + width <= painter->cells->columns + 2)
+        column = painter->cells->columns - width;
+    if (column < 0 && column >= -2)
+        column = 0;
+    if (!is_free(painter, column, row, width))
+        return;
+    size_t first = (size_t)row * (size_t)painter->cells->columns + (size_t)column;
+    for (size_t i = first; i < first + (size_t)width; i++) {
+        painter->taken[i] = true;
+        if (on_paper)
+            painter->cells->cells[i].background = gm_theme_colour(painter->theme, GM_PAPER);
+    }
+    gm_cells_text(painter->cells, column, row, -1, text, painter->ascii, painter->theme, role, bold);
+}
+
+static void paint_grid(struct gm_raster *raster, const struct gm_frame *frame) {
+    const struct gm_box *box = &frame->box;
+    if (!frame->panel->axes)
+        return;
+    int gap = raster->sharp ? 2 : 1;
+    for (size_t i = 0; i < frame->x_tick_count; i++)
+        gm_raster_rule(raster, frame->x_ticks[i].position, box->y, frame->x_ticks[i].position,
+                       box->y + box->height, GM_GRID, gap);
+    for (size_t i = 0; i < frame->y_tick_count; i++)
+        gm_raster_rule(raster, box->x, frame->y_ticks[i].position, box->x + box->width,
+                       frame->y_ticks[i].position, GM_GRID, gap);
+    gm_raster_rule(raster, box->x, box->y, box->x, box->y + box->height, GM_SECONDARY, 1);
+    gm_raster_rule(raster, box->x, box->y + box->height, box->x + box->width, box->y + box->height,
+                   GM_SECONDARY, 1);
+}
+
+static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout) {
+    bool ok = true;
+    for (size_t i = 0; i < layout->frame_count; i++) {
+        const struct gm_frame *frame = &layout->frames[i];
+        paint_grid(raster, frame);
+        for (const struct gm_mark *mark = frame->panel->first; ok && mark; mark = mark->next)
+            ok = gm_raster_mark(raster, frame, mark);
+        if (frame->colour_bar.width > 0) {
+            enum gm_map map = GM_MAP_SEQUENTIAL;
+            for (const struct gm_mark *mark = frame->panel->first; mark; mark = mark->next) {
+                if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
+                    map = mark->map;
+                    break;
+                }
+            }
+            gm_raster_bar(raster, &frame->colour_bar, map);
+        }
+    }
+    return ok;
+}
+
+static void paint_texts(struct painter *painter, const struct gm_layout *layout) {
+    for (size_t i = 0; i < layout->label_count; i++) {
+        const struct gm_label *label = &layout->labels[i];
+        if (!label->vertical) /* letters do not turn in a terminal; the panel's title says what the axis is */
+            paint_text(painter, label->x, label->y, label->anchor, label->text, label->role, label->bold,
+                       true);
+    }
+    for (size_t i = 0; i < layout->frame_count; i++) {
+        const struct gm_frame *frame = &layout->frames[i];
+        for (const struct gm_mark *mark = frame->panel->first; mark; mark = mark->next) {
+            if (mark->kind == GM_MARK_TEXT && mark->count > 0)
+                paint_text(painter, gm_frame_x(frame, mark->points[0]),
+                           gm_frame_y(frame, mark->points[1]) - 0.5 * CELL_HEIGHT, mark->anchor, mark->text,
+                           mark->style.role, false, false);
+        }
+    }
+}
+
+bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
+                    enum gm_blocks blocks) {
+    int across, down;
+    bool sharp;
+    bool ascii = blocks == GM_ASCII;
+    gm_blocks_grid(blocks, &across, &down, &sharp);
+    struct gm_metrics metrics = {.width = (double)cells->columns * CELL_WIDTH,
+                                 .height = (double)cells->rows * CELL_HEIGHT,
+                                 .measure = measure,
+                                 .self = &ascii,
+                                 .terse = cells->columns < ROOMY_COLUMNS || cells->rows < ROOMY_ROWS};
+    metrics.scale = metrics.height / 720;
+    for (int size = 0; size < GM_TEXT_SIZE_COUNT; size++)
+        metrics.line[size] = CELL_HEIGHT;
+
+    struct gm_raster raster;
+    if (!gm_raster_open(&raster, cells->columns * across, cells->rows * down, theme))
+        return false;
+    raster.unit_x = (double)CELL_WIDTH / across;
+    raster.unit_y = (double)CELL_HEIGHT / down;
+    raster.scale = metrics.scale;
+    raster.sharp = sharp;
+
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    struct painter painter = {.cells = cells, .theme = theme, .ascii = ascii};
+    painter.taken = calloc((size_t)cells->columns * (size_t)cells->rows, sizeof *painter.taken);
+    bool ok = layout && painter.taken && paint_marks(&raster, layout);
+    gm_blocks_glyphs(cells, &raster, blocks);
+    if (ok)
+        paint_texts(&painter, layout);
+    free(painter.taken);
+    gm_raster_close(&raster);
+    return ok;
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_CELLS_BLOCKS_H
+#define GM_RENDER_CELLS_BLOCKS_H
+
+#include "render/cells.h"
+#include "render/cells_raster.h"
+
+/* How many sub-pixels a cell has, and whether they are merely on or off. */
+void gm_blocks_grid(enum gm_blocks blocks, int *columns, int *rows, bool *sharp);
+
+/* Turns the raster, which has that many sub-pixels a cell, into glyphs with two colours each. */
+void gm_blocks_glyphs(struct gm_cells *cells, const struct gm_raster *raster, enum gm_blocks blocks);
+
+#endif

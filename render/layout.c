@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/layout.h"
+
+#include <math.h>
+
+#include "render/layout_frame.h"
+#include "render/layout_labels.h"
+
+/* Distances in pixels of a picture 720 high. */
+static const double side_margin = 40.0, top_margin = 16.0, bottom_margin = 18.0, header_gap = 18.0,
+                    column_gap = 26.0, row_gap = 22.0, group_gap = 44.0;
+
+/* Share of the width that the column of graphs takes beside states. */
+static const double graph_share = 0.3;
+
+/* A graph is as wide as this many heights where nothing else decides, and never narrower than that. */
+static const double graph_aspect = 1.75, graph_narrowest = 1.0;
+
+/* Panels of one place, in a grid over an area. */
+struct group {
+    struct gm_frame *frames; /* only their panels are set beforehand */
+    size_t count;
+    enum gm_place place;
+    struct gm_box area;
+    size_t columns, rows;
+    enum gm_detail detail;
+};
+
+static double share(double total, double part) {
+    return fmin(part, 0.035 * total);
+}
+
+/* Only the lowest of graphs with a common axis names it. */
+static bool names_x(const struct group *group, size_t i) {
+    if (group->place == GM_PLACE_STATE || i + 1 == group->count)
+        return true;
+    const char *own = group->frames[i].panel->x.label,
+               *next =
+                   group->frames[i + group->columns < group->count ? i + group->columns : i].panel->x.label;
+    if (i + group->columns >= group->count)
+        return true;
+    for (; *own != '\0' && *own == *next; own++)
+        next++;
+    return *own != *next;
+}
+
+static double lay_width(const struct group *group, double gap) {
+    return fmax(0.0, (group->area.width - (double)(group->columns - 1) * gap) / (double)group->columns);
+}
+
+static double lay_height(const struct group *group, double gap) {
+    return fmax(0.0, (group->area.height - (double)(group->rows - 1) * gap) / (double)group->rows);
+}
+
+/* Every panel of a group has the borders of the neediest, so that their boxes are equal and in line. */
+static struct gm_border common_border(const struct gm_label_list *list, const struct group *group,
+                                      bool calm) {
+    struct gm_border border = {0};
+    for (size_t i = 0; i < group->count; i++) {
+        const struct gm_border own =
+            gm_border_of(list, group->frames[i].panel, group->detail, names_x(group, i), calm);
+        border.left = fmax(border.left, own.left);
+        border.right = fmax(border.right, own.right);
+        border.top = fmax(border.top, own.top);
+        border.bottom = fmax(border.bottom, own.bottom);
+    }
+    return border;
+}
+
+/* Width by height of a panel's data; 0 if it takes any. */
+static double aspect_of(const struct gm_panel *panel) {
+    double x_low, x_high, y_low, y_high;
+    gm_axis_range(&panel->x, &x_low, &x_high);
+    gm_axis_range(&panel->y, &y_low, &y_high);
+    return panel->equal ? (x_high - x_low) / (y_high - y_low) : 0.0;
+}
+
+/* How large the data of the group's panels are with its present grid and detail, by the side of a square. */
+static double data_size(const struct gm_label_list *list, const struct group *group) {
+    const double scale = list->metrics->scale;
+    const struct gm_border border = common_border(list, group, true);
+    const double width = lay_width(group, column_gap * scale) - border.left - border.right;
+    const double height = lay_height(group, row_gap * scale) - border.top - border.bottom;
+    double aspect = 0.0;
+    for (size_t i = 0; i < group->count && aspect == 0.0; i++)
+        aspect = aspect_of(group->frames[i].panel);
+    if (aspect == 0.0)
+        aspect = graph_aspect;
+    return fmin(width / sqrt(aspect), height * sqrt(aspect));
+}
+
+/* Chooses the grid that makes the panels largest, and how much they show besides their data. */
+static void choose_grid(const struct gm_label_list *list, struct group *group, size_t most_columns) {
+    const double least = 4.5 * list->metrics->line[GM_TEXT_TICK];
+    double best = -INFINITY;
+    struct group chosen = *group;
+    for (size_t columns = 1; columns <= most_columns; columns++) {
+        struct group trial = *group;
+        trial.columns = columns;
+        trial.rows = (group->count + columns - 1) / columns;
+        if ((trial.rows - 1) * columns >= group->count || (columns - 1) * trial.rows >= group->count)
+            continue; /* an empty row or column */
+        double loss = 1.0;
+        for (int detail = GM_DETAIL_ALL; detail <= GM_DETAIL_DATA; detail++, loss *= 0.8) {
+            trial.detail = (enum gm_detail)detail;
+            const double size = data_size(list, &trial);
+            if (size < least && detail < GM_DETAIL_DATA)
+                continue;
+            if (size * loss > best) {
+                best = size * loss;
+                chosen = trial;
+            }
+            break;
+        }
+    }
+    *group = chosen;
+}
+
+/* A panel whose data need not fill its box exactly: equal axes without ticks show more than their range. */
+static bool expands(const struct gm_panel *panel) {
+    if (panel->axes || panel->colour_bar)
+        return false;
+    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next)
+        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE)
+            return false;
+    return true;
+}
+
+static void place_group(struct gm_label_list *list, struct group *group, double overhang) {
+    const double scale = list->metrics->scale;
+    struct gm_border border = common_border(list, group, false);
+    bool bars = false;
+    for (size_t i = 0; i < group->count; i++)
+        bars = bars || group->frames[i].panel->colour_bar;
+    if (!bars) /* the last tick label may hang over into the margin or the gap */
+        border.right = fmax(0.0, border.right - fmin(overhang, column_gap * scale));
+    const double column = lay_width(group, column_gap * scale), row = lay_height(group, row_gap * scale);
+    const double width = fmax(0.0, column - border.left - border.right);
+    const double height = fmax(0.0, row - border.top - border.bottom);
+
+    for (size_t i = 0; i < group->count; i++) {
+        const struct gm_panel *panel = group->frames[i].panel;
+        const double x = group->area.x + (double)(i % group->columns) * (column + column_gap * scale);
+        const double y = group->area.y + (double)(i / group->columns) * (row + row_gap * scale);
+        struct gm_box box = {x + border.left, y + border.top, width, height};
+        const double aspect = aspect_of(panel);
+        if (aspect > 0.0 && !expands(panel)) {
+            box.width = fmin(width, height * aspect);
+            box.height = fmin(height, width / aspect);
+        } else if (group->place == GM_PLACE_GRAPH && group->columns == 1) {
+            box.height = fmin(height, width / graph_narrowest);
+        }
+        box.x += 0.5 * (width - box.width);
+        box.y += 0.5 * (height - box.height);
+        gm_frame_fill(list, &group->frames[i], panel, box, group->detail, names_x(group, i),
+                      fmax(0.0, x + column - box.x));
+    }
+}
+
+/* Title, subtitle and clock; returns where they end. */
+static double place_header(struct gm_label_list *list, const struct gm_picture *picture, double margin) {
+    const struct gm_metrics *metrics = list->metrics;
+    const double scale = metrics->scale, width = fmax(0.0, metrics->width - 2.0 * margin);
+    double y = top_margin * scale, left = width;
+    bool header = false;
+    if (gm_labels_width(list, GM_TEXT_TITLE, picture->clock) < 0.6 * width &&
+        gm_labels_add(list, (struct gm_label){.text = picture->clock,
+                                              .size = GM_TEXT_TITLE,
+                                              .role = GM_INK,
+                                              .mono = true,
+                                              .x = metrics->width - margin,
+                                              .y = y,
+                                              .anchor = GM_ANCHOR_RIGHT})) {
+        left -= gm_labels_width(list, GM_TEXT_TITLE, picture->clock) + column_gap * scale;
+        header = true;
+    }
+    header |= gm_labels_add(
+        list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_TITLE, picture->title, left),
+                                .size = GM_TEXT_TITLE,
+                                .role = GM_INK,
+                                .bold = true,
+                                .x = margin,
+                                .y = y});
+    if (header)
+        y += metrics->line[GM_TEXT_TITLE];
+    if (!metrics->terse &&
+        gm_labels_add(
+            list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, picture->subtitle, width),
+                                    .size = GM_TEXT_LABEL,
+                                    .role = GM_SECONDARY,
+                                    .x = margin,
+                                    .y = y}))
+        y += metrics->line[GM_TEXT_LABEL];
+    return y + (header ? header_gap * scale : 0.0);
+}
+
+/* The caption's lines along the bottom; returns where they start. */
+static double place_caption(struct gm_label_list *list, const struct gm_picture *picture, double margin) {
+    const struct gm_metrics *metrics = list->metrics;
+    const char *lines[2];
+    double bottom = metrics->height - bottom_margin * metrics->scale;
+    const size_t most = metrics->terse ? 1 : 2;
+    size_t count = gm_labels_wrap(list, GM_TEXT_LABEL, picture->caption,
+                                  fmax(0.0, metrics->width - 2.0 * margin), most, lines);
+    if ((double)count * metrics->line[GM_TEXT_LABEL] > 0.2 * metrics->height)
+        count = 0;
+    if (count == 0)
+        return bottom;
+    bottom = metrics->height - 0.6 * bottom_margin * metrics->scale;
+    for (size_t i = count; i-- > 0;) {
+        bottom -= metrics->line[GM_TEXT_LABEL];
+        gm_labels_add(
+            list,
+            (struct gm_label){
+                .text = lines[i], .size = GM_TEXT_LABEL, .role = GM_SECONDARY, .x = margin, .y = bottom});
+    }
+    return bottom - 0.7 * header_gap * metrics->scale;
+}
+
+/* Gives the panels of a place their frames, the graphs after the states. */
+static size_t collect(const struct gm_picture *picture, enum gm_place place, size_t most,
+                      struct gm_frame *frames) {
+    size_t count = 0;
+    for (const struct gm_panel *panel = picture->first; panel != NULL && count < most; panel = panel->next)
+        if (panel->place == place)
+            frames[count++].panel = panel;
+    return count;
+}
+
+static size_t graph_columns(const struct group *states, const struct group *graphs) {
+    return states->count == 0 ? graphs->count : 1;
+}
+
+const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics) {
+    size_t panel_count = 0;
+    for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next)
+        panel_count++;
+    struct gm_label_list list;
+    struct gm_layout *layout = gm_picture_memory(picture, sizeof *layout);
+    struct gm_frame *frames = gm_picture_memory(picture, (panel_count + 1) * sizeof *frames);
+    if (layout == NULL || frames == NULL ||
+        !gm_labels_open(&list, picture, metrics, 8 + panel_count * (5 + 3 * GM_TICK_MAX)))
+        return NULL;
+
+    const double scale = metrics->scale;
+    const double margin = share(metrics->width, side_margin * scale);
+    const double top = place_header(&list, picture, margin);
+    const double bottom = place_caption(&list, picture, margin);
+
+    struct group states = {.frames = frames, .place = GM_PLACE_STATE};
+    states.count = collect(picture, GM_PLACE_STATE, panel_count, frames);
+    struct group graphs = {.frames = frames + states.count, .place = GM_PLACE_GRAPH};
+    graphs.count = collect(picture, GM_PLACE_GRAPH, metrics->terse ? 1 : panel_count, graphs.frames);
+
+    const struct gm_box area = {margin, top, fmax(0.0, metrics->width - 2.0 * margin),
+                                fmax(0.0, bottom - top)};
+    states.area = graphs.area = area;
+    if (states.count > 0 && graphs.count > 0) {
+        const double gap = share(metrics->width, group_gap * scale);
+        graphs.area.width = fmin(area.width, graph_share * metrics->width);
+        graphs.area.x = area.x + area.width - graphs.area.width;
+        states.area.width = fmax(0.0, area.width - graphs.area.width - gap);
+    }
+    if (states.count > 0) {
+        choose_grid(&list, &states, states.count);
+        place_group(&list, &states, graphs.count > 0 ? 0.0 : margin);
+    }
+    if (graphs.count > 0) {
+        choose_grid(&list, &graphs, graph_columns(&states, &graphs));
+        place_group(&list, &graphs, margin);
+    }
+    *layout = (struct gm_layout){.frames = frames,
+                                 .frame_count = states.count + graphs.count,
+                                 .labels = list.labels,
+                                 .label_count = list.count};
+    return layout;
+}

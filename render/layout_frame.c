@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/layout_frame.h"
+
+#include <math.h>
+
+/* Distances in pixels of a picture 720 high. */
+static const double tick_gap = 9.0, label_gap = 3.0, title_gap = 7.0, bar_gap = 16.0, bar_width = 14.0;
+
+enum { FEWEST_TICKS = 3, MOST_TICKS = 6 };
+
+static const struct gm_mark *field_of(const struct gm_panel *panel) {
+    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next)
+        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE)
+            return mark;
+    return NULL;
+}
+
+static struct gm_axis bar_axis(const struct gm_mark *field) {
+    return (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = field->low, .high = field->high};
+}
+
+void gm_axis_range(const struct gm_axis *axis, double *low, double *high) {
+    const bool log = axis->scale == GM_LOG;
+    const bool good = isfinite(axis->low) && isfinite(axis->high) && axis->high > axis->low &&
+                      isfinite(axis->high - axis->low) && (!log || axis->low > 0.0);
+    *low = good ? axis->low : log ? 0.1 : 0.0;
+    *high = good ? axis->high : 1.0;
+    if (log) {
+        *low = log10(*low);
+        *high = log10(*high);
+    }
+}
+
+static double step_of(enum gm_scale scale, const double *values, size_t count) {
+    if (count < 2)
+        return scale == GM_LOG ? 1.0 : 0.0;
+    return scale == GM_LOG ? log10(values[1] / values[0]) : values[1] - values[0];
+}
+
+/* The widest tick label an axis may get, whatever number of ticks it will have room for. */
+static double widest_tick(const struct gm_label_list *list, const struct gm_axis *axis, bool calm) {
+    if (calm)
+        return gm_labels_width(list, GM_TEXT_TICK, axis->scale == GM_LINEAR ? "−0.05" : "10⁻¹⁰");
+    double widest = 0.0;
+    for (size_t max = FEWEST_TICKS; max <= MOST_TICKS; max++) {
+        double values[GM_TICK_MAX];
+        const size_t count = gm_ticks(axis, max, values);
+        for (size_t i = 0; i < count; i++) {
+            char text[64];
+            gm_tick_format(axis->scale, values[i], step_of(axis->scale, values, count), text, sizeof text);
+            widest = fmax(widest, gm_labels_width(list, GM_TEXT_TICK, text));
+        }
+    }
+    return widest;
+}
+
+static bool has(const char *text) {
+    return text != NULL && text[0] != '\0';
+}
+
+static enum gm_text_size title_size(const struct gm_panel *panel) {
+    return panel->place == GM_PLACE_STATE ? GM_TEXT_PANEL : GM_TEXT_LABEL;
+}
+
+struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_panel *panel,
+                              enum gm_detail detail, bool x_label, bool calm) {
+    const struct gm_metrics *metrics = list->metrics;
+    const double scale = metrics->scale;
+    struct gm_border border = {0};
+    if (detail < GM_DETAIL_DATA && has(panel->title))
+        border.top += metrics->line[title_size(panel)];
+    if (detail < GM_DETAIL_NO_NOTE && has(panel->note))
+        border.top += metrics->line[GM_TEXT_LABEL];
+    if (border.top > 0.0)
+        border.top += title_gap * scale;
+    if (panel->axes && detail < GM_DETAIL_NO_TICKS) {
+        border.left = widest_tick(list, &panel->y, calm) + tick_gap * scale;
+        border.right = 0.5 * widest_tick(list, &panel->x, calm);
+        border.bottom = metrics->line[GM_TEXT_TICK] + tick_gap * scale;
+        border.top = fmax(border.top, 0.5 * metrics->line[GM_TEXT_TICK]);
+        if (detail < GM_DETAIL_NO_AXIS_LABELS && has(panel->y.label))
+            border.left += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
+        if (detail < GM_DETAIL_NO_AXIS_LABELS && x_label && has(panel->x.label))
+            border.bottom += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
+    }
+    const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
+    if (field != NULL && detail < GM_DETAIL_NO_TICKS) {
+        const struct gm_axis axis = bar_axis(field);
+        border.right = (bar_gap + bar_width + tick_gap) * scale + widest_tick(list, &axis, calm);
+        if (has(panel->colour_bar_label))
+            border.right += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
+        border.top = fmax(border.top, 0.5 * metrics->line[GM_TEXT_TICK]);
+        border.bottom = fmax(border.bottom, 0.5 * metrics->line[GM_TEXT_TICK]);
+    }
+    return border;
+}
+
+/* Room a label takes along an axis. */
+static double extent(const struct gm_label_list *list, bool across, const char *text) {
+    return across ? gm_labels_width(list, GM_TEXT_TICK, text) + 8.0 * list->metrics->scale
+                  : 1.2 * list->metrics->line[GM_TEXT_TICK];
+}
+
+/* As many ticks as there is room for, with their labels. surface = origin + factor * value. */
+static size_t place_ticks(struct gm_label_list *list, const struct gm_axis *axis, double origin,
+                          double factor, bool across, struct gm_tick *ticks) {
+    for (size_t max = MOST_TICKS; max > 0; max--) {
+        double values[GM_TICK_MAX], end = -INFINITY;
+        const size_t count = gm_ticks(axis, max, values);
+        const double step = step_of(axis->scale, values, count);
+        bool fits = count > 0;
+        for (size_t k = 0; k < count; k++) {
+            const size_t i = factor > 0.0 ? k : count - 1 - k; /* along the surface */
+            char text[64];
+            gm_tick_format(axis->scale, values[i], step, text, sizeof text);
+            const double value = axis->scale == GM_LOG ? log10(values[i]) : values[i];
+            ticks[i] = (struct gm_tick){.position = origin + factor * value,
+                                        .value = values[i],
+                                        .label = gm_picture_text(list->picture, "%s", text)};
+            const double half = 0.5 * extent(list, across, text);
+            fits = fits && ticks[i].position - half >= end;
+            end = ticks[i].position + half;
+        }
+        if (fits)
+            return count;
+    }
+    return 0;
+}
+
+static void label_ticks(struct gm_label_list *list, const struct gm_tick *ticks, size_t count, bool across,
+                        double at, enum gm_anchor anchor) {
+    const double half = 0.5 * list->metrics->line[GM_TEXT_TICK];
+    for (size_t i = 0; i < count; i++)
+        gm_labels_add(list, (struct gm_label){.text = ticks[i].label,
+                                              .size = GM_TEXT_TICK,
+                                              .role = GM_SECONDARY,
+                                              .x = across ? ticks[i].position : at,
+                                              .y = across ? at : ticks[i].position - half,
+                                              .anchor = anchor});
+}
+
+static void label_panel(struct gm_label_list *list, const struct gm_panel *panel, struct gm_box box,
+                        enum gm_detail detail, double width) {
+    const struct gm_metrics *metrics = list->metrics;
+    const bool note = detail < GM_DETAIL_NO_NOTE && has(panel->note);
+    const enum gm_text_size size = title_size(panel);
+    double y = box.y - title_gap * metrics->scale;
+    if (note) {
+        y -= metrics->line[GM_TEXT_LABEL];
+        gm_labels_add(list,
+                      (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, panel->note, width),
+                                        .size = GM_TEXT_LABEL,
+                                        .role = GM_SECONDARY,
+                                        .x = box.x,
+                                        .y = y});
+    }
+    if (detail < GM_DETAIL_DATA && has(panel->title))
+        gm_labels_add(list,
+                      (struct gm_label){.text = gm_labels_shorten(list, size, panel->title, width),
+                                        .size = size,
+                                        .role = panel->place == GM_PLACE_STATE ? panel->title_role : GM_INK,
+                                        .bold = panel->place == GM_PLACE_STATE,
+                                        .x = box.x,
+                                        .y = y - metrics->line[size]});
+}
+
+static void label_axes(struct gm_label_list *list, struct gm_frame *frame, enum gm_detail detail,
+                       bool x_label, double left) {
+    const struct gm_metrics *metrics = list->metrics;
+    const double scale = metrics->scale;
+    const struct gm_panel *panel = frame->panel;
+    const struct gm_box box = frame->box;
+    const double below = box.y + box.height + tick_gap * scale;
+    label_ticks(list, frame->y_ticks, frame->y_tick_count, false, box.x - tick_gap * scale, GM_ANCHOR_RIGHT);
+    label_ticks(list, frame->x_ticks, frame->x_tick_count, true, below, GM_ANCHOR_CENTRE);
+    if (detail >= GM_DETAIL_NO_AXIS_LABELS)
+        return;
+    if (x_label)
+        gm_labels_add(
+            list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, panel->x.label, box.width),
+                                    .size = GM_TEXT_LABEL,
+                                    .role = GM_INK,
+                                    .x = box.x + 0.5 * box.width,
+                                    .y = below + metrics->line[GM_TEXT_TICK] + label_gap * scale,
+                                    .anchor = GM_ANCHOR_CENTRE});
+    gm_labels_add(
+        list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, panel->y.label, box.height),
+                                .size = GM_TEXT_LABEL,
+                                .role = GM_INK,
+                                .x = box.x - left,
+                                .y = box.y + 0.5 * box.height,
+                                .anchor = GM_ANCHOR_CENTRE,
+                                .vertical = true});
+}
+
+static void place_colour_bar(struct gm_label_list *list, struct gm_frame *frame,
+                             const struct gm_mark *field) {
+    const double scale = list->metrics->scale;
+    const struct gm_panel *panel = frame->panel;
+    const struct gm_box box = frame->box;
+    const struct gm_axis axis = bar_axis(field);
+    frame->colour_bar =
+        (struct gm_box){box.x + box.width + bar_gap * scale, box.y, bar_width * scale, box.height};
+    const double factor = -box.height / (axis.high - axis.low);
+    frame->bar_tick_count =
+        place_ticks(list, &axis, box.y + box.height - factor * axis.low, factor, false, frame->bar_ticks);
+    const double right = frame->colour_bar.x + frame->colour_bar.width + tick_gap * scale;
+    label_ticks(list, frame->bar_ticks, frame->bar_tick_count, false, right, GM_ANCHOR_LEFT);
+    gm_labels_add(list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL,
+                                                                    panel->colour_bar_label, box.height),
+                                          .size = GM_TEXT_LABEL,
+                                          .role = GM_INK,
+                                          .x = right + widest_tick(list, &axis, false) + label_gap * scale,
+                                          .y = box.y + 0.5 * box.height,
+                                          .anchor = GM_ANCHOR_CENTRE,
+                                          .vertical = true});
+}
+
+void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const struct gm_panel *panel,
+                   struct gm_box box, enum gm_detail detail, bool x_label, double title_width) {
+    double x_low, x_high, y_low, y_high;
+    gm_axis_range(&panel->x, &x_low, &x_high);
+    gm_axis_range(&panel->y, &y_low, &y_high);
+    *frame = (struct gm_frame){.panel = panel, .box = box};
+    frame->x_factor = box.width / (x_high - x_low);
+    frame->y_factor = -box.height / (y_high - y_low);
+    /* The middle of the range is the middle of the box, also where equal axes show more than the range. */
+    if (panel->equal)
+        frame->x_factor = fmin(frame->x_factor, -frame->y_factor);
+    if (panel->equal)
+        frame->y_factor = -frame->x_factor;
+    frame->x_origin = box.x + 0.5 * box.width - frame->x_factor * 0.5 * (x_low + x_high);
+    frame->y_origin = box.y + 0.5 * box.height - frame->y_factor * 0.5 * (y_low + y_high);
+
+    label_panel(list, panel, box, detail, title_width);
+    if (panel->axes && detail < GM_DETAIL_NO_TICKS) {
+        frame->x_tick_count =
+            place_ticks(list, &panel->x, frame->x_origin, frame->x_factor, true, frame->x_ticks);
+        frame->y_tick_count =
+            place_ticks(list, &panel->y, frame->y_origin, frame->y_factor, false, frame->y_ticks);
+        label_axes(list, frame, detail, x_label, gm_border_of(list, panel, detail, x_label, false).left);
+    }
+    const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
+    if (field != NULL && detail < GM_DETAIL_NO_TICKS && box.width > 0.0)
+        place_colour_bar(list, frame, field);
+}
+
+static double frame_coordinate(const struct gm_axis *axis, double origin, double factor, double value) {
+    if (axis->scale == GM_LOG)
+        value = value > 0.0 ? log10(value) : -400.0;
+    return origin + factor * value;
+}
+
+double gm_frame_x(const struct gm_frame *frame, double value) {
+    return frame_coordinate(&frame->panel->x, frame->x_origin, frame->x_factor, value);
+}
+
+double gm_frame_y(const struct gm_frame *frame, double value) {
+    return frame_coordinate(&frame->panel->y, frame->y_origin, frame->y_factor, value);
+}

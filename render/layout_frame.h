@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_LAYOUT_FRAME_H
+#define GM_RENDER_LAYOUT_FRAME_H
+
+#include "render/layout_labels.h"
+
+/* One panel of a layout: the room its texts take around the data, and its axes once its box is known. */
+
+/* What a panel shows besides its data, in the order in which it gives way when room is short. */
+enum gm_detail {
+    GM_DETAIL_ALL,
+    GM_DETAIL_NO_NOTE,
+    GM_DETAIL_NO_AXIS_LABELS,
+    GM_DETAIL_NO_TICKS,
+    GM_DETAIL_DATA
+};
+
+struct gm_border {
+    double left, right, top, bottom;
+};
+
+/* The room around the data. With `calm`, tick labels count with a usual width instead of their own, so that
+   decisions do not change from frame to frame. */
+struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_panel *panel,
+                              enum gm_detail detail, bool x_label, bool calm);
+
+/* Ranges as shown: not empty, positive on a log axis; logarithms of the values on log axes. */
+void gm_axis_range(const struct gm_axis *axis, double *low, double *high);
+
+/* Maps the panel to the box, places ticks and labels. Titles may be as wide as title_width. */
+void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const struct gm_panel *panel,
+                   struct gm_box box, enum gm_detail detail, bool x_label, double title_width);
+
+#endif

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_SINK_H
+#define GM_RENDER_SINK_H
+
+#include "render/png.h"
+
+/* Where frames go: numbered PNG files, one PNG file, or a movie. Frames are encoded by worker threads behind
+   a bounded queue: put waits while the queue is full, so memory does not grow with the number of frames. */
+
+struct gm_sink;
+
+struct gm_sink_settings {
+    int width, height;
+    double fps;        /* of a movie; its last frame stands for one second */
+    int threads;       /* encoders; 0: as many as there are processors */
+    const struct gm_png_text *texts; /* of every PNG; copied */
+    size_t text_count;
+};
+
+/* PNG files; `pattern` holds one %d-like conversion ("frames/disc-%06ld.png"), or none for a single file. */
+struct gm_sink *gm_sink_open_png(const char *pattern, const struct gm_sink_settings *settings, char *message);
+/* .mp4, .webm or .gif through ffmpeg's standard input; its own messages go to path + ".log", which is
+   removed if all went well. The movie gets its name when it is complete. */
+struct gm_sink *gm_sink_open_movie(const char *path, const struct gm_sink_settings *settings, char *message);
+
+/* An empty frame of width * height * 3 bytes to paint into; waits for one. NULL after a failure. */
+unsigned char *gm_sink_frame(struct gm_sink *sink);
+/* Hands the frame over; `number` is its place in the sequence. Extra texts (this frame's time) are copied. */
+bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const struct gm_png_text *texts,
+                 size_t count);
+/* Finishes what was put (keep) or gives the movie up (not keep; finished PNGs stay). False if any frame
+   failed, with the sentence of the first failure. */
+bool gm_sink_close(struct gm_sink *sink, bool keep, char *message);
+
+#endif

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scenes/graph.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Time is told in fractions of pi where the step is a simple one. */
+static bool counts_in_pi(double dt)
+{
+    for (int denominator = 1; denominator <= 24; denominator++) {
+        const double times = fabs(dt) * denominator / M_PI;
+        if (times >= 0.5 && fabs(times - round(times)) < 1e-12) {
+            return true;
+        }
+    }
+    return false;
+}
+
+const char *gm_time_text(struct gm_picture *picture, double t, double dt)
+{
+    if (counts_in_pi(dt)) {
+        for (int denominator = 1; denominator <= 24; denominator++) {
+            const double times = round(t * denominator / M_PI);
+            if (fabs(times) > 9999 || fabs(times * M_PI / denominator - t) > 1e-9 * fmax(1, fabs(t))) {
+                continue;
+            }
+            if (times == 0) {
+                return "0";
+            }
+            const char *sign = times < 0 ? "−" : "";
+            const char *front = fabs(times) == 1 ? "" : gm_picture_text(picture, "%.0f", fabs(times));
+            const char *under = denominator == 1 ? "" : gm_picture_text(picture, "/%d", denominator);
+            return gm_picture_text(picture, "%s%sπ%s", sign, front, under);
+        }
+    }
+    /* as many decimals as the step moves, so that digits stand still while time runs */
+    int decimals = (int)ceil(-log10(fabs(dt)) + 0.5);
+    decimals = decimals < 1 ? 1 : decimals > 6 ? 6 : decimals;
+    return gm_picture_text(picture, "%s%.*f", t < 0 ? "−" : "", decimals, fabs(t));
+}
+
+void gm_draw_clock(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    /* the lane that has come farthest; one that has failed stands still */
+    const struct gm_lane *ahead = lanes[0];
+    for (size_t i = 1; i < count; i++) {
+        ahead = fabs(lanes[i]->run->t - lanes[i]->t0) > fabs(ahead->run->t - ahead->t0) ? lanes[i] : ahead;
+    }
+    picture->clock = gm_picture_text(picture, "t = %s", gm_time_text(picture, ahead->run->t, ahead->run->dt));
+}
+
+const char *gm_lane_title(const struct gm_lane *lane)
+{
+    return lane->shown.panel_name[0] ? lane->shown.panel_name : lane->scheme->title;
+}
+
+const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *lane)
+{
+    if (lane->run->status == GM_OK) {
+        return "";
+    }
+    return gm_picture_text(picture, "%s at t = %s", gm_status_name(lane->run->status),
+                           gm_time_text(picture, lane->run->t, lane->run->dt));
+}
+
+struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double width)
+{
+    return (struct gm_style){gm_lane_role(lane->shown.colour), alpha, width,
+                             gm_lane_dash(lane->shown.colour)};
+}
+
+size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count)
+{
+    size_t panels = 0;
+    for (size_t i = 0; i < count; i++) {
+        panels = lanes[i]->shown.panel >= panels ? lanes[i]->shown.panel + 1 : panels;
+    }
+    return panels;
+}
+
+/* The history of one observable as points: one per bin while a bin is a step, then its low and high. */
+static size_t history_points(const struct gm_lane *lane, size_t series, double divisor, double *points)
+{
+    const struct gm_history *history = &lane->history;
+    size_t count = 0;
+    for (size_t b = 0; b < history->count; b++) {
+        const struct gm_bin *bin = &history->bins[b * history->series + series];
+        if (history->per_bin == 1) {
+            points[2 * count] = bin->t;
+            points[2 * count + 1] = bin->last / divisor;
+            count++;
+            continue;
+        }
+        /* alternate, so that the line does not run back */
+        const double first = b % 2 ? bin->high : bin->low, second = b % 2 ? bin->low : bin->high;
+        points[2 * count] = points[2 * count + 2] = bin->t;
+        points[2 * count + 1] = first / divisor;
+        points[2 * count + 3] = second / divisor;
+        count += 2;
+    }
+    return count;
+}
+
+static void time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size_t count)
+{
+    const struct gm_timing *timing = lanes[0]->parameters;
+    double low = lanes[0]->t0, high = lanes[0]->t0;
+    for (size_t i = 0; i < count; i++) {
+        gm_range_add(&low, &high, lanes[i]->run->t);
+        const struct gm_history *history = &lanes[i]->history;
+        for (size_t b = 0; b < history->count; b++) {
+            gm_range_add(&low, &high, history->bins[b * history->series].t);
+        }
+    }
+    *axis = (struct gm_axis){.label = "t", .scale = counts_in_pi(lanes[0]->run->dt) ? GM_PI : GM_LINEAR};
+    const double until = timing->until;
+    if (low >= lanes[0]->t0 && high <= until * (1 + 1e-9) && until > lanes[0]->t0) {
+        high = until;
+    } else {
+        gm_range_round(&low, &high, axis->scale);
+    }
+    axis->low = low;
+    axis->high = high > low ? high : low + 1;
+}
+
+static size_t series_of(const struct gm_scene *scene, const char *key)
+{
+    size_t series = 0;
+    while (strcmp(scene->observables[series].key, key) != 0) {
+        series++;
+    }
+    return series;
+}
+
+static double divisor_of(const struct gm_lane *lane, size_t series, bool relative)
+{
+    const struct gm_observable *observable = &lane->scene->observables[series];
+    if (!relative) {
+        return 1;
+    }
+    struct gm_view view = gm_lane_view(lane);
+    view.state = view.start;
+    view.t = view.t0;
+    return observable->evaluate(&view);
+}
+
+void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                   const struct gm_graph *graph, long only, bool named)
+{
+    const struct gm_scene *scene = lanes[0]->scene;
+    const size_t series = series_of(scene, graph->observable);
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH,
+                                          graph->title ? graph->title : scene->observables[series].title);
+    panel->axes = true;
+    panel->title_role = GM_INK;
+    time_axis(&panel->x, lanes, count);
+    panel->y = (struct gm_axis){.label = "", .scale = graph->scale, .low = 1, .high = 0};
+
+    double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
+    if (!points) {
+        return;
+    }
+    double low = 1, high = 0;
+    if (graph->calm_low != graph->calm_high) {
+        low = graph->calm_low;
+        high = graph->calm_high;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const double divisor = divisor_of(lanes[i], series, graph->relative);
+        const size_t made = history_points(lanes[i], series, divisor, points);
+        for (size_t k = 0; k < made; k++) {
+            if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
+                gm_range_add(&low, &high, points[2 * k + 1]);
+            }
+        }
+    }
+    gm_range_round(&low, &high, graph->scale);
+    panel->y.low = low;
+    panel->y.high = high;
+
+    const double roundoff = 2.220446049250313e-16;
+    if (graph->scale == GM_LOG && low < roundoff && high > roundoff) {
+        const double line[] = {panel->x.low, roundoff, panel->x.high, roundoff};
+        gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.6, 1, GM_SHORT_DASH}, line, 2, false);
+        gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
+                     panel->x.high, roundoff, GM_ANCHOR_RIGHT, "round-off");
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (only >= 0 && lanes[i]->shown.panel != (size_t)only) {
+            continue;
+        }
+        const double divisor = divisor_of(lanes[i], series, graph->relative);
+        const size_t made = history_points(lanes[i], series, divisor, points);
+        gm_mark_line(picture, panel, gm_lane_style(lanes[i], 1, 2.4), points, made, false);
+        if (named && made > 0) {
+            const double end[] = {points[2 * made - 2], points[2 * made - 1]};
+            const char *name = lanes[i]->shown.colour_name[0] ? lanes[i]->shown.colour_name : gm_lane_title(lanes[i]);
+            gm_mark_text(picture, panel,
+                         (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 1, .width = 1},
+                         end[0], end[1], GM_ANCHOR_RIGHT, name);
+        }
+    }
+}

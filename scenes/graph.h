@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_GRAPH_H
+#define GM_SCENES_GRAPH_H
+
+#include "scenes/lane.h"
+
+/* What the pictures of all scenes have in common. `lanes` are count >= 1 lanes of one scene. */
+
+/* The clock of the picture, from the first lane. */
+void gm_draw_clock(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count);
+
+/* A time, as a fraction of pi where the step is one. */
+const char *gm_time_text(struct gm_picture *picture, double t, double dt);
+
+/* The name of a lane's panel, and what its note ends with: how it stands if it has failed, else "". */
+const char *gm_lane_title(const struct gm_lane *lane);
+const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *lane);
+
+/* The colour and dash of a lane. */
+struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double width);
+
+/* One past the highest panel number of the lanes. */
+size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count);
+
+/* How an observable is drawn over time. */
+struct gm_graph {
+    const char *observable; /* its key */
+    const char *title;      /* NULL: the observable's */
+    bool relative;          /* divided by its value at the start */
+    enum gm_scale scale;    /* GM_LOG: zeros are gaps; a round-off line where the range comes near it */
+    double calm_low, calm_high; /* the range shown at least; equal: none */
+};
+
+/* Adds a graph of the lanes' histories; of all lanes, or of those of one panel (only >= 0). Where lanes of
+   several colours share it and no panel carries their names, `named` writes the names into the graph. */
+void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                   const struct gm_graph *graph, long only, bool named);
+
+#endif

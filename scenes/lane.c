@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scenes/lane.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_OBSERVABLES = 64 };
+
+static const struct gm_timing *timing(const struct gm_lane *lane) { return lane->parameters; }
+
+struct gm_view gm_lane_view(const struct gm_lane *lane)
+{
+    return (struct gm_view){
+        .parameters = lane->parameters,
+        .problem = &lane->problem,
+        .start = lane->start,
+        .state = gm_run_state(lane->run),
+        .t0 = lane->t0,
+        .t = lane->run->t,
+        .dt = lane->run->dt,
+    };
+}
+
+static double observe(const struct gm_observable *observable, const struct gm_view *view)
+{
+    const double value = observable->evaluate(view);
+    if (!observable->error) {
+        return value;
+    }
+    struct gm_view before = *view;
+    before.state = view->start;
+    before.t = view->t0;
+    const double initial = observable->evaluate(&before);
+    return fabs(value - initial) / fmax(fabs(initial), observable->scale);
+}
+
+double gm_lane_observe(const struct gm_lane *lane, size_t observable)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    return observe(&lane->scene->observables[observable], &view);
+}
+
+static double *entry_values(const struct gm_entries *entries, size_t index)
+{
+    return entries->values + index * entries->width;
+}
+
+static void thin(struct gm_entries *entries)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < entries->count; i += 2, kept++) {
+        entries->times[kept] = entries->times[i];
+        memmove(entry_values(entries, kept), entry_values(entries, i), entries->width * sizeof(double));
+    }
+    entries->count = kept;
+    entries->every *= 2;
+}
+
+/* How many whole intervals lie between t0 and t; a step that misses one by round-off has made it. */
+static double intervals(const struct gm_lane *lane, double interval, double t)
+{
+    return floor(fabs(t - lane->t0) / interval * (1 + 1e-12) + 1e-9);
+}
+
+static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
+{
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
+        const struct gm_track *track = &lane->scene->tracks[i];
+        struct gm_entries *entries = &lane->entries[i];
+        if (entries->count > 0) {
+            const double last = entries->times[entries->count - 1];
+            const double interval = track->interval(lane->parameters) * (double)entries->every;
+            const bool due = interval > 0 ? intervals(lane, interval, view->t) != intervals(lane, interval, last)
+                                          : view->t != last;
+            if (!due) {
+                continue;
+            }
+        }
+        if (entries->count == track->bound) {
+            thin(entries);
+        }
+        entries->times[entries->count] = view->t;
+        track->record(view, entry_values(entries, entries->count));
+        entries->count++;
+    }
+}
+
+void gm_lane_record(struct gm_lane *lane)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    double values[MOST_OBSERVABLES];
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        values[i] = observe(&lane->scene->observables[i], &view);
+    }
+    gm_history_add(&lane->history, view.t, values);
+    record_tracks(lane, &view);
+}
+
+void gm_lane_close(struct gm_lane *lane)
+{
+    if (!lane) {
+        return;
+    }
+    for (size_t i = 0; lane->entries && i < lane->scene->track_count; i++) {
+        free(lane->entries[i].times);
+        free(lane->entries[i].values);
+    }
+    free(lane->entries);
+    gm_history_close(&lane->history);
+    gm_run_close(lane->run);
+    free(lane->start);
+    free(lane->parameters);
+    free(lane);
+}
+
+static bool open_tracks(struct gm_lane *lane)
+{
+    const struct gm_scene *scene = lane->scene;
+    lane->entries = calloc(scene->track_count ? scene->track_count : 1, sizeof *lane->entries);
+    if (!lane->entries) {
+        return false;
+    }
+    const struct gm_view view = gm_lane_view(lane);
+    for (size_t i = 0; i < scene->track_count; i++) {
+        struct gm_entries *entries = &lane->entries[i];
+        entries->every = 1;
+        entries->width = scene->tracks[i].width(&view);
+        entries->times = malloc(scene->tracks[i].bound * sizeof(double));
+        entries->values = malloc(scene->tracks[i].bound * entries->width * sizeof(double));
+        if (!entries->times || !entries->values) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool refuse(char *sentence, const char *text)
+{
+    snprintf(sentence, GM_SENTENCE, "%s", text);
+    return false;
+}
+
+static bool check_fit(const struct gm_scene *scene, const struct gm_problem *problem,
+                      const struct gm_scheme *scheme, char *sentence)
+{
+    if (gm_scheme_fits(scheme, problem)) {
+        return true;
+    }
+    snprintf(sentence, GM_SENTENCE, "scheme %s does not fit scene %s: it needs a structure that %s lacks",
+             scheme->name, scene->name, problem->name);
+    return false;
+}
+
+static void *copy_of(const void *source, size_t size)
+{
+    void *copy = malloc(size);
+    if (copy) {
+        memcpy(copy, source, size);
+    }
+    return copy;
+}
+
+/* A lane up to its run, from a start (t0, y), or from the scene's own start where y is NULL. */
+static bool prepare(struct gm_lane *lane, char *sentence)
+{
+    const struct gm_scene *scene = lane->scene;
+    if (!lane->parameters) {
+        return refuse(sentence, "not enough memory");
+    }
+    if (!scene->setup(lane->parameters, &lane->problem, sentence) ||
+        !check_fit(scene, &lane->problem, lane->scheme, sentence)) {
+        return false;
+    }
+    lane->start = malloc(lane->problem.n * lane->problem.m * sizeof *lane->start);
+    if (!lane->start) {
+        return refuse(sentence, "not enough memory");
+    }
+    scene->start(lane->parameters, &lane->problem, lane->start);
+    lane->run = gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt,
+                            lane->start);
+    if (!lane->run || !gm_history_open(&lane->history, scene->observable_count) || !open_tracks(lane)) {
+        return refuse(sentence, "not enough memory");
+    }
+    return true;
+}
+
+struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameters,
+                             const struct gm_settings *settings, const struct gm_scheme *scheme,
+                             char *sentence)
+{
+    struct gm_lane *lane = calloc(1, sizeof *lane);
+    if (!lane) {
+        refuse(sentence, "not enough memory");
+        return NULL;
+    }
+    lane->scene = scene;
+    lane->settings = *settings;
+    lane->scheme = scheme;
+    lane->parameters = copy_of(parameters, scene->size);
+    if (!prepare(lane, sentence)) {
+        gm_lane_close(lane);
+        return NULL;
+    }
+    gm_lane_record(lane);
+    return lane;
+}
+
+bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *sentence)
+{
+    if (!check_fit(lane->scene, &lane->problem, scheme, sentence)) {
+        return false;
+    }
+    struct gm_run *run = gm_run_switch(lane->run, scheme);
+    if (!run) {
+        return refuse(sentence, "not enough memory");
+    }
+    gm_run_close(lane->run);
+    lane->run = run;
+    lane->scheme = scheme;
+    return true;
+}
+
+struct gm_lane *gm_lane_copy(const struct gm_lane *lane)
+{
+    char sentence[GM_SENTENCE];
+    struct gm_lane *copy =
+        gm_lane_open(lane->scene, lane->parameters, &lane->settings, lane->scheme, sentence);
+    void *snapshot = malloc(gm_run_snapshot_size(lane->run));
+    if (!copy || !snapshot) {
+        gm_lane_close(copy);
+        free(snapshot);
+        return NULL;
+    }
+    gm_run_save(lane->run, snapshot);
+    gm_run_load(copy->run, snapshot);
+    copy->run->problem = &copy->problem;
+    copy->shown = lane->shown;
+    free(snapshot);
+    memcpy(copy->start, lane->start, lane->problem.n * lane->problem.m * sizeof *copy->start);
+    struct gm_bin *bins = copy->history.bins;
+    copy->history = lane->history;
+    copy->history.bins = bins;
+    memcpy(bins, lane->history.bins, lane->history.count * lane->history.series * sizeof *bins);
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
+        const struct gm_entries *from = &lane->entries[i];
+        struct gm_entries *to = &copy->entries[i];
+        to->count = from->count;
+        to->every = from->every;
+        memcpy(to->times, from->times, from->count * sizeof(double));
+        memcpy(to->values, from->values, from->count * from->width * sizeof(double));
+    }
+    return copy;
+}
+
+void gm_lane_set_step(struct gm_lane *lane, double dt)
+{
+    ((struct gm_timing *)lane->parameters)->dt = dt;
+    gm_run_set_step(lane->run, dt);
+}
+
+size_t gm_lane_snapshot_size(const struct gm_lane *lane) { return gm_run_snapshot_size(lane->run); }
+
+void gm_lane_save(const struct gm_lane *lane, void *snapshot) { gm_run_save(lane->run, snapshot); }
+
+void gm_lane_load(struct gm_lane *lane, const void *snapshot)
+{
+    gm_run_load(lane->run, snapshot);
+    const double t = lane->run->t, dt = lane->run->dt;
+    lane->scheme = lane->run->scheme;
+    ((struct gm_timing *)lane->parameters)->dt = dt;
+    gm_history_cut(&lane->history, t, dt);
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
+        struct gm_entries *entries = &lane->entries[i];
+        while (entries->count > 1 && (entries->times[entries->count - 1] - t) * dt > 0) {
+            entries->count--;
+        }
+    }
+}
+
+bool gm_scene_fits(const struct gm_scene *scene, const void *parameters, const struct gm_scheme *scheme)
+{
+    struct gm_problem problem = {0};
+    char sentence[GM_SENTENCE];
+    return scene->setup(parameters, &problem, sentence) && gm_scheme_fits(scheme, &problem);
+}

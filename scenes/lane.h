@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_LANE_H
+#define GM_SCENES_LANE_H
+
+#include "scenes/history.h"
+#include "scenes/scene.h"
+
+/* A lane: one run of a scene, with its parameters, its start and its bounded past. */
+
+struct gm_entries { /* the record of one track */
+    size_t width, count;
+    long every;     /* of the intervals, this many make one entry (doubled by thinning) */
+    double *times;  /* count */
+    double *values; /* count * width */
+};
+
+/* How a lane is shown: lanes of one panel share its axes, each in its own colour. */
+struct gm_shown {
+    size_t panel, colour;
+    char panel_name[48];  /* "": the scheme's title */
+    char colour_name[48]; /* "" where the panel's name says all */
+};
+
+struct gm_lane {
+    struct gm_shown shown; /* set by who opened the lane */
+    const struct gm_scene *scene;
+    void *parameters; /* the scene's own struct, a copy */
+    struct gm_settings settings;
+    const struct gm_scheme *scheme;
+    struct gm_problem problem;
+    double t0;
+    double *start; /* n * m */
+    struct gm_run *run;
+    struct gm_history history;  /* one series per observable */
+    struct gm_entries *entries; /* one per track */
+};
+
+/* Opens a lane at its start, with the start recorded. NULL with a sentence (GM_SENTENCE bytes) if the
+   parameters contradict, the scheme does not fit or memory is short. */
+struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameters,
+                             const struct gm_settings *settings, const struct gm_scheme *scheme,
+                             char *sentence);
+void gm_lane_close(struct gm_lane *lane);
+
+struct gm_view gm_lane_view(const struct gm_lane *lane);
+
+/* The value of an observable now. */
+double gm_lane_observe(const struct gm_lane *lane, size_t observable);
+
+/* Takes the present state into history and tracks: once after every step that is looked at. */
+void gm_lane_record(struct gm_lane *lane);
+
+/* Continues the present state with another scheme; false if it does not fit or memory is short. */
+bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *sentence);
+
+/* A copy with its own past: a fork. */
+struct gm_lane *gm_lane_copy(const struct gm_lane *lane);
+
+/* A change of a live parameter; acts on the present state. */
+void gm_lane_set_step(struct gm_lane *lane, double dt);
+
+/* Snapshot and return to it: history and tracks later than its time are cut. The snapshot is
+   gm_lane_snapshot_size bytes; it belongs to this lane and this scheme. */
+size_t gm_lane_snapshot_size(const struct gm_lane *lane);
+void gm_lane_save(const struct gm_lane *lane, void *snapshot);
+void gm_lane_load(struct gm_lane *lane, const void *snapshot);
+
+/* Whether this scheme can run this scene with these parameters. */
+bool gm_scene_fits(const struct gm_scene *scene, const void *parameters, const struct gm_scheme *scheme);
+
+#endif

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <string.h>
+
+#include "scenes/scene.h"
+
+#define GM_SCENE(name) extern const struct gm_scene gm_scene_##name;
+#include "scenes/scenes.def"
+#undef GM_SCENE
+
+static const struct gm_scene *const scenes[] = {
+#define GM_SCENE(name) &gm_scene_##name,
+#include "scenes/scenes.def"
+#undef GM_SCENE
+};
+
+size_t gm_scene_count(void) { return sizeof scenes / sizeof scenes[0]; }
+
+const struct gm_scene *gm_scene_at(size_t index) { return scenes[index]; }
+
+const struct gm_scene *gm_scene_find(const char *name)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        if (strcmp(scenes[i]->name, name) == 0) {
+            return scenes[i];
+        }
+    }
+    return NULL;
+}
+
+const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key)
+{
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        if (strcmp(scene->parameters[i].key, key) == 0) {
+            return &scene->parameters[i];
+        }
+    }
+    return NULL;
+}

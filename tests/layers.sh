@@ -1,0 +1,32 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The layers by what files include: core sees only core, render only render, scenes everything but app and the
+# painters. Linking alone would not notice a type or a macro.
+cd "$1" || exit 1
+status=0
+
+# forbid FOLDER PATTERN: no file below FOLDER includes what matches
+forbid() {
+    found=$(grep -rnE --include='*.[ch]' --include='*.def' "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]$2" "$1")
+    if [ -n "$found" ]; then
+        printf '%s must not include %s:\n%s\n' "$1" "$2" "$found"
+        status=1
+    fi
+}
+
+forbid core '(render|scenes|app|tests)/'
+forbid core '(curses|ncurses|png|GL|EGL)'
+forbid render '(core|scenes|app|tests)/'
+forbid render '(curses|ncurses)'
+forbid scenes '(app|tests)/'
+forbid scenes 'render/(canvas|context|cells|png|sink|temporary)'
+forbid app 'tests/'
+
+# every include of the project's own names its folder
+found=$(grep -rnE --include='*.[ch]' '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' core render scenes app tests |
+    grep -vE '"(core|render|scenes|app|tests)/')
+if [ -n "$found" ]; then
+    printf 'includes are rooted at the top folder:\n%s\n' "$found"
+    status=1
+fi
+exit $status
