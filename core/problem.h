@@ -9,6 +9,7 @@
 
 struct gm_loops;
 struct gm_scheme;
+struct gm_settings;
 struct gm_problem;
 
 /* Instruction sets that loops are compiled for. */
@@ -35,6 +36,11 @@ struct gm_task {
     double *out;
     const double *carry; /* what compensated summation carries over, n * m; NULL: plain summation */
     double *carry_out;
+    const double *memory; /* the scheme's own, as its family says; NULL if it has none */
+    double *memory_out;
+    double t;                            /* the present time */
+    void *workspace;                     /* what the family opened for this run */
+    const struct gm_settings *settings;
 };
 
 /* What it did. `done` steps succeeded for every member; if that is less than task.steps, `out` is
@@ -43,6 +49,7 @@ struct gm_progress {
     long done;
     enum gm_status status;
     unsigned long evaluations, solves, iterations;
+    double t; /* the time reached, of schemes that choose their own step */
 };
 
 typedef struct gm_progress gm_loop(const struct gm_task *task);

@@ -7,8 +7,8 @@
 
 #include "core/kernel/loops.h"
 
-/* The block: the struct, then two halves, each the state and (compensated) its carry. A step reads one half and
-   writes the other, so the last good step is always whole. */
+/* The block: the struct, then two halves, each the state, its carry (compensated) and the scheme's memory. A step
+   reads one half and writes the other, so the last good step is always whole. */
 
 enum { ALIGNMENT = 128 };
 
@@ -16,31 +16,78 @@ static size_t head_size(void) { return (sizeof(struct gm_run) + ALIGNMENT - 1) /
 
 static size_t state_count(const struct gm_run *run) { return run->problem->n * run->problem->m; }
 
-static size_t half_count(const struct gm_run *run)
+static size_t carry_count(const struct gm_run *run) { return run->settings.compensated ? state_count(run) : 0; }
+
+static size_t memory_count(const struct gm_run *run)
 {
-    return state_count(run) * (run->settings.compensated ? 2 : 1);
+    const struct gm_family *family = run->scheme->family;
+    return family->memory ? family->memory(run->problem, run->scheme) : 0;
 }
 
 static size_t half_size(const struct gm_run *run)
 {
-    return (half_count(run) * sizeof(double) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+    const size_t count = state_count(run) + carry_count(run) + memory_count(run);
+    return (count * sizeof(double) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 }
 
 static double *half(const struct gm_run *run, int which)
 {
-    return (double *)(void *)((char *)run + head_size() + (size_t)which * half_size(run));
+    return (double *)(void *)((char *)run + head_size() + (size_t)which * run->half_size);
 }
 
 const double *gm_run_state(const struct gm_run *run) { return half(run, run->current); }
+
+/* The task that reads half `from` and writes half `to`. */
+static struct gm_task task_of(const struct gm_run *run, int from, int to, long steps)
+{
+    const size_t count = state_count(run), carried = carry_count(run);
+    const bool remembers = run->scheme->family->memory != NULL;
+    const double *y = half(run, from);
+    double *out = half(run, to);
+    return (struct gm_task){
+        .problem = run->problem,
+        .scheme = run->scheme,
+        .dt = run->dt,
+        .steps = steps,
+        .steps_before = run->steps,
+        .limit = run->limit,
+        .y = y,
+        .out = out,
+        .carry = carried ? y + count : NULL,
+        .carry_out = carried ? out + count : NULL,
+        .memory = remembers ? y + count + carried : NULL,
+        .memory_out = remembers ? out + count + carried : NULL,
+        .t = run->t,
+        .workspace = run->workspace,
+        .settings = &run->settings,
+    };
+}
+
+/* Lets the scheme fill its memory from the present state. */
+static void start(struct gm_run *run)
+{
+    if (run->scheme->family->start && run->status == GM_OK) {
+        const struct gm_task task = task_of(run, run->current, run->current, 0);
+        run->status = run->scheme->family->start(&task);
+    }
+}
 
 struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_scheme *scheme,
                            const struct gm_settings *settings, double t0, double dt, const double *y0)
 {
     struct gm_run head = {
         .problem = problem, .scheme = scheme, .settings = *settings, .t0 = t0, .dt = dt, .t = t0};
-    struct gm_run *run = aligned_alloc(ALIGNMENT, head_size() + 2 * half_size(&head));
+    head.half_size = half_size(&head);
+    struct gm_run *run = aligned_alloc(ALIGNMENT, head_size() + 2 * head.half_size);
     if (!run) {
         return NULL;
+    }
+    if (scheme->family->workspace_open) {
+        head.workspace = scheme->family->workspace_open(problem, scheme);
+        if (!head.workspace) {
+            free(run);
+            return NULL;
+        }
     }
     double largest = 1;
     for (size_t i = 0; i < state_count(&head); i++) {
@@ -48,12 +95,19 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     }
     head.limit = 1e10 * largest;
     *run = head;
-    memset(half(run, 0), 0, 2 * half_size(run));
+    memset(half(run, 0), 0, 2 * run->half_size);
     memcpy(half(run, 0), y0, state_count(run) * sizeof(double));
+    start(run);
     return run;
 }
 
-void gm_run_close(struct gm_run *run) { free(run); }
+void gm_run_close(struct gm_run *run)
+{
+    if (run && run->workspace) {
+        run->scheme->family->workspace_close(run->workspace);
+    }
+    free(run);
+}
 
 double gm_run_per_member(const struct gm_run *run, unsigned long count)
 {
@@ -65,22 +119,9 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
     if (run->status != GM_OK || steps <= 0) {
         return run->status;
     }
-    const double *from = half(run, run->current);
-    double *to = half(run, 1 - run->current);
-    const size_t count = state_count(run);
-    struct gm_task task = {
-        .problem = run->problem,
-        .scheme = run->scheme,
-        .dt = run->dt,
-        .steps = steps,
-        .steps_before = run->steps,
-        .limit = run->limit,
-        .y = from,
-        .out = to,
-        .carry = run->settings.compensated ? from + count : NULL,
-        .carry_out = run->settings.compensated ? to + count : NULL,
-    };
-    gm_loop *loop = run->problem->loops[gm_isa_best()]->family[run->scheme->family->id];
+    struct gm_task task = task_of(run, run->current, 1 - run->current, steps);
+    const struct gm_family *family = run->scheme->family;
+    gm_loop *loop = family->loop ? family->loop : run->problem->loops[gm_isa_best()]->family[family->id];
     struct gm_progress progress = loop(&task);
     if (progress.done < steps) {
         run->status = progress.status;
@@ -97,7 +138,7 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
     run->current = 1 - run->current;
     run->n += progress.done;
     run->steps += progress.done;
-    run->t = run->t0 + (double)run->n * run->dt;
+    run->t = family->own_time ? progress.t : run->t0 + (double)run->n * run->dt;
     return run->status;
 }
 
@@ -106,6 +147,7 @@ void gm_run_set_step(struct gm_run *run, double dt)
     run->t0 = run->t;
     run->n = 0;
     run->dt = dt;
+    start(run);
 }
 
 struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *scheme)
@@ -122,16 +164,21 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
     return next;
 }
 
-size_t gm_run_snapshot_size(const struct gm_run *run) { return head_size() + half_size(run); }
+size_t gm_run_snapshot_size(const struct gm_run *run) { return head_size() + run->half_size; }
 
 void gm_run_save(const struct gm_run *run, void *snapshot)
 {
     memcpy(snapshot, run, sizeof *run);
-    memcpy((char *)snapshot + head_size(), half(run, run->current), half_size(run));
+    memcpy((char *)snapshot + head_size(), half(run, run->current), run->half_size);
 }
 
 void gm_run_load(struct gm_run *run, const void *snapshot)
 {
+    void *workspace = run->workspace;
     memcpy(run, snapshot, sizeof *run);
-    memcpy(half(run, run->current), (const char *)snapshot + head_size(), half_size(run));
+    memcpy(half(run, run->current), (const char *)snapshot + head_size(), run->half_size);
+    run->workspace = workspace;
+    if (workspace && run->scheme->family->workspace_reset) {
+        run->scheme->family->workspace_reset(workspace);
+    }
 }

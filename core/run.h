@@ -17,7 +17,9 @@ struct gm_run {
     long steps;       /* steps in all */
     unsigned long evaluations, solves, iterations; /* sums over the members */
     enum gm_status status;
-    int current; /* which half of the block holds the state */
+    int current;      /* which half of the block holds the state */
+    size_t half_size; /* in bytes */
+    void *workspace;  /* of the scheme's family; no part of a snapshot */
 };
 
 /* Opens a run at time t0 in the state y0 (n * m, copied). NULL when memory is short.

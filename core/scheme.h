@@ -49,6 +49,19 @@ struct gm_family {
     const struct gm_scheme *schemes;
     size_t count;
     const struct gm_parameter *const *parameters; /* rows of gm_settings_parameters, NULL-terminated */
+
+    /* All that follows is for families that are not loops over a problem's kernels. */
+    gm_loop *loop; /* advances any problem that has the facets; NULL: problem->loops */
+    /* Doubles of memory that a scheme carries from step to step, in the run's block. */
+    size_t (*memory)(const struct gm_problem *problem, const struct gm_scheme *scheme);
+    /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.
+       After every step `out` holds the canonical state again. */
+    enum gm_status (*start)(const struct gm_task *task);
+    /* Scratch and factors: derived from the state alone, rebuilt wherever a run is resumed. NULL: out of memory. */
+    void *(*workspace_open)(const struct gm_problem *problem, const struct gm_scheme *scheme);
+    void (*workspace_close)(void *workspace);
+    void (*workspace_reset)(void *workspace); /* forgets what was derived from an earlier state */
+    bool own_time; /* the scheme chooses its step: the loop returns the time, dt is what its rows say it is */
 };
 
 size_t gm_scheme_count(void);

@@ -68,11 +68,6 @@ void gm_canvas_frame(struct gm_canvas *canvas, const struct gm_frame *frame) {
         draw_grid(canvas, frame);
         draw_axes(canvas, frame);
     }
-    /* A little more than the box, so that strokes along its edge keep their width. */
-    const double margin = ceil(2.5 * canvas->scale);
-    const int left = (int)floor(box.x - margin), top = (int)floor(box.y - margin);
-    gm_batch_scissor(&canvas->batch, left, top, (int)ceil(box.x + box.width + margin) - left,
-                     (int)ceil(box.y + box.height + margin) - top);
     gm_canvas_marks(canvas, frame);
     gm_batch_scissor(&canvas->batch, 0, 0, canvas->width, canvas->height);
     if (frame->colour_bar.width > 0.0)

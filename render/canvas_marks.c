@@ -30,6 +30,13 @@ static const struct {
     [GM_DASH_DOT_DOT] = {6, {4.0f, 2.5f, 0.0f, 2.5f, 0.0f, 2.5f}},
 };
 
+/* Marks may reach beyond the box by half their width, so that strokes along its edge keep theirs. */
+static void clip_to(struct gm_canvas *canvas, const struct gm_box *box, double margin) {
+    const int left = (int)floor(box->x - margin), top = (int)floor(box->y - margin);
+    gm_batch_scissor(&canvas->batch, left, top, (int)ceil(box->x + box->width + margin) - left,
+                     (int)ceil(box->y + box->height + margin) - top);
+}
+
 /* The mark's points on the surface. False when memory is short. */
 static bool project(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark) {
     struct gm_polyline *line = &canvas->line;
@@ -128,7 +135,8 @@ static void draw_points(struct gm_canvas *canvas, const struct gm_frame *frame, 
         return;
     const float radius = 0.5f * fmaxf(width, 1.0f);
     const struct gm_ink ink = gm_canvas_ink(canvas, style->role, style->alpha * fminf(width * width, 1.0f));
-    const struct gm_bounds bounds = bounds_of(frame, radius);
+    const struct gm_bounds bounds = bounds_of(frame, 0.5f);
+    clip_to(canvas, &frame->box, radius + 1.0f);
     for (size_t i = 0; i < canvas->line.count; i++) {
         const struct gm_point p = canvas->line.points[i];
         if (p.x >= bounds.left && p.x <= bounds.right && p.y >= bounds.top && p.y <= bounds.bottom)
@@ -151,6 +159,7 @@ static void draw_polygon(struct gm_canvas *canvas, const struct gm_frame *frame,
 void gm_canvas_marks(struct gm_canvas *canvas, const struct gm_frame *frame) {
     for (const struct gm_mark *mark = frame->panel->first; mark != NULL; mark = mark->next) {
         gm_batch_state(&canvas->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+        clip_to(canvas, &frame->box, 2.5 * canvas->scale);
         switch (mark->kind) {
         case GM_MARK_LINE:
             draw_line(canvas, frame, mark);

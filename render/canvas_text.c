@@ -101,43 +101,67 @@ static void draw_label(struct gm_canvas *canvas, const struct gm_label *label) {
     write_text(canvas, &writing, label->text);
 }
 
-/* A text among the marks stands on a thin rim of paper, so that it can be read on anything; it is moved
-   where it would leave the surface. */
-static void draw_mark(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark) {
-    struct writing writing = {.font = GM_FONT_SANS, .letters = canvas->letters[GM_TEXT_TICK]};
-    const double width = gm_glyphs_width(canvas->glyphs, writing.font, writing.letters, mark->text);
-    const double ascent = gm_glyphs_ascent(canvas->glyphs, writing.font, writing.letters);
-    const double line = line_height(canvas, writing.letters);
+/* Where a text among the marks goes: at its point, moved where it would leave the surface. */
+struct note {
+    const struct gm_mark *mark;
+    double left, top, width, line;
+};
+
+static bool place_note(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark,
+                       struct note *note) {
+    if (mark->kind != GM_MARK_TEXT)
+        return false;
+    const int letters = canvas->letters[GM_TEXT_TICK];
+    const double width = gm_glyphs_width(canvas->glyphs, GM_FONT_SANS, letters, mark->text);
+    const double line = line_height(canvas, letters);
     const double x = gm_frame_x(frame, mark->points[0]), y = gm_frame_y(frame, mark->points[1]);
     const struct gm_box box = frame->box;
-    if (!(x >= box.x - 1.0 && x <= box.x + box.width + 1.0 && y >= box.y - 1.0 &&
-          y <= box.y + box.height + 1.0))
-        return;
-    const double left = x - anchor_share(mark->anchor) * width, top = y - 0.5 * line;
-    writing.x = fmax(0.0, fmin(left, canvas->width - width));
-    writing.y = fmax(0.0, fmin(top, canvas->height - line)) + ascent;
+    *note = (struct note){.mark = mark, .width = width, .line = line};
+    note->left = fmax(0.0, fmin(x - anchor_share(mark->anchor) * width, canvas->width - width));
+    note->top = fmax(0.0, fmin(y - 0.5 * line, canvas->height - line));
+    return x >= box.x - 1.0 && x <= box.x + box.width + 1.0 && y >= box.y - 1.0 &&
+           y <= box.y + box.height + 1.0;
+}
 
-    const struct writing place = writing;
-    const double rim = fmax(1.0, floor(1.5 * canvas->scale));
-    writing.ink = gm_canvas_ink(canvas, GM_PAPER, 0.45 * mark->style.alpha);
-    for (int i = 0; i < 9; i++) {
-        writing.x = place.x + rim * (i % 3 - 1);
-        writing.y = place.y + rim * (i / 3 - 1);
-        if (i != 4)
-            write_text(canvas, &writing, mark->text);
-    }
-    writing = place;
-    writing.ink = gm_canvas_ink(canvas, mark->style.role, mark->style.alpha);
-    write_text(canvas, &writing, mark->text);
+/* A plate of translucent paper, so that the text can be read on anything. */
+static void draw_plate(struct gm_canvas *canvas, const struct note *note) {
+    const float half = (float)(0.5 * note->line), middle = (float)(note->top + 0.5 * note->line);
+    const float left = (float)note->left + 0.25f * half,
+                right = (float)(note->left + note->width) - 0.25f * half;
+    struct gm_point ends[2] = {{left, middle}, {fmaxf(left + 1.0f, right), middle}};
+    const struct gm_polyline axis = {.points = ends, .count = 2};
+    gm_stroke_line(&canvas->batch, &axis, half,
+                   gm_canvas_ink(canvas, GM_PAPER, 0.6 * note->mark->style.alpha));
+}
+
+static void draw_note(struct gm_canvas *canvas, const struct note *note) {
+    const struct gm_style *style = &note->mark->style;
+    const int letters = canvas->letters[GM_TEXT_TICK];
+    const struct writing writing = {
+        .font = GM_FONT_SANS,
+        .letters = letters,
+        .x = note->left,
+        .y = note->top + gm_glyphs_ascent(canvas->glyphs, GM_FONT_SANS, letters),
+        .ink = gm_canvas_ink(canvas, style->role, style->alpha),
+    };
+    write_text(canvas, &writing, note->mark->text);
+}
+
+static void draw_notes(struct gm_canvas *canvas, const struct gm_layout *layout,
+                       void draw(struct gm_canvas *canvas, const struct note *note)) {
+    struct note note;
+    for (size_t i = 0; i < layout->frame_count; i++)
+        for (const struct gm_mark *mark = layout->frames[i].panel->first; mark != NULL; mark = mark->next)
+            if (place_note(canvas, &layout->frames[i], mark, &note))
+                draw(canvas, &note);
 }
 
 void gm_canvas_labels(struct gm_canvas *canvas, const struct gm_layout *layout) {
     gm_batch_scissor(&canvas->batch, 0, 0, canvas->width, canvas->height);
+    gm_batch_state(&canvas->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    draw_notes(canvas, layout, draw_plate);
     gm_batch_state(&canvas->batch, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
-    for (size_t i = 0; i < layout->frame_count; i++)
-        for (const struct gm_mark *mark = layout->frames[i].panel->first; mark != NULL; mark = mark->next)
-            if (mark->kind == GM_MARK_TEXT)
-                draw_mark(canvas, &layout->frames[i], mark);
+    draw_notes(canvas, layout, draw_note);
     for (size_t i = 0; i < layout->label_count; i++)
         draw_label(canvas, &layout->labels[i]);
 }

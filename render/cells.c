@@ -66,27 +66,81 @@ static void paint_text(struct painter *painter, double x, double y, enum gm_anch
     gm_cells_text(painter->cells, column, row, -1, text, painter->ascii, painter->theme, role, bold);
 }
 
-static void paint_grid(struct gm_raster *raster, const struct gm_frame *frame) {
+/* Grid and axes as dots of the raster, beneath the marks: where dots are fine enough for a hairline. */
+static void paint_dotted_grid(struct gm_raster *raster, const struct gm_frame *frame)
+{
     const struct gm_box *box = &frame->box;
-    if (!frame->panel->axes)
-        return;
-    int gap = raster->sharp ? 2 : 1;
-    for (size_t i = 0; i < frame->x_tick_count; i++)
-        gm_raster_rule(raster, frame->x_ticks[i].position, box->y, frame->x_ticks[i].position,
-                       box->y + box->height, GM_GRID, gap);
-    for (size_t i = 0; i < frame->y_tick_count; i++)
-        gm_raster_rule(raster, box->x, frame->y_ticks[i].position, box->x + box->width,
-                       frame->y_ticks[i].position, GM_GRID, gap);
-    gm_raster_rule(raster, box->x, box->y, box->x, box->y + box->height, GM_SECONDARY, 1);
-    gm_raster_rule(raster, box->x, box->y + box->height, box->x + box->width, box->y + box->height,
-                   GM_SECONDARY, 1);
+    double right = box->x + box->width, bottom = box->y + box->height;
+    for (size_t i = 0; i < frame->x_tick_count; i++) {
+        double x = frame->x_ticks[i].position;
+        gm_raster_rule(raster, x, box->y, x, bottom, GM_GRID, 2);
+    }
+    for (size_t i = 0; i < frame->y_tick_count; i++) {
+        double y = frame->y_ticks[i].position;
+        gm_raster_rule(raster, box->x, y, right, y, GM_GRID, 2);
+    }
+    gm_raster_rule(raster, box->x, box->y, box->x, bottom, GM_SECONDARY, 1);
+    gm_raster_rule(raster, box->x, bottom, right, bottom, GM_SECONDARY, 1);
 }
 
-static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout) {
+/* Grid and axes as characters in the cells that the marks left blank: thinner than any block. */
+enum { RULE_LEFT = 1, RULE_RIGHT = 2, RULE_UP = 4, RULE_DOWN = 8 };
+
+static void rule_cell(const struct painter *painter, int column, int row, unsigned arms, enum gm_role role)
+{
+    static const uint16_t drawn[16] = {[3] = 0x2500, [12] = 0x2502, [15] = 0x253C, [6] = 0x2514};
+    if (column < 0 || row < 0 || column >= painter->cells->columns || row >= painter->cells->rows)
+        return;
+    struct gm_cell *cell =
+        &painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column];
+    bool crosses = cell->role == GM_GRID && cell->glyph != ' ' && role == GM_GRID;
+    if (cell->glyph != ' ' && cell->role != GM_GRID)
+        return;
+    if (painter->ascii)
+        cell->glyph = role == GM_GRID ? (arms == 3 ? '.' : ':') : arms == 3 ? '-' : arms == 12 ? '|' : '+';
+    else
+        cell->glyph = crosses ? drawn[15] : drawn[arms];
+    cell->role = role;
+    cell->foreground = gm_theme_colour(painter->theme, role);
+}
+
+static int cell_of(double position, int size) { return (int)floor(position / size); }
+
+static void rule(const struct painter *painter, double x0, double y0, double x1, double y1, enum gm_role role)
+{
+    int left = cell_of(x0, CELL_WIDTH), right = cell_of(x1, CELL_WIDTH);
+    int top = cell_of(y0, CELL_HEIGHT), bottom = cell_of(y1, CELL_HEIGHT);
+    for (int row = top; row <= bottom; row++) {
+        for (int column = left; column <= right; column++)
+            rule_cell(painter, column, row, y0 == y1 ? RULE_LEFT | RULE_RIGHT : RULE_UP | RULE_DOWN, role);
+    }
+}
+
+static void paint_thin_grid(const struct painter *painter, const struct gm_frame *frame)
+{
+    const struct gm_box *box = &frame->box;
+    double right = box->x + box->width, bottom = box->y + box->height;
+    for (size_t i = 0; i < frame->x_tick_count; i++)
+        rule(painter, frame->x_ticks[i].position, box->y, frame->x_ticks[i].position, bottom, GM_GRID);
+    for (size_t i = 0; i < frame->y_tick_count; i++)
+        rule(painter, box->x, frame->y_ticks[i].position, right, frame->y_ticks[i].position, GM_GRID);
+    rule(painter, box->x, bottom, right, bottom, GM_SECONDARY);
+    rule(painter, box->x, box->y, box->x, bottom, GM_SECONDARY);
+    int column = cell_of(box->x, CELL_WIDTH), row = cell_of(bottom, CELL_HEIGHT);
+    if (row < painter->cells->rows && column < painter->cells->columns && row >= 0 && column >= 0) {
+        struct gm_cell *corner =
+            &painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column];
+        if (corner->role == GM_SECONDARY)
+            corner->glyph = painter->ascii ? '+' : 0x2514;
+    }
+}
+
+static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout, bool dotted) {
     bool ok = true;
     for (size_t i = 0; i < layout->frame_count; i++) {
         const struct gm_frame *frame = &layout->frames[i];
-        paint_grid(raster, frame);
+        if (frame->panel->axes && dotted)
+            paint_dotted_grid(raster, frame);
         for (const struct gm_mark *mark = frame->panel->first; ok && mark; mark = mark->next)
             ok = gm_raster_mark(raster, frame, mark);
         if (frame->colour_bar.width > 0) {
@@ -147,8 +201,12 @@ bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
     struct painter painter = {.cells = cells, .theme = theme, .ascii = ascii};
     painter.taken = calloc((size_t)cells->columns * (size_t)cells->rows, sizeof *painter.taken);
-    bool ok = layout && painter.taken && paint_marks(&raster, layout);
+    bool ok = layout && painter.taken && paint_marks(&raster, layout, blocks == GM_BRAILLE);
     gm_blocks_glyphs(cells, &raster, blocks);
+    for (size_t i = 0; ok && blocks != GM_BRAILLE && i < layout->frame_count; i++) {
+        if (layout->frames[i].panel->axes)
+            paint_thin_grid(&painter, &layout->frames[i]);
+    }
     if (ok)
         paint_texts(&painter, layout);
     free(painter.taken);

@@ -153,25 +153,34 @@ static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_ce
         cell->glyph = best == 3 ? 0x2588 : best == 1 ? 0x2580 : 0x2584;
 }
 
-/* What covers an area has no outline to draw and becomes the background: of the whole cell where a line runs through
-   it, and then only if most of what the line leaves is covered; otherwise of quarters. So outlines stay crisp. */
+/* The cell as four quarters, each the mean of its two dots. */
+static struct block quarters_of(const struct block *block)
+{
+    struct block quarters = {.count = 4};
+    for (int i = 0; i < 4; i++) {
+        int from = i / 2 * 4 + i % 2;
+        struct gm_subpixel upper = block->part[from], lower = block->part[from + 2];
+        quarters.part[i] = lower.level >= upper.level ? lower : upper;
+        quarters.part[i].colour = mean(block, 1u << from | 1u << (from + 2));
+    }
+    return quarters;
+}
+
+/* Dots of one colour draw lines well and areas badly: what is filled is painted in quarters, its outline included. On
+   a field, which leaves no blank place, lines are dots with the field as their background. */
 static void braille(const struct block *block, struct gm_rgb paper, struct gm_cell *cell)
 {
     struct stencil stencil = stencil_of(block);
-    if (stencil.ground && !stencil.lines) {
-        struct block quarters = {.count = 4};
-        for (int i = 0; i < 4; i++) {
-            int from = i / 2 * 4 + i % 2;
-            quarters.part[i] = block->part[from];
-            quarters.part[i].colour = mean(block, 1u << from | 1u << (from + 2));
-        }
+    unsigned field = parts_of_level(block, GM_LEVEL_FIELD);
+    if (parts_of_level(block, GM_LEVEL_FILL) || (field && !stencil.lines)) {
+        struct block quarters = quarters_of(block);
         fit_two(&quarters, paper, cell);
         return;
     }
     if (!stencil.inked)
         return;
-    if (2 * parts_in(stencil.ground) > block->count - parts_in(stencil.inked))
-        cell->background = mean(block, stencil.ground);
+    if (field)
+        cell->background = mean(block, field);
     uint32_t dots = 0;
     for (int i = 0; i < PARTS; i++) {
         if (stencil.inked >> i & 1)

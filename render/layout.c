@@ -2,6 +2,7 @@
 #include "render/layout.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "render/layout_frame.h"
 #include "render/layout_labels.h"
@@ -26,29 +27,23 @@ struct group {
     enum gm_detail detail;
 };
 
-static double share(double total, double part) {
-    return fmin(part, 0.035 * total);
+/* Margins shrink on narrow surfaces. */
+static double margin_of(double width, double wanted) {
+    return fmin(wanted, 0.035 * width);
 }
 
 /* Only the lowest of graphs with a common axis names it. */
 static bool names_x(const struct group *group, size_t i) {
-    if (group->place == GM_PLACE_STATE || i + 1 == group->count)
-        return true;
-    const char *own = group->frames[i].panel->x.label,
-               *next =
-                   group->frames[i + group->columns < group->count ? i + group->columns : i].panel->x.label;
-    if (i + group->columns >= group->count)
-        return true;
-    for (; *own != '\0' && *own == *next; own++)
-        next++;
-    return *own != *next;
+    const size_t below = i + group->columns;
+    return group->place == GM_PLACE_STATE || below >= group->count ||
+           strcmp(group->frames[i].panel->x.label, group->frames[below].panel->x.label) != 0;
 }
 
-static double lay_width(const struct group *group, double gap) {
+static double cell_width(const struct group *group, double gap) {
     return fmax(0.0, (group->area.width - (double)(group->columns - 1) * gap) / (double)group->columns);
 }
 
-static double lay_height(const struct group *group, double gap) {
+static double cell_height(const struct group *group, double gap) {
     return fmax(0.0, (group->area.height - (double)(group->rows - 1) * gap) / (double)group->rows);
 }
 
@@ -79,8 +74,8 @@ static double aspect_of(const struct gm_panel *panel) {
 static double data_size(const struct gm_label_list *list, const struct group *group) {
     const double scale = list->metrics->scale;
     const struct gm_border border = common_border(list, group, true);
-    const double width = lay_width(group, column_gap * scale) - border.left - border.right;
-    const double height = lay_height(group, row_gap * scale) - border.top - border.bottom;
+    const double width = cell_width(group, column_gap * scale) - border.left - border.right;
+    const double height = cell_height(group, row_gap * scale) - border.top - border.bottom;
     double aspect = 0.0;
     for (size_t i = 0; i < group->count && aspect == 0.0; i++)
         aspect = aspect_of(group->frames[i].panel);
@@ -134,7 +129,7 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
         bars = bars || group->frames[i].panel->colour_bar;
     if (!bars) /* the last tick label may hang over into the margin or the gap */
         border.right = fmax(0.0, border.right - fmin(overhang, column_gap * scale));
-    const double column = lay_width(group, column_gap * scale), row = lay_height(group, row_gap * scale);
+    const double column = cell_width(group, column_gap * scale), row = cell_height(group, row_gap * scale);
     const double width = fmax(0.0, column - border.left - border.right);
     const double height = fmax(0.0, row - border.top - border.bottom);
 
@@ -227,6 +222,18 @@ static size_t collect(const struct gm_picture *picture, enum gm_place place, siz
     return count;
 }
 
+/* A graph beside a single row of states is as high as they are. */
+static void align_graph(const struct gm_label_list *list, const struct group *states, struct group *graphs) {
+    const struct gm_border border = common_border(list, graphs, false);
+    const struct gm_box box = states->frames[0].box;
+    const double top = fmax(graphs->area.y, box.y - border.top);
+    const double bottom = fmin(graphs->area.y + graphs->area.height, box.y + box.height + border.bottom);
+    if (box.height < 0.5 * graphs->area.width)
+        return;
+    graphs->area.y = top;
+    graphs->area.height = bottom - top;
+}
+
 static size_t graph_columns(const struct group *states, const struct group *graphs) {
     return states->count == 0 ? graphs->count : 1;
 }
@@ -243,7 +250,7 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
         return NULL;
 
     const double scale = metrics->scale;
-    const double margin = share(metrics->width, side_margin * scale);
+    const double margin = margin_of(metrics->width, side_margin * scale);
     const double top = place_header(&list, picture, margin);
     const double bottom = place_caption(&list, picture, margin);
 
@@ -256,7 +263,7 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
                                 fmax(0.0, bottom - top)};
     states.area = graphs.area = area;
     if (states.count > 0 && graphs.count > 0) {
-        const double gap = share(metrics->width, group_gap * scale);
+        const double gap = margin_of(metrics->width, group_gap * scale);
         graphs.area.width = fmin(area.width, graph_share * metrics->width);
         graphs.area.x = area.x + area.width - graphs.area.width;
         states.area.width = fmax(0.0, area.width - graphs.area.width - gap);
@@ -267,6 +274,8 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     }
     if (graphs.count > 0) {
         choose_grid(&list, &graphs, graph_columns(&states, &graphs));
+        if (states.rows == 1 && graphs.count == 1)
+            align_graph(&list, &states, &graphs);
         place_group(&list, &graphs, margin);
     }
     *layout = (struct gm_layout){.frames = frames,

@@ -46,30 +46,54 @@ static size_t fill_multiples(double low, double high, double mantissa, int expon
     return (size_t)count;
 }
 
+/* One or two ticks, where no step gives three. */
+static size_t few_ticks(double low, double high, int exponent, size_t max, double *values) {
+    static const double steps[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        const size_t count = fill_multiples(low, high, steps[i], exponent, max, values);
+        if (count > 0)
+            return count;
+    }
+    return 0;
+}
+
+/* The first of the steps that gives at least three ticks; 0 if none does. */
+static size_t first_step(double low, double high, const double *steps, size_t step_count, int exponent,
+                         size_t max, double *values) {
+    for (size_t i = 0; i < step_count; i++) {
+        const size_t count = fill_multiples(low, high, steps[i], exponent, max, values);
+        if (count >= 3)
+            return count;
+    }
+    return 0;
+}
+
+static bool spans(double low, double high, const double *values, size_t count) {
+    const double close = slack * (high - low);
+    return count > 1 && fabs(values[0] - low) < close && fabs(values[count - 1] - high) < close;
+}
+
 static size_t ticks_linear(double low, double high, size_t max, double *values) {
-    /* Familiar steps first; the others only where those leave fewer than three ticks. */
-    static const double familiar[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0},
-                        further[] = {1.5, 2.5, 3.0, 4.0, 6.0, 8.0};
+    static const double familiar[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
+    static const double further[] = {1.5, 2.5, 3.0, 4.0, 6.0, 8.0, 15.0, 25.0, 30.0, 40.0};
+    const size_t familiar_count = sizeof familiar / sizeof *familiar;
+    const size_t further_count = sizeof further / sizeof *further;
     const double span = high - low;
     if (span < 64.0 * DBL_EPSILON * fmax(fabs(low), fabs(high)) || !isfinite(span))
         return 0; /* such values would all have the same label */
     const int exponent = (int)floor(log10(span / (double)max));
-    size_t few = 0;
-    for (size_t i = 0; i < sizeof familiar / sizeof *familiar; i++) {
-        const size_t count = fill_multiples(low, high, familiar[i], exponent, max, values);
-        if (count >= 3)
-            return count;
-        few = few > count ? few : count;
+    size_t count = first_step(low, high, familiar, familiar_count, exponent, max, values);
+    if (count > 3 || max < 3 || spans(low, high, values, count))
+        return count > 0 ? count : few_ticks(low, high, exponent, max, values);
+
+    /* Less familiar steps where the others leave too few ticks, or where both ends of the axis get one. */
+    double others[GM_TICK_MAX];
+    const size_t other = first_step(low, high, further, further_count, exponent, max, others);
+    if (other > 0 && (count == 0 || spans(low, high, others, other))) {
+        memcpy(values, others, other * sizeof *values);
+        return other;
     }
-    for (size_t i = 0; max >= 3 && i < sizeof further / sizeof *further; i++) {
-        const size_t count = fill_multiples(low, high, further[i], exponent, max, values);
-        if (count >= 3)
-            return count;
-    }
-    for (size_t i = 0; few > 0 && i < sizeof familiar / sizeof *familiar; i++)
-        if (fill_multiples(low, high, familiar[i], exponent, max, values) == few)
-            return few;
-    return 0;
+    return count > 0 ? count : few_ticks(low, high, exponent, max, values);
 }
 
 static size_t ticks_pi(double low, double high, size_t max, double *values) {

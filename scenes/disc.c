@@ -267,11 +267,11 @@ static void draw_orbit(struct gm_picture *picture, struct gm_panel *panel, const
     gm_mark_line(picture, panel, style, points, ORBIT, false);
 }
 
-/* A bound that moves outwards in steps of a fifth. */
+/* A bound that moves outwards in steps of a tenth. */
 static double calm(double value)
 {
     const double size = fmax(fabs(value), 1e-9);
-    return copysign(pow(1.2, ceil(log(size) / log(1.2) - 1e-9)), value);
+    return copysign(pow(1.1, ceil(log(size) / log(1.1) - 1e-9)), value);
 }
 
 static void hold(struct gm_axis *x, struct gm_axis *y, const double *points, size_t count)

@@ -182,8 +182,9 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
     if (graph->scale == GM_LOG && low < roundoff && high > roundoff) {
         const double line[] = {panel->x.low, roundoff, panel->x.high, roundoff};
         gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.6, 1, GM_SHORT_DASH}, line, 2, false);
+        /* the word stands on the line, half a line of text above it */
         gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
-                     panel->x.high, roundoff, GM_ANCHOR_RIGHT, "round-off");
+                     panel->x.high, roundoff * pow(high / low, 0.045), GM_ANCHOR_RIGHT, "round-off");
     }
     for (size_t i = 0; i < count; i++) {
         if (only >= 0 && lanes[i]->shown.panel != (size_t)only) {

@@ -266,6 +266,16 @@ void gm_lane_save(const struct gm_lane *lane, void *snapshot) { gm_run_save(lane
 
 void gm_lane_load(struct gm_lane *lane, const void *snapshot)
 {
+    /* a snapshot from before a switch: its scheme's memory has another shape */
+    const struct gm_run *then = snapshot;
+    if (then->scheme != lane->run->scheme) {
+        struct gm_run *run = gm_run_switch(lane->run, then->scheme);
+        if (!run) {
+            return;
+        }
+        gm_run_close(lane->run);
+        lane->run = run;
+    }
     gm_run_load(lane->run, snapshot);
     const double t = lane->run->t, dt = lane->run->dt;
     lane->scheme = lane->run->scheme;

@@ -8,8 +8,8 @@
 
 /* A lane's line, as three cells of text; the same dash as in the picture. */
 static const char *const dash_marks[GM_DASH_COUNT] = {
-    [GM_SOLID] = "───",    [GM_LONG_DASH] = "╌╌╌",  [GM_DOTS] = "···",
-    [GM_DASH_DOT] = "─·─", [GM_SHORT_DASH] = "┄┄┄", [GM_DASH_DOT_DOT] = "─··",
+    [GM_SOLID] = "━━━",    [GM_LONG_DASH] = "╍╍╍",  [GM_DOTS] = "•••",
+    [GM_DASH_DOT] = "━•━", [GM_SHORT_DASH] = "┅┅┅", [GM_DASH_DOT_DOT] = "━••",
 };
 
 static enum gm_role role_of(const struct gm_shot_lane *lane) { return gm_lane_role(lane->shown.colour); }
@@ -135,7 +135,6 @@ static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot
     enum gm_role role = role_of(lane);
     if (selected)
         gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
-    gm_sheet_text(sheet, 1, row, "●", role, false);
     gm_sheet_text(sheet, 2, row, dash_marks[gm_lane_dash(lane->shown.colour)], role, false);
     lane_name(lane, text, sizeof text);
     if (lane->status == GM_OK) {
@@ -215,7 +214,7 @@ static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm
 {
     char text[64];
     enum gm_role ink = chosen ? GM_INK : GM_SECONDARY;
-    int values = sheet->width >= 40 ? 14 : 12, bar = sheet->width >= 40 ? 25 : 22;
+    int values = 14, bar = sheet->width >= 40 ? 25 : 23;
     if (chosen)
         gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
     gm_sheet_text(sheet, 2, row, parameter->row->key, ink, chosen);
@@ -356,7 +355,6 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
         const char *mark = dash_marks[gm_lane_dash(lane->shown.colour)];
         int right = begin + (int)i * VALUE_WIDTH + SPARK_CELLS;
         gm_sheet_right(sheet, right, row, mark, role_of(lane), false);
-        gm_sheet_text(sheet, right - 4, row, "●", role_of(lane), false);
     }
     row++;
     int end = row + plan->observables;
