@@ -19,7 +19,8 @@ struct gm_command {
 /* Bits of the stencil: the upper one for inside and outside, the others number groups painted once. */
 enum { INSIDE_BIT = 0x80, ONCE_BITS = 0x7f };
 
-bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, char *message, size_t size) {
+bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, char *message, size_t size)
+{
     *batch = (struct gm_batch){.gl = gl};
     if (!gm_shaders_open(gl, batch->programs, message, size))
         return false;
@@ -40,7 +41,8 @@ bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, char *message
     return true;
 }
 
-void gm_batch_close(struct gm_batch *batch) {
+void gm_batch_close(struct gm_batch *batch)
+{
     const struct gm_gl *gl = batch->gl;
     if (gl != NULL) {
         gm_shaders_close(gl, batch->programs);
@@ -53,7 +55,8 @@ void gm_batch_close(struct gm_batch *batch) {
     free(batch->commands);
 }
 
-void gm_batch_clear(struct gm_batch *batch) {
+void gm_batch_clear(struct gm_batch *batch)
+{
     batch->vertex_count = batch->index_count = batch->command_count = batch->join = 0;
     batch->once = 0;
     batch->short_of_memory = false;
@@ -62,27 +65,32 @@ void gm_batch_clear(struct gm_batch *batch) {
     batch->texture = 0;
 }
 
-void gm_batch_scissor(struct gm_batch *batch, int x, int y, int width, int height) {
+void gm_batch_scissor(struct gm_batch *batch, int x, int y, int width, int height)
+{
     const int scissor[4] = {x, y, width, height};
     memcpy(batch->scissor, scissor, sizeof scissor);
 }
 
-void gm_batch_state(struct gm_batch *batch, enum gm_program program, enum gm_stencil stencil) {
+void gm_batch_state(struct gm_batch *batch, enum gm_program program, enum gm_stencil stencil)
+{
     batch->program = program;
     batch->stencil = stencil;
 }
 
-void gm_batch_texture(struct gm_batch *batch, GLuint texture) {
+void gm_batch_texture(struct gm_batch *batch, GLuint texture)
+{
     batch->texture = texture;
 }
 
-void gm_batch_once(struct gm_batch *batch) {
+void gm_batch_once(struct gm_batch *batch)
+{
     batch->once++;
 }
 
 /* Room for `more` further elements. The block stays where it is when memory is short. */
 static bool grow(struct gm_batch *batch, void **block, size_t *capacity, size_t count, size_t more,
-                 size_t size) {
+                 size_t size)
+{
     if (more <= *capacity - count)
         return true;
     size_t wanted = *capacity > 0 ? 2 * *capacity : 4096;
@@ -99,7 +107,8 @@ static bool grow(struct gm_batch *batch, void **block, size_t *capacity, size_t 
 }
 
 /* The command for the present state, a new one if the last differs. */
-static struct gm_command *command_for(struct gm_batch *batch, bool indexed) {
+static struct gm_command *command_for(struct gm_batch *batch, bool indexed)
+{
     if (batch->command_count > 0 && !indexed) {
         struct gm_command *last = &batch->commands[batch->command_count - 1];
         if (!last->indexed && last->program == batch->program && last->stencil == batch->stencil &&
@@ -122,7 +131,8 @@ static struct gm_command *command_for(struct gm_batch *batch, bool indexed) {
     return command;
 }
 
-struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count) {
+struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count)
+{
     const size_t joint = 2; /* vertices of the degenerate triangles between two strips */
     if (!grow(batch, (void **)&batch->vertices, &batch->vertex_capacity, batch->vertex_count, count + joint,
               sizeof *batch->vertices))
@@ -143,15 +153,16 @@ struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count) {
     return strip;
 }
 
-void gm_batch_end(struct gm_batch *batch, size_t unused) {
+void gm_batch_end(struct gm_batch *batch, size_t unused)
+{
     batch->vertex_count -= unused;
     batch->commands[batch->command_count - 1].count -= unused;
     if (batch->join > 0)
         batch->vertices[batch->join] = batch->vertices[batch->join + 1];
 }
 
-struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count,
-                                uint32_t **indices) {
+struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count, uint32_t **indices)
+{
     if (!grow(batch, (void **)&batch->vertices, &batch->vertex_capacity, batch->vertex_count, count,
               sizeof *batch->vertices) ||
         !grow(batch, (void **)&batch->indices, &batch->index_capacity, batch->index_count, index_count,
@@ -168,7 +179,8 @@ struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t ind
     return vertices;
 }
 
-static void set_stencil(const struct gm_gl *gl, const struct gm_command *command) {
+static void set_stencil(const struct gm_gl *gl, const struct gm_command *command)
+{
     if (command->stencil == GM_STENCIL_NONE) {
         gl->Disable(GL_STENCIL_TEST);
         return;
@@ -200,14 +212,16 @@ static void set_stencil(const struct gm_gl *gl, const struct gm_command *command
 }
 
 /* Numbers of groups come round after ONCE_BITS of them: old marks in the stencil must go first. */
-static void forget_groups(const struct gm_gl *gl) {
+static void forget_groups(const struct gm_gl *gl)
+{
     gl->Disable(GL_SCISSOR_TEST);
     gl->StencilMask(ONCE_BITS);
     gl->Clear(GL_STENCIL_BUFFER_BIT);
     gl->Enable(GL_SCISSOR_TEST);
 }
 
-bool gm_batch_draw(struct gm_batch *batch, int width, int height) {
+bool gm_batch_draw(struct gm_batch *batch, int width, int height)
+{
     const struct gm_gl *gl = batch->gl;
     gl->BindVertexArray(batch->array);
     gl->BindBuffer(GL_ARRAY_BUFFER, batch->buffer);

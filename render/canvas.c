@@ -9,13 +9,15 @@
 
 enum { MAP_STEPS = 256, MAP_ROWS = 2 };
 
-struct gm_ink gm_canvas_ink(const struct gm_canvas *canvas, enum gm_role role, double alpha) {
+struct gm_ink gm_canvas_ink(const struct gm_canvas *canvas, enum gm_role role, double alpha)
+{
     const struct gm_rgb rgb = gm_theme_colour(canvas->theme, role);
     const double clamped = alpha > 0.0 ? (alpha < 1.0 ? alpha : 1.0) : 0.0;
     return (struct gm_ink){{rgb.r, rgb.g, rgb.b, (uint8_t)(255.0 * clamped + 0.5)}};
 }
 
-static bool framebuffer_open(struct gm_canvas *canvas, char *message) {
+static bool framebuffer_open(struct gm_canvas *canvas, char *message)
+{
     const struct gm_gl *gl = &canvas->gl;
     GLint most = 0, viewport[2] = {0, 0};
     gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
@@ -52,14 +54,16 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message) {
     return false;
 }
 
-static void texture_parameters(const struct gm_gl *gl, GLint filter) {
+static void texture_parameters(const struct gm_gl *gl, GLint filter)
+{
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-static void textures_open(struct gm_canvas *canvas) {
+static void textures_open(struct gm_canvas *canvas)
+{
     const struct gm_gl *gl = &canvas->gl;
     unsigned char texels[MAP_ROWS][MAP_STEPS][4];
     for (int map = 0; map < MAP_ROWS; map++) {
@@ -82,7 +86,8 @@ static void textures_open(struct gm_canvas *canvas) {
 }
 
 /* Letters and strokes follow the height, on narrow surfaces the width. */
-static void set_sizes(struct gm_canvas *canvas) {
+static void set_sizes(struct gm_canvas *canvas)
+{
     static const double shares[GM_TEXT_SIZE_COUNT] = {0.036, 0.025, 0.022, 0.021};
     const int smallest = 9;
     const double by_width = canvas->width / 960.0, by_height = canvas->height / 720.0;
@@ -93,7 +98,8 @@ static void set_sizes(struct gm_canvas *canvas) {
     }
 }
 
-static bool gl_open(struct gm_canvas *canvas, char *message) {
+static bool gl_open(struct gm_canvas *canvas, char *message)
+{
     canvas->context = gm_context_open(message, GM_MESSAGE_SIZE);
     if (canvas->context == NULL)
         return false;
@@ -112,7 +118,8 @@ static bool gl_open(struct gm_canvas *canvas, char *message) {
            gm_batch_open(&canvas->batch, &canvas->gl, message, GM_MESSAGE_SIZE);
 }
 
-struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message) {
+struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message)
+{
     struct gm_canvas *canvas = calloc(1, sizeof *canvas);
     if (canvas != NULL)
         *canvas = (struct gm_canvas){.width = width, .height = height, .theme = theme};
@@ -138,7 +145,8 @@ struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, cha
     return canvas;
 }
 
-void gm_canvas_close(struct gm_canvas *canvas) {
+void gm_canvas_close(struct gm_canvas *canvas)
+{
     if (canvas == NULL)
         return;
     if (canvas->context != NULL && canvas->gl.Viewport != NULL && gm_context_use(canvas->context)) {
@@ -162,11 +170,13 @@ void gm_canvas_close(struct gm_canvas *canvas) {
     free(canvas);
 }
 
-const char *gm_canvas_backend(const struct gm_canvas *canvas) {
+const char *gm_canvas_backend(const struct gm_canvas *canvas)
+{
     return canvas->backend;
 }
 
-static void update_atlas(struct gm_canvas *canvas) {
+static void update_atlas(struct gm_canvas *canvas)
+{
     const struct gm_gl *gl = &canvas->gl;
     const struct gm_atlas atlas = gm_glyphs_atlas(canvas->glyphs);
     gl->ActiveTexture(GL_TEXTURE0);
@@ -180,7 +190,8 @@ static void update_atlas(struct gm_canvas *canvas) {
     canvas->atlas_height = atlas.height;
 }
 
-static void clear(const struct gm_canvas *canvas) {
+static void clear(const struct gm_canvas *canvas)
+{
     const struct gm_gl *gl = &canvas->gl;
     const struct gm_rgb paper = gm_theme_colour(canvas->theme, GM_PAPER);
     gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
@@ -191,7 +202,8 @@ static void clear(const struct gm_canvas *canvas) {
 }
 
 /* Reading 4 bytes a pixel is a plain copy for GL; reading 3 is not. */
-static void read_back(const struct gm_canvas *canvas, unsigned char *rgb) {
+static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
+{
     const struct gm_gl *gl = &canvas->gl;
     const size_t count = (size_t)canvas->width * (size_t)canvas->height;
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -204,7 +216,8 @@ static void read_back(const struct gm_canvas *canvas, unsigned char *rgb) {
     }
 }
 
-bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb) {
+bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
+{
     const struct gm_metrics metrics = gm_canvas_metrics(canvas);
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
     if (layout == NULL || !gm_context_use(canvas->context))

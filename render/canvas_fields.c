@@ -6,14 +6,15 @@
 
 /* Meshes, images and colour bars: values reach every pixel before they become colours. */
 
-static struct gm_vertex vertex(double x, double y, double across, double along, double alpha,
-                               enum gm_map map) {
+static struct gm_vertex vertex(double x, double y, double across, double along, double alpha, enum gm_map map)
+{
     const uint8_t row = map == GM_MAP_SEQUENTIAL ? 0 : 255;
     return (struct gm_vertex){(float)x,     (float)y,     (float)across,
                               (float)along, (float)alpha, {row, 0, 0, 255}};
 }
 
-void gm_canvas_mesh(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark) {
+void gm_canvas_mesh(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     uint32_t *indices;
     gm_batch_state(&canvas->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
     struct gm_vertex *vertices =
@@ -30,7 +31,8 @@ void gm_canvas_mesh(struct gm_canvas *canvas, const struct gm_frame *frame, cons
         indices[i] = (uint32_t)(first + (size_t)mark->triangles[i]);
 }
 
-static void put_quad(struct gm_batch *batch, struct gm_vertex corners[4]) {
+static void put_quad(struct gm_batch *batch, struct gm_vertex corners[4])
+{
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
     if (strip == NULL)
         return;
@@ -39,7 +41,8 @@ static void put_quad(struct gm_batch *batch, struct gm_vertex corners[4]) {
     gm_batch_end(batch, 0);
 }
 
-void gm_canvas_map_bar(struct gm_canvas *canvas, struct gm_box box, enum gm_map map) {
+void gm_canvas_map_bar(struct gm_canvas *canvas, struct gm_box box, enum gm_map map)
+{
     gm_batch_state(&canvas->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
     const double right = box.x + box.width, bottom = box.y + box.height;
     put_quad(&canvas->batch, (struct gm_vertex[4]){vertex(box.x, box.y, 1.0, 0.0, 1.0, map),
@@ -50,7 +53,8 @@ void gm_canvas_map_bar(struct gm_canvas *canvas, struct gm_box box, enum gm_map 
 }
 
 /* A texture that no image of this frame uses yet; 0 when memory is short. */
-static GLuint next_texture(struct gm_canvas *canvas) {
+static GLuint next_texture(struct gm_canvas *canvas)
+{
     const struct gm_gl *gl = &canvas->gl;
     gl->ActiveTexture(GL_TEXTURE2);
     if (canvas->images_used == canvas->image_count) {
@@ -70,7 +74,8 @@ static GLuint next_texture(struct gm_canvas *canvas) {
     return texture;
 }
 
-void gm_canvas_image(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark) {
+void gm_canvas_image(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     const struct gm_gl *gl = &canvas->gl;
     GLint most = 1;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);

@@ -5,24 +5,27 @@
 
 /* What surrounds the marks of a panel. Rules are upright and sharp: they begin and end on whole pixels. */
 
-static double hairline(const struct gm_canvas *canvas) {
+static double hairline(const struct gm_canvas *canvas)
+{
     return fmax(1.0, floor(canvas->scale + 0.5));
 }
 
-static void horizontal_rule(struct gm_canvas *canvas, double left, double right, double y,
-                            struct gm_ink ink) {
+static void horizontal_rule(struct gm_canvas *canvas, double left, double right, double y, struct gm_ink ink)
+{
     const double thickness = hairline(canvas), top = floor(y - 0.5 * thickness + 0.5);
     gm_stroke_box(&canvas->batch, (float)floor(left + 0.5), (float)top, (float)floor(right + 0.5),
                   (float)(top + thickness), ink);
 }
 
-static void vertical_rule(struct gm_canvas *canvas, double x, double top, double bottom, struct gm_ink ink) {
+static void vertical_rule(struct gm_canvas *canvas, double x, double top, double bottom, struct gm_ink ink)
+{
     const double thickness = hairline(canvas), left = floor(x - 0.5 * thickness + 0.5);
     gm_stroke_box(&canvas->batch, (float)left, (float)floor(top + 0.5), (float)(left + thickness),
                   (float)floor(bottom + 0.5), ink);
 }
 
-static void draw_grid(struct gm_canvas *canvas, const struct gm_frame *frame) {
+static void draw_grid(struct gm_canvas *canvas, const struct gm_frame *frame)
+{
     const struct gm_box box = frame->box;
     const struct gm_ink ink = gm_canvas_ink(canvas, GM_GRID, 1.0);
     for (size_t i = 0; i < frame->x_tick_count; i++)
@@ -31,7 +34,8 @@ static void draw_grid(struct gm_canvas *canvas, const struct gm_frame *frame) {
         horizontal_rule(canvas, box.x, box.x + box.width, frame->y_ticks[i].position, ink);
 }
 
-static void draw_axes(struct gm_canvas *canvas, const struct gm_frame *frame) {
+static void draw_axes(struct gm_canvas *canvas, const struct gm_frame *frame)
+{
     const struct gm_box box = frame->box;
     const struct gm_ink ink = gm_canvas_ink(canvas, GM_SECONDARY, 1.0);
     const double tick = 4.0 * canvas->scale, right = box.x + box.width, bottom = box.y + box.height;
@@ -44,7 +48,8 @@ static void draw_axes(struct gm_canvas *canvas, const struct gm_frame *frame) {
         horizontal_rule(canvas, box.x - tick, box.x, frame->y_ticks[i].position, ink);
 }
 
-static void draw_colour_bar(struct gm_canvas *canvas, const struct gm_frame *frame) {
+static void draw_colour_bar(struct gm_canvas *canvas, const struct gm_frame *frame)
+{
     const struct gm_box bar = frame->colour_bar;
     const struct gm_ink ink = gm_canvas_ink(canvas, GM_SECONDARY, 1.0);
     const double tick = 4.0 * canvas->scale, right = bar.x + bar.width;
@@ -58,7 +63,8 @@ static void draw_colour_bar(struct gm_canvas *canvas, const struct gm_frame *fra
         horizontal_rule(canvas, right, right + tick, frame->bar_ticks[i].position, ink);
 }
 
-void gm_canvas_frame(struct gm_canvas *canvas, const struct gm_frame *frame) {
+void gm_canvas_frame(struct gm_canvas *canvas, const struct gm_frame *frame)
+{
     const struct gm_box box = frame->box;
     if (!(box.width >= 1.0 && box.height >= 1.0))
         return;

@@ -31,14 +31,16 @@ static const struct {
 };
 
 /* Marks may reach beyond the box by half their width, so that strokes along its edge keep theirs. */
-static void clip_to(struct gm_canvas *canvas, const struct gm_box *box, double margin) {
+static void clip_to(struct gm_canvas *canvas, const struct gm_box *box, double margin)
+{
     const int left = (int)floor(box->x - margin), top = (int)floor(box->y - margin);
     gm_batch_scissor(&canvas->batch, left, top, (int)ceil(box->x + box->width + margin) - left,
                      (int)ceil(box->y + box->height + margin) - top);
 }
 
 /* The mark's points on the surface. False when memory is short. */
-static bool project(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark) {
+static bool project(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     struct gm_polyline *line = &canvas->line;
     if (!gm_polyline_reserve(line, mark->count))
         return false;
@@ -68,17 +70,20 @@ struct pen {
     size_t parts;
 };
 
-static float stroke_width(const struct gm_canvas *canvas, const struct gm_style *style) {
+static float stroke_width(const struct gm_canvas *canvas, const struct gm_style *style)
+{
     return (float)(style->width * canvas->scale);
 }
 
-static void draw_dashes(struct gm_canvas *canvas, const struct gm_polyline *piece, const struct pen *pen) {
+static void draw_dashes(struct gm_canvas *canvas, const struct gm_polyline *piece, const struct pen *pen)
+{
     struct gm_dashing state = {0};
     while (gm_polyline_dash(piece, pen->pattern, pen->parts, &state, &canvas->dash))
         gm_stroke_line(&canvas->batch, &canvas->dash, pen->half, pen->ink);
 }
 
-static void draw_piece(struct gm_canvas *canvas, const struct gm_polyline *piece, const struct pen *pen) {
+static void draw_piece(struct gm_canvas *canvas, const struct gm_polyline *piece, const struct pen *pen)
+{
     float period = 0.0f;
     for (size_t i = 0; i < pen->parts; i++)
         period += pen->pattern[i];
@@ -90,8 +95,8 @@ static void draw_piece(struct gm_canvas *canvas, const struct gm_polyline *piece
 
 /* What is translucent and would overlap itself at joints is painted in two passes, each pixel once: whole
    pixels first, then the fading edges where nothing was painted. */
-static void draw_translucent(struct gm_canvas *canvas, const struct gm_polyline *piece,
-                             const struct pen *pen) {
+static void draw_translucent(struct gm_canvas *canvas, const struct gm_polyline *piece, const struct pen *pen)
+{
     gm_batch_once(&canvas->batch);
     gm_batch_state(&canvas->batch, GM_PROGRAM_CORE, GM_STENCIL_ONCE);
     draw_piece(canvas, piece, pen);
@@ -100,13 +105,15 @@ static void draw_translucent(struct gm_canvas *canvas, const struct gm_polyline 
     gm_batch_state(&canvas->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 
-static struct gm_bounds bounds_of(const struct gm_frame *frame, float margin) {
+static struct gm_bounds bounds_of(const struct gm_frame *frame, float margin)
+{
     const struct gm_box *box = &frame->box;
     return (struct gm_bounds){(float)box->x - margin, (float)box->y - margin,
                               (float)(box->x + box->width) + margin, (float)(box->y + box->height) + margin};
 }
 
-static void draw_line(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark) {
+static void draw_line(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     const struct gm_style *style = &mark->style;
     const float width = stroke_width(canvas, style);
     if (!(width > 0.0f) || !project(canvas, frame, mark))
@@ -128,7 +135,8 @@ static void draw_line(struct gm_canvas *canvas, const struct gm_frame *frame, co
     }
 }
 
-static void draw_points(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark) {
+static void draw_points(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     const struct gm_style *style = &mark->style;
     const float width = stroke_width(canvas, style);
     if (!(width > 0.0f) || !project(canvas, frame, mark))
@@ -144,7 +152,8 @@ static void draw_points(struct gm_canvas *canvas, const struct gm_frame *frame, 
     }
 }
 
-static void draw_polygon(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark) {
+static void draw_polygon(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     if (!project(canvas, frame, mark))
         return;
     struct gm_polyline *line = &canvas->line;
@@ -156,7 +165,8 @@ static void draw_polygon(struct gm_canvas *canvas, const struct gm_frame *frame,
     gm_fill_polygon(&canvas->batch, line, gm_canvas_ink(canvas, mark->style.role, mark->style.alpha));
 }
 
-void gm_canvas_marks(struct gm_canvas *canvas, const struct gm_frame *frame) {
+void gm_canvas_marks(struct gm_canvas *canvas, const struct gm_frame *frame)
+{
     for (const struct gm_mark *mark = frame->panel->first; mark != NULL; mark = mark->next) {
         gm_batch_state(&canvas->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
         clip_to(canvas, &frame->box, 2.5 * canvas->scale);

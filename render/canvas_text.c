@@ -6,7 +6,8 @@
 
 /* The font of a label, and what the layout measures it with: titles are bold, and the clock, in letters of
    equal width, is as large as the title. */
-static double measure(const void *self, enum gm_text_size size, const char *text) {
+static double measure(const void *self, enum gm_text_size size, const char *text)
+{
     const struct gm_canvas *canvas = self;
     const int height = canvas->letters[size];
     switch (size) {
@@ -20,12 +21,14 @@ static double measure(const void *self, enum gm_text_size size, const char *text
     }
 }
 
-static double line_height(struct gm_canvas *canvas, int letters) {
+static double line_height(struct gm_canvas *canvas, int letters)
+{
     return ceil(gm_glyphs_ascent(canvas->glyphs, GM_FONT_SANS, letters) +
                 gm_glyphs_descent(canvas->glyphs, GM_FONT_SANS, letters));
 }
 
-struct gm_metrics gm_canvas_metrics(struct gm_canvas *canvas) {
+struct gm_metrics gm_canvas_metrics(struct gm_canvas *canvas)
+{
     const int roomy = 540;
     struct gm_metrics metrics = {
         .width = canvas->width,
@@ -49,7 +52,8 @@ struct writing {
 };
 
 static void put_letter(struct gm_batch *batch, const struct writing *writing, double x, double y,
-                       const struct gm_letter *letter) {
+                       const struct gm_letter *letter)
+{
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
     if (strip == NULL)
         return;
@@ -67,7 +71,8 @@ static void put_letter(struct gm_batch *batch, const struct writing *writing, do
     gm_batch_end(batch, 0);
 }
 
-static void write_text(struct gm_canvas *canvas, const struct writing *writing, const char *text) {
+static void write_text(struct gm_canvas *canvas, const struct writing *writing, const char *text)
+{
     /* Baselines stand on whole pixels; letters find their place along them to a quarter. */
     const double x = writing->upwards ? floor(writing->x + 0.5) : floor(writing->x);
     const double y = writing->upwards ? ceil(writing->y) : floor(writing->y + 0.5);
@@ -78,11 +83,13 @@ static void write_text(struct gm_canvas *canvas, const struct writing *writing, 
             put_letter(&canvas->batch, writing, x, y, &letter);
 }
 
-static double anchor_share(enum gm_anchor anchor) {
+static double anchor_share(enum gm_anchor anchor)
+{
     return anchor == GM_ANCHOR_LEFT ? 0.0 : anchor == GM_ANCHOR_CENTRE ? 0.5 : 1.0;
 }
 
-static void draw_label(struct gm_canvas *canvas, const struct gm_label *label) {
+static void draw_label(struct gm_canvas *canvas, const struct gm_label *label)
+{
     struct writing writing = {.font = label->mono   ? GM_FONT_MONO
                                       : label->bold ? GM_FONT_BOLD
                                                     : GM_FONT_SANS,
@@ -108,7 +115,8 @@ struct note {
 };
 
 static bool place_note(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark,
-                       struct note *note) {
+                       struct note *note)
+{
     if (mark->kind != GM_MARK_TEXT)
         return false;
     const int letters = canvas->letters[GM_TEXT_TICK];
@@ -124,7 +132,8 @@ static bool place_note(struct gm_canvas *canvas, const struct gm_frame *frame, c
 }
 
 /* A plate of translucent paper, so that the text can be read on anything. */
-static void draw_plate(struct gm_canvas *canvas, const struct note *note) {
+static void draw_plate(struct gm_canvas *canvas, const struct note *note)
+{
     const float half = (float)(0.5 * note->line), middle = (float)(note->top + 0.5 * note->line);
     const float left = (float)note->left + 0.25f * half,
                 right = (float)(note->left + note->width) - 0.25f * half;
@@ -134,7 +143,8 @@ static void draw_plate(struct gm_canvas *canvas, const struct note *note) {
                    gm_canvas_ink(canvas, GM_PAPER, 0.6 * note->mark->style.alpha));
 }
 
-static void draw_note(struct gm_canvas *canvas, const struct note *note) {
+static void draw_note(struct gm_canvas *canvas, const struct note *note)
+{
     const struct gm_style *style = &note->mark->style;
     const int letters = canvas->letters[GM_TEXT_TICK];
     const struct writing writing = {
@@ -148,7 +158,8 @@ static void draw_note(struct gm_canvas *canvas, const struct note *note) {
 }
 
 static void draw_notes(struct gm_canvas *canvas, const struct gm_layout *layout,
-                       void draw(struct gm_canvas *canvas, const struct note *note)) {
+                       void draw(struct gm_canvas *canvas, const struct note *note))
+{
     struct note note;
     for (size_t i = 0; i < layout->frame_count; i++)
         for (const struct gm_mark *mark = layout->frames[i].panel->first; mark != NULL; mark = mark->next)
@@ -156,7 +167,8 @@ static void draw_notes(struct gm_canvas *canvas, const struct gm_layout *layout,
                 draw(canvas, &note);
 }
 
-void gm_canvas_labels(struct gm_canvas *canvas, const struct gm_layout *layout) {
+void gm_canvas_labels(struct gm_canvas *canvas, const struct gm_layout *layout)
+{
     gm_batch_scissor(&canvas->batch, 0, 0, canvas->width, canvas->height);
     gm_batch_state(&canvas->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
     draw_notes(canvas, layout, draw_plate);

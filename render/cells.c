@@ -40,17 +40,17 @@ static bool is_free(const struct painter *painter, int column, int row, int widt
     return true;
 }
 
-/* Writes a text whose anchor is at x, top at y. On cells texts move by up to half a cell, so what no longer
-   fits is left out here even though the layout had room for it. */
-static void paint_text(struct painter *painter, double x, double y, enum gm_anchor anchor, const char *text,
+/* Writes a text whose anchor is at x. On cells texts move by up to half a cell, so what no longer fits is left out here
+   even though the layout had room for it. */
+static void paint_text(struct painter *painter, double x, int row, enum gm_anchor anchor, const char *text,
                        enum gm_role role, bool bold, bool on_paper) {
     int width = gm_text_width(text, painter->ascii);
     double left = x / CELL_WIDTH - (anchor == GM_ANCHOR_RIGHT    ? width
                                     : anchor == GM_ANCHOR_CENTRE ? 0.5 * width
                                                                  : 0);
-    if (!(fabs(left) < 1e6) || !(fabs(y) < 1e6) || width == 0)
+    if (!(fabs(left) < 1e6) || width == 0)
         return;
-    int column = (int)floor(left + 0.5), row = (int)floor(y / CELL_HEIGHT + 0.5);
+    int column = (int)floor(left + 0.5);
     if (column + width > painter->cells->columns && column + width <= painter->cells->columns + 2)
         column = painter->cells->columns - width;
     if (column < 0 && column >= -2)
@@ -135,52 +135,117 @@ static void paint_thin_grid(const struct painter *painter, const struct gm_frame
     }
 }
 
-static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout, bool dotted) {
-    bool ok = true;
+/* Whether a line goes around the polygon before it. */
+static bool is_outline(const struct gm_mark *before, const struct gm_mark *mark)
+{
+    return before && before->kind == GM_MARK_POLYGON && mark->kind == GM_MARK_LINE && mark->closed &&
+           mark->count == before->count && mark->style.role == before->style.role;
+}
+
+static enum gm_map map_of(const struct gm_panel *panel)
+{
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE)
+            return mark->map;
+    }
+    return GM_MAP_SEQUENTIAL;
+}
+
+static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout, enum gm_blocks blocks)
+{
+    bool ok = true, dotted = blocks == GM_BRAILLE;
     for (size_t i = 0; i < layout->frame_count; i++) {
         const struct gm_frame *frame = &layout->frames[i];
-        if (frame->panel->axes && dotted)
+        const struct gm_mark *before = NULL;
+        if (frame->panel->axes && dotted && raster->sharp)
             paint_dotted_grid(raster, frame);
-        for (const struct gm_mark *mark = frame->panel->first; ok && mark; mark = mark->next)
-            ok = gm_raster_mark(raster, frame, mark);
-        if (frame->colour_bar.width > 0) {
-            enum gm_map map = GM_MAP_SEQUENTIAL;
-            for (const struct gm_mark *mark = frame->panel->first; mark; mark = mark->next) {
-                if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
-                    map = mark->map;
-                    break;
-                }
-            }
-            gm_raster_bar(raster, &frame->colour_bar, map);
-        }
+        for (const struct gm_mark *mark = frame->panel->first; ok && mark; before = mark, mark = mark->next)
+            ok = gm_raster_mark(raster, frame, mark, dotted && is_outline(before, mark));
+        if (frame->colour_bar.width > 0)
+            gm_raster_bar(raster, &frame->colour_bar, map_of(frame->panel));
     }
     return ok;
 }
 
-static void paint_texts(struct painter *painter, const struct gm_layout *layout) {
+static int row_of(double y)
+{
+    return fabs(y) < 1e6 ? (int)floor(y / CELL_HEIGHT) : -1;
+}
+
+/* The row of a label: what stands above a panel's data moves up and what stands below moves down, so that neither comes
+   to lie in the first or last row of the data; beside them it goes where most of it is. */
+static int label_row(const struct painter *painter, const struct gm_layout *layout, const struct gm_label *label)
+{
+    double left = label->x, width = CELL_WIDTH * gm_text_width(label->text, painter->ascii);
+    left -= label->anchor == GM_ANCHOR_RIGHT ? width : label->anchor == GM_ANCHOR_CENTRE ? 0.5 * width : 0;
+    int row = row_of(label->y + 0.5 * CELL_HEIGHT);
+    for (size_t i = 0; i < layout->frame_count; i++) {
+        const struct gm_box *box = &layout->frames[i].box;
+        if (left + width < box->x || left > box->x + box->width)
+            continue;
+        if (label->y + CELL_HEIGHT <= box->y + 0.5 && label->y + 4 * CELL_HEIGHT > box->y)
+            return row_of(label->y);
+        if (label->y >= box->y + box->height - 0.5 && label->y < box->y + box->height + 3 * CELL_HEIGHT)
+            row = row_of(label->y + CELL_HEIGHT - 1);
+    }
+    return row == painter->cells->rows ? row - 1 : row;
+}
+
+static void paint_texts(struct painter *painter, const struct gm_layout *layout)
+{
     for (size_t i = 0; i < layout->label_count; i++) {
         const struct gm_label *label = &layout->labels[i];
         if (!label->vertical) /* letters do not turn in a terminal; the panel's title says what the axis is */
-            paint_text(painter, label->x, label->y, label->anchor, label->text, label->role, label->bold,
-                       true);
+            paint_text(painter, label->x, label_row(painter, layout, label), label->anchor, label->text,
+                       label->role, label->bold, true);
     }
     for (size_t i = 0; i < layout->frame_count; i++) {
         const struct gm_frame *frame = &layout->frames[i];
         for (const struct gm_mark *mark = frame->panel->first; mark; mark = mark->next) {
             if (mark->kind == GM_MARK_TEXT && mark->count > 0)
                 paint_text(painter, gm_frame_x(frame, mark->points[0]),
-                           gm_frame_y(frame, mark->points[1]) - 0.5 * CELL_HEIGHT, mark->anchor, mark->text,
+                           row_of(gm_frame_y(frame, mark->points[1])), mark->anchor, mark->text,
                            mark->style.role, false, false);
         }
     }
 }
 
-bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
-                    enum gm_blocks blocks) {
+static bool open_raster(struct gm_raster *raster, const struct gm_cells *cells, enum gm_theme theme,
+                        enum gm_blocks blocks, double scale)
+{
     int across, down;
     bool sharp;
-    bool ascii = blocks == GM_ASCII;
     gm_blocks_grid(blocks, &across, &down, &sharp);
+    if (!gm_raster_open(raster, cells->columns * across, cells->rows * down, theme))
+        return false;
+    raster->unit_x = (double)CELL_WIDTH / across;
+    raster->unit_y = (double)CELL_HEIGHT / down;
+    raster->scale = scale;
+    raster->sharp = sharp;
+    return true;
+}
+
+/* Marks to glyphs. */
+static bool paint_blocks(struct gm_cells *cells, const struct gm_layout *layout, enum gm_theme theme,
+                         enum gm_blocks blocks, double scale)
+{
+    struct gm_raster raster = {0}, areas = {0};
+    bool two = blocks == GM_BRAILLE;
+    bool ok = open_raster(&raster, cells, theme, blocks, scale) &&
+              (!two || open_raster(&areas, cells, theme, GM_QUADRANTS, scale));
+    if (ok) {
+        ok = paint_marks(&raster, layout, blocks) && (!two || paint_marks(&areas, layout, blocks));
+        gm_blocks_glyphs(cells, &raster, two ? &areas : NULL, blocks);
+    }
+    gm_raster_close(&raster);
+    gm_raster_close(&areas);
+    return ok;
+}
+
+bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
+                    enum gm_blocks blocks)
+{
+    bool ascii = blocks == GM_ASCII;
     struct gm_metrics metrics = {.width = (double)cells->columns * CELL_WIDTH,
                                  .height = (double)cells->rows * CELL_HEIGHT,
                                  .measure = measure,
@@ -190,19 +255,10 @@ bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_
     for (int size = 0; size < GM_TEXT_SIZE_COUNT; size++)
         metrics.line[size] = CELL_HEIGHT;
 
-    struct gm_raster raster;
-    if (!gm_raster_open(&raster, cells->columns * across, cells->rows * down, theme))
-        return false;
-    raster.unit_x = (double)CELL_WIDTH / across;
-    raster.unit_y = (double)CELL_HEIGHT / down;
-    raster.scale = metrics.scale;
-    raster.sharp = sharp;
-
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
     struct painter painter = {.cells = cells, .theme = theme, .ascii = ascii};
     painter.taken = calloc((size_t)cells->columns * (size_t)cells->rows, sizeof *painter.taken);
-    bool ok = layout && painter.taken && paint_marks(&raster, layout, blocks == GM_BRAILLE);
-    gm_blocks_glyphs(cells, &raster, blocks);
+    bool ok = layout && painter.taken && paint_blocks(cells, layout, theme, blocks, metrics.scale);
     for (size_t i = 0; ok && blocks != GM_BRAILLE && i < layout->frame_count; i++) {
         if (layout->frames[i].panel->axes)
             paint_thin_grid(&painter, &layout->frames[i]);
@@ -210,6 +266,5 @@ bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_
     if (ok)
         paint_texts(&painter, layout);
     free(painter.taken);
-    gm_raster_close(&raster);
     return ok;
 }

@@ -84,10 +84,10 @@ struct stencil {
 static struct stencil stencil_of(const struct block *block)
 {
     struct stencil stencil = {.role = GM_INK};
-    unsigned lines = parts_of_level(block, GM_LEVEL_LINE), grid = parts_of_level(block, GM_LEVEL_GRID);
+    unsigned lines = parts_of_level(block, GM_LEVEL_LINE) | parts_of_level(block, GM_LEVEL_OVER);
     stencil.ground = parts_of_level(block, GM_LEVEL_FIELD) | parts_of_level(block, GM_LEVEL_FILL);
     stencil.lines = lines != 0;
-    stencil.inked = lines ? lines : stencil.ground ? stencil.ground : grid;
+    stencil.inked = lines ? lines : stencil.ground ? stencil.ground : parts_of_level(block, GM_LEVEL_GRID);
     if (stencil.inked) {
         stencil.role = chief_role(block, stencil.inked);
         stencil.colour = parts_of_role(block, stencil.inked, stencil.role);
@@ -153,34 +153,20 @@ static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_ce
         cell->glyph = best == 3 ? 0x2588 : best == 1 ? 0x2580 : 0x2584;
 }
 
-/* The cell as four quarters, each the mean of its two dots. */
-static struct block quarters_of(const struct block *block)
-{
-    struct block quarters = {.count = 4};
-    for (int i = 0; i < 4; i++) {
-        int from = i / 2 * 4 + i % 2;
-        struct gm_subpixel upper = block->part[from], lower = block->part[from + 2];
-        quarters.part[i] = lower.level >= upper.level ? lower : upper;
-        quarters.part[i].colour = mean(block, 1u << from | 1u << (from + 2));
-    }
-    return quarters;
-}
-
-/* Dots of one colour draw lines well and areas badly: what is filled is painted in quarters, its outline included. On
-   a field, which leaves no blank place, lines are dots with the field as their background. */
-static void braille(const struct block *block, struct gm_rgb paper, struct gm_cell *cell)
+/* Dots of one colour for lines; what is filled is painted in quarters, as is what runs beneath or beside it. Where a
+   line runs over it, that is the background. */
+static void braille(const struct block *block, const struct block *area, struct gm_rgb paper, struct gm_cell *cell)
 {
     struct stencil stencil = stencil_of(block);
-    unsigned field = parts_of_level(block, GM_LEVEL_FIELD);
-    if (parts_of_level(block, GM_LEVEL_FILL) || (field && !stencil.lines)) {
-        struct block quarters = quarters_of(block);
-        fit_two(&quarters, paper, cell);
+    bool over = parts_of_level(block, GM_LEVEL_OVER) != 0;
+    if (!over && (stencil.ground || parts_of_level(area, GM_LEVEL_FILL))) {
+        fit_two(area, paper, cell);
         return;
     }
     if (!stencil.inked)
         return;
-    if (field)
-        cell->background = mean(block, field);
+    if (2 * parts_in(stencil.ground) >= block->count - parts_in(stencil.inked) && stencil.ground)
+        cell->background = mean(block, stencil.ground);
     uint32_t dots = 0;
     for (int i = 0; i < PARTS; i++) {
         if (stencil.inked >> i & 1)
@@ -246,27 +232,39 @@ static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb 
     cell->role = stencil.role;
 }
 
-void gm_blocks_glyphs(struct gm_cells *cells, const struct gm_raster *raster, enum gm_blocks blocks) {
-    struct gm_rgb paper = gm_theme_colour(raster->theme, GM_PAPER),
-                  ink = gm_theme_colour(raster->theme, GM_INK);
+/* Reads a cell's parts; whether any is not blank. */
+static bool take_block(struct block *block, const struct gm_raster *raster, int across, int down, int column, int row,
+                       struct gm_rgb paper)
+{
+    bool drawn = false;
+    block->count = across * down;
+    for (int i = 0; i < block->count; i++) {
+        size_t y = (size_t)(row * down + i / across), x = (size_t)(column * across + i % across);
+        block->part[i] = raster->at[y * (size_t)raster->width + x];
+        drawn = drawn || block->part[i].level || !same(block->part[i].colour, paper);
+    }
+    return drawn;
+}
+
+void gm_blocks_glyphs(struct gm_cells *cells, const struct gm_raster *raster, const struct gm_raster *areas,
+                      enum gm_blocks blocks)
+{
+    struct gm_rgb paper = gm_theme_colour(raster->theme, GM_PAPER), ink = gm_theme_colour(raster->theme, GM_INK);
     int across, down;
     bool sharp;
     gm_blocks_grid(blocks, &across, &down, &sharp);
     for (int row = 0; row < cells->rows; row++) {
         for (int column = 0; column < cells->columns; column++) {
-            struct block block = {.count = across * down};
-            unsigned levels = 0;
-            for (int i = 0; i < block.count; i++) {
-                size_t y = (size_t)(row * down + i / across), x = (size_t)(column * across + i % across);
-                block.part[i] = raster->at[y * (size_t)raster->width + x];
-                levels |= block.part[i].level | (unsigned)!same(block.part[i].colour, paper);
-            }
+            struct block block, area = {.count = 4};
+            bool drawn = take_block(&block, raster, across, down, column, row, paper);
+            if (areas)
+                drawn |= take_block(&area, areas, 2, 2, column, row, paper);
             struct gm_cell *cell = &cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column];
             *cell = (struct gm_cell){.glyph = ' ', .foreground = ink, .background = paper, .role = GM_INK};
-            if (!levels)
+            if (!drawn)
                 continue;
             if (blocks == GM_BRAILLE)
-                braille(&block, paper, cell);
+                braille(&block, &area, paper, cell);
             else if (blocks == GM_ASCII)
                 ascii(&block, paper, ink, cell);
             else

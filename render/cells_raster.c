@@ -74,10 +74,10 @@ static void blend(struct gm_subpixel *at, struct gm_rgb colour, unsigned weight,
                   enum gm_role role) {
     at->colour = (struct gm_rgb){mix(at->colour.r, colour.r, weight), mix(at->colour.g, colour.g, weight),
                                  mix(at->colour.b, colour.b, weight)};
-    if (level >= at->level) {
-        at->level = (uint8_t)level;
-        at->role = (uint8_t)role;
-    }
+    if (level == GM_LEVEL_PAPER) /* too little of the mark to belong to it */
+        return;
+    at->level = (uint8_t)(level == GM_LEVEL_LINE && at->level >= GM_LEVEL_FIELD ? GM_LEVEL_OVER : level);
+    at->role = (uint8_t)role;
 }
 
 /* Lays the mask over the raster in one colour, so that a mark that meets itself is not counted twice. */
@@ -453,7 +453,7 @@ void gm_raster_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_m
 
 /* ---- all marks ---- */
 
-bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark) {
+bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark, bool outline) {
     struct gm_rgb colour = gm_theme_colour(raster->theme, mark->style.role);
     if (mark->count == 0)
         return true;
@@ -461,7 +461,7 @@ bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, cons
     switch (mark->kind) {
     case GM_MARK_LINE:
         mark_line(raster, frame, mark);
-        settle(raster, colour, mark->style.alpha, GM_LEVEL_LINE, mark->style.role);
+        settle(raster, colour, mark->style.alpha, outline ? GM_LEVEL_FILL : GM_LEVEL_LINE, mark->style.role);
         return true;
     case GM_MARK_POINTS:
         mark_points(raster, frame, mark);

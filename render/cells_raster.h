@@ -8,7 +8,15 @@
 /* The raster beneath the character cells: a few sub-pixels a cell. A sub-pixel keeps its colour and what it
    belongs to, because a glyph has room for two colours only: what matters most in a cell decides them. */
 
-enum gm_level { GM_LEVEL_PAPER, GM_LEVEL_GRID, GM_LEVEL_FIELD, GM_LEVEL_FILL, GM_LEVEL_LINE };
+enum gm_level {
+    GM_LEVEL_PAPER,
+    GM_LEVEL_GRID,
+    GM_LEVEL_LINE, /* or a point, on paper */
+    GM_LEVEL_FIELD,
+    GM_LEVEL_FILL,
+    GM_LEVEL_OVER, /* a line or a point on a field or a fill */
+    GM_LEVEL_COUNT,
+};
 
 struct gm_subpixel {
     struct gm_rgb colour;
@@ -34,8 +42,9 @@ void gm_raster_close(struct gm_raster *raster);
 /* Marks stay within this box of the surface. */
 void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box);
 
-/* One mark of a panel, texts excepted. False when memory is short. */
-bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark);
+/* One mark of a panel, texts excepted; `outline` says that it is a line around the filled polygon before it, and counts
+   as a part of that. False when memory is short. */
+bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark, bool outline);
 
 /* A straight line in surface units that belongs to the axes: every `gap`-th sub-pixel. */
 void gm_raster_rule(struct gm_raster *raster, double x0, double y0, double x1, double y1, enum gm_role role,

@@ -41,13 +41,15 @@ static const struct knot diverging[GM_THEME_COUNT][KNOTS] = {
 static struct gm_rgb tables[2][GM_THEME_COUNT][TABLE_SIZE];
 static once_flag tables_made = ONCE_FLAG_INIT;
 
-static uint8_t encode(double linear) {
+static uint8_t encode(double linear)
+{
     const double c = fmin(fmax(linear, 0.0), 1.0);
     const double srgb = c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055;
     return (uint8_t)lround(255.0 * srgb);
 }
 
-static struct gm_rgb rgb_of_oklab(double lightness, double a, double b) {
+static struct gm_rgb rgb_of_oklab(double lightness, double a, double b)
+{
     const double l = pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3.0);
     const double m = pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3.0);
     const double s = pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3.0);
@@ -59,7 +61,8 @@ static struct gm_rgb rgb_of_oklab(double lightness, double a, double b) {
 }
 
 /* Cubic through the knots (Catmull-Rom), ends repeated by reflection. */
-static double curve(const double *knots, double position) {
+static double curve(const double *knots, double position)
+{
     int i = (int)position;
     i = i > KNOTS - 2 ? KNOTS - 2 : i;
     const double t = position - i;
@@ -70,13 +73,15 @@ static double curve(const double *knots, double position) {
            0.5 * t * (p2 - p0 + t * (2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3 + t * (3.0 * (p1 - p2) + p3 - p0)));
 }
 
-static double between(const double *knots, double position) {
+static double between(const double *knots, double position)
+{
     int i = (int)position;
     i = i > KNOTS - 2 ? KNOTS - 2 : i;
     return knots[i] + (position - i) * (knots[i + 1] - knots[i]);
 }
 
-static void table_make(const struct knot *knots, struct gm_rgb *table) {
+static void table_make(const struct knot *knots, struct gm_rgb *table)
+{
     double lightness[KNOTS], a[KNOTS], b[KNOTS];
     for (int i = 0; i < KNOTS; i++) {
         const double hue = knots[i].hue * 3.14159265358979323846 / 180.0;
@@ -90,14 +95,16 @@ static void table_make(const struct knot *knots, struct gm_rgb *table) {
     }
 }
 
-static void make_tables(void) {
+static void make_tables(void)
+{
     for (int theme = 0; theme < GM_THEME_COUNT; theme++) {
         table_make(sequential, tables[GM_MAP_SEQUENTIAL][theme]);
         table_make(diverging[theme], tables[GM_MAP_DIVERGING][theme]);
     }
 }
 
-struct gm_rgb gm_map_colour(enum gm_map map, enum gm_theme theme, double x) {
+struct gm_rgb gm_map_colour(enum gm_map map, enum gm_theme theme, double x)
+{
     call_once(&tables_made, make_tables);
     const double clamped = x > 0.0 ? fmin(x, 1.0) : 0.0; /* also for a NaN */
     return tables[map][theme][(int)(clamped * (TABLE_SIZE - 1) + 0.5)];

@@ -22,7 +22,8 @@ struct gm_context {
     void *self;
 };
 
-static struct gm_context *open_kind(const struct gm_context_kind *kind, char *message, size_t size) {
+static struct gm_context *open_kind(const struct gm_context_kind *kind, char *message, size_t size)
+{
     struct gm_context *context = malloc(sizeof *context);
     if (context == NULL) {
         snprintf(message, size, "There is not enough memory for an OpenGL context.");
@@ -36,7 +37,18 @@ static struct gm_context *open_kind(const struct gm_context_kind *kind, char *me
     return context;
 }
 
-struct gm_context *gm_context_open(char *message, size_t size) {
+static void unknown_kind(const char *wanted, char *message, size_t size)
+{
+    char known[64] = "";
+    for (size_t i = 0; kinds[i] != NULL; i++)
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i > 0 ? " and " : "",
+                 kinds[i]->key);
+    snprintf(message, size, "GEOMINT_GL is \"%.40s\", but this geomint knows only %s.", wanted,
+             known[0] != '\0' ? known : "none");
+}
+
+struct gm_context *gm_context_open(char *message, size_t size)
+{
     const char *wanted = getenv("GEOMINT_GL");
     char reasons[2][192] = {"", ""};
     size_t tried = 0;
@@ -49,9 +61,7 @@ struct gm_context *gm_context_open(char *message, size_t size) {
         tried++;
     }
     if (tried == 0 && wanted != NULL && wanted[0] != '\0')
-        snprintf(message, size, "GEOMINT_GL is \"%.40s\", but this geomint knows only%s%s%s.", wanted,
-                 kinds[0] != NULL ? " " : " none", kinds[0] != NULL ? kinds[0]->key : "",
-                 kinds[0] != NULL && kinds[1] != NULL ? " and egl" : "");
+        unknown_kind(wanted, message, size);
     else if (tried == 0)
         snprintf(message, size,
                  "This geomint was built without OSMesa and EGL, so it cannot paint pictures.");
@@ -61,21 +71,25 @@ struct gm_context *gm_context_open(char *message, size_t size) {
     return NULL;
 }
 
-void gm_context_close(struct gm_context *context) {
+void gm_context_close(struct gm_context *context)
+{
     if (context == NULL)
         return;
     context->kind->close(context->self);
     free(context);
 }
 
-bool gm_context_use(const struct gm_context *context) {
+bool gm_context_use(const struct gm_context *context)
+{
     return context->kind->use(context->self);
 }
 
-gm_context_function gm_context_find(const struct gm_context *context, const char *name) {
+gm_context_function gm_context_find(const struct gm_context *context, const char *name)
+{
     return context->kind->find(context->self, name);
 }
 
-const char *gm_context_name(const struct gm_context *context) {
+const char *gm_context_name(const struct gm_context *context)
+{
     return context->kind->name;
 }

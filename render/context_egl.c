@@ -29,12 +29,14 @@ struct egl {
     PFNEGLRELEASETHREADPROC release_thread;
 };
 
-static bool find_symbol(void *library, const char *name, void *function) {
+static bool find_symbol(void *library, const char *name, void *function)
+{
     *(void **)function = dlsym(library, name);
     return *(void **)function != NULL;
 }
 
-static bool find_symbols(struct egl *egl, void *library) {
+static bool find_symbols(struct egl *egl, void *library)
+{
     return find_symbol(library, "eglGetProcAddress", &egl->get_proc_address) &&
            find_symbol(library, "eglQueryString", &egl->query_string) &&
            find_symbol(library, "eglInitialize", &egl->initialize) &&
@@ -47,13 +49,15 @@ static bool find_symbols(struct egl *egl, void *library) {
            find_symbol(library, "eglReleaseThread", &egl->release_thread);
 }
 
-static bool egl_use(void *self) {
+static bool egl_use(void *self)
+{
     struct egl *egl = self;
     return egl->bind_api(EGL_OPENGL_API) &&
            egl->make_current(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context);
 }
 
-static void egl_close(void *self) {
+static void egl_close(void *self)
+{
     struct egl *egl = self;
     if (egl->context != EGL_NO_CONTEXT) {
         egl->make_current(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -66,7 +70,8 @@ static void egl_close(void *self) {
 }
 
 /* Which call failed, or NULL. */
-static const char *context_create(struct egl *egl) {
+static const char *context_create(struct egl *egl)
+{
     const char *extensions = egl->query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (extensions == NULL || strstr(extensions, "EGL_MESA_platform_surfaceless") == NULL)
         return "has no surfaceless platform";
@@ -96,7 +101,8 @@ static const char *context_create(struct egl *egl) {
     return NULL;
 }
 
-static void *egl_open(char *message, size_t size) {
+static void *egl_open(char *message, size_t size)
+{
     void *library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL); /* never unloaded, as with OSMesa */
     if (library == NULL) {
         snprintf(message, size, "libEGL.so.1 is not installed");
@@ -116,7 +122,8 @@ static void *egl_open(char *message, size_t size) {
     return egl;
 }
 
-static gm_context_function egl_find(void *self, const char *name) {
+static gm_context_function egl_find(void *self, const char *name)
+{
     struct egl *egl = self;
     return (gm_context_function)egl->get_proc_address(name);
 }

@@ -22,7 +22,8 @@ struct osmesa {
     unsigned char buffer[SIDE * SIDE * 4];
 };
 
-static void *library_open(void) {
+static void *library_open(void)
+{
     static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
     void *library = NULL;
     for (size_t i = 0; i < sizeof names / sizeof *names && library == NULL; i++)
@@ -31,17 +32,20 @@ static void *library_open(void) {
 }
 
 /* Function pointers come out of dlsym as data pointers; POSIX lets their representation be copied. */
-static bool find_symbol(void *library, const char *name, void *function) {
+static bool find_symbol(void *library, const char *name, void *function)
+{
     *(void **)function = dlsym(library, name);
     return *(void **)function != NULL;
 }
 
-static bool osmesa_use(void *self) {
+static bool osmesa_use(void *self)
+{
     struct osmesa *osmesa = self;
     return osmesa->make_current(osmesa->context, osmesa->buffer, GL_UNSIGNED_BYTE, SIDE, SIDE);
 }
 
-static void osmesa_close(void *self) {
+static void osmesa_close(void *self)
+{
     struct osmesa *osmesa = self;
     if (osmesa->context != NULL) {
         osmesa->make_current(NULL, NULL, 0, 0, 0);
@@ -50,7 +54,8 @@ static void osmesa_close(void *self) {
     free(osmesa);
 }
 
-static void *osmesa_open(char *message, size_t size) {
+static void *osmesa_open(char *message, size_t size)
+{
     /* The library is never unloaded: Mesa and LLVM leave threads' destructors and exit handlers behind. */
     void *library = library_open();
     if (library == NULL) {
@@ -88,7 +93,8 @@ static void *osmesa_open(char *message, size_t size) {
     return osmesa;
 }
 
-static gm_context_function osmesa_find(void *self, const char *name) {
+static gm_context_function osmesa_find(void *self, const char *name)
+{
     struct osmesa *osmesa = self;
     return (gm_context_function)osmesa->get_proc_address(name);
 }

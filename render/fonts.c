@@ -6,7 +6,8 @@
 
 #include <fontconfig/fontconfig.h>
 
-static char *find_in(FcConfig *config, const char *family, bool bold) {
+static char *find_in(FcConfig *config, const char *family, bool bold)
+{
     char *file = NULL;
     FcPattern *wanted = FcPatternCreate();
     if (wanted == NULL)
@@ -28,7 +29,8 @@ static char *find_in(FcConfig *config, const char *family, bool bold) {
     return file;
 }
 
-char *gm_font_find(const char *family, bool bold) {
+char *gm_font_find(const char *family, bool bold)
+{
     /* FcFini ends what other threads may be using, so only one is inside at a time. */
     static pthread_mutex_t inside = PTHREAD_MUTEX_INITIALIZER;
     pthread_mutex_lock(&inside);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "render/gl.h"
 
-const char *gm_gl_load(struct gm_gl *gl, const struct gm_context *context) {
+const char *gm_gl_load(struct gm_gl *gl, const struct gm_context *context)
+{
 #define GM_GL_FIND(name, type)                                                                               \
     gl->name = (PFNGL##type##PROC)gm_context_find(context, "gl" #name);                                      \
     if (gl->name == NULL)                                                                                    \

@@ -40,7 +40,8 @@ struct gm_glyphs {
     struct glyph none;                  /* when memory is short */
 };
 
-struct gm_glyphs *gm_glyphs_open(char *message, size_t size) {
+struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
+{
     static const struct {
         const char *family;
         bool bold;
@@ -69,7 +70,8 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size) {
     return glyphs;
 }
 
-void gm_glyphs_close(struct gm_glyphs *glyphs) {
+void gm_glyphs_close(struct gm_glyphs *glyphs)
+{
     if (glyphs == NULL)
         return;
     for (int i = 0; i < GM_FONT_COUNT; i++)
@@ -80,21 +82,24 @@ void gm_glyphs_close(struct gm_glyphs *glyphs) {
     free(glyphs);
 }
 
-static FT_Face face_of(struct gm_glyphs *glyphs, enum gm_font font, int height) {
+static FT_Face face_of(struct gm_glyphs *glyphs, enum gm_font font, int height)
+{
     if (glyphs->sizes[font] != height)
         FT_Set_Pixel_Sizes(glyphs->faces[font], 0, (FT_UInt)height);
     glyphs->sizes[font] = height;
     return glyphs->faces[font];
 }
 
-static struct glyph *slot_of(struct glyph *table, size_t size, uint64_t key) {
+static struct glyph *slot_of(struct glyph *table, size_t size, uint64_t key)
+{
     size_t place = (size_t)(key * UINT64_C(0x9e3779b97f4a7c15) >> 32) & (size - 1);
     while (table[place].used && table[place].key != key)
         place = (place + 1) & (size - 1);
     return &table[place];
 }
 
-static bool table_grow(struct gm_glyphs *glyphs) {
+static bool table_grow(struct gm_glyphs *glyphs)
+{
     const size_t size = glyphs->table_size > 0 ? 2 * glyphs->table_size : 512;
     struct glyph *table = calloc(size, sizeof *table);
     if (table == NULL)
@@ -110,7 +115,8 @@ static bool table_grow(struct gm_glyphs *glyphs) {
 
 /* The entry of a letter; its advance is known, its image perhaps not yet. */
 static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int height, uint32_t code,
-                              int shift) {
+                              int shift)
+{
     const uint64_t key = (uint64_t)code << 32 | (uint64_t)height << 8 | (uint64_t)shift << 4 | (uint64_t)font;
     if (2 * glyphs->count >= glyphs->table_size && !table_grow(glyphs))
         return &glyphs->none;
@@ -126,7 +132,8 @@ static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int h
 }
 
 /* Room in the atlas: letters stand on shelves as high as their highest. */
-static bool atlas_place(struct gm_glyphs *glyphs, int width, int height, short *x, short *y) {
+static bool atlas_place(struct gm_glyphs *glyphs, int width, int height, short *x, short *y)
+{
     if (width + BORDER > ATLAS_WIDTH)
         return false;
     if (glyphs->shelf_x + width + BORDER > ATLAS_WIDTH) {
@@ -157,7 +164,8 @@ static bool atlas_place(struct gm_glyphs *glyphs, int width, int height, short *
 }
 
 static void glyph_draw(struct gm_glyphs *glyphs, struct glyph *glyph, enum gm_font font, int height,
-                       int shift) {
+                       int shift)
+{
     glyph->drawn = true;
     const FT_Face face = face_of(glyphs, font, height);
     if (FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT | FT_LOAD_NO_BITMAP) != 0)
@@ -180,25 +188,29 @@ static void glyph_draw(struct gm_glyphs *glyphs, struct glyph *glyph, enum gm_fo
     glyph->height = (short)rows;
 }
 
-double gm_glyphs_width(struct gm_glyphs *glyphs, enum gm_font font, int height, const char *text) {
+double gm_glyphs_width(struct gm_glyphs *glyphs, enum gm_font font, int height, const char *text)
+{
     double width = 0.0;
     for (uint32_t code; (code = gm_text_next(&text)) != 0;)
         width += glyph_of(glyphs, font, height, code, 0)->advance;
     return width;
 }
 
-double gm_glyphs_ascent(struct gm_glyphs *glyphs, enum gm_font font, int height) {
+double gm_glyphs_ascent(struct gm_glyphs *glyphs, enum gm_font font, int height)
+{
     const FT_Face face = glyphs->faces[font];
     return (double)height * face->ascender / face->units_per_EM;
 }
 
-double gm_glyphs_descent(struct gm_glyphs *glyphs, enum gm_font font, int height) {
+double gm_glyphs_descent(struct gm_glyphs *glyphs, enum gm_font font, int height)
+{
     const FT_Face face = glyphs->faces[font];
     return -(double)height * face->descender / face->units_per_EM;
 }
 
 bool gm_glyphs_next(struct gm_glyphs *glyphs, enum gm_font font, int height, const char **text, double *pen,
-                    struct gm_letter *letter) {
+                    struct gm_letter *letter)
+{
     const uint32_t code = gm_text_next(text);
     if (code == 0)
         return false;
@@ -221,7 +233,8 @@ bool gm_glyphs_next(struct gm_glyphs *glyphs, enum gm_font font, int height, con
     return true;
 }
 
-struct gm_atlas gm_glyphs_atlas(struct gm_glyphs *glyphs) {
+struct gm_atlas gm_glyphs_atlas(struct gm_glyphs *glyphs)
+{
     const struct gm_atlas atlas = {.pixels = glyphs->pixels,
                                    .width = ATLAS_WIDTH,
                                    .height = glyphs->atlas_height,

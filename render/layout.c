@@ -28,28 +28,32 @@ struct group {
 };
 
 /* Margins shrink on narrow surfaces. */
-static double margin_of(double width, double wanted) {
+static double margin_of(double width, double wanted)
+{
     return fmin(wanted, 0.035 * width);
 }
 
 /* Only the lowest of graphs with a common axis names it. */
-static bool names_x(const struct group *group, size_t i) {
+static bool names_x(const struct group *group, size_t i)
+{
     const size_t below = i + group->columns;
     return group->place == GM_PLACE_STATE || below >= group->count ||
            strcmp(group->frames[i].panel->x.label, group->frames[below].panel->x.label) != 0;
 }
 
-static double cell_width(const struct group *group, double gap) {
+static double cell_width(const struct group *group, double gap)
+{
     return fmax(0.0, (group->area.width - (double)(group->columns - 1) * gap) / (double)group->columns);
 }
 
-static double cell_height(const struct group *group, double gap) {
+static double cell_height(const struct group *group, double gap)
+{
     return fmax(0.0, (group->area.height - (double)(group->rows - 1) * gap) / (double)group->rows);
 }
 
 /* Every panel of a group has the borders of the neediest, so that their boxes are equal and in line. */
-static struct gm_border common_border(const struct gm_label_list *list, const struct group *group,
-                                      bool calm) {
+static struct gm_border common_border(const struct gm_label_list *list, const struct group *group, bool calm)
+{
     struct gm_border border = {0};
     for (size_t i = 0; i < group->count; i++) {
         const struct gm_border own =
@@ -63,7 +67,8 @@ static struct gm_border common_border(const struct gm_label_list *list, const st
 }
 
 /* Width by height of a panel's data; 0 if it takes any. */
-static double aspect_of(const struct gm_panel *panel) {
+static double aspect_of(const struct gm_panel *panel)
+{
     double x_low, x_high, y_low, y_high;
     gm_axis_range(&panel->x, &x_low, &x_high);
     gm_axis_range(&panel->y, &y_low, &y_high);
@@ -71,7 +76,8 @@ static double aspect_of(const struct gm_panel *panel) {
 }
 
 /* How large the data of the group's panels are with its present grid and detail, by the side of a square. */
-static double data_size(const struct gm_label_list *list, const struct group *group) {
+static double data_size(const struct gm_label_list *list, const struct group *group)
+{
     const double scale = list->metrics->scale;
     const struct gm_border border = common_border(list, group, true);
     const double width = cell_width(group, column_gap * scale) - border.left - border.right;
@@ -85,7 +91,8 @@ static double data_size(const struct gm_label_list *list, const struct group *gr
 }
 
 /* Chooses the grid that makes the panels largest, and how much they show besides their data. */
-static void choose_grid(const struct gm_label_list *list, struct group *group, size_t most_columns) {
+static void choose_grid(const struct gm_label_list *list, struct group *group, size_t most_columns)
+{
     const double least = 4.5 * list->metrics->line[GM_TEXT_TICK];
     double best = -INFINITY;
     struct group chosen = *group;
@@ -112,7 +119,8 @@ static void choose_grid(const struct gm_label_list *list, struct group *group, s
 }
 
 /* A panel whose data need not fill its box exactly: equal axes without ticks show more than their range. */
-static bool expands(const struct gm_panel *panel) {
+static bool expands(const struct gm_panel *panel)
+{
     if (panel->axes || panel->colour_bar)
         return false;
     for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next)
@@ -121,7 +129,17 @@ static bool expands(const struct gm_panel *panel) {
     return true;
 }
 
-static void place_group(struct gm_label_list *list, struct group *group, double overhang) {
+static bool titles_too_long(const struct gm_label_list *list, const struct group *group, double width)
+{
+    bool too_long = false;
+    for (size_t i = 0; i < group->count && group->place == GM_PLACE_STATE; i++)
+        too_long = too_long || gm_labels_width(list, GM_TEXT_PANEL, group->frames[i].panel->title) > width;
+    return too_long;
+}
+
+/* Boxes narrower than their cell stand in its middle, or, with `leftmost`, under the picture's title. */
+static void place_group(struct gm_label_list *list, struct group *group, double overhang, bool leftmost)
+{
     const double scale = list->metrics->scale;
     struct gm_border border = common_border(list, group, false);
     bool bars = false;
@@ -133,6 +151,7 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
     const double width = fmax(0.0, column - border.left - border.right);
     const double height = fmax(0.0, row - border.top - border.bottom);
 
+    const bool small_titles = titles_too_long(list, group, column);
     for (size_t i = 0; i < group->count; i++) {
         const struct gm_panel *panel = group->frames[i].panel;
         const double x = group->area.x + (double)(i % group->columns) * (column + column_gap * scale);
@@ -145,15 +164,21 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
         } else if (group->place == GM_PLACE_GRAPH && group->columns == 1) {
             box.height = fmin(height, width / graph_narrowest);
         }
-        box.x += 0.5 * (width - box.width);
+        if (!leftmost)
+            box.x += 0.5 * (width - box.width);
         box.y += 0.5 * (height - box.height);
-        gm_frame_fill(list, &group->frames[i], panel, box, group->detail, names_x(group, i),
-                      fmax(0.0, x + column - box.x));
+        gm_frame_fill(list, &group->frames[i], panel,
+                      &(struct gm_fill){.box = box,
+                                        .detail = group->detail,
+                                        .x_label = names_x(group, i),
+                                        .small_title = small_titles,
+                                        .title_width = fmax(0.0, x + column - box.x)});
     }
 }
 
 /* Title, subtitle and clock; returns where they end. */
-static double place_header(struct gm_label_list *list, const struct gm_picture *picture, double margin) {
+static double place_header(struct gm_label_list *list, const struct gm_picture *picture, double margin)
+{
     const struct gm_metrics *metrics = list->metrics;
     const double scale = metrics->scale, width = fmax(0.0, metrics->width - 2.0 * margin);
     double y = top_margin * scale, left = width;
@@ -190,7 +215,8 @@ static double place_header(struct gm_label_list *list, const struct gm_picture *
 }
 
 /* The caption's lines along the bottom; returns where they start. */
-static double place_caption(struct gm_label_list *list, const struct gm_picture *picture, double margin) {
+static double place_caption(struct gm_label_list *list, const struct gm_picture *picture, double margin)
+{
     const struct gm_metrics *metrics = list->metrics;
     const char *lines[2];
     double bottom = metrics->height - bottom_margin * metrics->scale;
@@ -214,7 +240,8 @@ static double place_caption(struct gm_label_list *list, const struct gm_picture 
 
 /* Gives the panels of a place their frames, the graphs after the states. */
 static size_t collect(const struct gm_picture *picture, enum gm_place place, size_t most,
-                      struct gm_frame *frames) {
+                      struct gm_frame *frames)
+{
     size_t count = 0;
     for (const struct gm_panel *panel = picture->first; panel != NULL && count < most; panel = panel->next)
         if (panel->place == place)
@@ -223,7 +250,8 @@ static size_t collect(const struct gm_picture *picture, enum gm_place place, siz
 }
 
 /* A graph beside a single row of states is as high as they are. */
-static void align_graph(const struct gm_label_list *list, const struct group *states, struct group *graphs) {
+static void align_graph(const struct gm_label_list *list, const struct group *states, struct group *graphs)
+{
     const struct gm_border border = common_border(list, graphs, false);
     const struct gm_box box = states->frames[0].box;
     const double top = fmax(graphs->area.y, box.y - border.top);
@@ -234,19 +262,25 @@ static void align_graph(const struct gm_label_list *list, const struct group *st
     graphs->area.height = bottom - top;
 }
 
-static size_t graph_columns(const struct group *states, const struct group *graphs) {
+static size_t graph_columns(const struct group *states, const struct group *graphs)
+{
     return states->count == 0 ? graphs->count : 1;
 }
 
-const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics) {
-    size_t panel_count = 0;
-    for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next)
+const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics)
+{
+    size_t panel_count = 0, key_count = 0;
+    for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next) {
         panel_count++;
+        for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+            key_count++;
+        }
+    }
     struct gm_label_list list;
     struct gm_layout *layout = gm_picture_memory(picture, sizeof *layout);
     struct gm_frame *frames = gm_picture_memory(picture, (panel_count + 1) * sizeof *frames);
     if (layout == NULL || frames == NULL ||
-        !gm_labels_open(&list, picture, metrics, 8 + panel_count * (5 + 3 * GM_TICK_MAX)))
+        !gm_labels_open(&list, picture, metrics, 8 + key_count + panel_count * (5 + 3 * GM_TICK_MAX)))
         return NULL;
 
     const double scale = metrics->scale;
@@ -270,13 +304,13 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     }
     if (states.count > 0) {
         choose_grid(&list, &states, states.count);
-        place_group(&list, &states, graphs.count > 0 ? 0.0 : margin);
+        place_group(&list, &states, graphs.count > 0 ? 0.0 : margin, graphs.count > 0 && states.columns == 1);
     }
     if (graphs.count > 0) {
         choose_grid(&list, &graphs, graph_columns(&states, &graphs));
         if (states.rows == 1 && graphs.count == 1)
             align_graph(&list, &states, &graphs);
-        place_group(&list, &graphs, margin);
+        place_group(&list, &graphs, margin, false);
     }
     *layout = (struct gm_layout){.frames = frames,
                                  .frame_count = states.count + graphs.count,

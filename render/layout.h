@@ -10,17 +10,24 @@
 enum gm_text_size { GM_TEXT_TITLE, GM_TEXT_PANEL, GM_TEXT_LABEL, GM_TEXT_TICK, GM_TEXT_SIZE_COUNT };
 
 struct gm_metrics {
-    double width, height;                    /* of the surface */
-    double line[GM_TEXT_SIZE_COUNT];         /* height of a line of text of each size */
-    double (*measure)(const void *self, enum gm_text_size size, const char *text); /* its width */
+    double width, height;            /* of the surface */
+    double line[GM_TEXT_SIZE_COUNT]; /* height of a line of text of each size */
+    /* A text's width as it will be set: title and panel names are bold, the clock is in the title's size. */
+    double (*measure)(const void *self, enum gm_text_size size, const char *text);
     const void *self;
-    double scale;       /* surface units a pixel of a picture 720 high */
-    bool terse;         /* leave out the subtitle and all graphs but the first */
+    double scale; /* surface units a pixel of a picture 720 high */
+    bool terse;   /* leave out the subtitle and all graphs but the first */
 };
 
-struct gm_box { double x, y, width, height; };
+struct gm_box {
+    double x, y, width, height;
+};
 
-struct gm_tick { double position; /* on the surface */ double value; const char *label; };
+struct gm_tick {
+    double position; /* on the surface */
+    double value;
+    const char *label;
+};
 enum { GM_TICK_MAX = 12 };
 
 struct gm_label { /* a text placed on the surface */
@@ -30,7 +37,7 @@ struct gm_label { /* a text placed on the surface */
     bool bold, mono;
     double x, y; /* of the anchor; y is the top of the line */
     enum gm_anchor anchor;
-    bool vertical; /* reads upwards; x, y is then the middle of its left side's line */
+    bool vertical; /* reads upwards; x is then its left edge, y the middle of its height */
 };
 
 struct gm_frame { /* a panel on the surface */
@@ -58,7 +65,8 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
 
 /* Round tick values of a range: at least 3 where possible, at most max <= GM_TICK_MAX. */
 size_t gm_ticks(const struct gm_axis *axis, size_t max, double *values);
-/* A tick's label: a true minus sign, pi/2, powers of ten with superscripts. `step` is the distance of ticks. */
+/* A tick's label: a true minus sign, pi/2, powers of ten with superscripts. `step` is the distance of ticks.
+ */
 void gm_tick_format(enum gm_scale scale, double value, double step, char *text, size_t size);
 
 /* Surface coordinates of a value on a frame's axes. */

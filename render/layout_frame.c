@@ -8,18 +8,21 @@ static const double tick_gap = 9.0, label_gap = 3.0, title_gap = 7.0, bar_gap = 
 
 enum { FEWEST_TICKS = 3, MOST_TICKS = 6 };
 
-static const struct gm_mark *field_of(const struct gm_panel *panel) {
+static const struct gm_mark *field_of(const struct gm_panel *panel)
+{
     for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next)
         if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE)
             return mark;
     return NULL;
 }
 
-static struct gm_axis bar_axis(const struct gm_mark *field) {
+static struct gm_axis bar_axis(const struct gm_mark *field)
+{
     return (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = field->low, .high = field->high};
 }
 
-void gm_axis_range(const struct gm_axis *axis, double *low, double *high) {
+void gm_axis_range(const struct gm_axis *axis, double *low, double *high)
+{
     const bool log = axis->scale == GM_LOG;
     const bool good = isfinite(axis->low) && isfinite(axis->high) && axis->high > axis->low &&
                       isfinite(axis->high - axis->low) && (!log || axis->low > 0.0);
@@ -31,14 +34,16 @@ void gm_axis_range(const struct gm_axis *axis, double *low, double *high) {
     }
 }
 
-static double step_of(enum gm_scale scale, const double *values, size_t count) {
+static double step_of(enum gm_scale scale, const double *values, size_t count)
+{
     if (count < 2)
         return scale == GM_LOG ? 1.0 : 0.0;
     return scale == GM_LOG ? log10(values[1] / values[0]) : values[1] - values[0];
 }
 
 /* The widest tick label an axis may get, whatever number of ticks it will have room for. */
-static double widest_tick(const struct gm_label_list *list, const struct gm_axis *axis, bool calm) {
+static double widest_tick(const struct gm_label_list *list, const struct gm_axis *axis, bool calm)
+{
     if (calm)
         return gm_labels_width(list, GM_TEXT_TICK, axis->scale == GM_LINEAR ? "−0.05" : "10⁻¹⁰");
     double widest = 0.0;
@@ -54,22 +59,25 @@ static double widest_tick(const struct gm_label_list *list, const struct gm_axis
     return widest;
 }
 
-static bool has(const char *text) {
+static bool has(const char *text)
+{
     return text != NULL && text[0] != '\0';
 }
 
-static enum gm_text_size title_size(const struct gm_panel *panel) {
+static enum gm_text_size title_size(const struct gm_panel *panel)
+{
     return panel->place == GM_PLACE_STATE ? GM_TEXT_PANEL : GM_TEXT_LABEL;
 }
 
 struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_panel *panel,
-                              enum gm_detail detail, bool x_label, bool calm) {
+                              enum gm_detail detail, bool x_label, bool calm)
+{
     const struct gm_metrics *metrics = list->metrics;
     const double scale = metrics->scale;
     struct gm_border border = {0};
     if (detail < GM_DETAIL_DATA && has(panel->title))
         border.top += metrics->line[title_size(panel)];
-    if (detail < GM_DETAIL_NO_NOTE && has(panel->note))
+    if (detail < GM_DETAIL_NO_NOTE && (has(panel->note) || panel->first_key != NULL))
         border.top += metrics->line[GM_TEXT_LABEL];
     if (border.top > 0.0)
         border.top += title_gap * scale;
@@ -96,14 +104,16 @@ struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_
 }
 
 /* Room a label takes along an axis. */
-static double extent(const struct gm_label_list *list, bool across, const char *text) {
+static double extent(const struct gm_label_list *list, bool across, const char *text)
+{
     return across ? gm_labels_width(list, GM_TEXT_TICK, text) + 8.0 * list->metrics->scale
                   : 1.2 * list->metrics->line[GM_TEXT_TICK];
 }
 
 /* As many ticks as there is room for, with their labels. surface = origin + factor * value. */
 static size_t place_ticks(struct gm_label_list *list, const struct gm_axis *axis, double origin,
-                          double factor, bool across, struct gm_tick *ticks) {
+                          double factor, bool across, struct gm_tick *ticks)
+{
     for (size_t max = MOST_TICKS; max > 0; max--) {
         double values[GM_TICK_MAX], end = -INFINITY;
         const size_t count = gm_ticks(axis, max, values);
@@ -128,7 +138,8 @@ static size_t place_ticks(struct gm_label_list *list, const struct gm_axis *axis
 }
 
 static void label_ticks(struct gm_label_list *list, const struct gm_tick *ticks, size_t count, bool across,
-                        double at, enum gm_anchor anchor) {
+                        double at, enum gm_anchor anchor)
+{
     const double half = 0.5 * list->metrics->line[GM_TEXT_TICK];
     for (size_t i = 0; i < count; i++)
         gm_labels_add(list, (struct gm_label){.text = ticks[i].label,
@@ -139,33 +150,54 @@ static void label_ticks(struct gm_label_list *list, const struct gm_tick *ticks,
                                               .anchor = anchor});
 }
 
-static void label_panel(struct gm_label_list *list, const struct gm_panel *panel, struct gm_box box,
-                        enum gm_detail detail, double width) {
-    const struct gm_metrics *metrics = list->metrics;
-    const bool note = detail < GM_DETAIL_NO_NOTE && has(panel->note);
-    const enum gm_text_size size = title_size(panel);
-    double y = box.y - title_gap * metrics->scale;
-    if (note) {
-        y -= metrics->line[GM_TEXT_LABEL];
-        gm_labels_add(list,
-                      (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, panel->note, width),
-                                        .size = GM_TEXT_LABEL,
-                                        .role = GM_SECONDARY,
-                                        .x = box.x,
-                                        .y = y});
+/* Keys side by side, each behind a piece of its line; those that do not fit are left out. */
+static void label_keys(struct gm_label_list *list, const struct gm_panel *panel, double x, double y, double width)
+{
+    static const char *const samples[GM_DASH_COUNT] = {"───", "╌╌", "···", "─·", "╴╴╴", "─··"};
+    const double right = x + width, gap = 1.2 * list->metrics->line[GM_TEXT_LABEL];
+    for (const struct gm_key *key = panel->first_key; key != NULL && x < right; key = key->next) {
+        const char *text = gm_picture_text(list->picture, "%s %s", samples[key->style.dash], key->name);
+        const double needed = gm_labels_width(list, GM_TEXT_LABEL, text);
+        if (x + needed > right) {
+            return;
+        }
+        gm_labels_add(list, (struct gm_label){
+                                .text = text, .size = GM_TEXT_LABEL, .role = key->style.role, .x = x, .y = y});
+        x += needed + gap;
     }
-    if (detail < GM_DETAIL_DATA && has(panel->title))
-        gm_labels_add(list,
-                      (struct gm_label){.text = gm_labels_shorten(list, size, panel->title, width),
-                                        .size = size,
-                                        .role = panel->place == GM_PLACE_STATE ? panel->title_role : GM_INK,
-                                        .bold = panel->place == GM_PLACE_STATE,
-                                        .x = box.x,
-                                        .y = y - metrics->line[size]});
+}
+
+static void label_panel(struct gm_label_list *list, const struct gm_panel *panel, const struct gm_fill *fill)
+{
+    const struct gm_metrics *metrics = list->metrics;
+    const bool state = panel->place == GM_PLACE_STATE;
+    const enum gm_text_size size = fill->small_title ? GM_TEXT_TICK : title_size(panel);
+    double y = fill->box.y - title_gap * metrics->scale;
+    if (fill->detail < GM_DETAIL_NO_NOTE && has(panel->note)) {
+        y -= metrics->line[GM_TEXT_LABEL];
+        gm_labels_add(list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, panel->note,
+                                                                        fill->title_width),
+                                              .size = GM_TEXT_LABEL,
+                                              .role = GM_SECONDARY,
+                                              .x = fill->box.x,
+                                              .y = y});
+    } else if (fill->detail < GM_DETAIL_NO_NOTE && panel->first_key != NULL) {
+        y -= metrics->line[GM_TEXT_LABEL];
+        label_keys(list, panel, fill->box.x, y, fill->title_width);
+    }
+    if (fill->detail < GM_DETAIL_DATA && has(panel->title))
+        gm_labels_add(
+            list, (struct gm_label){.text = gm_labels_shorten(list, size, panel->title, fill->title_width),
+                                    .size = size,
+                                    .role = state ? panel->title_role : GM_INK,
+                                    .bold = state && !fill->small_title,
+                                    .x = fill->box.x,
+                                    .y = y - metrics->line[size]});
 }
 
 static void label_axes(struct gm_label_list *list, struct gm_frame *frame, enum gm_detail detail,
-                       bool x_label, double left) {
+                       bool x_label, double left)
+{
     const struct gm_metrics *metrics = list->metrics;
     const double scale = metrics->scale;
     const struct gm_panel *panel = frame->panel;
@@ -193,8 +225,8 @@ static void label_axes(struct gm_label_list *list, struct gm_frame *frame, enum 
                                 .vertical = true});
 }
 
-static void place_colour_bar(struct gm_label_list *list, struct gm_frame *frame,
-                             const struct gm_mark *field) {
+static void place_colour_bar(struct gm_label_list *list, struct gm_frame *frame, const struct gm_mark *field)
+{
     const double scale = list->metrics->scale;
     const struct gm_panel *panel = frame->panel;
     const struct gm_box box = frame->box;
@@ -217,7 +249,9 @@ static void place_colour_bar(struct gm_label_list *list, struct gm_frame *frame,
 }
 
 void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const struct gm_panel *panel,
-                   struct gm_box box, enum gm_detail detail, bool x_label, double title_width) {
+                   const struct gm_fill *fill)
+{
+    const struct gm_box box = fill->box;
     double x_low, x_high, y_low, y_high;
     gm_axis_range(&panel->x, &x_low, &x_high);
     gm_axis_range(&panel->y, &y_low, &y_high);
@@ -232,29 +266,33 @@ void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const str
     frame->x_origin = box.x + 0.5 * box.width - frame->x_factor * 0.5 * (x_low + x_high);
     frame->y_origin = box.y + 0.5 * box.height - frame->y_factor * 0.5 * (y_low + y_high);
 
-    label_panel(list, panel, box, detail, title_width);
-    if (panel->axes && detail < GM_DETAIL_NO_TICKS) {
+    label_panel(list, panel, fill);
+    if (panel->axes && fill->detail < GM_DETAIL_NO_TICKS) {
         frame->x_tick_count =
             place_ticks(list, &panel->x, frame->x_origin, frame->x_factor, true, frame->x_ticks);
         frame->y_tick_count =
             place_ticks(list, &panel->y, frame->y_origin, frame->y_factor, false, frame->y_ticks);
-        label_axes(list, frame, detail, x_label, gm_border_of(list, panel, detail, x_label, false).left);
+        label_axes(list, frame, fill->detail, fill->x_label,
+                   gm_border_of(list, panel, fill->detail, fill->x_label, false).left);
     }
     const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
-    if (field != NULL && detail < GM_DETAIL_NO_TICKS && box.width > 0.0)
+    if (field != NULL && fill->detail < GM_DETAIL_NO_TICKS && box.width > 0.0)
         place_colour_bar(list, frame, field);
 }
 
-static double frame_coordinate(const struct gm_axis *axis, double origin, double factor, double value) {
+static double frame_coordinate(const struct gm_axis *axis, double origin, double factor, double value)
+{
     if (axis->scale == GM_LOG)
         value = value > 0.0 ? log10(value) : -400.0;
     return origin + factor * value;
 }
 
-double gm_frame_x(const struct gm_frame *frame, double value) {
+double gm_frame_x(const struct gm_frame *frame, double value)
+{
     return frame_coordinate(&frame->panel->x, frame->x_origin, frame->x_factor, value);
 }
 
-double gm_frame_y(const struct gm_frame *frame, double value) {
+double gm_frame_y(const struct gm_frame *frame, double value)
+{
     return frame_coordinate(&frame->panel->y, frame->y_origin, frame->y_factor, value);
 }

@@ -27,8 +27,17 @@ struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_
 /* Ranges as shown: not empty, positive on a log axis; logarithms of the values on log axes. */
 void gm_axis_range(const struct gm_axis *axis, double *low, double *high);
 
-/* Maps the panel to the box, places ticks and labels. Titles may be as wide as title_width. */
+/* How a panel of a group is to be filled. */
+struct gm_fill {
+    struct gm_box box; /* of the data */
+    enum gm_detail detail;
+    bool x_label;       /* names the x axis */
+    bool small_title;   /* where the group's titles are too long for their usual size */
+    double title_width; /* room for titles */
+};
+
+/* Maps the panel to the box, places ticks and labels. */
 void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const struct gm_panel *panel,
-                   struct gm_box box, enum gm_detail detail, bool x_label, double title_width);
+                   const struct gm_fill *fill);
 
 #endif

@@ -4,18 +4,21 @@
 #include <string.h>
 
 bool gm_labels_open(struct gm_label_list *list, struct gm_picture *picture, const struct gm_metrics *metrics,
-                    size_t capacity) {
+                    size_t capacity)
+{
     *list = (struct gm_label_list){.picture = picture, .metrics = metrics, .capacity = capacity};
     list->labels = gm_picture_memory(picture, capacity * sizeof *list->labels);
     list->boxes = gm_picture_memory(picture, capacity * sizeof *list->boxes);
     return list->labels != NULL && list->boxes != NULL;
 }
 
-double gm_labels_width(const struct gm_label_list *list, enum gm_text_size size, const char *text) {
+double gm_labels_width(const struct gm_label_list *list, enum gm_text_size size, const char *text)
+{
     return list->metrics->measure(list->metrics->self, size, text);
 }
 
-static struct gm_box box_of(const struct gm_label_list *list, const struct gm_label *label) {
+static struct gm_box box_of(const struct gm_label_list *list, const struct gm_label *label)
+{
     const double width = gm_labels_width(list, label->size, label->text);
     const double line = list->metrics->line[label->size];
     if (label->vertical)
@@ -27,13 +30,15 @@ static struct gm_box box_of(const struct gm_label_list *list, const struct gm_la
 }
 
 /* Neighbours in a line need air between them; lines may touch. */
-static bool overlap(const struct gm_box *a, const struct gm_box *b, double air) {
+static bool overlap(const struct gm_box *a, const struct gm_box *b, double air)
+{
     const double touch = 1e-6;
     return a->x < b->x + b->width + air && b->x < a->x + a->width + air && a->y < b->y + b->height - touch &&
            b->y < a->y + a->height - touch;
 }
 
-bool gm_labels_add(struct gm_label_list *list, struct gm_label label) {
+bool gm_labels_add(struct gm_label_list *list, struct gm_label label)
+{
     if (label.text == NULL || label.text[0] == '\0' || list->count == list->capacity)
         return false;
     const struct gm_metrics *metrics = list->metrics;
@@ -51,19 +56,22 @@ bool gm_labels_add(struct gm_label_list *list, struct gm_label label) {
     return true;
 }
 
-static bool continues_character(char byte) {
+static bool continues_character(char byte)
+{
     return ((unsigned char)byte & 0xc0) == 0x80;
 }
 
 /* The first `length` bytes of text, shortened with an ellipsis. */
-static const char *ellipsised(struct gm_label_list *list, const char *text, size_t length) {
+static const char *ellipsised(struct gm_label_list *list, const char *text, size_t length)
+{
     while (length > 0 && (continues_character(text[length]) || text[length - 1] == ' '))
         length--;
     return gm_picture_text(list->picture, "%.*s…", (int)length, text);
 }
 
 const char *gm_labels_shorten(struct gm_label_list *list, enum gm_text_size size, const char *text,
-                              double width) {
+                              double width)
+{
     if (text == NULL || gm_labels_width(list, size, text) <= width)
         return text != NULL ? text : "";
     size_t fits = 0, too_long = strlen(text);
@@ -78,7 +86,8 @@ const char *gm_labels_shorten(struct gm_label_list *list, enum gm_text_size size
 }
 
 size_t gm_labels_wrap(struct gm_label_list *list, enum gm_text_size size, const char *text, double width,
-                      size_t most, const char **lines) {
+                      size_t most, const char **lines)
+{
     size_t count = 0;
     while (text != NULL && *text != '\0' && count < most) {
         if (count + 1 == most || gm_labels_width(list, size, text) <= width) {

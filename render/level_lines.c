@@ -31,11 +31,13 @@ struct level {
     size_t segment_count;
 };
 
-static bool above(const struct level *level, int vertex) {
+static bool above(const struct level *level, int vertex)
+{
     return level->values[vertex] >= level->value;
 }
 
-static bool usable(const double *points, const double *values, size_t count, const int *triangle) {
+static bool usable(const double *points, const double *values, size_t count, const int *triangle)
+{
     for (int k = 0; k < 3; k++) {
         const int v = triangle[k];
         if (v < 0 || (size_t)v >= count || !isfinite(values[v]) || !isfinite(points[2 * v]) ||
@@ -45,7 +47,8 @@ static bool usable(const double *points, const double *values, size_t count, con
     return true;
 }
 
-static size_t crossing_find(const struct level *level, int from, int to) {
+static size_t crossing_find(const struct level *level, int from, int to)
+{
     if (from > to) {
         const int swap = from;
         from = to;
@@ -61,7 +64,8 @@ static size_t crossing_find(const struct level *level, int from, int to) {
     return place;
 }
 
-static void segment_add(struct level *level, const int *triangle) {
+static void segment_add(struct level *level, const int *triangle)
+{
     /* The odd vertex out: both edges that leave it cross the level. */
     const bool sides[3] = {above(level, triangle[0]), above(level, triangle[1]), above(level, triangle[2])};
     const int odd = sides[1] == sides[2] ? 0 : sides[0] == sides[2] ? 1 : 2;
@@ -78,7 +82,8 @@ static void segment_add(struct level *level, const int *triangle) {
     level->segment_count++;
 }
 
-static void crossing_point(const struct level *level, const struct crossing *crossing, double *point) {
+static void crossing_point(const struct level *level, const struct crossing *crossing, double *point)
+{
     const double a = level->values[crossing->from], b = level->values[crossing->to];
     const double share = (level->value - a) / (b - a);
     for (int k = 0; k < 2; k++) {
@@ -87,7 +92,8 @@ static void crossing_point(const struct level *level, const struct crossing *cro
     }
 }
 
-static int next_segment(const struct level *level, size_t place) {
+static int next_segment(const struct level *level, size_t place)
+{
     const int *slots = level->table[place].segments;
     for (int k = 0; k < 2; k++)
         if (slots[k] != NONE && !level->segments[slots[k]].used)
@@ -97,7 +103,8 @@ static int next_segment(const struct level *level, size_t place) {
 
 /* Follows the line from a crossing on; returns its number of points (the last one equals the first on a
    closed line, whose end is told by *last). */
-static size_t follow(struct level *level, size_t place, double *line, size_t *last) {
+static size_t follow(struct level *level, size_t place, double *line, size_t *last)
+{
     size_t count = 0;
     for (;;) {
         double point[2];
@@ -119,7 +126,8 @@ static size_t follow(struct level *level, size_t place, double *line, size_t *la
 }
 
 static void emit(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
-                 const double *line, size_t count, bool closed) {
+                 const double *line, size_t count, bool closed)
+{
     if (closed && count > 1)
         count--; /* the last point is the first again */
     if (count > 1)
@@ -127,7 +135,8 @@ static void emit(struct gm_picture *picture, struct gm_panel *panel, struct gm_s
 }
 
 static void level_draw(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
-                       struct level *level, double *line) {
+                       struct level *level, double *line)
+{
     size_t last;
     /* Lines with ends first, so that what is left is closed. */
     for (size_t i = 0; i < level->table_size; i++) {
@@ -146,7 +155,8 @@ static void level_draw(struct gm_picture *picture, struct gm_panel *panel, struc
 
 void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                          const double *points, const double *values, size_t count, const int *triangles,
-                         size_t triangle_count, const double *levels, size_t level_count) {
+                         size_t triangle_count, const double *levels, size_t level_count)
+{
     /* Scratch memory for the level with most segments. */
     size_t most = 0;
     for (size_t l = 0; l < level_count; l++) {

@@ -23,15 +23,18 @@ struct gm_arena {
     struct gm_mark spare_mark;
 };
 
-enum gm_role gm_lane_role(size_t lane) {
+enum gm_role gm_lane_role(size_t lane)
+{
     return (enum gm_role)(GM_LANE + (int)(lane % GM_LANE_COLOURS));
 }
 
-enum gm_dash gm_lane_dash(size_t lane) {
+enum gm_dash gm_lane_dash(size_t lane)
+{
     return (enum gm_dash)(lane % GM_DASH_COUNT);
 }
 
-static struct chunk *chunk_open(size_t size, struct chunk *next) {
+static struct chunk *chunk_open(size_t size, struct chunk *next)
+{
     struct chunk *chunk = malloc(sizeof *chunk);
     if (chunk == NULL)
         return NULL;
@@ -43,7 +46,8 @@ static struct chunk *chunk_open(size_t size, struct chunk *next) {
     return chunk;
 }
 
-static void chunks_close(struct chunk *chunk) {
+static void chunks_close(struct chunk *chunk)
+{
     while (chunk != NULL) {
         struct chunk *next = chunk->next;
         free(chunk->bytes);
@@ -52,12 +56,14 @@ static void chunks_close(struct chunk *chunk) {
     }
 }
 
-static void picture_reset(struct gm_picture *picture) {
+static void picture_reset(struct gm_picture *picture)
+{
     struct gm_arena *arena = picture->arena;
     *picture = (struct gm_picture){.title = "", .subtitle = "", .clock = "", .caption = "", .arena = arena};
 }
 
-struct gm_picture *gm_picture_open(void) {
+struct gm_picture *gm_picture_open(void)
+{
     struct gm_picture *picture = malloc(sizeof *picture);
     struct gm_arena *arena = calloc(1, sizeof *arena);
     if (picture == NULL || arena == NULL) {
@@ -70,7 +76,8 @@ struct gm_picture *gm_picture_open(void) {
     return picture;
 }
 
-void gm_picture_close(struct gm_picture *picture) {
+void gm_picture_close(struct gm_picture *picture)
+{
     if (picture == NULL)
         return;
     chunks_close(picture->arena->chunk);
@@ -78,7 +85,8 @@ void gm_picture_close(struct gm_picture *picture) {
     free(picture);
 }
 
-void gm_picture_clear(struct gm_picture *picture) {
+void gm_picture_clear(struct gm_picture *picture)
+{
     struct gm_arena *arena = picture->arena;
     /* Several chunks become one, so that frames of one kind soon need no allocation at all. */
     if (arena->chunk != NULL && arena->chunk->next != NULL) {
@@ -92,7 +100,8 @@ void gm_picture_clear(struct gm_picture *picture) {
     picture_reset(picture);
 }
 
-void *gm_picture_memory(struct gm_picture *picture, size_t size) {
+void *gm_picture_memory(struct gm_picture *picture, size_t size)
+{
     struct gm_arena *arena = picture->arena;
     if (size > SIZE_MAX / 4)
         return NULL;
@@ -111,11 +120,13 @@ void *gm_picture_memory(struct gm_picture *picture, size_t size) {
     return memory;
 }
 
-static void *memory_of(struct gm_picture *picture, size_t count, size_t size) {
+static void *memory_of(struct gm_picture *picture, size_t count, size_t size)
+{
     return count > SIZE_MAX / 4 / size ? NULL : gm_picture_memory(picture, count * size);
 }
 
-const char *gm_picture_text(struct gm_picture *picture, const char *format, ...) {
+const char *gm_picture_text(struct gm_picture *picture, const char *format, ...)
+{
     va_list arguments, again;
     va_start(arguments, format);
     va_copy(again, arguments);
@@ -128,7 +139,8 @@ const char *gm_picture_text(struct gm_picture *picture, const char *format, ...)
     return text != NULL ? text : "";
 }
 
-static const char *text_copy(struct gm_picture *picture, const char *text) {
+static const char *text_copy(struct gm_picture *picture, const char *text)
+{
     if (text == NULL)
         return "";
     const size_t size = strlen(text) + 1;
@@ -136,7 +148,8 @@ static const char *text_copy(struct gm_picture *picture, const char *text) {
     return copy != NULL ? memcpy(copy, text, size) : "";
 }
 
-struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, const char *title) {
+struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, const char *title)
+{
     struct gm_panel *panel = gm_picture_memory(picture, sizeof *panel);
     const bool short_of_memory = panel == NULL;
     if (short_of_memory)
@@ -161,13 +174,15 @@ struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, c
     return panel;
 }
 
-static struct gm_mark *spare(struct gm_picture *picture) {
+static struct gm_mark *spare(struct gm_picture *picture)
+{
     picture->arena->spare_mark = (struct gm_mark){.text = ""};
     return &picture->arena->spare_mark;
 }
 
 static struct gm_mark *mark_add(struct gm_picture *picture, struct gm_panel *panel, enum gm_mark_kind kind,
-                                struct gm_style style) {
+                                struct gm_style style)
+{
     struct gm_mark *mark = gm_picture_memory(picture, sizeof *mark);
     if (mark == NULL)
         return spare(picture);
@@ -180,16 +195,19 @@ static struct gm_mark *mark_add(struct gm_picture *picture, struct gm_panel *pan
     return mark;
 }
 
-static bool drawable(const struct gm_axis *axis, double value) {
+static bool drawable(const struct gm_axis *axis, double value)
+{
     return isfinite(value) && (axis->scale != GM_LOG || value > 0.0);
 }
 
-static bool point_drawable(const struct gm_panel *panel, const double *point) {
+static bool point_drawable(const struct gm_panel *panel, const double *point)
+{
     return drawable(&panel->x, point[0]) && drawable(&panel->y, point[1]);
 }
 
 /* Copies the points that can be drawn; returns how many. */
-static size_t points_copy(const struct gm_panel *panel, double *to, const double *points, size_t count) {
+static size_t points_copy(const struct gm_panel *panel, double *to, const double *points, size_t count)
+{
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
         if (!point_drawable(panel, points + 2 * i))
@@ -201,8 +219,24 @@ static size_t points_copy(const struct gm_panel *panel, double *to, const double
     return kept;
 }
 
+void gm_panel_key(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style, const char *name)
+{
+    struct gm_key *key = gm_picture_memory(picture, sizeof *key);
+    if (key == NULL) {
+        return;
+    }
+    *key = (struct gm_key){.name = gm_picture_text(picture, "%s", name), .style = style};
+    if (panel->last_key != NULL) {
+        panel->last_key->next = key;
+    } else {
+        panel->first_key = key;
+    }
+    panel->last_key = key;
+}
+
 struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
-                             const double *points, size_t count, bool closed) {
+                             const double *points, size_t count, bool closed)
+{
     double *copy = memory_of(picture, count, 2 * sizeof *copy);
     if (copy == NULL || count == 0)
         return spare(picture);
@@ -238,7 +272,8 @@ struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel,
 
 static struct gm_mark *mark_of_points(struct gm_picture *picture, struct gm_panel *panel,
                                       enum gm_mark_kind kind, struct gm_style style, const double *points,
-                                      size_t count) {
+                                      size_t count)
+{
     double *copy = memory_of(picture, count, 2 * sizeof *copy);
     const size_t kept = copy != NULL ? points_copy(panel, copy, points, count) : 0;
     if (kept == 0)
@@ -250,26 +285,30 @@ static struct gm_mark *mark_of_points(struct gm_picture *picture, struct gm_pane
 }
 
 struct gm_mark *gm_mark_points(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
-                               const double *points, size_t count) {
+                               const double *points, size_t count)
+{
     return mark_of_points(picture, panel, GM_MARK_POINTS, style, points, count);
 }
 
 struct gm_mark *gm_mark_polygon(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
-                                const double *points, size_t count) {
+                                const double *points, size_t count)
+{
     struct gm_mark *mark = mark_of_points(picture, panel, GM_MARK_POLYGON, style, points, count);
     mark->closed = true;
     return mark;
 }
 
 struct gm_mark *gm_mark_text(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
-                             double x, double y, enum gm_anchor anchor, const char *text) {
+                             double x, double y, enum gm_anchor anchor, const char *text)
+{
     struct gm_mark *mark = mark_of_points(picture, panel, GM_MARK_TEXT, style, (const double[]){x, y}, 1);
     mark->anchor = anchor;
     mark->text = text_copy(picture, text);
     return mark;
 }
 
-static void mark_set_map(struct gm_mark *mark, enum gm_map map, double low, double high) {
+static void mark_set_map(struct gm_mark *mark, enum gm_map map, double low, double high)
+{
     mark->map = map;
     mark->low = isfinite(low) ? low : 0.0;
     mark->high = isfinite(high) && high > mark->low ? high : mark->low + fmax(1.0, fabs(mark->low));
@@ -279,7 +318,8 @@ static const struct gm_style opaque = {.role = GM_INK, .alpha = 1.0, .width = 1.
 
 struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel, enum gm_map map, double low,
                              double high, const double *points, const double *values, size_t count,
-                             const int *triangles, size_t triangle_count) {
+                             const int *triangles, size_t triangle_count)
+{
     double *places = memory_of(picture, count, 2 * sizeof *places);
     double *heights = memory_of(picture, count, sizeof *heights);
     int *corners = memory_of(picture, triangle_count, 3 * sizeof *corners);
@@ -316,7 +356,8 @@ struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel,
 
 struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel, enum gm_map map, double low,
                               double high, const double corners[4], const double *values, size_t rows,
-                              size_t columns) {
+                              size_t columns)
+{
     const size_t count = columns > 0 && rows > SIZE_MAX / columns ? SIZE_MAX : rows * columns;
     double *copy = memory_of(picture, count, sizeof *copy);
     double *places = gm_picture_memory(picture, 4 * sizeof *places);

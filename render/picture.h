@@ -85,6 +85,13 @@ struct gm_axis {
 /* Where a panel stands: states share a grid on the left, graphs a column on the right. */
 enum gm_place { GM_PLACE_STATE, GM_PLACE_GRAPH };
 
+/* The name of a line in its colour, with its dash, under a panel's title. */
+struct gm_key {
+    const char *name;
+    struct gm_style style;
+    struct gm_key *next;
+};
+
 struct gm_panel {
     enum gm_place place;
     const char *title;     /* "" for none */
@@ -95,6 +102,7 @@ struct gm_panel {
     bool axes;             /* axes, ticks and grid are drawn */
     bool colour_bar;       /* of the first mesh or image */
     const char *colour_bar_label;
+    struct gm_key *first_key, *last_key; /* on the note's line, where the note is empty */
     struct gm_mark *first, *last;
     struct gm_panel *next;
 };
@@ -123,8 +131,12 @@ const char *gm_picture_text(struct gm_picture *picture, const char *format, ...)
 
 struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, const char *title);
 
+/* Adds a name to the panel's keys; for lines whose names nothing else tells. */
+void gm_panel_key(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style, const char *name);
+
 /* Marks. Points are copied. A line breaks where a coordinate is not finite, or not positive on a log axis;
-   so a NaN never reaches a painter. The panel's axes are set before its marks. */
+   so a NaN never reaches a painter. The panel's axes are set before its marks. A mark that is not shown
+   (no points, no memory) may be written to all the same; of a line with breaks the first piece is returned. */
 struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                              const double *points, size_t count, bool closed);
 struct gm_mark *gm_mark_points(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,

@@ -11,16 +11,19 @@ static const char *const scale_names[] = {"linear", "log", "pi"};
 static const char *const map_names[] = {"sequential", "diverging"};
 static const char *const anchor_names[] = {"left", "centre", "right"};
 
-static void write_number(FILE *stream, double value) {
+static void write_number(FILE *stream, double value)
+{
     fprintf(stream, " %.9g", value == 0.0 ? 0.0 : value); /* no negative zero */
 }
 
-static void write_numbers(FILE *stream, const double *values, size_t count) {
+static void write_numbers(FILE *stream, const double *values, size_t count)
+{
     for (size_t i = 0; i < count; i++)
         write_number(stream, values[i]);
 }
 
-static void write_text(FILE *stream, const char *text) {
+static void write_text(FILE *stream, const char *text)
+{
     fputs(" \"", stream);
     for (; text != NULL && *text != '\0'; text++) {
         if (*text == '\n')
@@ -33,27 +36,31 @@ static void write_text(FILE *stream, const char *text) {
     fputc('"', stream);
 }
 
-static void write_role(FILE *stream, enum gm_role role) {
+static void write_role(FILE *stream, enum gm_role role)
+{
     if (role >= GM_LANE)
         fprintf(stream, " lane%d", (int)role - GM_LANE);
     else
         fprintf(stream, " %s", role_names[role]);
 }
 
-static void write_style(FILE *stream, const struct gm_style *style) {
+static void write_style(FILE *stream, const struct gm_style *style)
+{
     write_role(stream, style->role);
     write_number(stream, style->alpha);
     write_number(stream, style->width);
     fprintf(stream, " %s", dash_names[style->dash]);
 }
 
-static void write_map(FILE *stream, const struct gm_mark *mark) {
+static void write_map(FILE *stream, const struct gm_mark *mark)
+{
     fprintf(stream, " %s", map_names[mark->map]);
     write_number(stream, mark->low);
     write_number(stream, mark->high);
 }
 
-static void write_mesh(FILE *stream, const struct gm_mark *mark) {
+static void write_mesh(FILE *stream, const struct gm_mark *mark)
+{
     fputs("mesh", stream);
     write_map(stream, mark);
     fprintf(stream, " %zu %zu", mark->count, mark->triangle_count);
@@ -65,7 +72,8 @@ static void write_mesh(FILE *stream, const struct gm_mark *mark) {
         fprintf(stream, " %d", mark->triangles[i]);
 }
 
-static void write_mark(FILE *stream, const struct gm_mark *mark) {
+static void write_mark(FILE *stream, const struct gm_mark *mark)
+{
     switch (mark->kind) {
     case GM_MARK_LINE:
         fputs("line", stream);
@@ -101,7 +109,8 @@ static void write_mark(FILE *stream, const struct gm_mark *mark) {
     fputc('\n', stream);
 }
 
-static void write_axis(FILE *stream, const char *name, const struct gm_axis *axis) {
+static void write_axis(FILE *stream, const char *name, const struct gm_axis *axis)
+{
     fprintf(stream, "%s", name);
     write_text(stream, axis->label);
     fprintf(stream, " %s", scale_names[axis->scale]);
@@ -110,11 +119,17 @@ static void write_axis(FILE *stream, const char *name, const struct gm_axis *axi
     fputc('\n', stream);
 }
 
-static void write_panel(FILE *stream, const struct gm_panel *panel) {
+static void write_panel(FILE *stream, const struct gm_panel *panel)
+{
     fprintf(stream, "panel %s", panel->place == GM_PLACE_STATE ? "state" : "graph");
     write_role(stream, panel->title_role);
     write_text(stream, panel->title);
     write_text(stream, panel->note);
+    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+        fputs(" key", stream);
+        write_style(stream, &key->style);
+        write_text(stream, key->name);
+    }
     fprintf(stream, "%s%s", panel->equal ? " equal" : "", panel->axes ? " axes" : "");
     if (panel->colour_bar) {
         fputs(" colour-bar", stream);
@@ -127,7 +142,8 @@ static void write_panel(FILE *stream, const struct gm_panel *panel) {
         write_mark(stream, mark);
 }
 
-void gm_picture_write(const struct gm_picture *picture, FILE *stream) {
+void gm_picture_write(const struct gm_picture *picture, FILE *stream)
+{
     fputs("picture", stream);
     write_text(stream, picture->title);
     write_text(stream, picture->subtitle);

@@ -35,12 +35,14 @@ enum {
     LARGEST_TEXT = 1 << 24,  /* bytes that a text chunk of a file may take when unpacked */
 };
 
-static bool fail(char *message, const char *path, const char *reason) {
+static bool fail(char *message, const char *path, const char *reason)
+{
     snprintf(message, MESSAGE, "cannot write %.*s: %s", PATH_SHOWN, path, reason);
     return false;
 }
 
-static void ignore_warning(png_structp png, png_const_charp text) {
+static void ignore_warning(png_structp png, png_const_charp text)
+{
     (void)png;
     (void)text;
 }
@@ -52,13 +54,15 @@ struct stream {
     char reason[96]; /* in words, where libpng found the fault */
 };
 
-static void note_error(png_structp png, png_const_charp text) {
+static void note_error(png_structp png, png_const_charp text)
+{
     struct stream *stream = png_get_error_ptr(png);
     snprintf(stream->reason, sizeof stream->reason, "%s", text);
     png_longjmp(png, 1);
 }
 
-static void write_bytes(png_structp png, png_bytep bytes, size_t size) {
+static void write_bytes(png_structp png, png_bytep bytes, size_t size)
+{
     struct stream *stream = png_get_io_ptr(png);
     errno = 0;
     if (fwrite(bytes, 1, size, stream->file) != size) {
@@ -68,12 +72,14 @@ static void write_bytes(png_structp png, png_bytep bytes, size_t size) {
 }
 
 /* fclose reports what is left in the buffer */
-static void flush_bytes(png_structp png) {
+static void flush_bytes(png_structp png)
+{
     (void)png;
 }
 
 /* The rows, each after its filter's number (0: none), in zlib's format; malloc'ed. */
-static unsigned char *deflate_rows(int width, int height, const unsigned char *rgb, size_t *size) {
+static unsigned char *deflate_rows(int width, int height, const unsigned char *rgb, size_t *size)
+{
     size_t row = (size_t)width * 3;
     size_t total = (row + 1) * (size_t)height;
     unsigned char *rows = malloc(total);
@@ -99,7 +105,8 @@ static unsigned char *deflate_rows(int width, int height, const unsigned char *r
     return packed;
 }
 
-static bool is_ascii(const char *text) {
+static bool is_ascii(const char *text)
+{
     for (; *text; text++) {
         if ((unsigned char)*text > 126) {
             return false;
@@ -117,7 +124,8 @@ struct image {
 };
 
 /* Nothing here but the two structures outlives the jump out of libpng's errors. */
-static bool write_structure(struct stream *stream, const struct image *image) {
+static bool write_structure(struct stream *stream, const struct image *image)
+{
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, stream, note_error, ignore_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
@@ -147,7 +155,8 @@ static bool write_structure(struct stream *stream, const struct image *image) {
 }
 
 /* Writes to the descriptor and closes it; an errno, or 0 with the reason in stream. */
-static bool write_descriptor(int descriptor, struct stream *stream, const struct image *image) {
+static bool write_descriptor(int descriptor, struct stream *stream, const struct image *image)
+{
     stream->file = fdopen(descriptor, "wb");
     if (!stream->file) {
         stream->error = errno;
@@ -162,7 +171,8 @@ static bool write_descriptor(int descriptor, struct stream *stream, const struct
     return written;
 }
 
-static bool write_directly(const char *path, struct stream *stream, const struct image *image) {
+static bool write_directly(const char *path, struct stream *stream, const struct image *image)
+{
     int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor < 0) {
         stream->error = errno;
@@ -171,7 +181,8 @@ static bool write_directly(const char *path, struct stream *stream, const struct
     return write_descriptor(descriptor, stream, image);
 }
 
-static bool write_and_rename(const char *path, struct stream *stream, const struct image *image) {
+static bool write_and_rename(const char *path, struct stream *stream, const struct image *image)
+{
     char *temporary = gm_temporary_name(path, ".tmp");
     int descriptor = temporary ? open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
     if (descriptor < 0) {
@@ -192,7 +203,8 @@ static bool write_and_rename(const char *path, struct stream *stream, const stru
 }
 
 bool gm_png_write(const char *path, int width, int height, const unsigned char *rgb,
-                  const struct gm_png_text *texts, size_t count, char *message) {
+                  const struct gm_png_text *texts, size_t count, char *message)
+{
     if (width < 1 || height < 1 || (size_t)height > SIZE_MAX / 4 / (size_t)width) {
         return fail(message, path, "a picture has at least one pixel, and fits in memory");
     }
@@ -222,7 +234,8 @@ bool gm_png_write(const char *path, int width, int height, const unsigned char *
     return written || fail(message, path, stream.error ? strerror(stream.error) : stream.reason);
 }
 
-static void read_bytes(png_structp png, png_bytep bytes, size_t size) {
+static void read_bytes(png_structp png, png_bytep bytes, size_t size)
+{
     struct stream *stream = png_get_io_ptr(png);
     errno = 0;
     if (fread(bytes, 1, size, stream->file) != size) {
@@ -232,7 +245,8 @@ static void read_bytes(png_structp png, png_bytep bytes, size_t size) {
 }
 
 /* The text of that key among those read so far; malloc'ed, or NULL. */
-static char *find_text(struct stream *stream, png_structp png, png_infop info, const char *key) {
+static char *find_text(struct stream *stream, png_structp png, png_infop info, const char *key)
+{
     png_textp texts = NULL;
     int count = 0;
     png_get_text(png, info, &texts, &count);
@@ -247,7 +261,8 @@ static char *find_text(struct stream *stream, png_structp png, png_infop info, c
 }
 
 /* Other programs write texts behind the pixels, to which only the pixels lead. */
-static void skip_pixels(png_structp png, png_infop info) {
+static void skip_pixels(png_structp png, png_infop info)
+{
     int passes = png_set_interlace_handling(png);
     png_uint_32 height = png_get_image_height(png, info);
     png_start_read_image(png);
@@ -260,7 +275,8 @@ static void skip_pixels(png_structp png, png_infop info) {
 }
 
 /* The text of the chunk, NULL with stream->reason empty if there is none of that key. */
-static char *read_structure(struct stream *stream, const char *key) {
+static char *read_structure(struct stream *stream, const char *key)
+{
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, stream, note_error, ignore_warning);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
@@ -287,7 +303,8 @@ static char *read_structure(struct stream *stream, const char *key) {
 
 /* Whether every chunk fits into what is left of the file. libpng 1.6.39 makes room for a chunk before it sees
    that there is less: up to 2 GiB, filled with zeros, for a few damaged bytes. */
-static bool check_chunks(FILE *file) {
+static bool check_chunks(FILE *file)
+{
     unsigned char header[8]; /* length, big-endian, and type */
     struct stat status;
     if (fstat(fileno(file), &status) != 0 || fseeko(file, SIGNATURE, SEEK_SET) != 0) {
@@ -309,7 +326,8 @@ static bool check_chunks(FILE *file) {
     return fseeko(file, SIGNATURE, SEEK_SET) == 0;
 }
 
-char *gm_png_read_text(const char *path, const char *key, char *message) {
+char *gm_png_read_text(const char *path, const char *key, char *message)
+{
     struct stream stream = {.file = fopen(path, "rbe")};
     if (!stream.file) {
         snprintf(message, MESSAGE, "cannot read %.*s: %s", PATH_SHOWN, path, strerror(errno));

@@ -6,10 +6,12 @@
 #include <stddef.h>
 
 /* A key and a text of a PNG's text chunks (UTF-8 goes to iTXt). */
-struct gm_png_text { const char *key, *text; };
+struct gm_png_text {
+    const char *key, *text;
+};
 
 /* Writes rgb (height rows of width * 3 bytes, top first) to path, by way of a temporary name, so that a
-   killed program leaves no half file. False on failure, with one sentence in message. */
+   killed program leaves no half file. False on failure, with one sentence in message (512 bytes). */
 bool gm_png_write(const char *path, int width, int height, const unsigned char *rgb,
                   const struct gm_png_text *texts, size_t count, char *message);
 

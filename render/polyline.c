@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool gm_polyline_reserve(struct gm_polyline *line, size_t count) {
+bool gm_polyline_reserve(struct gm_polyline *line, size_t count)
+{
     line->count = 0;
     if (count <= line->capacity)
         return true;
@@ -22,17 +23,20 @@ bool gm_polyline_reserve(struct gm_polyline *line, size_t count) {
     return true;
 }
 
-void gm_polyline_free(struct gm_polyline *line) {
+void gm_polyline_free(struct gm_polyline *line)
+{
     free(line->points);
     *line = (struct gm_polyline){0};
 }
 
-static bool inside(struct gm_bounds bounds, struct gm_point p) {
+static bool inside(struct gm_bounds bounds, struct gm_point p)
+{
     return p.x >= bounds.left && p.x <= bounds.right && p.y >= bounds.top && p.y <= bounds.bottom;
 }
 
 /* Narrows the part [*enter, *leave] of a segment to where start + t * step lies in [low, high]. */
-static bool narrow(float start, float step, float low, float high, float *enter, float *leave) {
+static bool narrow(float start, float step, float low, float high, float *enter, float *leave)
+{
     if (step == 0.0f)
         return start >= low && start <= high;
     const float a = (low - start) / step, b = (high - start) / step;
@@ -41,12 +45,14 @@ static bool narrow(float start, float step, float low, float high, float *enter,
     return *enter <= *leave;
 }
 
-static struct gm_point along(struct gm_point p, struct gm_point q, float t) {
+static struct gm_point along(struct gm_point p, struct gm_point q, float t)
+{
     return t <= 0.0f ? p : t >= 1.0f ? q : (struct gm_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
 }
 
 bool gm_polyline_clip(const struct gm_polyline *line, struct gm_bounds bounds, size_t *from,
-                      struct gm_polyline *piece) {
+                      struct gm_polyline *piece)
+{
     const size_t segments = line->count == 0 ? 0 : line->closed ? line->count : line->count - 1;
     if (*from > segments || line->count == 0 || !gm_polyline_reserve(piece, line->count + 1))
         return false;
@@ -83,21 +89,25 @@ bool gm_polyline_clip(const struct gm_polyline *line, struct gm_bounds bounds, s
     return piece->count > 0;
 }
 
-static float cross(struct gm_point a, struct gm_point b) {
+static float cross(struct gm_point a, struct gm_point b)
+{
     return a.x * b.y - a.y * b.x;
 }
 
-static float dot(struct gm_point a, struct gm_point b) {
+static float dot(struct gm_point a, struct gm_point b)
+{
     return a.x * b.x + a.y * b.y;
 }
 
-static struct gm_point minus(struct gm_point a, struct gm_point b) {
+static struct gm_point minus(struct gm_point a, struct gm_point b)
+{
     return (struct gm_point){a.x - b.x, a.y - b.y};
 }
 
 /* From a kept point on, all lines to later points must pass those between within the tolerance: they lie in
    a wedge that every point narrows. A point outside the wedge, or nearer than the one before, ends it. */
-void gm_polyline_simplify(struct gm_polyline *line, float tolerance) {
+void gm_polyline_simplify(struct gm_polyline *line, float tolerance)
+{
     struct gm_point *points = line->points;
     if (line->count < 3)
         return;
@@ -135,15 +145,18 @@ void gm_polyline_simplify(struct gm_polyline *line, float tolerance) {
     line->count = kept;
 }
 
-static float distance(struct gm_point a, struct gm_point b) {
+static float distance(struct gm_point a, struct gm_point b)
+{
     return sqrtf(dot(minus(a, b), minus(a, b)));
 }
 
-static size_t segments_of(const struct gm_polyline *line) {
+static size_t segments_of(const struct gm_polyline *line)
+{
     return line->count < 2 ? 0 : line->closed ? line->count : line->count - 1;
 }
 
-float gm_polyline_length(const struct gm_polyline *line) {
+float gm_polyline_length(const struct gm_polyline *line)
+{
     float length = 0.0f;
     for (size_t i = 0; i < segments_of(line); i++)
         length += distance(line->points[i], line->points[(i + 1) % line->count]);
@@ -151,7 +164,8 @@ float gm_polyline_length(const struct gm_polyline *line) {
 }
 
 bool gm_polyline_dash(const struct gm_polyline *line, const float *pattern, size_t parts,
-                      struct gm_dashing *state, struct gm_polyline *dash) {
+                      struct gm_dashing *state, struct gm_polyline *dash)
+{
     const size_t segments = segments_of(line);
     if (!gm_polyline_reserve(dash, line->count + 2))
         return false;

@@ -5,7 +5,8 @@
 
 #define PI 3.14159265358979323846
 
-void gm_range_add(double *low, double *high, double value) {
+void gm_range_add(double *low, double *high, double value)
+{
     if (!isfinite(value))
         return;
     if (*low > *high) {
@@ -17,7 +18,8 @@ void gm_range_add(double *low, double *high, double value) {
 }
 
 /* The smallest of 1, 2, 5 times a power of ten that is not below value > 0. */
-static double round_up(double value) {
+static double round_up(double value)
+{
     const double power = pow(10.0, floor(log10(value)));
     const double mantissa = value / power;
     const double rounding = 1.0 + 1e-9;
@@ -29,7 +31,8 @@ static double round_up(double value) {
 
 /* Bounds at multiples of a round step of about a quarter of the range. Rounding may widen the range so far
    that its step is the next larger one: repeated until that ends, so that rounding twice changes nothing. */
-static void round_linear(double *low, double *high, double unit) {
+static void round_linear(double *low, double *high, double unit)
+{
     if (*low == *high) {
         const double around = *low != 0.0 ? 0.1 * fabs(*low) : 1.0;
         *low -= around;
@@ -50,7 +53,8 @@ static void round_linear(double *low, double *high, double unit) {
 }
 
 /* 1, 2, 5 times powers of ten up to two decades, whole decades beyond. */
-static void round_log(double *low, double *high) {
+static void round_log(double *low, double *high)
+{
     if (!(*low > 0.0)) {
         *low = *high > 0.0 ? *high / 10.0 : 0.1;
         *high = *high > 0.0 ? *high : 1.0;
@@ -69,7 +73,8 @@ static void round_log(double *low, double *high) {
     }
 }
 
-void gm_range_round(double *low, double *high, enum gm_scale scale) {
+void gm_range_round(double *low, double *high, enum gm_scale scale)
+{
     if (!(*low <= *high) || !isfinite(*low) || !isfinite(*high)) {
         *low = scale == GM_LOG ? 0.1 : 0.0;
         *high = 1.0;

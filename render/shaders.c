@@ -40,7 +40,8 @@ static const char *const fragment_sources[GM_PROGRAM_COUNT] = {
     [GM_PROGRAM_IMAGE] = "void main() { pixel = vec4(mapped(texture(image, edge.xy).r), edge.z); }\n",
 };
 
-static GLuint compile(const struct gm_gl *gl, GLenum kind, const char *head, const char *body) {
+static GLuint compile(const struct gm_gl *gl, GLenum kind, const char *head, const char *body)
+{
     const GLuint shader = gl->CreateShader(kind);
     const char *sources[] = {head, body};
     gl->ShaderSource(shader, 2, sources, NULL);
@@ -48,7 +49,8 @@ static GLuint compile(const struct gm_gl *gl, GLenum kind, const char *head, con
     return shader;
 }
 
-static bool link_program(const struct gm_gl *gl, GLuint program, const char *fragment_body) {
+static bool link_program(const struct gm_gl *gl, GLuint program, const char *fragment_body)
+{
     const GLuint vertex = compile(gl, GL_VERTEX_SHADER, vertex_source, "");
     const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_head, fragment_body);
     gl->AttachShader(program, vertex);
@@ -64,7 +66,8 @@ static bool link_program(const struct gm_gl *gl, GLuint program, const char *fra
     return linked;
 }
 
-bool gm_shaders_open(const struct gm_gl *gl, GLuint *programs, char *message, size_t size) {
+bool gm_shaders_open(const struct gm_gl *gl, GLuint *programs, char *message, size_t size)
+{
     static const char *const samplers[] = {"glyphs", "maps", "image"}; /* in order of texture units */
     for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
         programs[i] = gl->CreateProgram();
@@ -82,12 +85,14 @@ bool gm_shaders_open(const struct gm_gl *gl, GLuint *programs, char *message, si
     return true;
 }
 
-void gm_shaders_close(const struct gm_gl *gl, GLuint *programs) {
+void gm_shaders_close(const struct gm_gl *gl, GLuint *programs)
+{
     for (int i = 0; i < GM_PROGRAM_COUNT; i++)
         gl->DeleteProgram(programs[i]);
 }
 
-void gm_shaders_resize(const struct gm_gl *gl, const GLuint *programs, int width, int height) {
+void gm_shaders_resize(const struct gm_gl *gl, const GLuint *programs, int width, int height)
+{
     for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
         gl->UseProgram(programs[i]);
         gl->Uniform2f(gl->GetUniformLocation(programs[i], "scale"), 2.0f / (float)width,

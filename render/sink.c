@@ -33,7 +33,8 @@ struct gm_sink {
     char message[GM_SINK_MESSAGE];
 };
 
-void gm_texts_free(struct gm_png_text *texts, size_t count) {
+void gm_texts_free(struct gm_png_text *texts, size_t count)
+{
     for (size_t i = 0; texts && i < count; i++) {
         free((char *)texts[i].key);
         free((char *)texts[i].text);
@@ -41,7 +42,8 @@ void gm_texts_free(struct gm_png_text *texts, size_t count) {
     free(texts);
 }
 
-struct gm_png_text *gm_texts_copy(const struct gm_png_text *texts, size_t count) {
+struct gm_png_text *gm_texts_copy(const struct gm_png_text *texts, size_t count)
+{
     struct gm_png_text *copy = calloc(count ? count : 1, sizeof *copy);
     for (size_t i = 0; copy && i < count; i++) {
         copy[i].key = strdup(texts[i].key);
@@ -55,7 +57,8 @@ struct gm_png_text *gm_texts_copy(const struct gm_png_text *texts, size_t count)
 }
 
 /* The first failure is the one that is told. Called with the lock held. */
-static void note_failure(struct gm_sink *sink, const char *message) {
+static void note_failure(struct gm_sink *sink, const char *message)
+{
     if (!sink->failed) {
         sink->failed = true;
         snprintf(sink->message, sizeof sink->message, "%s", message);
@@ -63,7 +66,8 @@ static void note_failure(struct gm_sink *sink, const char *message) {
     pthread_cond_broadcast(&sink->vacant);
 }
 
-static void *work(void *argument) {
+static void *work(void *argument)
+{
     struct gm_sink *sink = argument;
     pthread_mutex_lock(&sink->lock);
     for (;;) {
@@ -95,7 +99,8 @@ static void *work(void *argument) {
     return NULL;
 }
 
-static void release(struct gm_sink *sink) {
+static void release(struct gm_sink *sink)
+{
     for (size_t i = 0; i < sink->made; i++) {
         free(sink->frames[i]);
     }
@@ -109,7 +114,8 @@ static void release(struct gm_sink *sink) {
     free(sink);
 }
 
-static void end_workers(struct gm_sink *sink, bool drop) {
+static void end_workers(struct gm_sink *sink, bool drop)
+{
     pthread_mutex_lock(&sink->lock);
     sink->closing = true;
     sink->dropping = drop;
@@ -122,7 +128,8 @@ static void end_workers(struct gm_sink *sink, bool drop) {
 
 /* Signals are for the thread that paints. A blocked SIGPIPE or SIGXFSZ becomes an error of write; faults must
    not be blocked. */
-static bool start_workers(struct gm_sink *sink, int workers) {
+static bool start_workers(struct gm_sink *sink, int workers)
+{
     sigset_t blocked, before;
     sigfillset(&blocked);
     const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP};
@@ -139,7 +146,8 @@ static bool start_workers(struct gm_sink *sink, int workers) {
 }
 
 struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int workers, size_t frame_size,
-                              char *message) {
+                              char *message)
+{
     struct gm_sink *sink = calloc(1, sizeof *sink);
     if (sink) {
         pthread_mutex_init(&sink->lock, NULL);
@@ -163,7 +171,8 @@ struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int w
     return NULL;
 }
 
-unsigned char *gm_sink_frame(struct gm_sink *sink) {
+unsigned char *gm_sink_frame(struct gm_sink *sink)
+{
     unsigned char *frame = NULL;
     pthread_mutex_lock(&sink->lock);
     while (!sink->failed && sink->idle_count == 0 && sink->made == sink->limit) {
@@ -184,7 +193,8 @@ unsigned char *gm_sink_frame(struct gm_sink *sink) {
 }
 
 bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const struct gm_png_text *texts,
-                 size_t count) {
+                 size_t count)
+{
     struct gm_png_text *copy = gm_texts_copy(texts, count);
     pthread_mutex_lock(&sink->lock);
     if (!copy) {
@@ -206,7 +216,8 @@ bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const 
     return taken;
 }
 
-bool gm_sink_close(struct gm_sink *sink, bool keep, char *message) {
+bool gm_sink_close(struct gm_sink *sink, bool keep, char *message)
+{
     end_workers(sink, !keep);
     char late[GM_SINK_MESSAGE] = "";
     if (!sink->kind->close(sink->self, keep && !sink->failed, late)) {

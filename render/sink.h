@@ -5,14 +5,15 @@
 #include "render/png.h"
 
 /* Where frames go: numbered PNG files, one PNG file, or a movie. Frames are encoded by worker threads behind
-   a bounded queue: put waits while the queue is full, so memory does not grow with the number of frames. */
+   a bounded queue: gm_sink_frame waits while all frames are in use, so memory does not grow with their
+   number. Messages have room for 512 bytes. */
 
 struct gm_sink;
 
 struct gm_sink_settings {
     int width, height;
-    double fps;        /* of a movie; its last frame stands for one second */
-    int threads;       /* encoders; 0: as many as there are processors */
+    double fps;                      /* of a movie; its last frame stands for one second */
+    int threads;                     /* encoders; 0: as many as there are processors */
     const struct gm_png_text *texts; /* of every PNG; copied */
     size_t text_count;
 };
@@ -25,7 +26,8 @@ struct gm_sink *gm_sink_open_movie(const char *path, const struct gm_sink_settin
 
 /* An empty frame of width * height * 3 bytes to paint into; waits for one. NULL after a failure. */
 unsigned char *gm_sink_frame(struct gm_sink *sink);
-/* Hands the frame over; `number` is its place in the sequence. Extra texts (this frame's time) are copied. */
+/* Hands the frame over, also on failure; `number` is its place in the sequence of PNGs (a movie has the order
+   in which frames are put). Extra texts (this frame's time) are copied. */
 bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const struct gm_png_text *texts,
                  size_t count);
 /* Finishes what was put (keep) or gives the movie up (not keep; finished PNGs stay). False if any frame

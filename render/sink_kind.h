@@ -7,7 +7,7 @@
 /* What the kinds of sink share with sink.c, and with nobody else: the queue is sink.c's, a kind says what
    becomes of a frame. */
 
-enum { GM_SINK_MESSAGE = 512 };
+enum { GM_SINK_MESSAGE = 512 }; /* as sink.h promises */
 
 struct gm_sink_kind {
     /* Called in a worker thread, with one worker in the order in which frames were put. */

@@ -24,7 +24,7 @@
        webm   libvpx-vp9 realtime, crf 24                     1.6    1.0     208   (good: 9.4, .76)
        gif    frames kept without loss while the palette
               is gathered, then one more pass                 3.2    4.9     131
-              one pass: every frame waits for the palette     7.9    5.5    1984
+              one pass: every frame waits for the palette     7.9    4.9    1984
               one pass: a palette for every frame             9.3   21       127
 
    The first two lose nothing that can be seen (50 dB and more), so the fast settings are the right ones. */
@@ -63,7 +63,8 @@ struct command {
     size_t count;
 };
 
-static void add(struct command *command, size_t count, const char *const *words) {
+static void add(struct command *command, size_t count, const char *const *words)
+{
     for (size_t i = 0; i < count && command->count + 1 < MOST_WORDS; i++) {
         command->words[command->count++] = words[i];
     }
@@ -74,7 +75,8 @@ static void add(struct command *command, size_t count, const char *const *words)
         (const char *const[]){__VA_ARGS__})
 
 /* Without -xerror ffmpeg 5.1 fills a disk and calls that success. */
-static struct command begin(void) {
+static struct command begin(void)
+{
     struct command command = {.count = 0};
     ADD(&command, "ffmpeg", "-hide_banner", "-nostats", "-loglevel", "warning", "-nostdin", "-xerror", "-y");
     return command;
@@ -82,7 +84,8 @@ static struct command begin(void) {
 
 /* An errno, 0 if ffmpeg runs. It is a process group of its own, so that an interrupt from the keyboard is
    geomint's to handle. */
-static int start_ffmpeg(struct movie_sink *self, struct command *command, int input) {
+static int start_ffmpeg(struct movie_sink *self, struct command *command, int input)
+{
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t none;
@@ -104,7 +107,8 @@ static int start_ffmpeg(struct movie_sink *self, struct command *command, int in
     return error;
 }
 
-static void kill_ffmpeg(struct movie_sink *self) {
+static void kill_ffmpeg(struct movie_sink *self)
+{
     if (self->ffmpeg > 0) {
         kill(-self->ffmpeg, SIGKILL);
         waitpid(self->ffmpeg, NULL, 0);
@@ -113,7 +117,8 @@ static void kill_ffmpeg(struct movie_sink *self) {
 }
 
 /* Its wait status; -1, and it is ended, if it takes longer than `patience` milliseconds. */
-static int await_ffmpeg(struct movie_sink *self, int patience) {
+static int await_ffmpeg(struct movie_sink *self, int patience)
+{
     enum { NAP = 5 };
     for (int waited = 0; waited <= patience; waited += NAP) {
         int status = 0;
@@ -132,7 +137,8 @@ static int await_ffmpeg(struct movie_sink *self, int patience) {
 }
 
 /* The last line of the log that tells a reason, "" if there is none. */
-static void read_reason(const struct movie_sink *self, char *reason, size_t size) {
+static void read_reason(const struct movie_sink *self, char *reason, size_t size)
+{
     char tail[4096];
     struct stat status;
     reason[0] = '\0';
@@ -156,7 +162,8 @@ static void read_reason(const struct movie_sink *self, char *reason, size_t size
 }
 
 /* Makes the sentence for a wait status that is not success. */
-static bool tell(struct movie_sink *self, int status, char *message) {
+static bool tell(struct movie_sink *self, int status, char *message)
+{
     char how[64] = "was ended, for it did nothing any more";
     if (status >= 0 && WIFSIGNALED(status)) {
         const char *name = sigdescr_np(WTERMSIG(status));
@@ -173,7 +180,8 @@ static bool tell(struct movie_sink *self, int status, char *message) {
 }
 
 static bool write_frame(void *argument, const unsigned char *rgb, long number,
-                        const struct gm_png_text *texts, size_t count, char *message) {
+                        const struct gm_png_text *texts, size_t count, char *message)
+{
     struct movie_sink *self = argument;
     (void)number; /* a movie has the order in which frames are put, and no texts */
     (void)texts;
@@ -200,7 +208,8 @@ static bool write_frame(void *argument, const unsigned char *rgb, long number,
 }
 
 /* The second pass of a GIF, when all colours are known. */
-static bool make_gif(struct movie_sink *self, char *message) {
+static bool make_gif(struct movie_sink *self, char *message)
+{
     struct command command = begin();
     ADD(&command, "-f", "nut", "-i", self->frames, "-f", "png_pipe", "-i", self->palette);
     ADD(&command, "-filter_complex", "paletteuse=dither=none:diff_mode=rectangle");
@@ -217,7 +226,8 @@ static bool make_gif(struct movie_sink *self, char *message) {
     return status == 0 || tell(self, status, message);
 }
 
-static bool complete(struct movie_sink *self, char *message) {
+static bool complete(struct movie_sink *self, char *message)
+{
     int status = await_ffmpeg(self, gm_sink_movie_patience);
     if (status != 0) {
         return tell(self, status, message);
@@ -237,14 +247,16 @@ static bool complete(struct movie_sink *self, char *message) {
     return true;
 }
 
-static void remove_and_free(char *path) {
+static void remove_and_free(char *path)
+{
     if (path) {
         unlink(path);
     }
     free(path);
 }
 
-static bool close_movie(void *argument, bool keep, char *message) {
+static bool close_movie(void *argument, bool keep, char *message)
+{
     struct movie_sink *self = argument;
     if (self->input >= 0) {
         close(self->input);
@@ -266,7 +278,8 @@ static bool close_movie(void *argument, bool keep, char *message) {
     return good;
 }
 
-static int first_pass(struct movie_sink *self, int input) {
+static int first_pass(struct movie_sink *self, int input)
+{
     char size[32], rate[32], filters[256];
     snprintf(size, sizeof size, "%dx%d", self->width, self->height);
     /* a fraction, as a decimal point depends on the locale */
@@ -313,7 +326,8 @@ static int first_pass(struct movie_sink *self, int input) {
     return start_ffmpeg(self, &command, input);
 }
 
-static bool start_first_pass(struct movie_sink *self, char *message) {
+static bool start_first_pass(struct movie_sink *self, char *message)
+{
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) {
         snprintf(message, GM_SINK_MESSAGE, "ffmpeg could not be started: %s", strerror(errno));
@@ -333,7 +347,8 @@ static bool start_first_pass(struct movie_sink *self, char *message) {
     return error == 0;
 }
 
-static bool find_format(const char *path, enum format *format) {
+static bool find_format(const char *path, enum format *format)
+{
     size_t length = strlen(path);
     for (enum format i = 0; i < FORMATS; i++) {
         size_t ending = strlen(endings[i]);
@@ -346,7 +361,8 @@ static bool find_format(const char *path, enum format *format) {
 }
 
 /* Everything that could go wrong after hours of simulation and can be known now. */
-static bool open_files(struct movie_sink *self, const char *path, char *message) {
+static bool open_files(struct movie_sink *self, const char *path, char *message)
+{
     struct stat status;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
         snprintf(message, GM_SINK_MESSAGE, "cannot write %.*s: it is there and is no ordinary file",
@@ -373,7 +389,8 @@ static bool open_files(struct movie_sink *self, const char *path, char *message)
     return true;
 }
 
-struct gm_sink *gm_sink_open_movie(const char *path, const struct gm_sink_settings *settings, char *message) {
+struct gm_sink *gm_sink_open_movie(const char *path, const struct gm_sink_settings *settings, char *message)
+{
     static const struct gm_sink_kind kind = {.frame = write_frame, .close = close_movie};
     enum format format = MP4;
     if (!find_format(path, &format)) {

@@ -20,7 +20,8 @@ struct png_sink {
 };
 
 /* Finds the last %d, %6d, %06ld, ... of the file's name. */
-static void find_conversion(struct png_sink *self) {
+static void find_conversion(struct png_sink *self)
+{
     const char *slash = strrchr(self->pattern, '/');
     for (const char *at = slash ? slash : self->pattern; (at = strchr(at, '%')) != NULL; at++) {
         const char *end = at + 1;
@@ -39,7 +40,8 @@ static void find_conversion(struct png_sink *self) {
     }
 }
 
-static char *format_path(const struct png_sink *self, long number) {
+static char *format_path(const struct png_sink *self, long number)
+{
     char *path = NULL;
     if (self->after == 0) {
         return strdup(self->pattern);
@@ -52,7 +54,8 @@ static char *format_path(const struct png_sink *self, long number) {
 }
 
 static bool write_frame(void *argument, const unsigned char *rgb, long number,
-                        const struct gm_png_text *texts, size_t count, char *message) {
+                        const struct gm_png_text *texts, size_t count, char *message)
+{
     const struct png_sink *self = argument;
     size_t total = self->text_count + count;
     struct gm_png_text *all = calloc(total ? total : 1, sizeof *all);
@@ -72,7 +75,8 @@ static bool write_frame(void *argument, const unsigned char *rgb, long number,
     return written;
 }
 
-static bool close_png(void *argument, bool keep, char *message) {
+static bool close_png(void *argument, bool keep, char *message)
+{
     struct png_sink *self = argument;
     (void)keep; /* finished files stay, others have no name yet */
     (void)message;
@@ -82,13 +86,14 @@ static bool close_png(void *argument, bool keep, char *message) {
     return true;
 }
 
-static int count_processors(void) {
+static int count_processors(void)
+{
     cpu_set_t processors;
     return sched_getaffinity(0, sizeof processors, &processors) == 0 ? CPU_COUNT(&processors) : 1;
 }
 
-struct gm_sink *gm_sink_open_png(const char *pattern, const struct gm_sink_settings *settings,
-                                 char *message) {
+struct gm_sink *gm_sink_open_png(const char *pattern, const struct gm_sink_settings *settings, char *message)
+{
     static const struct gm_sink_kind kind = {.frame = write_frame, .close = close_png};
     struct png_sink *self = calloc(1, sizeof *self);
     if (!self) {

@@ -10,16 +10,19 @@ static const float fringe = 0.75f;
 /* Sharper turns than this cosine are not mitred. */
 static const float sharpest = 0.35f;
 
-static struct gm_point minus(struct gm_point a, struct gm_point b) {
+static struct gm_point minus(struct gm_point a, struct gm_point b)
+{
     return (struct gm_point){a.x - b.x, a.y - b.y};
 }
 
-static float dot(struct gm_point a, struct gm_point b) {
+static float dot(struct gm_point a, struct gm_point b)
+{
     return a.x * b.x + a.y * b.y;
 }
 
 /* The direction of a segment, and its length. */
-static struct gm_point direction(struct gm_point from, struct gm_point to, float *length) {
+static struct gm_point direction(struct gm_point from, struct gm_point to, float *length)
+{
     const struct gm_point way = minus(to, from);
     *length = sqrtf(dot(way, way));
     return *length > 0.0f ? (struct gm_point){way.x / *length, way.y / *length}
@@ -27,7 +30,8 @@ static struct gm_point direction(struct gm_point from, struct gm_point to, float
 }
 
 static struct gm_vertex vertex(struct gm_point place, float across, float along, float half,
-                               struct gm_ink ink) {
+                               struct gm_ink ink)
+{
     struct gm_vertex made = {place.x, place.y, across, along, half, {0}};
     memcpy(made.colour, ink.colour, sizeof made.colour);
     return made;
@@ -38,7 +42,8 @@ struct joint {
     bool mitred;
 };
 
-static struct joint joint_at(const struct gm_polyline *line, size_t i, float reach) {
+static struct joint joint_at(const struct gm_polyline *line, size_t i, float reach)
+{
     const size_t n = line->count;
     const struct gm_point *p = line->points;
     float length, next;
@@ -52,7 +57,8 @@ static struct joint joint_at(const struct gm_polyline *line, size_t i, float rea
     return joint;
 }
 
-size_t gm_stroke_breaks(const struct gm_polyline *line, float half) {
+size_t gm_stroke_breaks(const struct gm_polyline *line, float half)
+{
     size_t breaks = 0;
     const size_t ends = line->closed ? 0 : 1;
     for (size_t i = ends; i + ends < line->count; i++)
@@ -62,31 +68,36 @@ size_t gm_stroke_breaks(const struct gm_polyline *line, float half) {
 
 /* The two sides of the strip at a point; `slant` is along the normal of one direction or between two. */
 static void put_sides(struct gm_vertex *strip, struct gm_point p, struct gm_point slant, float reach,
-                      float along, float half, struct gm_ink ink) {
+                      float along, float half, struct gm_ink ink)
+{
     const struct gm_point left = {p.x + reach * slant.x, p.y + reach * slant.y};
     const struct gm_point right = {p.x - reach * slant.x, p.y - reach * slant.y};
     strip[0] = vertex(left, reach, along, half, ink);
     strip[1] = vertex(right, -reach, along, half, ink);
 }
 
-static struct gm_point normal(struct gm_point way) {
+static struct gm_point normal(struct gm_point way)
+{
     return (struct gm_point){-way.y, way.x};
 }
 
 /* From a mitred joint's two normals to the vector whose projection on either is 1. */
-static struct gm_point mitre(struct joint joint) {
+static struct gm_point mitre(struct joint joint)
+{
     const struct gm_point a = normal(joint.before), b = normal(joint.after);
     const float scale = 1.0f / (1.0f + dot(a, b));
     return (struct gm_point){scale * (a.x + b.x), scale * (a.y + b.y)};
 }
 
-static struct gm_point beyond(struct gm_point p, struct gm_point way, float distance) {
+static struct gm_point beyond(struct gm_point p, struct gm_point way, float distance)
+{
     return (struct gm_point){p.x + distance * way.x, p.y + distance * way.y};
 }
 
 /* A run of mitred segments from point `first` over `segments` segments, round at both ends. */
 static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size_t first, size_t segments,
-                    float half, struct gm_ink ink) {
+                    float half, struct gm_ink ink)
+{
     const float reach = half + fringe;
     const size_t n = line->count;
     struct gm_vertex *strip = gm_batch_strip(batch, 2 * (segments + 3));
@@ -108,7 +119,8 @@ static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size
 }
 
 /* A closed line all of whose joints are mitred. */
-static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_ink ink) {
+static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_ink ink)
+{
     const float reach = half + fringe;
     struct gm_vertex *strip = gm_batch_strip(batch, 2 * (line->count + 1));
     if (strip == NULL)
@@ -120,7 +132,8 @@ static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, flo
     gm_batch_end(batch, 0);
 }
 
-void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_ink ink) {
+void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_ink ink)
+{
     const float reach = half + fringe;
     const size_t n = line->count;
     if (n == 0)
@@ -148,7 +161,8 @@ void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, floa
     }
 }
 
-void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_ink ink) {
+void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_ink ink)
+{
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
     if (strip == NULL)
         return;
@@ -161,7 +175,8 @@ void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius
 }
 
 void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, float bottom,
-                   struct gm_ink ink) {
+                   struct gm_ink ink)
+{
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
     if (strip == NULL)
         return;
@@ -172,7 +187,8 @@ void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, f
 }
 
 /* Convex: every turn has one sign, and they add up to one round, so that x rises and falls once. */
-static bool convex(const struct gm_polyline *line) {
+static bool convex(const struct gm_polyline *line)
+{
     const size_t n = line->count;
     const struct gm_point *p = line->points;
     bool left = false, right = false;
@@ -191,7 +207,8 @@ static bool convex(const struct gm_polyline *line) {
     return left || right;
 }
 
-static float area_of(const struct gm_polyline *line) {
+static float area_of(const struct gm_polyline *line)
+{
     float area = 0.0f;
     for (size_t i = 0; i < line->count; i++) {
         const struct gm_point p = minus(line->points[i], line->points[0]);
@@ -201,7 +218,8 @@ static float area_of(const struct gm_polyline *line) {
     return area;
 }
 
-static float perimeter_of(const struct gm_polyline *line) {
+static float perimeter_of(const struct gm_polyline *line)
+{
     struct gm_polyline closed = *line;
     closed.closed = true;
     return gm_polyline_length(&closed);
@@ -209,12 +227,14 @@ static float perimeter_of(const struct gm_polyline *line) {
 
 /* The corners in the order 0, 1, n-1, 2, n-2, ...: as a strip they cover a convex polygon once, and the
    inside of any polygon an odd number of times. */
-static size_t zigzag(size_t i, size_t n) {
+static size_t zigzag(size_t i, size_t n)
+{
     return i == 0 ? 0 : i % 2 == 1 ? (i + 1) / 2 : n - i / 2;
 }
 
 /* Moves a corner along the bisector by `distance` from both of its sides. */
-static struct gm_point shifted(const struct gm_polyline *line, size_t i, float distance) {
+static struct gm_point shifted(const struct gm_polyline *line, size_t i, float distance)
+{
     const struct joint joint = joint_at(line, i, 0.0f);
     const struct gm_point a = normal(joint.before), b = normal(joint.after);
     const float scale = distance / fmaxf(0.25f, 1.0f + dot(a, b));
@@ -223,7 +243,8 @@ static struct gm_point shifted(const struct gm_polyline *line, size_t i, float d
 }
 
 static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, float outwards,
-                        struct gm_ink ink) {
+                        struct gm_ink ink)
+{
     /* First the fading rim, a ring of corners half a pixel inside and outside; then the inside. */
     const size_t n = line->count;
     struct gm_vertex *ring = gm_batch_strip(batch, 2 * (n + 1));
@@ -245,7 +266,8 @@ static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, 
     gm_batch_end(batch, 0);
 }
 
-static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink) {
+static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
+{
     const size_t n = line->count;
     struct gm_vertex *strip = gm_batch_strip(batch, n);
     if (strip == NULL)
@@ -255,7 +277,8 @@ static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, 
     gm_batch_end(batch, 0);
 }
 
-static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink) {
+static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
+{
     struct gm_polyline rim = *line;
     struct gm_bounds bounds = {line->points[0].x, line->points[0].y, line->points[0].x, line->points[0].y};
     for (size_t i = 1; i < line->count; i++) {
@@ -275,7 +298,8 @@ static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, str
     gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 
-void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink) {
+void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
+{
     if (line->count < 3)
         return;
     const float area = area_of(line);

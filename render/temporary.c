@@ -8,12 +8,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-bool gm_temporary_fits(const char *path) {
+bool gm_temporary_fits(const char *path)
+{
     struct stat status;
     return lstat(path, &status) != 0 || S_ISREG(status.st_mode);
 }
 
-char *gm_temporary_name(const char *path, const char *ending) {
+char *gm_temporary_name(const char *path, const char *ending)
+{
     static atomic_uint counter;
     const char *slash = strrchr(path, '/');
     const char *name = slash ? slash + 1 : path;

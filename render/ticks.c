@@ -17,7 +17,8 @@ static const double slack = 1e-6;
 static const double few_decades = 1.5;
 
 /* The range as the axis shows it: never empty, positive on a log axis. */
-static void range_of(const struct gm_axis *axis, double *low, double *high) {
+static void range_of(const struct gm_axis *axis, double *low, double *high)
+{
     const bool good = isfinite(axis->low) && isfinite(axis->high) && axis->high > axis->low &&
                       (axis->scale != GM_LOG || axis->low > 0.0);
     *low = good ? axis->low : axis->scale == GM_LOG ? 0.1 : 0.0;
@@ -25,18 +26,21 @@ static void range_of(const struct gm_axis *axis, double *low, double *high) {
 }
 
 /* mantissa * 10^exponent, as exact as can be. */
-static double scaled(double mantissa, int exponent) {
+static double scaled(double mantissa, int exponent)
+{
     return exponent < 0 ? mantissa / pow(10.0, -exponent) : mantissa * pow(10.0, exponent);
 }
 
 /* How many multiples of step lie in the range; their first is *first. */
-static double multiples(double low, double high, double step, double *first) {
+static double multiples(double low, double high, double step, double *first)
+{
     *first = ceil(low / step - slack);
     return floor(high / step + slack) - *first + 1.0;
 }
 
 static size_t fill_multiples(double low, double high, double mantissa, int exponent, size_t max,
-                             double *values) {
+                             double *values)
+{
     double first;
     const double count = multiples(low, high, scaled(mantissa, exponent), &first);
     if (!(count >= 1.0 && count <= (double)max))
@@ -47,7 +51,8 @@ static size_t fill_multiples(double low, double high, double mantissa, int expon
 }
 
 /* One or two ticks, where no step gives three. */
-static size_t few_ticks(double low, double high, int exponent, size_t max, double *values) {
+static size_t few_ticks(double low, double high, int exponent, size_t max, double *values)
+{
     static const double steps[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         const size_t count = fill_multiples(low, high, steps[i], exponent, max, values);
@@ -59,7 +64,8 @@ static size_t few_ticks(double low, double high, int exponent, size_t max, doubl
 
 /* The first of the steps that gives at least three ticks; 0 if none does. */
 static size_t first_step(double low, double high, const double *steps, size_t step_count, int exponent,
-                         size_t max, double *values) {
+                         size_t max, double *values)
+{
     for (size_t i = 0; i < step_count; i++) {
         const size_t count = fill_multiples(low, high, steps[i], exponent, max, values);
         if (count >= 3)
@@ -68,12 +74,14 @@ static size_t first_step(double low, double high, const double *steps, size_t st
     return 0;
 }
 
-static bool spans(double low, double high, const double *values, size_t count) {
+static bool spans(double low, double high, const double *values, size_t count)
+{
     const double close = slack * (high - low);
     return count > 1 && fabs(values[0] - low) < close && fabs(values[count - 1] - high) < close;
 }
 
-static size_t ticks_linear(double low, double high, size_t max, double *values) {
+static size_t ticks_linear(double low, double high, size_t max, double *values)
+{
     static const double familiar[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
     static const double further[] = {1.5, 2.5, 3.0, 4.0, 6.0, 8.0, 15.0, 25.0, 30.0, 40.0};
     const size_t familiar_count = sizeof familiar / sizeof *familiar;
@@ -87,20 +95,23 @@ static size_t ticks_linear(double low, double high, size_t max, double *values) 
         return count > 0 ? count : few_ticks(low, high, exponent, max, values);
 
     /* Less familiar steps where the others leave too few ticks, or where both ends of the axis get one. */
-    double others[GM_TICK_MAX];
-    const size_t other = first_step(low, high, further, further_count, exponent, max, others);
-    if (other > 0 && (count == 0 || spans(low, high, others, other))) {
-        memcpy(values, others, other * sizeof *values);
-        return other;
+    for (size_t i = 0; i < further_count; i++) {
+        double others[GM_TICK_MAX];
+        const size_t other = fill_multiples(low, high, further[i], exponent, max, others);
+        if (other >= 3 && (count == 0 || spans(low, high, others, other))) {
+            memcpy(values, others, other * sizeof *values);
+            return other;
+        }
     }
     return count > 0 ? count : few_ticks(low, high, exponent, max, values);
 }
 
-static size_t ticks_pi(double low, double high, size_t max, double *values) {
+static size_t ticks_pi(double low, double high, size_t max, double *values)
+{
     static const double steps[] = {1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0},
                         further[] = {1.0 / 6, 1.0 / 3, 2.0 / 3, 3.0 / 4};
     const double from = low / PI, to = high / PI;
-    if ((to - from) * 8.0 < 2.0)
+    if ((to - from) * 8.0 < 3.0)
         return ticks_linear(low, high, max, values);
     size_t count = 0;
     for (size_t i = 0; i < sizeof steps / sizeof *steps && count == 0; i++)
@@ -120,7 +131,8 @@ static size_t ticks_pi(double low, double high, size_t max, double *values) {
 
 /* Values mantissa * 10^k for the given mantissas. Returns 0 where there are more than max. */
 static size_t fill_mantissas(double low, double high, const double *mantissas, size_t mantissa_count,
-                             size_t max, double *values) {
+                             size_t max, double *values)
+{
     size_t count = 0;
     const int from = (int)floor(log10(low)) - 1, to = (int)ceil(log10(high)) + 1;
     for (int k = from; k <= to; k++) {
@@ -136,7 +148,8 @@ static size_t fill_mantissas(double low, double high, const double *mantissas, s
     return count;
 }
 
-static size_t ticks_log(double low, double high, size_t max, double *values) {
+static size_t ticks_log(double low, double high, size_t max, double *values)
+{
     static const double one[] = {1.0}, one_three[] = {1.0, 3.0}, one_two_five[] = {1.0, 2.0, 5.0},
                         one_two_three_five[] = {1.0, 2.0, 3.0, 5.0};
     static const struct {
@@ -173,7 +186,8 @@ static size_t ticks_log(double low, double high, size_t max, double *values) {
     return 0;
 }
 
-size_t gm_ticks(const struct gm_axis *axis, size_t max, double *values) {
+size_t gm_ticks(const struct gm_axis *axis, size_t max, double *values)
+{
     double low, high;
     range_of(axis, &low, &high);
     max = max < GM_TICK_MAX ? max : GM_TICK_MAX;
@@ -197,7 +211,8 @@ struct writer {
     size_t size, length;
 };
 
-static void put(struct writer *writer, const char *text) {
+static void put(struct writer *writer, const char *text)
+{
     const size_t length = strlen(text);
     if (writer->length + length >= writer->size)
         return; /* whole characters or nothing */
@@ -205,7 +220,8 @@ static void put(struct writer *writer, const char *text) {
     writer->length += length;
 }
 
-static void put_number(struct writer *writer, int decimals, double value) {
+static void put_number(struct writer *writer, int decimals, double value)
+{
     char digits[64];
     snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
     if (value < 0.0 && strtod(digits, NULL) != 0.0)
@@ -213,7 +229,8 @@ static void put_number(struct writer *writer, int decimals, double value) {
     put(writer, digits);
 }
 
-static void put_power(struct writer *writer, int exponent) {
+static void put_power(struct writer *writer, int exponent)
+{
     static const char *const superscripts[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
                                                "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     char digits[16];
@@ -228,7 +245,8 @@ static void put_power(struct writer *writer, int exponent) {
 }
 
 /* How many decimals a multiple of step needs. */
-static int decimals_of(double step) {
+static int decimals_of(double step)
+{
     for (int decimals = 0; decimals < 15; decimals++) {
         const double shifted = scaled(step, decimals);
         if (fabs(shifted - round(shifted)) < 1e-6 * shifted)
@@ -238,7 +256,8 @@ static int decimals_of(double step) {
 }
 
 /* mantissa x 10^n; the mantissa 1 is left out. */
-static void put_scientific(struct writer *writer, double value, double step) {
+static void put_scientific(struct writer *writer, double value, double step)
+{
     int exponent = (int)floor(log10(fabs(value)) + 1e-9);
     const double mantissa = scaled(value, -exponent);
     const int decimals = decimals_of(scaled(step, -exponent));
@@ -252,7 +271,8 @@ static void put_scientific(struct writer *writer, double value, double step) {
     put_power(writer, exponent);
 }
 
-static void format_linear(struct writer *writer, double value, double step) {
+static void format_linear(struct writer *writer, double value, double step)
+{
     if (fabs(value) < 1e-9 * step) {
         put(writer, "0");
         return;
@@ -263,7 +283,8 @@ static void format_linear(struct writer *writer, double value, double step) {
         put_number(writer, decimals_of(step), value);
 }
 
-static void format_pi(struct writer *writer, double value, double step) {
+static void format_pi(struct writer *writer, double value, double step)
+{
     static const int denominators[] = {1, 2, 3, 4, 6, 8};
     if (fabs(value) < 1e-9 * step) {
         put(writer, "0");
@@ -291,7 +312,8 @@ static void format_pi(struct writer *writer, double value, double step) {
     format_linear(writer, value, step);
 }
 
-static void format_log(struct writer *writer, double value, double step) {
+static void format_log(struct writer *writer, double value, double step)
+{
     const double exponent = log10(fabs(value));
     if (step >= 1.0 - slack && fabs(exponent - round(exponent)) < 1e-9) {
         if (round(exponent) == 0.0)
@@ -301,8 +323,8 @@ static void format_log(struct writer *writer, double value, double step) {
         return;
     }
     const int leading = (int)floor(exponent + 1e-9);
-    /* Ticks closer than a tenth need as many digits as their distance has. */
-    const int digits = step < 0.04 ? (int)ceil(-log10(step * 2.0)) + 1 : 1;
+    /* As many digits as the value has: ticks are round, but those of a narrow range are not one digit. */
+    const int digits = 1 + decimals_of(scaled(value, -leading));
     if (leading < -3 || leading > 4) {
         put_scientific(writer, value, scaled(1.0, leading + 1 - digits));
         return;
@@ -311,7 +333,8 @@ static void format_log(struct writer *writer, double value, double step) {
     put_number(writer, decimals > 0 ? decimals : 0, value);
 }
 
-void gm_tick_format(enum gm_scale scale, double value, double step, char *text, size_t size) {
+void gm_tick_format(enum gm_scale scale, double value, double step, char *text, size_t size)
+{
     struct writer writer = {text, size, 0};
     if (size == 0)
         return;

@@ -14,7 +14,11 @@
 enum { Q, XI_1, XI_2, P, ETA_1, ETA_2, COMPONENTS };
 enum { OSCILLATOR, PENDULUM };
 enum { SHOW_ALL, SHOW_DISC, SHOW_ENERGY };
-enum { DRAWN = 1024 /* most points of a drawn edge */, REMEMBERED = 256 /* of an earlier shape */ };
+enum {
+    DRAWN = 1024,     /* most points of a drawn edge */
+    REMEMBERED = 256, /* of an earlier shape */
+    TURN = 12,        /* shapes in a turn of the oscillator: older ones have faded */
+};
 
 struct disc {
     struct gm_timing timing;
@@ -317,14 +321,15 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     const size_t corners = shapes->width / 2;
     const bool at_start = lane->run->t == lane->t0;
-    for (size_t i = 0; i < shapes->count; i++) {
+    const size_t oldest = shapes->count > TURN ? shapes->count - TURN : 1;
+    for (size_t i = oldest; i < shapes->count; i++) {
         const double *shape = shapes->values + i * shapes->width;
-        if (i == 0 || shapes->times[i] == lane->run->t) {
+        if (shapes->times[i] == lane->run->t) {
             continue;
         }
-        const double age = (double)i / (double)shapes->count;
-        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.06 + 0.18 * age}, shape, corners);
-        gm_mark_line(picture, panel, (struct gm_style){role, 0.25 + 0.5 * age, 1.1, GM_SOLID}, shape, corners, true);
+        const double fresh = (double)(i + 1 - oldest) / (double)(shapes->count - oldest);
+        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.03 + 0.2 * fresh}, shape, corners);
+        gm_mark_line(picture, panel, (struct gm_style){role, 0.15 + 0.6 * fresh, 1.1, GM_SOLID}, shape, corners, true);
     }
     gm_mark_polygon(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.14}, shapes->values, corners);
     gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.9, 1.6, GM_SOLID}, shapes->values, corners, true);
@@ -383,11 +388,20 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-static const char *counted(size_t count)
+/* "four schemes"; lanes that differ in something else count once */
+static const char *counted(const struct gm_lane *const *lanes, size_t count)
 {
-    static const char *const words[] = {"", "one scheme", "two schemes", "three schemes",
+    static const char *const words[] = {"no scheme",    "one scheme",  "two schemes", "three schemes",
                                         "four schemes", "five schemes", "six schemes"};
-    return count < sizeof words / sizeof words[0] ? words[count] : "many schemes";
+    size_t schemes = 0;
+    for (size_t i = 0; i < count; i++) {
+        bool seen = false;
+        for (size_t k = 0; k < i; k++) {
+            seen |= lanes[k]->scheme == lanes[i]->scheme;
+        }
+        schemes += seen ? 0 : 1;
+    }
+    return schemes < sizeof words / sizeof words[0] ? words[schemes] : "many schemes";
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
@@ -398,28 +412,40 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     for (size_t i = 1; i < count; i++) {
         one_step &= lanes[i]->run->dt == dt;
     }
-    picture->title = gm_picture_text(picture, "A disc of initial conditions, carried by %s", counted(count));
+    picture->title = gm_picture_text(picture, "%s, carried by %s",
+                                     disc->show == SHOW_ENERGY ? "The energy of the disc’s centre"
+                                                               : "A disc of initial conditions",
+                                     counted(lanes, count));
     picture->subtitle = gm_picture_text(
-        picture, "%s%s%s,  shapes every π/6", disc->system == PENDULUM ? "pendulum" : "harmonic oscillator",
-        one_step ? ",  Δt = " : "", one_step ? gm_time_text(picture, dt, dt) : "");
+        picture, "%s%s%s%s", disc->system == PENDULUM ? "pendulum" : "harmonic oscillator",
+        one_step ? ",  Δt = " : "", one_step ? gm_time_text(picture, dt, dt) : "",
+        disc->show == SHOW_ENERGY ? "" : ",  shapes every π/6");
     gm_draw_clock(picture, lanes, count);
     if (disc->show != SHOW_ENERGY) {
         draw_states(picture, lanes, count);
     }
     if (disc->show == SHOW_ALL) {
-        gm_draw_graph(picture, lanes, count,
-                      &(const struct gm_graph){.observable = "area",
-                                               .title = "area / initial area",
-                                               .relative = true,
-                                               .scale = GM_LOG,
-                                               .calm_low = 0.5,
-                                               .calm_high = 2},
-                      -1, false);
+        const struct gm_graph area_ratio = {.observable = "area",
+                                            .title = "area / initial area",
+                                            .relative = true,
+                                            .scale = GM_LOG,
+                                            .calm_low = 0.5,
+                                            .calm_high = 2};
+        gm_draw_graph(picture, lanes, count, &area_ratio, -1, false);
     }
-    if (disc->show != SHOW_DISC) {
-        const struct gm_graph error = {
-            .observable = "energy_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1};
-        gm_draw_graph(picture, lanes, count, &error, -1, disc->show == SHOW_ENERGY);
+    struct gm_graph error = {.observable = "energy_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1};
+    if (disc->show == SHOW_ALL) {
+        gm_draw_graph(picture, lanes, count, &error, -1, false);
+    }
+    for (size_t p = 0; disc->show == SHOW_ENERGY && p < gm_panel_count(lanes, count); p++) {
+        for (size_t i = 0; i < count; i++) {
+            if (lanes[i]->shown.panel == p) {
+                error.title =
+                    gm_picture_text(picture, "%s: energy error  |H − H₀| / |H₀|", gm_lane_title(lanes[i]));
+                gm_draw_graph(picture, lanes, count, &error, (long)p, true);
+                break;
+            }
+        }
     }
 }
 

@@ -193,12 +193,10 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
         const double divisor = divisor_of(lanes[i], series, graph->relative);
         const size_t made = history_points(lanes[i], series, divisor, points);
         gm_mark_line(picture, panel, gm_lane_style(lanes[i], 1, 2.4), points, made, false);
-        if (named && made > 0) {
-            const double end[] = {points[2 * made - 2], points[2 * made - 1]};
-            const char *name = lanes[i]->shown.colour_name[0] ? lanes[i]->shown.colour_name : gm_lane_title(lanes[i]);
-            gm_mark_text(picture, panel,
-                         (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 1, .width = 1},
-                         end[0], end[1], GM_ANCHOR_RIGHT, name);
+        if (named) {
+            const char *name =
+                lanes[i]->shown.colour_name[0] ? lanes[i]->shown.colour_name : gm_lane_title(lanes[i]);
+            gm_panel_key(picture, panel, gm_lane_style(lanes[i], 1, 2.4), name);
         }
     }
 }

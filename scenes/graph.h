@@ -31,8 +31,8 @@ struct gm_graph {
     double calm_low, calm_high; /* the range shown at least; equal: none */
 };
 
-/* Adds a graph of the lanes' histories; of all lanes, or of those of one panel (only >= 0). Where lanes of
-   several colours share it and no panel carries their names, `named` writes the names into the graph. */
+/* Adds a graph of the lanes' histories; of all lanes, or of those of one panel (only >= 0). Where no
+   panel carries the lanes' names, `named` puts them under the graph's title. */
 void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                    const struct gm_graph *graph, long only, bool named);
 

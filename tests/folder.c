@@ -8,7 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-void folder_make(char *path, size_t size) {
+void folder_make(char *path, size_t size)
+{
     const char *parent = getenv("TMPDIR");
     snprintf(path, size, "%s/geomint-test-XXXXXX", parent && *parent ? parent : "/tmp");
     if (!mkdtemp(path)) {
@@ -17,20 +18,23 @@ void folder_make(char *path, size_t size) {
     }
 }
 
-static int remove_one(const char *path, const struct stat *status, int type, struct FTW *place) {
+static int remove_one(const char *path, const struct stat *status, int type, struct FTW *place)
+{
     (void)status;
     (void)type;
     (void)place;
     return remove(path);
 }
 
-void folder_remove(const char *path) {
+void folder_remove(const char *path)
+{
     if (nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS) != 0) {
         perror(path);
     }
 }
 
-int folder_count(const char *path) {
+int folder_count(const char *path)
+{
     DIR *folder = opendir(path);
     int count = 0;
     for (struct dirent *entry; folder && (entry = readdir(folder)) != NULL;) {
@@ -42,7 +46,8 @@ int folder_count(const char *path) {
     return count;
 }
 
-void folder_script(const char *path, const char *text) {
+void folder_script(const char *path, const char *text)
+{
     FILE *file = fopen(path, "w");
     if (!file || fputs(text, file) < 0 || fclose(file) != 0 || chmod(path, 0755) != 0) {
         perror(path);

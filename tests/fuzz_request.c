@@ -12,7 +12,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { MOST_WORDS = 64 };
 
-static int split(char *text, char *words[MOST_WORDS]) {
+static int split(char *text, char *words[MOST_WORDS])
+{
     int count = 0;
     char *rest = NULL;
     for (char *word = strtok_r(text, "\n ", &rest); word && count < MOST_WORDS;
@@ -22,13 +23,15 @@ static int split(char *text, char *words[MOST_WORDS]) {
     return count;
 }
 
-static void require(bool holds) {
+static void require(bool holds)
+{
     if (!holds) {
         abort();
     }
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
     char *text = malloc(size + 1), *words[MOST_WORDS], message[GM_MESSAGE] = "";
     require(text != NULL);
     memcpy(text, data, size);

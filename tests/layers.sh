@@ -1,13 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The layers by what files include: core sees only core, render only render, scenes everything but app and the
-# painters. Linking alone would not notice a type or a macro.
+# The layers by what files include: core sees only core, render only render, scenes everything but app and
+# the painters. Linking alone would not notice a type or a macro. Usage: layers.sh SOURCE_FOLDER
 cd "$1" || exit 1
 status=0
+include='^[[:space:]]*#[[:space:]]*include[[:space:]]*'
 
 # forbid FOLDER PATTERN: no file below FOLDER includes what matches
 forbid() {
-    found=$(grep -rnE --include='*.[ch]' --include='*.def' "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]$2" "$1")
+    found=$(grep -rnE --include='*.[ch]' --include='*.def' "${include}[<\"]$2" "$1")
     if [ -n "$found" ]; then
         printf '%s must not include %s:\n%s\n' "$1" "$2" "$found"
         status=1
@@ -23,7 +24,7 @@ forbid scenes 'render/(canvas|context|cells|png|sink|temporary)'
 forbid app 'tests/'
 
 # every include of the project's own names its folder
-found=$(grep -rnE --include='*.[ch]' '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' core render scenes app tests |
+found=$(grep -rnE --include='*.[ch]' "${include}\"" core render scenes app tests |
     grep -vE '"(core|render|scenes|app|tests)/')
 if [ -n "$found" ]; then
     printf 'includes are rooted at the top folder:\n%s\n' "$found"

@@ -21,26 +21,30 @@ enum { MESSAGE = 512 };
 
 static char folder[200];
 
-static const char *in_folder(const char *name) {
+static const char *in_folder(const char *name)
+{
     static char path[512];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return path;
 }
 
-static int make_folder(void **state) {
+static int make_folder(void **state)
+{
     (void)state;
     folder_make(folder, sizeof folder);
     return 0;
 }
 
-static int remove_folder(void **state) {
+static int remove_folder(void **state)
+{
     (void)state;
     folder_remove(folder);
     return 0;
 }
 
 /* Smooth, noisy and constant parts, so that every kind of deflate block occurs. */
-static unsigned char *make_pixels(int width, int height) {
+static unsigned char *make_pixels(int width, int height)
+{
     size_t row = (size_t)width * 3;
     unsigned char *rgb = malloc(row * (size_t)height);
     assert_non_null(rgb);
@@ -55,7 +59,8 @@ static unsigned char *make_pixels(int width, int height) {
     return rgb;
 }
 
-static void check_pixels(const char *path, int width, int height, const unsigned char *rgb) {
+static void check_pixels(const char *path, int width, int height, const unsigned char *rgb)
+{
     png_image image = {.version = PNG_IMAGE_VERSION};
     assert_int_not_equal(png_image_begin_read_from_file(&image, path), 0);
     assert_int_equal(image.width, width);
@@ -70,7 +75,8 @@ static void check_pixels(const char *path, int width, int height, const unsigned
     free(read);
 }
 
-static void pixels_survive(void **state) {
+static void pixels_survive(void **state)
+{
     (void)state;
     const int sizes[][2] = {{1, 1}, {1, 7}, {7, 1}, {3, 2}, {255, 33}, {640, 360}, {1279, 719}, {1, 20000}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
@@ -93,7 +99,8 @@ static const struct gm_png_text texts[] = {
 };
 enum { TEXTS = sizeof texts / sizeof *texts };
 
-static void texts_survive(void **state) {
+static void texts_survive(void **state)
+{
     (void)state;
     unsigned char *rgb = make_pixels(5, 5);
     char message[MESSAGE] = "";
@@ -110,7 +117,8 @@ static void texts_survive(void **state) {
     free(rgb);
 }
 
-static void long_text_survives(void **state) {
+static void long_text_survives(void **state)
+{
     (void)state;
     size_t length = 1 << 20;
     char *text = malloc(length + 1);
@@ -129,7 +137,8 @@ static void long_text_survives(void **state) {
 }
 
 /* Other programs write their texts behind the pixels. */
-static void text_behind_pixels_is_found(void **state) {
+static void text_behind_pixels_is_found(void **state)
+{
     (void)state;
     FILE *file = fopen(in_folder("behind.png"), "wb");
     assert_non_null(file);
@@ -156,7 +165,8 @@ static void text_behind_pixels_is_found(void **state) {
     free(found);
 }
 
-static void fails_with(const char *path, const char *reason) {
+static void fails_with(const char *path, const char *reason)
+{
     const unsigned char rgb[3] = {1, 2, 3};
     char message[MESSAGE] = "";
     assert_false(gm_png_write(path, 1, 1, rgb, texts, TEXTS, message));
@@ -164,7 +174,8 @@ static void fails_with(const char *path, const char *reason) {
     assert_non_null(strstr(message, reason));
 }
 
-static void unwritable_places_are_told(void **state) {
+static void unwritable_places_are_told(void **state)
+{
     (void)state;
     fails_with("/dev/full", "No space left on device");
     fails_with("/proc/geomint.png", "No such file or directory");
@@ -178,7 +189,8 @@ static void unwritable_places_are_told(void **state) {
     }
 }
 
-static void name_too_long_is_told(void **state) {
+static void name_too_long_is_told(void **state)
+{
     (void)state;
     char name[301];
     memset(name, 'n', 300);
@@ -192,7 +204,8 @@ static void name_too_long_is_told(void **state) {
     assert_int_equal(folder_count(folder), 1);
 }
 
-static void impossible_sizes_are_refused(void **state) {
+static void impossible_sizes_are_refused(void **state)
+{
     (void)state;
     const unsigned char rgb[3] = {1, 2, 3};
     char message[MESSAGE] = "";
@@ -201,7 +214,8 @@ static void impossible_sizes_are_refused(void **state) {
     assert_int_equal(folder_count(folder), 0);
 }
 
-static void devices_are_not_replaced(void **state) {
+static void devices_are_not_replaced(void **state)
+{
     (void)state;
     const unsigned char rgb[3] = {1, 2, 3};
     char message[MESSAGE] = "", link[512];
@@ -218,7 +232,8 @@ static void devices_are_not_replaced(void **state) {
     check_pixels(in_folder("target.png"), 1, 1, rgb);
 }
 
-static void file_size_limit_is_told(void **state) {
+static void file_size_limit_is_told(void **state)
+{
     (void)state;
     unsigned char *rgb = make_pixels(200, 200);
     unsigned char *before = make_pixels(3, 3);
@@ -244,7 +259,8 @@ static void file_size_limit_is_told(void **state) {
     free(before);
 }
 
-static void write_bytes(const char *path, const unsigned char *bytes, size_t size) {
+static void write_bytes(const char *path, const unsigned char *bytes, size_t size)
+{
     FILE *file = fopen(path, "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
@@ -253,7 +269,8 @@ static void write_bytes(const char *path, const unsigned char *bytes, size_t siz
 
 /* Reads a text of a file of these bytes; where one is found it must be a string, which strlen lets ASan see.
  */
-static void read_from(const unsigned char *bytes, size_t size) {
+static void read_from(const unsigned char *bytes, size_t size)
+{
     char message[MESSAGE] = "";
     write_bytes(in_folder("bad.png"), bytes, size);
     char *text = gm_png_read_text(in_folder("bad.png"), "geomint", message);
@@ -266,7 +283,8 @@ static void read_from(const unsigned char *bytes, size_t size) {
     free(text);
 }
 
-static void damaged_files_are_survived(void **state) {
+static void damaged_files_are_survived(void **state)
+{
     (void)state;
     unsigned char *rgb = make_pixels(9, 9);
     char message[MESSAGE] = "";
@@ -293,7 +311,8 @@ static void damaged_files_are_survived(void **state) {
     }
 }
 
-static void other_files_are_told(void **state) {
+static void other_files_are_told(void **state)
+{
     (void)state;
     char message[MESSAGE] = "";
     assert_null(gm_png_read_text(in_folder("absent.png"), "geomint", message));
@@ -310,7 +329,8 @@ static void other_files_are_told(void **state) {
     assert_non_null(strstr(message, "not a PNG file"));
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_folder, remove_folder)
         TEST(pixels_survive),

@@ -19,7 +19,8 @@ static const struct gm_settings settings_of[2] = {{.compensated = 0}, {.compensa
 
 enum { PROBLEMS = 5, MOST = 6 };
 
-static struct gm_problem problem_at(int i) {
+static struct gm_problem problem_at(int i)
+{
     const struct gm_problem *const list[PROBLEMS] = {&gm_problem_pendulum, &gm_problem_pendulum_tangent,
                                                      &gm_problem_particles, &gm_problem_product,
                                                      &gm_problem_rigid_body};
@@ -29,7 +30,8 @@ static struct gm_problem problem_at(int i) {
 }
 
 /* A start that differs from member to member; moderate, so that every scheme gets through. */
-static void start_of(const struct gm_problem *problem, double *y) {
+static void start_of(const struct gm_problem *problem, double *y)
+{
     for (size_t c = 0; c < problem->n; c++) {
         for (size_t i = 0; i < problem->m; i++) {
             y[c * problem->m + i] = 0.5 * sin(1.0 + 2.3 * (double)c + 0.7 * (double)i);
@@ -40,7 +42,8 @@ static void start_of(const struct gm_problem *problem, double *y) {
 typedef void each(const struct gm_problem *problem, const struct gm_scheme *scheme,
                   const struct gm_settings *settings);
 
-static void for_all(size_t members, each *function) {
+static void for_all(size_t members, each *function)
+{
     for (int p = 0; p < PROBLEMS; p++) {
         struct gm_problem problem = problem_at(p);
         problem.m = members;
@@ -54,7 +57,8 @@ static void for_all(size_t members, each *function) {
 }
 
 static struct gm_run *open_run(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                               const struct gm_settings *settings, double dt) {
+                               const struct gm_settings *settings, double dt)
+{
     double start[MOST * 64];
     assert_true(problem->n * problem->m <= MOST * 64);
     start_of(problem, start);
@@ -63,7 +67,8 @@ static struct gm_run *open_run(const struct gm_problem *problem, const struct gm
     return run;
 }
 
-static void expect_same_state(const struct gm_run *a, const struct gm_run *b) {
+static void expect_same_state(const struct gm_run *a, const struct gm_run *b)
+{
     const size_t size = a->problem->n * a->problem->m * sizeof(double);
     if (memcmp(gm_run_state(a), gm_run_state(b), size) != 0) {
         fail_msg("%s on %s: different bits", a->scheme->name, a->problem->name);
@@ -71,7 +76,8 @@ static void expect_same_state(const struct gm_run *a, const struct gm_run *b) {
 }
 
 static void cut_in_pieces(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                          const struct gm_settings *settings) {
+                          const struct gm_settings *settings)
+{
     struct gm_run *whole = open_run(problem, scheme, settings, 0.05);
     struct gm_run *pieces = open_run(problem, scheme, settings, 0.05);
     assert_int_equal(gm_run_advance(whole, 100), GM_OK);
@@ -87,14 +93,16 @@ static void cut_in_pieces(const struct gm_problem *problem, const struct gm_sche
     gm_run_close(pieces);
 }
 
-static void pieces_do_not_matter(void **unused) {
+static void pieces_do_not_matter(void **unused)
+{
     (void)unused;
     for_all(1, cut_in_pieces);
     for_all(21, cut_in_pieces);
 }
 
 static void compare_members(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                            const struct gm_settings *settings) {
+                            const struct gm_settings *settings)
+{
     struct gm_run *ensemble = open_run(problem, scheme, settings, 0.05);
     assert_int_equal(gm_run_advance(ensemble, 40), GM_OK);
     double start[MOST * 64];
@@ -122,13 +130,15 @@ static void compare_members(const struct gm_problem *problem, const struct gm_sc
     gm_run_close(ensemble);
 }
 
-static void members_do_not_feel_each_other(void **unused) {
+static void members_do_not_feel_each_other(void **unused)
+{
     (void)unused;
     for_all(21, compare_members);
 }
 
 static void compare_instruction_sets(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                                     const struct gm_settings *settings) {
+                                     const struct gm_settings *settings)
+{
     const size_t count = problem->n * problem->m;
     double y[MOST * 64], carry[MOST * 64] = {0}, out[GM_ISA_COUNT][MOST * 64], carry_out[MOST * 64];
     start_of(problem, y);
@@ -153,14 +163,16 @@ static void compare_instruction_sets(const struct gm_problem *problem, const str
     }
 }
 
-static void instruction_sets_agree(void **unused) {
+static void instruction_sets_agree(void **unused)
+{
     (void)unused;
     for_all(1, compare_instruction_sets);
     for_all(21, compare_instruction_sets);
 }
 
 static void resume(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                   const struct gm_settings *settings) {
+                   const struct gm_settings *settings)
+{
     struct gm_run *run = open_run(problem, scheme, settings, 0.05);
     struct gm_run *other = open_run(problem, scheme, settings, 0.05);
     void *snapshot = malloc(gm_run_snapshot_size(run));
@@ -178,14 +190,16 @@ static void resume(const struct gm_problem *problem, const struct gm_scheme *sch
     gm_run_close(other);
 }
 
-static void snapshots_resume_bit_for_bit(void **unused) {
+static void snapshots_resume_bit_for_bit(void **unused)
+{
     (void)unused;
     for_all(5, resume);
 }
 
 /* Explicit Euler on the oscillator: |y| = (1 + dt^2)^(n/2) |y_0|, so the step that leaves the bound is known.
  */
-static void blow_up_is_found_to_the_step(void **unused) {
+static void blow_up_is_found_to_the_step(void **unused)
+{
     (void)unused;
     struct gm_problem problem = gm_problem_oscillator;
     problem.m = 3;
@@ -223,7 +237,8 @@ static void blow_up_is_found_to_the_step(void **unused) {
 
 /* Implicit Euler with so large a step that p' = -q (1 + p^2), q' = p (1 + q^2) leaves Newton without a root.
  */
-static void failed_solves_are_told(void **unused) {
+static void failed_solves_are_told(void **unused)
+{
     (void)unused;
     const struct gm_problem problem = gm_problem_product;
     const double start[2] = {3, 3};
@@ -236,7 +251,8 @@ static void failed_solves_are_told(void **unused) {
 
 /* Where fixed-point iteration cannot contract, Newton takes over: the midpoint rule at dt = 50 is the
    rational map with cos = (1 - dt^2/4)/(1 + dt^2/4), and keeps q^2 + p^2. */
-static void newton_takes_over_at_large_steps(void **unused) {
+static void newton_takes_over_at_large_steps(void **unused)
+{
     (void)unused;
     const struct gm_problem problem = gm_problem_oscillator;
     const double start[2] = {0, 1}, dt = 50;
@@ -251,7 +267,8 @@ static void newton_takes_over_at_large_steps(void **unused) {
     gm_run_close(run);
 }
 
-static void newton_agrees_with_fixed_point(void **unused) {
+static void newton_agrees_with_fixed_point(void **unused)
+{
     (void)unused;
     static const struct gm_ode stiff = {.stiff = true};
     const char *const names[] = {"implicit-euler", "midpoint", "trapezoidal", "gauss4", "rk4sym"};
@@ -273,7 +290,8 @@ static void newton_agrees_with_fixed_point(void **unused) {
     }
 }
 
-static void evaluations_are_counted(void **unused) {
+static void evaluations_are_counted(void **unused)
+{
     (void)unused;
     const struct {
         const char *scheme;
@@ -292,7 +310,8 @@ static void evaluations_are_counted(void **unused) {
     }
 }
 
-static void segments_continue_time(void **unused) {
+static void segments_continue_time(void **unused)
+{
     (void)unused;
     const struct gm_problem problem = gm_problem_pendulum;
     struct gm_run *run = open_run(&problem, gm_scheme_find("verlet"), &settings_of[0], 0.1);
@@ -313,7 +332,8 @@ static void segments_continue_time(void **unused) {
     gm_run_close(run);
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pieces_do_not_matter),
         cmocka_unit_test(members_do_not_feel_each_other),

@@ -23,7 +23,8 @@ enum { MESSAGE = 512 };
 
 static char folder[200];
 
-static const char *in_folder(const char *name) {
+static const char *in_folder(const char *name)
+{
     static char path[4][512];
     static unsigned next;
     char *place = path[next++ % 4];
@@ -31,20 +32,23 @@ static const char *in_folder(const char *name) {
     return place;
 }
 
-static int make_folder(void **state) {
+static int make_folder(void **state)
+{
     (void)state;
     folder_make(folder, sizeof folder);
     return 0;
 }
 
-static int remove_folder(void **state) {
+static int remove_folder(void **state)
+{
     (void)state;
     folder_remove(folder);
     return 0;
 }
 
 /* A frame that tells its number: its colour, and a dot that moves. */
-static void paint(unsigned char *rgb, int width, int height, long number) {
+static void paint(unsigned char *rgb, int width, int height, long number)
+{
     size_t pixels = (size_t)width * (size_t)height;
     for (size_t i = 0; i < pixels; i++) {
         rgb[3 * i] = (unsigned char)(number % 256);
@@ -54,7 +58,8 @@ static void paint(unsigned char *rgb, int width, int height, long number) {
     rgb[3 * ((size_t)number % pixels) + 2] = 255;
 }
 
-static bool put_frame(struct gm_sink *sink, int width, int height, long number) {
+static bool put_frame(struct gm_sink *sink, int width, int height, long number)
+{
     unsigned char *frame = gm_sink_frame(sink);
     if (!frame) {
         return false;
@@ -66,7 +71,8 @@ static bool put_frame(struct gm_sink *sink, int width, int height, long number) 
     return gm_sink_put(sink, frame, number, &text, 1);
 }
 
-static void check_png(const char *path, int width, int height, long number) {
+static void check_png(const char *path, int width, int height, long number)
+{
     png_image image = {.version = PNG_IMAGE_VERSION};
     assert_int_not_equal(png_image_begin_read_from_file(&image, path), 0);
     assert_int_equal(image.width, width);
@@ -84,7 +90,8 @@ static void check_png(const char *path, int width, int height, long number) {
 
 static const struct gm_png_text common[] = {{"Software", "geomint"}, {"geomint", "render disc"}};
 
-static void thousand_frames_arrive(void **state) {
+static void thousand_frames_arrive(void **state)
+{
     (void)state;
     const struct gm_sink_settings settings = {
         .width = 64, .height = 36, .threads = 3, .texts = common, .text_count = 2};
@@ -112,7 +119,8 @@ static void thousand_frames_arrive(void **state) {
     }
 }
 
-static void memory_is_bounded(void **state) {
+static void memory_is_bounded(void **state)
+{
     (void)state;
     const struct gm_sink_settings settings = {.width = 320, .height = 180, .threads = 2};
     char message[MESSAGE] = "";
@@ -134,7 +142,8 @@ static void memory_is_bounded(void **state) {
     assert_int_equal(folder_count(folder), 1);
 }
 
-static void pattern_is_the_names_alone(void **state) {
+static void pattern_is_the_names_alone(void **state)
+{
     (void)state;
     const struct gm_sink_settings settings = {.width = 2, .height = 2};
     const struct {
@@ -157,7 +166,8 @@ static void pattern_is_the_names_alone(void **state) {
     }
 }
 
-static void first_failure_is_told(void **state) {
+static void first_failure_is_told(void **state)
+{
     (void)state;
     const struct gm_sink_settings settings = {.width = 64, .height = 64, .threads = 2};
     char message[MESSAGE] = "";
@@ -174,7 +184,8 @@ static void first_failure_is_told(void **state) {
     assert_non_null(strstr(message, "No such file or directory"));
 }
 
-static void unused_sinks_close(void **state) {
+static void unused_sinks_close(void **state)
+{
     (void)state;
     const struct gm_sink_settings settings = {.width = 8, .height = 8};
     char message[MESSAGE] = "";
@@ -186,7 +197,8 @@ static void unused_sinks_close(void **state) {
 }
 
 /* What ffprobe or another command prints. */
-static void output_of(const char *command, char *text, size_t size) {
+static void output_of(const char *command, char *text, size_t size)
+{
     FILE *pipe = popen(command, "r");
     assert_non_null(pipe);
     size_t length = fread(text, 1, size - 1, pipe);
@@ -194,7 +206,8 @@ static void output_of(const char *command, char *text, size_t size) {
     assert_int_equal(pclose(pipe), 0);
 }
 
-static double probe(const char *path, const char *entry) {
+static double probe(const char *path, const char *entry)
+{
     char command[1024], text[256];
     snprintf(command, sizeof command,
              "ffprobe -v error -count_frames -select_streams v -show_entries %s -of default=nk=1:nw=1 '%s'",
@@ -203,7 +216,8 @@ static double probe(const char *path, const char *entry) {
     return atof(text);
 }
 
-static void make_movie(const char *path, int width, int height, double fps, long frames) {
+static void make_movie(const char *path, int width, int height, double fps, long frames)
+{
     const struct gm_sink_settings settings = {.width = width, .height = height, .fps = fps};
     char message[MESSAGE] = "";
     struct gm_sink *sink = gm_sink_open_movie(path, &settings, message);
@@ -216,7 +230,8 @@ static void make_movie(const char *path, int width, int height, double fps, long
     assert_true(closed);
 }
 
-static void movies_are_complete(void **state) {
+static void movies_are_complete(void **state)
+{
     (void)state;
     const struct {
         const char *name;
@@ -243,7 +258,8 @@ static void movies_are_complete(void **state) {
 }
 
 /* The first and the last pixel of frame n of a movie. */
-static void movie_colours_are_right(void **state) {
+static void movie_colours_are_right(void **state)
+{
     (void)state;
     const char *const names[] = {"a.mp4", "a.webm", "a.gif"};
     for (size_t i = 0; i < 3; i++) {
@@ -266,7 +282,8 @@ static void movie_colours_are_right(void **state) {
     }
 }
 
-static void movies_can_be_given_up(void **state) {
+static void movies_can_be_given_up(void **state)
+{
     (void)state;
     const struct gm_sink_settings settings = {.width = 64, .height = 64, .fps = 25};
     const char *const names[] = {"a.mp4", "a.webm", "a.gif"};
@@ -282,7 +299,8 @@ static void movies_can_be_given_up(void **state) {
     }
 }
 
-static void movies_without_frames_are_told(void **state) {
+static void movies_without_frames_are_told(void **state)
+{
     (void)state;
     const struct gm_sink_settings settings = {.width = 64, .height = 64, .fps = 25};
     char message[MESSAGE] = "";
@@ -293,7 +311,8 @@ static void movies_without_frames_are_told(void **state) {
     assert_int_equal(access(in_folder("a.gif"), F_OK), -1);
 }
 
-static void bad_movie_names_are_told(void **state) {
+static void bad_movie_names_are_told(void **state)
+{
     (void)state;
     const struct gm_sink_settings settings = {.width = 64, .height = 64, .fps = 25};
     char message[MESSAGE] = "";
@@ -308,7 +327,8 @@ static void bad_movie_names_are_told(void **state) {
     assert_int_equal(folder_count(folder), 1);
 }
 
-static void missing_ffmpeg_is_told(void **state) {
+static void missing_ffmpeg_is_told(void **state)
+{
     (void)state;
     const struct gm_sink_settings settings = {.width = 64, .height = 64, .fps = 25};
     char message[MESSAGE] = "", *path = strdup(getenv("PATH"));
@@ -322,7 +342,8 @@ static void missing_ffmpeg_is_told(void **state) {
 }
 
 /* Runs a movie of `frames` big frames with a script in ffmpeg's place. True if it was made. */
-static bool run_with_fake(const char *script, long frames, char *message, double *seconds) {
+static bool run_with_fake(const char *script, long frames, char *message, double *seconds)
+{
     const struct gm_sink_settings settings = {.width = 640, .height = 360, .fps = 25};
     char path[1024], *before = strdup(getenv("PATH"));
     assert_int_equal(mkdir(in_folder("bin"), 0777), 0);
@@ -346,7 +367,8 @@ static bool run_with_fake(const char *script, long frames, char *message, double
     return made;
 }
 
-static void dying_ffmpeg_is_told(void **state) {
+static void dying_ffmpeg_is_told(void **state)
+{
     (void)state;
     char message[MESSAGE];
     double seconds;
@@ -360,7 +382,8 @@ static void dying_ffmpeg_is_told(void **state) {
     assert_int_equal(access(in_folder("a.mp4.log"), R_OK), 0);
 }
 
-static void killed_ffmpeg_is_told(void **state) {
+static void killed_ffmpeg_is_told(void **state)
+{
     (void)state;
     char message[MESSAGE];
     double seconds;
@@ -368,7 +391,8 @@ static void killed_ffmpeg_is_told(void **state) {
     assert_non_null(strstr(message, "signal (Killed)"));
 }
 
-static void ffmpeg_failing_at_the_end_is_told(void **state) {
+static void ffmpeg_failing_at_the_end_is_told(void **state)
+{
     (void)state;
     char message[MESSAGE];
     double seconds;
@@ -377,7 +401,8 @@ static void ffmpeg_failing_at_the_end_is_told(void **state) {
     assert_non_null(strstr(message, "No space left on device"));
 }
 
-static void talkative_ffmpeg_does_not_hang(void **state) {
+static void talkative_ffmpeg_does_not_hang(void **state)
+{
     (void)state;
     char message[MESSAGE];
     double seconds;
@@ -388,7 +413,8 @@ static void talkative_ffmpeg_does_not_hang(void **state) {
     assert_true(seconds < 30);
 }
 
-static void deaf_ffmpeg_does_not_hang(void **state) {
+static void deaf_ffmpeg_does_not_hang(void **state)
+{
     (void)state;
     char message[MESSAGE];
     double seconds;
@@ -400,7 +426,8 @@ static void deaf_ffmpeg_does_not_hang(void **state) {
     assert_non_null(strstr(message, "did nothing any more"));
 }
 
-static void endless_ffmpeg_does_not_hang(void **state) {
+static void endless_ffmpeg_does_not_hang(void **state)
+{
     (void)state;
     char message[MESSAGE];
     double seconds;
@@ -412,7 +439,8 @@ static void endless_ffmpeg_does_not_hang(void **state) {
     assert_non_null(strstr(message, "did nothing any more"));
 }
 
-static void full_disk_under_a_movie_is_told(void **state) {
+static void full_disk_under_a_movie_is_told(void **state)
+{
     (void)state;
     struct rlimit limit, small;
     void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
@@ -437,7 +465,8 @@ static void full_disk_under_a_movie_is_told(void **state) {
     assert_int_equal(folder_count(folder), 1); /* the log */
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_folder, remove_folder)
         TEST(thousand_frames_arrive),

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The wrapper `geomint`, with stand-ins for the tools that it calls: what it installs, when it builds, and what
-# it hands on. Usage: wrapper.sh SOURCE_FOLDER
+# The wrapper `geomint`, with stand-ins for the tools that it calls: what it installs, when it builds, and
+# what it hands on. Usage: wrapper.sh SOURCE_FOLDER
 source=$1
 top=$(mktemp -d) || exit 1
 trap 'rm -rf "$top"' EXIT
@@ -176,7 +176,8 @@ echo 1000 >"$top/user"
 touch "$top/sudoer"
 echo tmux >"$top/absent"
 run "$folder/geomint" test --all
-check "sudo without a password does as well" says log 'sudo env DEBIAN_FRONTEND=noninteractive apt-get -q install'
+check "sudo without a password does as well" says log \
+    'sudo env DEBIAN_FRONTEND=noninteractive apt-get -q install'
 check "the tests run" says log 'meson test'
 check "all suites" says log '--suite fast --suite numbers'
 run "$folder/geomint" test

@@ -125,6 +125,13 @@ static void add_parting(const char *text)
     }
 }
 
+/* Without a second screen the first one is at least left empty. */
+static bool has_other_screen(void)
+{
+    const char *leave = tigetstr("rmcup");
+    return leave && leave != (char *)-1;
+}
+
 static void prepare_parting(bool modern)
 {
     parting_size = 0;
@@ -133,7 +140,7 @@ static void prepare_parting(bool modern)
     add_parting(tigetstr("sgr0"));
     add_parting(tigetstr("rmkx"));
     add_parting(tigetstr("cnorm"));
-    add_parting(tigetstr("rmcup"));
+    add_parting(tigetstr(has_other_screen() ? "rmcup" : "clear"));
 }
 
 static void take_over(void)
@@ -142,6 +149,16 @@ static void take_over(void)
     clearok(stdscr, TRUE);
     refresh();
     active = 1;
+}
+
+static void give_back(void)
+{
+    if (!has_other_screen()) {
+        clearok(stdscr, TRUE);
+        refresh();
+    }
+    endwin();
+    active = 0;
 }
 
 bool gm_console_open(int wake, char *message)
@@ -184,8 +201,7 @@ void gm_console_close(void)
 {
     if (!screen)
         return;
-    endwin();
-    active = 0;
+    give_back();
     if (keys)
         delwin(keys);
     delscreen(screen);
@@ -223,8 +239,7 @@ bool gm_console_stopping(void)
 
 void gm_console_stop(void)
 {
-    endwin();
-    active = 0;
+    give_back();
     raise(SIGSTOP);
     reset_prog_mode();
     curs_set(0);

@@ -6,23 +6,33 @@ static int distance(struct gm_rgb a, struct gm_rgb b) {
     return 2 * r * r + 4 * g * g + 3 * blue * blue;
 }
 
-/* The levels of the colour cube: 0, 95, 135, 175, 215, 255. */
-static int cube_step(int value) {
-    return value < 48 ? 0 : value < 115 ? 1 : (value - 35) / 40;
+/* Distance that counts a shift of hue four times as much as one of brightness: otherwise every faded colour would end
+   among the greys. */
+static int shift(struct gm_rgb a, struct gm_rgb b)
+{
+    int r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b, light = (2 * r + 5 * g + blue) / 8;
+    return light * light + 4 * ((r - light) * (r - light) + (blue - light) * (blue - light)) / 2;
 }
 
-static uint8_t cube_level(int step) {
-    return (uint8_t)(step == 0 ? 0 : 55 + 40 * step);
+static struct gm_rgb of_256(int number)
+{
+    static const uint8_t levels[6] = {0, 95, 135, 175, 215, 255};
+    if (number >= 232) {
+        uint8_t grey = (uint8_t)(8 + 10 * (number - 232));
+        return (struct gm_rgb){grey, grey, grey};
+    }
+    number -= 16;
+    return (struct gm_rgb){levels[number / 36], levels[number / 6 % 6], levels[number % 6]};
 }
 
-int gm_palette_256(struct gm_rgb colour) {
-    int r = cube_step(colour.r), g = cube_step(colour.g), b = cube_step(colour.b);
-    struct gm_rgb cube = {cube_level(r), cube_level(g), cube_level(b)};
-    int mean = (colour.r + colour.g + colour.b) / 3;
-    int grey = mean < 8 ? 0 : mean > 238 ? 23 : (mean - 3) / 10;
-    uint8_t level = (uint8_t)(8 + 10 * grey);
-    struct gm_rgb shade = {level, level, level};
-    return distance(shade, colour) < distance(cube, colour) ? 232 + grey : 16 + 36 * r + 6 * g + b;
+int gm_palette_256(struct gm_rgb colour)
+{
+    int best = 16;
+    for (int i = 17; i < 256; i++) {
+        if (shift(colour, of_256(i)) < shift(colour, of_256(best)))
+            best = i;
+    }
+    return best;
 }
 
 /* The sixteen as terminals usually show them; users' palettes differ, but not in what is red. */

@@ -49,10 +49,10 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
             counts->evaluations += K(mask_lane)(active, l) ? (unsigned long)stages : 0;
             counts->iterations += K(mask_lane)(active, l) ? 1 : 0;
         }
-        mask stagnant = (change >= previous) & (change <= roundoff);
-        mask done = active & ((change == K(constant)(0)) | stagnant);
+        mask stagnant = K(both)(change >= previous, change <= roundoff);
+        mask done = K(both)(active, K(either)(change == K(constant)(0), stagnant));
         solved |= done;
-        active &= K(not)(done) & (change < K(constant)(1e100));
+        active &= K(both)(K(not)(done), change < K(constant)(1e100));
         if (!K(somewhere)(active)) {
             break;
         }

@@ -24,6 +24,8 @@ GM_INLINE void K(set_lane)(double *x, int lane, double value) { (void)lane, *x =
 GM_INLINE bool K(mask_lane)(bool which, int lane) { return (void)lane, which; }
 GM_INLINE void K(set_mask_lane)(bool *which, int lane, bool value) { (void)lane, *which = value; }
 GM_INLINE bool K(not)(bool which) { return !which; }
+GM_INLINE bool K(both)(bool a, bool b) { return a && b; }
+GM_INLINE bool K(either)(bool a, bool b) { return a || b; }
 
 #else
 
@@ -74,5 +76,7 @@ GM_INLINE void K(set_lane)(gm_lanes *x, int lane, double value) { (*x)[lane] = v
 GM_INLINE bool K(mask_lane)(gm_lanes_mask which, int lane) { return which[lane] != 0; }
 GM_INLINE void K(set_mask_lane)(gm_lanes_mask *which, int lane, bool value) { (*which)[lane] = value ? -1 : 0; }
 GM_INLINE gm_lanes_mask K(not)(gm_lanes_mask which) { return ~which; }
+GM_INLINE gm_lanes_mask K(both)(gm_lanes_mask a, gm_lanes_mask b) { return a & b; }
+GM_INLINE gm_lanes_mask K(either)(gm_lanes_mask a, gm_lanes_mask b) { return a | b; }
 
 #endif
