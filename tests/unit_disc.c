@@ -10,52 +10,28 @@
 
 #include <cmocka.h>
 
-#include "app/request.h"
+#include "tests/test_lane.h"
 
-/* A lane of the disc from words such as "scheme=rk4 dt=0.1". */
 static struct gm_lane *open_lane(const char *arguments)
 {
-    char text[256], message[GM_MESSAGE];
-    char *words[16], *rest = NULL;
-    int count = 0;
-    snprintf(text, sizeof text, "disc %s", arguments);
-    for (char *word = strtok_r(text, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
-        words[count++] = word;
-    }
-    struct gm_request request;
-    if (!gm_request_parse(&request, count, words, 1, message)) {
-        fail_msg("%s", message);
-    }
-    struct gm_lane *lane = gm_request_open_lane(&request, 0, message);
-    assert_non_null(lane);
-    gm_request_close(&request);
-    return lane;
-}
-
-static double observed(const struct gm_lane *lane, const char *key)
-{
-    for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        if (strcmp(lane->scene->observables[i].key, key) == 0) {
-            return gm_lane_observe(lane, i);
-        }
-    }
-    fail_msg("no observable %s", key);
-    return NAN;
+    char words[256];
+    snprintf(words, sizeof words, "disc %s", arguments);
+    return test_lane(words);
 }
 
 static void expect_area_factor(const char *arguments, double factor_per_step, long steps, double tolerance)
 {
     struct gm_lane *lane = open_lane(arguments);
-    const double before = observed(lane, "area");
+    const double before = test_observed(lane, "area");
     double expected = 1;
     for (long n = 1; n <= steps; n++) {
         assert_int_equal(gm_run_advance(lane->run, 1), GM_OK);
         expected *= factor_per_step;
-        const double factor = observed(lane, "area") / before;
+        const double factor = test_observed(lane, "area") / before;
         if (!(fabs(factor / expected - 1) <= tolerance)) {
             fail_msg("%s: area factor %.17g after %ld steps, expected %.17g", arguments, factor, n, expected);
         }
-        assert_true(fabs(observed(lane, "area_tangent") / expected - 1) <= tolerance);
+        assert_true(fabs(test_observed(lane, "area_tangent") / expected - 1) <= tolerance);
     }
     gm_lane_close(lane);
 }
@@ -109,7 +85,7 @@ static void energy_of_explicit_euler(void **unused)
     (void)unused;
     struct gm_lane *lane = open_lane("scheme=explicit-euler dt=0.02 until=5");
     assert_int_equal(gm_run_advance(lane->run, 250), GM_OK);
-    const double error = observed(lane, "energy_error");
+    const double error = test_observed(lane, "energy_error");
     assert_true(fabs(error - (pow(1.0004, 250) - 1)) < 1e-13);
     assert_true(fabs(error - 0.105) < 5e-4);
     gm_lane_close(lane);
@@ -121,7 +97,7 @@ static void expect_energy_below(const char *arguments, long steps, double bound)
     double largest = 0;
     for (long n = 0; n < steps; n++) {
         assert_int_equal(gm_run_advance(lane->run, 1), GM_OK);
-        largest = fmax(largest, observed(lane, "energy_error"));
+        largest = fmax(largest, test_observed(lane, "energy_error"));
     }
     if (!(largest < bound)) {
         fail_msg("%s: energy error %.3g, not below %.3g", arguments, largest, bound);
@@ -147,8 +123,8 @@ static void pendulum_by_the_tangent_map(void **unused)
         snprintf(arguments, sizeof arguments, "system=pendulum scheme=%s", names[i]);
         struct gm_lane *lane = open_lane(arguments);
         assert_int_equal(gm_run_advance(lane->run, 1000), GM_OK);
-        assert_true(fabs(observed(lane, "area_tangent") - 1) < 1e-10);
-        assert_true(observed(lane, "area_error") > 1e-6);
+        assert_true(fabs(test_observed(lane, "area_tangent") - 1) < 1e-10);
+        assert_true(test_observed(lane, "area_error") > 1e-6);
         gm_lane_close(lane);
     }
 }
