@@ -8,7 +8,8 @@
 
 /* One key of the formatted request: the value of every lane. */
 static void format_key(FILE *stream, const struct gm_request *request, const char *key,
-                       const char *(*value)(const struct gm_request *, size_t lane, const void *row, char *text),
+                       const char *(*value)(const struct gm_request *, size_t lane, const void *row,
+                                            char *text),
                        const void *row, const char *standard, size_t *lists)
 {
     char first[96], text[96];

@@ -8,7 +8,10 @@
 #include "app/nearest.h"
 #include "core/certify.h"
 
-static const char *scheme_name(size_t i, const void *data) { return (void)data, gm_scheme_at(i)->name; }
+static const char *scheme_name(size_t i, const void *data)
+{
+    return (void)data, gm_scheme_at(i)->name;
+}
 
 static void print_json(const struct gm_certificate *certificate)
 {
@@ -19,10 +22,11 @@ static void print_json(const struct gm_certificate *certificate)
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_measure *measure = &certificate->claims[bit];
         if (measure->claimed || measure->measured) {
-            printf("%s\"%s\":{\"claimed\":%s,\"measured\":%s,\"defect\":%.6g,\"tolerance\":%g,\"problem\":\"%s\"}",
-                   comma, gm_claim_word(bit), measure->claimed ? "true" : "false",
-                   measure->measured ? "true" : "false", measure->measured ? measure->defect : 0,
-                   measure->tolerance, measure->problem);
+            printf(
+                "%s\"%s\":{\"claimed\":%s,\"measured\":%s,\"defect\":%.6g,\"tolerance\":%g,\"problem\":\"%s\"}",
+                comma, gm_claim_word(bit), measure->claimed ? "true" : "false",
+                measure->measured ? "true" : "false", measure->measured ? measure->defect : 0,
+                measure->tolerance, measure->problem);
             comma = ",";
         }
     }
@@ -60,8 +64,8 @@ int gm_command_certify(const struct gm_options *options)
     const bool all = strcmp(name, "all") == 0;
     if (!all && !gm_scheme_find(name)) {
         const char *near = gm_nearest(name, gm_scheme_count(), scheme_name, NULL);
-        gm_complain("there is no scheme \"%.40s\"%s%s", name, near ? "; did you mean " : "; see geomint list schemes",
-                    near ? near : "");
+        gm_complain("there is no scheme \"%.40s\"%s%s", name,
+                    near ? "; did you mean " : "; see geomint list schemes", near ? near : "");
         return GM_EXIT_USAGE;
     }
     size_t certified = 0, broken = 0;

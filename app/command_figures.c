@@ -36,7 +36,8 @@ static bool exists(const char *name)
 static bool print_numbers(const struct gm_request *request, const struct gm_figure *figure, char *message)
 {
     const struct gm_scene *scene = request->scene;
-    printf("%s: %s\n  geomint render %s %s\n", figure->name, figure->statement, scene->name, figure->arguments);
+    printf("%s: %s\n  geomint render %s %s\n", figure->name, figure->statement, scene->name,
+           figure->arguments);
     printf("  %-26s %-12s %10s", "scheme", "", "t");
     for (size_t i = 0; i < scene->observable_count; i++) {
         printf(" %14s", scene->observables[i].key);

@@ -92,7 +92,8 @@ static double frame_time(const struct schedule *schedule, long frame)
     if (frame + 1 >= schedule->count) {
         return schedule->last;
     }
-    return schedule->first + (schedule->last - schedule->first) * (double)frame / (double)(schedule->count - 1);
+    return schedule->first +
+           (schedule->last - schedule->first) * (double)frame / (double)(schedule->count - 1);
 }
 
 static void show_progress(const struct schedule *schedule, long frame, double started)
@@ -108,8 +109,8 @@ static void show_progress(const struct schedule *schedule, long frame, double st
         bar[i] = i < filled ? '#' : '.';
     }
     bar[WIDTH] = '\0';
-    fprintf(stderr, "\r%s %ld/%ld frames, %.1f a second, %.0f s left  ", bar, frame + 1, schedule->count, rate,
-            (double)(schedule->count - frame - 1) / rate);
+    fprintf(stderr, "\r%s %ld/%ld frames, %.1f a second, %.0f s left  ", bar, frame + 1, schedule->count,
+            rate, (double)(schedule->count - frame - 1) / rate);
 }
 
 static bool paint_frame(struct work *work, long frame, char *message)
@@ -237,8 +238,8 @@ static void say_failures(const struct work *work)
         char sentence[GM_SENTENCE];
         gm_failure_sentence(work->lanes[i], sentence, sizeof sentence);
         if (sentence[0]) {
-            gm_complain("%s: %s: %s", work->lanes[i]->scheme->name, gm_status_name(work->lanes[i]->run->status),
-                        sentence);
+            gm_complain("%s: %s: %s", work->lanes[i]->scheme->name,
+                        gm_status_name(work->lanes[i]->run->status), sentence);
         }
     }
 }
@@ -298,7 +299,8 @@ int gm_render(struct gm_request *request, const struct gm_options *options, cons
     char message[GM_MESSAGE];
     struct work work = {.request = request, .options = options};
     int status = GM_EXIT_USAGE;
-    if (!make_schedule(&work.schedule, &work.still, request, options, message) || !open_lanes(&work, message)) {
+    if (!make_schedule(&work.schedule, &work.still, request, options, message) ||
+        !open_lanes(&work, message)) {
         gm_complain("%s", message);
     } else {
         status = paint_all(&work, name);

@@ -53,8 +53,9 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     print_json_parameters(lane);
     printf(",\"status\":\"%s\",\"message\":\"%s\",\"t\":", gm_status_name(run->status), sentence);
     print_json_number(run->t);
-    printf(",\"steps\":%ld,\"evaluations\":%.0f,\"solves\":%.0f,\"seconds\":%.6g,\"observables\":{", run->steps,
-           gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves), outcome->drive.seconds);
+    printf(",\"steps\":%ld,\"evaluations\":%.0f,\"solves\":%.0f,\"seconds\":%.6g,\"observables\":{",
+           run->steps, gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves),
+           outcome->drive.seconds);
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         printf("%s\"%s\":", i ? "," : "", lane->scene->observables[i].key);
         print_json_number(gm_lane_observe(lane, i));
@@ -90,8 +91,7 @@ static void print_text(const struct outcome *outcome)
     printf("  %-20s %s\n", "status", gm_status_name(run->status));
     printf("  %-20s %.10g\n  %-20s %ld\n  %-20s %.0f\n  %-20s %.0f\n  %-20s %.3g\n", "t", run->t, "steps",
            run->steps, "evaluations", gm_run_per_member(run, run->evaluations), "solves",
-           gm_run_per_member(run, run->solves), "seconds",
-           outcome->drive.seconds);
+           gm_run_per_member(run, run->solves), "seconds", outcome->drive.seconds);
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         printf("  %-20s %.10g\n", lane->scene->observables[i].key, gm_lane_observe(lane, i));
     }

@@ -115,11 +115,14 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     case GM_OK:
         return;
     case GM_BLOW_UP:
-        snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to no number at all", run->t, run->limit);
+        snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to no number at all", run->t,
+                 run->limit);
         return;
     case GM_NO_CONVERGENCE:
-        snprintf(text, size, "the implicit equations of the step after t = %.6g were not solved to round-off "
-                 "(%.0f iterations so far)", run->t, gm_run_per_member(run, run->iterations));
+        snprintf(text, size,
+                 "the implicit equations of the step after t = %.6g were not solved to round-off "
+                 "(%.0f iterations so far)",
+                 run->t, gm_run_per_member(run, run->iterations));
         return;
     case GM_MESH_CROSSING:
         snprintf(text, size, "the mesh would have tangled in the step after t = %.6g", run->t);

@@ -20,8 +20,8 @@ struct gm_drive {
     double seconds; /* processor time of its steps */
 };
 
-/* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due. Stops
-   early on a numerical failure or an interruption. False with a sentence if a change cannot be made. */
+/* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.
+   Stops early on a numerical failure or an interruption. False with a sentence if a change cannot be made. */
 bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message);
 
 /* The last step not after the time t: how many steps in all the lane has made then. */
@@ -33,7 +33,8 @@ __attribute__((format(printf, 1, 2))) void gm_complain(const char *format, ...);
 /* Writes one sentence on how a failed lane stands; empty for GM_OK. */
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size);
 
-/* Flushes standard output. The status to exit with: `status`, or 3 with a complaint if it could not be written. */
+/* Flushes standard output. The status to exit with: `status`, or 3 with a complaint if it could not be
+ * written. */
 int gm_finish(int status);
 
 #endif

@@ -19,12 +19,12 @@ struct gm_provenance {
 /* Keys of the chunks that `again` reads. */
 #define GM_KEY_ARGUMENTS "geomint:arguments"
 #define GM_KEY_CHANGES "geomint:changes"
-#define GM_KEY_STEPS "geomint:steps" /* of each lane, separated by blanks */
+#define GM_KEY_STEPS "geomint:steps"     /* of each lane, separated by blanks */
 #define GM_KEY_PICTURE "geomint:picture" /* WIDTHxHEIGHT theme */
 
 /* Everything but the steps. False when memory is short. */
-bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width, int height,
-                        enum gm_theme theme, const char *backend);
+bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width,
+                        int height, enum gm_theme theme, const char *backend);
 void gm_provenance_close(struct gm_provenance *provenance);
 
 /* The steps of the lanes now, as the text of GM_KEY_STEPS; malloc'ed, NULL when memory is short. */

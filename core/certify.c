@@ -20,7 +20,7 @@ typedef double invariant(const struct gm_problem *problem, const double *y);
 struct subject {
     struct gm_problem problem; /* m = 1 */
     double start[MOST];
-    bool canonical;        /* (q, p), Hamiltonian and reversible under p -> -p */
+    bool canonical;                      /* (q, p), Hamiltonian and reversible under p -> -p */
     invariant *linear[2], *quadratic[2]; /* NULL where it has none */
 };
 
@@ -115,8 +115,8 @@ static bool solve_by_gsl(const struct subject *subject, double until, double *y)
     return status == GSL_SUCCESS;
 }
 
-/* The slope of log error against log dt, by least squares over the finest three steps whose error stands clear of
-   round-off; NaN if there are not three. */
+/* The slope of log error against log dt, by least squares over the finest three steps whose error stands
+   clear of round-off; NaN if there are not three. */
 static double measure_order(const struct subject *subject, const struct gm_scheme *scheme)
 {
     enum { LADDER = 9 };
@@ -153,8 +153,8 @@ static double measure_order(const struct subject *subject, const struct gm_schem
     return above / below;
 }
 
-/* |M' J M - J|, M the derivative of one step: central differences at 4 distances, extrapolated by Romberg, all
-   as one ensemble. Error of the differences about 1e-13. */
+/* |M' J M - J|, M the derivative of one step: central differences at 4 distances, extrapolated by Romberg,
+   all as one ensemble. Error of the differences about 1e-13. */
 static double symplecticity_defect(const struct subject *subject, const struct gm_scheme *scheme, double dt)
 {
     enum { LEVELS = 4, MEMBERS = MOST * LEVELS * 2 };
@@ -309,11 +309,12 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
             static invariant *const energies[] = {energy};
             note(symplectic, symplecticity_defect(subject, scheme, dt), name);
             note(&certificate.claims[bit_of(GM_REVERSIBLE)], reversibility_defect(subject, scheme, dt), name);
-            note(&certificate.claims[bit_of(GM_KEEPS_ENERGY)], drift(subject, scheme, dt / 24, energies, 1), name);
+            note(&certificate.claims[bit_of(GM_KEEPS_ENERGY)], drift(subject, scheme, dt / 24, energies, 1),
+                 name);
         }
         if (subject->linear[0]) {
-            note(&certificate.claims[bit_of(GM_KEEPS_LINEAR)], drift(subject, scheme, dt / 24, subject->linear, 2),
-                 name);
+            note(&certificate.claims[bit_of(GM_KEEPS_LINEAR)],
+                 drift(subject, scheme, dt / 24, subject->linear, 2), name);
         }
         if (subject->quadratic[0]) {
             note(&certificate.claims[bit_of(GM_KEEPS_QUADRATIC)],

@@ -20,11 +20,11 @@ struct gm_parameter {
     const char *unit; /* "" if it has none */
     const char *help;
     enum gm_type type;
-    size_t offset;            /* of the value in the owner's struct */
-    const char *standard;     /* the default, as it would be typed ("pi/12") */
-    double lowest, highest;   /* inclusive range of a real or an integer */
-    bool logarithmic;         /* a slider moves by factors */
-    bool live;                /* a change acts on the present state; otherwise the run starts again */
+    size_t offset;              /* of the value in the owner's struct */
+    const char *standard;       /* the default, as it would be typed ("pi/12") */
+    double lowest, highest;     /* inclusive range of a real or an integer */
+    bool logarithmic;           /* a slider moves by factors */
+    bool live;                  /* a change acts on the present state; otherwise the run starts again */
     const char *const *choices; /* NULL-terminated, for GM_CHOICE */
 };
 

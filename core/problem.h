@@ -31,15 +31,15 @@ struct gm_task {
     double dt;
     long steps;
     long steps_before; /* that the run has made already */
-    double limit; /* a component above this is a blow-up */
+    double limit;      /* a component above this is a blow-up */
     const double *y;
     double *out;
     const double *carry; /* what compensated summation carries over, n * m; NULL: plain summation */
     double *carry_out;
     const double *memory; /* the scheme's own, as its family says; NULL if it has none */
     double *memory_out;
-    double t;                            /* the present time */
-    void *workspace;                     /* what the family opened for this run */
+    double t;        /* the present time */
+    void *workspace; /* what the family opened for this run */
     const struct gm_settings *settings;
 };
 

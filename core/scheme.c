@@ -26,9 +26,15 @@ static const struct {
     {"G", "equivariant"},
 };
 
-const char *gm_claim_letter(unsigned bit) { return claims[bit].letter; }
+const char *gm_claim_letter(unsigned bit)
+{
+    return claims[bit].letter;
+}
 
-const char *gm_claim_word(unsigned bit) { return claims[bit].word; }
+const char *gm_claim_word(unsigned bit)
+{
+    return claims[bit].word;
+}
 
 const struct gm_parameter gm_settings_parameters[] = {
     {
@@ -81,5 +87,6 @@ bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *pro
 {
     const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0);
     const struct gm_loops *loops = problem->loops[GM_ISA_BASELINE];
-    return (scheme->needs & ~has) == 0 && (scheme->family->loop || (loops && loops->family[scheme->family->id]));
+    return (scheme->needs & ~has) == 0 &&
+           (scheme->family->loop || (loops && loops->family[scheme->family->id]));
 }

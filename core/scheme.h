@@ -8,14 +8,14 @@
 /* What a scheme says of itself; certify and the tests hold every row to it. */
 enum gm_claim {
     GM_SYMPLECTIC = 1u << 0,
-    GM_SYMMETRIC = 1u << 1,           /* step(-dt) undoes step(dt) */
-    GM_REVERSIBLE = 1u << 2,          /* under p -> -p */
-    GM_KEEPS_ENERGY = 1u << 3,        /* of every Hamiltonian */
-    GM_KEEPS_QUADRATIC = 1u << 4,     /* every quadratic invariant */
-    GM_KEEPS_LINEAR = 1u << 5,        /* every linear invariant */
+    GM_SYMMETRIC = 1u << 1,       /* step(-dt) undoes step(dt) */
+    GM_REVERSIBLE = 1u << 2,      /* under p -> -p */
+    GM_KEEPS_ENERGY = 1u << 3,    /* of every Hamiltonian */
+    GM_KEEPS_QUADRATIC = 1u << 4, /* every quadratic invariant */
+    GM_KEEPS_LINEAR = 1u << 5,    /* every linear invariant */
     GM_KEEPS_VOLUME = 1u << 6,
     GM_MULTISYMPLECTIC = 1u << 7,
-    GM_EQUIVARIANT = 1u << 8,         /* commutes with the problem's symmetry group */
+    GM_EQUIVARIANT = 1u << 8, /* commutes with the problem's symmetry group */
     GM_CLAIM_COUNT = 9,
 };
 
@@ -57,7 +57,8 @@ struct gm_family {
     /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.
        After every step `out` holds the canonical state again. */
     enum gm_status (*start)(const struct gm_task *task);
-    /* Scratch and factors: derived from the state alone, rebuilt wherever a run is resumed. NULL: out of memory. */
+    /* Scratch and factors: derived from the state alone, rebuilt wherever a run is resumed. NULL: out of
+     * memory. */
     void *(*workspace_open)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     void (*workspace_close)(void *workspace);
     void (*workspace_reset)(void *workspace); /* forgets what was derived from an earlier state */

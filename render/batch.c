@@ -22,8 +22,9 @@ enum { INSIDE_BIT = 0x80, ONCE_BITS = 0x7f };
 bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, char *message, size_t size)
 {
     *batch = (struct gm_batch){.gl = gl};
-    if (!gm_shaders_open(gl, batch->programs, message, size))
+    if (!gm_shaders_open(gl, batch->programs, message, size)) {
         return false;
+    }
     gl->GenVertexArrays(1, &batch->array);
     gl->BindVertexArray(batch->array);
     gl->GenBuffers(1, &batch->buffer);
@@ -36,8 +37,9 @@ bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, char *message
                             (const void *)offsetof(struct gm_vertex, across));
     gl->VertexAttribPointer(2, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride,
                             (const void *)offsetof(struct gm_vertex, colour));
-    for (GLuint i = 0; i < 3; i++)
+    for (GLuint i = 0; i < 3; i++) {
         gl->EnableVertexAttribArray(i);
+    }
     return true;
 }
 
@@ -91,11 +93,13 @@ void gm_batch_once(struct gm_batch *batch)
 static bool grow(struct gm_batch *batch, void **block, size_t *capacity, size_t count, size_t more,
                  size_t size)
 {
-    if (more <= *capacity - count)
+    if (more <= *capacity - count) {
         return true;
+    }
     size_t wanted = *capacity > 0 ? 2 * *capacity : 4096;
-    while (wanted - count < more && wanted < SIZE_MAX / 4 / size)
+    while (wanted - count < more && wanted < SIZE_MAX / 4 / size) {
         wanted *= 2;
+    }
     void *bigger = wanted - count < more ? NULL : realloc(*block, wanted * size);
     if (bigger == NULL) {
         batch->short_of_memory = true;
@@ -114,12 +118,14 @@ static struct gm_command *command_for(struct gm_batch *batch, bool indexed)
         if (!last->indexed && last->program == batch->program && last->stencil == batch->stencil &&
             (last->stencil != GM_STENCIL_ONCE || last->once == batch->once) &&
             last->texture == batch->texture &&
-            memcmp(last->scissor, batch->scissor, sizeof last->scissor) == 0)
+            memcmp(last->scissor, batch->scissor, sizeof last->scissor) == 0) {
             return last;
+        }
     }
     if (!grow(batch, (void **)&batch->commands, &batch->command_capacity, batch->command_count, 1,
-              sizeof *batch->commands))
+              sizeof *batch->commands)) {
         return NULL;
+    }
     struct gm_command *command = &batch->commands[batch->command_count++];
     *command = (struct gm_command){.program = batch->program,
                                    .stencil = batch->stencil,
@@ -135,11 +141,13 @@ struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count)
 {
     const size_t joint = 2; /* vertices of the degenerate triangles between two strips */
     if (!grow(batch, (void **)&batch->vertices, &batch->vertex_capacity, batch->vertex_count, count + joint,
-              sizeof *batch->vertices))
+              sizeof *batch->vertices)) {
         return NULL;
+    }
     struct gm_command *command = command_for(batch, false);
-    if (command == NULL)
+    if (command == NULL) {
         return NULL;
+    }
     batch->join = 0;
     if (command->count > 0) {
         batch->vertices[batch->vertex_count] = batch->vertices[batch->vertex_count - 1];
@@ -157,8 +165,9 @@ void gm_batch_end(struct gm_batch *batch, size_t unused)
 {
     batch->vertex_count -= unused;
     batch->commands[batch->command_count - 1].count -= unused;
-    if (batch->join > 0)
+    if (batch->join > 0) {
         batch->vertices[batch->join] = batch->vertices[batch->join + 1];
+    }
 }
 
 struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count, uint32_t **indices)
@@ -166,11 +175,13 @@ struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t ind
     if (!grow(batch, (void **)&batch->vertices, &batch->vertex_capacity, batch->vertex_count, count,
               sizeof *batch->vertices) ||
         !grow(batch, (void **)&batch->indices, &batch->index_capacity, batch->index_count, index_count,
-              sizeof *batch->indices))
+              sizeof *batch->indices)) {
         return NULL;
+    }
     struct gm_command *command = command_for(batch, true);
-    if (command == NULL)
+    if (command == NULL) {
         return NULL;
+    }
     command->count = index_count;
     *indices = batch->indices + batch->index_count;
     batch->index_count += index_count;
@@ -227,9 +238,10 @@ bool gm_batch_draw(struct gm_batch *batch, int width, int height)
     gl->BindBuffer(GL_ARRAY_BUFFER, batch->buffer);
     gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(batch->vertex_count * sizeof *batch->vertices),
                    batch->vertices, GL_STREAM_DRAW);
-    if (batch->index_count > 0)
+    if (batch->index_count > 0) {
         gl->BufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(batch->index_count * sizeof *batch->indices),
                        batch->indices, GL_STREAM_DRAW);
+    }
     gm_shaders_resize(gl, batch->programs, width, height);
     gl->Enable(GL_BLEND);
     gl->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -248,13 +260,15 @@ bool gm_batch_draw(struct gm_batch *batch, int width, int height)
         set_stencil(gl, command);
         const bool colour = command->stencil != GM_STENCIL_INVERT;
         gl->ColorMask(colour, colour, colour, colour);
-        if (command->program == GM_PROGRAM_IMAGE)
+        if (command->program == GM_PROGRAM_IMAGE) {
             gl->BindTexture(GL_TEXTURE_2D, command->texture);
-        if (command->indexed)
+        }
+        if (command->indexed) {
             gl->DrawElements(GL_TRIANGLES, (GLsizei)command->count, GL_UNSIGNED_INT,
                              (const void *)(command->first * sizeof *batch->indices));
-        else
+        } else {
             gl->DrawArrays(GL_TRIANGLE_STRIP, (GLint)command->first, (GLsizei)command->count);
+        }
     }
     gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl->StencilMask(0xff);

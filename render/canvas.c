@@ -46,8 +46,9 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
         gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, stencils[i].attachment, GL_RENDERBUFFER,
                                     canvas->stencil_buffer);
         if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE &&
-            gl->GetError() == GL_NO_ERROR)
+            gl->GetError() == GL_NO_ERROR) {
             return true;
+        }
     }
     snprintf(message, GM_MESSAGE_SIZE, "This OpenGL gives no framebuffer of %d x %d pixels.", canvas->width,
              canvas->height);
@@ -101,8 +102,9 @@ static void set_sizes(struct gm_canvas *canvas)
 static bool gl_open(struct gm_canvas *canvas, char *message)
 {
     canvas->context = gm_context_open(message, GM_MESSAGE_SIZE);
-    if (canvas->context == NULL)
+    if (canvas->context == NULL) {
         return false;
+    }
     const char *missing = gm_gl_load(&canvas->gl, canvas->context);
     if (missing != NULL) {
         snprintf(message, GM_MESSAGE_SIZE, "This OpenGL lacks the function %s.", missing);
@@ -121,8 +123,9 @@ static bool gl_open(struct gm_canvas *canvas, char *message)
 struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message)
 {
     struct gm_canvas *canvas = calloc(1, sizeof *canvas);
-    if (canvas != NULL)
+    if (canvas != NULL) {
         *canvas = (struct gm_canvas){.width = width, .height = height, .theme = theme};
+    }
     if (canvas == NULL) {
         snprintf(message, GM_MESSAGE_SIZE, "There is not enough memory for a picture.");
         return NULL;
@@ -135,9 +138,10 @@ struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, cha
     textures_open(canvas);
     canvas->glyphs = gm_glyphs_open(message, GM_MESSAGE_SIZE);
     canvas->pixels = malloc((size_t)width * (size_t)height * 4);
-    if (canvas->glyphs != NULL && canvas->pixels == NULL)
+    if (canvas->glyphs != NULL && canvas->pixels == NULL) {
         snprintf(message, GM_MESSAGE_SIZE, "There is not enough memory for a picture of %d x %d pixels.",
                  width, height);
+    }
     if (canvas->glyphs == NULL || canvas->pixels == NULL) {
         gm_canvas_close(canvas);
         return NULL;
@@ -147,8 +151,9 @@ struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, cha
 
 void gm_canvas_close(struct gm_canvas *canvas)
 {
-    if (canvas == NULL)
+    if (canvas == NULL) {
         return;
+    }
     if (canvas->context != NULL && canvas->gl.Viewport != NULL && gm_context_use(canvas->context)) {
         const struct gm_gl *gl = &canvas->gl;
         gm_batch_close(&canvas->batch);
@@ -181,12 +186,13 @@ static void update_atlas(struct gm_canvas *canvas)
     const struct gm_atlas atlas = gm_glyphs_atlas(canvas->glyphs);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, canvas->atlas);
-    if (atlas.height != canvas->atlas_height)
+    if (atlas.height != canvas->atlas_height) {
         gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width, atlas.height, 0, GL_RED, GL_UNSIGNED_BYTE,
                        atlas.pixels);
-    else if (atlas.changed < atlas.used)
+    } else if (atlas.changed < atlas.used) {
         gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, atlas.changed, atlas.width, atlas.used - atlas.changed, GL_RED,
                           GL_UNSIGNED_BYTE, atlas.pixels + (size_t)atlas.changed * (size_t)atlas.width);
+    }
     canvas->atlas_height = atlas.height;
 }
 
@@ -220,12 +226,14 @@ bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsig
 {
     const struct gm_metrics metrics = gm_canvas_metrics(canvas);
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
-    if (layout == NULL || !gm_context_use(canvas->context))
+    if (layout == NULL || !gm_context_use(canvas->context)) {
         return false;
+    }
     gm_batch_clear(&canvas->batch);
     canvas->images_used = 0;
-    for (size_t i = 0; i < layout->frame_count; i++)
+    for (size_t i = 0; i < layout->frame_count; i++) {
         gm_canvas_frame(canvas, &layout->frames[i]);
+    }
     gm_canvas_labels(canvas, layout);
     update_atlas(canvas);
     clear(canvas);

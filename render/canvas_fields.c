@@ -19,25 +19,30 @@ void gm_canvas_mesh(struct gm_canvas *canvas, const struct gm_frame *frame, cons
     gm_batch_state(&canvas->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
     struct gm_vertex *vertices =
         gm_batch_mesh(&canvas->batch, mark->count, 3 * mark->triangle_count, &indices);
-    if (vertices == NULL)
+    if (vertices == NULL) {
         return;
+    }
     const size_t first = (size_t)(vertices - canvas->batch.vertices);
     const double factor = 1.0 / (mark->high - mark->low);
-    for (size_t i = 0; i < mark->count; i++)
+    for (size_t i = 0; i < mark->count; i++) {
         vertices[i] =
             vertex(gm_frame_x(frame, mark->points[2 * i]), gm_frame_y(frame, mark->points[2 * i + 1]),
                    factor * (mark->values[i] - mark->low), 0.0, mark->style.alpha, mark->map);
-    for (size_t i = 0; i < 3 * mark->triangle_count; i++)
+    }
+    for (size_t i = 0; i < 3 * mark->triangle_count; i++) {
         indices[i] = (uint32_t)(first + (size_t)mark->triangles[i]);
+    }
 }
 
 static void put_quad(struct gm_batch *batch, struct gm_vertex corners[4])
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (strip == NULL)
+    if (strip == NULL) {
         return;
-    for (int i = 0; i < 4; i++)
+    }
+    for (int i = 0; i < 4; i++) {
         strip[i] = corners[i];
+    }
     gm_batch_end(batch, 0);
 }
 
@@ -59,8 +64,9 @@ static GLuint next_texture(struct gm_canvas *canvas)
     gl->ActiveTexture(GL_TEXTURE2);
     if (canvas->images_used == canvas->image_count) {
         GLuint *images = realloc(canvas->images, (canvas->image_count + 1) * sizeof *images);
-        if (images == NULL)
+        if (images == NULL) {
             return 0;
+        }
         canvas->images = images;
         gl->GenTextures(1, &images[canvas->image_count]);
         gl->BindTexture(GL_TEXTURE_2D, images[canvas->image_count++]);
@@ -85,21 +91,24 @@ void gm_canvas_image(struct gm_canvas *canvas, const struct gm_frame *frame, con
     const size_t rows = (mark->rows - 1) / row_stride + 1, columns = (mark->columns - 1) / column_stride + 1;
     if (canvas->texel_capacity < rows * columns) {
         float *texels = realloc(canvas->texels, rows * columns * sizeof *texels);
-        if (texels == NULL)
+        if (texels == NULL) {
             return;
+        }
         canvas->texels = texels;
         canvas->texel_capacity = rows * columns;
     }
     const double factor = 1.0 / (mark->high - mark->low);
     for (size_t row = 0; row < rows; row++) {
         const double *values = mark->values + row * row_stride * mark->columns;
-        for (size_t column = 0; column < columns; column++)
+        for (size_t column = 0; column < columns; column++) {
             canvas->texels[row * columns + column] =
                 (float)(factor * (values[column * column_stride] - mark->low));
+        }
     }
     const GLuint texture = next_texture(canvas);
-    if (texture == 0)
+    if (texture == 0) {
         return;
+    }
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, (GLsizei)columns, (GLsizei)rows, 0, GL_RED, GL_FLOAT,
                    canvas->texels);
     const double left = gm_frame_x(frame, mark->points[0]), right = gm_frame_x(frame, mark->points[2]);

@@ -28,10 +28,12 @@ static void draw_grid(struct gm_canvas *canvas, const struct gm_frame *frame)
 {
     const struct gm_box box = frame->box;
     const struct gm_ink ink = gm_canvas_ink(canvas, GM_GRID, 1.0);
-    for (size_t i = 0; i < frame->x_tick_count; i++)
+    for (size_t i = 0; i < frame->x_tick_count; i++) {
         vertical_rule(canvas, frame->x_ticks[i].position, box.y, box.y + box.height, ink);
-    for (size_t i = 0; i < frame->y_tick_count; i++)
+    }
+    for (size_t i = 0; i < frame->y_tick_count; i++) {
         horizontal_rule(canvas, box.x, box.x + box.width, frame->y_ticks[i].position, ink);
+    }
 }
 
 static void draw_axes(struct gm_canvas *canvas, const struct gm_frame *frame)
@@ -42,10 +44,12 @@ static void draw_axes(struct gm_canvas *canvas, const struct gm_frame *frame)
     const double half = 0.5 * hairline(canvas);
     vertical_rule(canvas, box.x, box.y, bottom + half, ink);
     horizontal_rule(canvas, box.x - half, right, bottom, ink);
-    for (size_t i = 0; i < frame->x_tick_count; i++)
+    for (size_t i = 0; i < frame->x_tick_count; i++) {
         vertical_rule(canvas, frame->x_ticks[i].position, bottom, bottom + tick, ink);
-    for (size_t i = 0; i < frame->y_tick_count; i++)
+    }
+    for (size_t i = 0; i < frame->y_tick_count; i++) {
         horizontal_rule(canvas, box.x - tick, box.x, frame->y_ticks[i].position, ink);
+    }
 }
 
 static void draw_colour_bar(struct gm_canvas *canvas, const struct gm_frame *frame)
@@ -59,15 +63,17 @@ static void draw_colour_bar(struct gm_canvas *canvas, const struct gm_frame *fra
             break;
         }
     }
-    for (size_t i = 0; i < frame->bar_tick_count; i++)
+    for (size_t i = 0; i < frame->bar_tick_count; i++) {
         horizontal_rule(canvas, right, right + tick, frame->bar_ticks[i].position, ink);
+    }
 }
 
 void gm_canvas_frame(struct gm_canvas *canvas, const struct gm_frame *frame)
 {
     const struct gm_box box = frame->box;
-    if (!(box.width >= 1.0 && box.height >= 1.0))
+    if (!(box.width >= 1.0 && box.height >= 1.0)) {
         return;
+    }
     gm_batch_state(&canvas->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
     gm_batch_scissor(&canvas->batch, 0, 0, canvas->width, canvas->height);
     if (frame->panel->axes) {
@@ -76,6 +82,7 @@ void gm_canvas_frame(struct gm_canvas *canvas, const struct gm_frame *frame)
     }
     gm_canvas_marks(canvas, frame);
     gm_batch_scissor(&canvas->batch, 0, 0, canvas->width, canvas->height);
-    if (frame->colour_bar.width > 0.0)
+    if (frame->colour_bar.width > 0.0) {
         draw_colour_bar(canvas, frame);
+    }
 }

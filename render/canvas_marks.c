@@ -42,8 +42,9 @@ static void clip_to(struct gm_canvas *canvas, const struct gm_box *box, double m
 static bool project(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark)
 {
     struct gm_polyline *line = &canvas->line;
-    if (!gm_polyline_reserve(line, mark->count))
+    if (!gm_polyline_reserve(line, mark->count)) {
         return false;
+    }
     const bool linear = frame->panel->x.scale != GM_LOG && frame->panel->y.scale != GM_LOG;
     const double far = 1e7; /* where floats still have whole pixels */
     for (size_t i = 0; i < mark->count; i++) {
@@ -78,19 +79,22 @@ static float stroke_width(const struct gm_canvas *canvas, const struct gm_style 
 static void draw_dashes(struct gm_canvas *canvas, const struct gm_polyline *piece, const struct pen *pen)
 {
     struct gm_dashing state = {0};
-    while (gm_polyline_dash(piece, pen->pattern, pen->parts, &state, &canvas->dash))
+    while (gm_polyline_dash(piece, pen->pattern, pen->parts, &state, &canvas->dash)) {
         gm_stroke_line(&canvas->batch, &canvas->dash, pen->half, pen->ink);
+    }
 }
 
 static void draw_piece(struct gm_canvas *canvas, const struct gm_polyline *piece, const struct pen *pen)
 {
     float period = 0.0f;
-    for (size_t i = 0; i < pen->parts; i++)
+    for (size_t i = 0; i < pen->parts; i++) {
         period += pen->pattern[i];
-    if (pen->parts > 0 && gm_polyline_length(piece) * (float)pen->parts < 2.0f * most_dashes * period)
+    }
+    if (pen->parts > 0 && gm_polyline_length(piece) * (float)pen->parts < 2.0f * most_dashes * period) {
         draw_dashes(canvas, piece, pen);
-    else
+    } else {
         gm_stroke_line(&canvas->batch, piece, pen->half, pen->ink);
+    }
 }
 
 /* What is translucent and would overlap itself at joints is painted in two passes, each pixel once: whole
@@ -116,22 +120,25 @@ static void draw_line(struct gm_canvas *canvas, const struct gm_frame *frame, co
 {
     const struct gm_style *style = &mark->style;
     const float width = stroke_width(canvas, style);
-    if (!(width > 0.0f) || !project(canvas, frame, mark))
+    if (!(width > 0.0f) || !project(canvas, frame, mark)) {
         return;
+    }
     float pattern[DASH_PARTS];
     struct pen pen = {.half = 0.5f * fmaxf(width, 1.0f),
                       .ink = gm_canvas_ink(canvas, style->role, style->alpha * fminf(width, 1.0f)),
                       .pattern = pattern,
                       .parts = dashes[style->dash].parts};
-    for (size_t i = 0; i < pen.parts; i++) /* thin lines need longer dashes to be told apart */
+    for (size_t i = 0; i < pen.parts; i++) { /* thin lines need longer dashes to be told apart */
         pattern[i] = dashes[style->dash].lengths[i] * fmaxf(width, 1.2f * (float)fmax(canvas->scale, 0.8));
+    }
     const struct gm_bounds bounds = bounds_of(frame, cut + 2.0f * width);
     for (size_t from = 0; gm_polyline_clip(&canvas->line, bounds, &from, &canvas->piece);) {
         gm_polyline_simplify(&canvas->piece, tolerance);
-        if (pen.ink.colour[3] < 255 && gm_stroke_breaks(&canvas->piece, pen.half) > 0)
+        if (pen.ink.colour[3] < 255 && gm_stroke_breaks(&canvas->piece, pen.half) > 0) {
             draw_translucent(canvas, &canvas->piece, &pen);
-        else
+        } else {
             draw_piece(canvas, &canvas->piece, &pen);
+        }
     }
 }
 
@@ -139,28 +146,32 @@ static void draw_points(struct gm_canvas *canvas, const struct gm_frame *frame, 
 {
     const struct gm_style *style = &mark->style;
     const float width = stroke_width(canvas, style);
-    if (!(width > 0.0f) || !project(canvas, frame, mark))
+    if (!(width > 0.0f) || !project(canvas, frame, mark)) {
         return;
+    }
     const float radius = 0.5f * fmaxf(width, 1.0f);
     const struct gm_ink ink = gm_canvas_ink(canvas, style->role, style->alpha * fminf(width * width, 1.0f));
     const struct gm_bounds bounds = bounds_of(frame, 0.5f);
     clip_to(canvas, &frame->box, radius + 1.0f);
     for (size_t i = 0; i < canvas->line.count; i++) {
         const struct gm_point p = canvas->line.points[i];
-        if (p.x >= bounds.left && p.x <= bounds.right && p.y >= bounds.top && p.y <= bounds.bottom)
+        if (p.x >= bounds.left && p.x <= bounds.right && p.y >= bounds.top && p.y <= bounds.bottom) {
             gm_stroke_disc(&canvas->batch, p, radius, ink);
+        }
     }
 }
 
 static void draw_polygon(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark)
 {
-    if (!project(canvas, frame, mark))
+    if (!project(canvas, frame, mark)) {
         return;
+    }
     struct gm_polyline *line = &canvas->line;
     gm_polyline_simplify(line, tolerance);
     const struct gm_point first = line->points[0], last = line->points[line->count - 1];
-    if (line->count > 1 && hypotf(first.x - last.x, first.y - last.y) < tolerance)
+    if (line->count > 1 && hypotf(first.x - last.x, first.y - last.y) < tolerance) {
         line->count--; /* closed by repeating the first corner */
+    }
     line->closed = true;
     gm_fill_polygon(&canvas->batch, line, gm_canvas_ink(canvas, mark->style.role, mark->style.alpha));
 }

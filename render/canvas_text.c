@@ -38,8 +38,9 @@ struct gm_metrics gm_canvas_metrics(struct gm_canvas *canvas)
         .scale = canvas->scale,
         .terse = canvas->height < roomy,
     };
-    for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++)
+    for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++) {
         metrics.line[i] = line_height(canvas, canvas->letters[i]);
+    }
     return metrics;
 }
 
@@ -55,8 +56,9 @@ static void put_letter(struct gm_batch *batch, const struct writing *writing, do
                        const struct gm_letter *letter)
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (strip == NULL)
+    if (strip == NULL) {
         return;
+    }
     for (int i = 0; i < 4; i++) {
         const int u = i % 2 == 0 ? 0 : letter->width, v = i < 2 ? 0 : letter->height;
         const double along = letter->x + u, down = letter->y + v;
@@ -78,9 +80,11 @@ static void write_text(struct gm_canvas *canvas, const struct writing *writing, 
     const double y = writing->upwards ? ceil(writing->y) : floor(writing->y + 0.5);
     double pen = writing->upwards ? y - writing->y : writing->x - x;
     struct gm_letter letter;
-    while (gm_glyphs_next(canvas->glyphs, writing->font, writing->letters, &text, &pen, &letter))
-        if (letter.width > 0)
+    while (gm_glyphs_next(canvas->glyphs, writing->font, writing->letters, &text, &pen, &letter)) {
+        if (letter.width > 0) {
             put_letter(&canvas->batch, writing, x, y, &letter);
+        }
+    }
 }
 
 static double anchor_share(enum gm_anchor anchor)
@@ -117,8 +121,9 @@ struct note {
 static bool place_note(struct gm_canvas *canvas, const struct gm_frame *frame, const struct gm_mark *mark,
                        struct note *note)
 {
-    if (mark->kind != GM_MARK_TEXT)
+    if (mark->kind != GM_MARK_TEXT) {
         return false;
+    }
     const int letters = canvas->letters[GM_TEXT_TICK];
     const double width = gm_glyphs_width(canvas->glyphs, GM_FONT_SANS, letters, mark->text);
     const double line = line_height(canvas, letters);
@@ -161,10 +166,13 @@ static void draw_notes(struct gm_canvas *canvas, const struct gm_layout *layout,
                        void draw(struct gm_canvas *canvas, const struct note *note))
 {
     struct note note;
-    for (size_t i = 0; i < layout->frame_count; i++)
-        for (const struct gm_mark *mark = layout->frames[i].panel->first; mark != NULL; mark = mark->next)
-            if (place_note(canvas, &layout->frames[i], mark, &note))
+    for (size_t i = 0; i < layout->frame_count; i++) {
+        for (const struct gm_mark *mark = layout->frames[i].panel->first; mark != NULL; mark = mark->next) {
+            if (place_note(canvas, &layout->frames[i], mark, &note)) {
                 draw(canvas, &note);
+            }
+        }
+    }
 }
 
 void gm_canvas_labels(struct gm_canvas *canvas, const struct gm_layout *layout)
@@ -174,6 +182,7 @@ void gm_canvas_labels(struct gm_canvas *canvas, const struct gm_layout *layout)
     draw_notes(canvas, layout, draw_plate);
     gm_batch_state(&canvas->batch, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
     draw_notes(canvas, layout, draw_note);
-    for (size_t i = 0; i < layout->label_count; i++)
+    for (size_t i = 0; i < layout->label_count; i++) {
         draw_label(canvas, &layout->labels[i]);
+    }
 }

@@ -16,7 +16,8 @@ enum { CELL_WIDTH = 8, CELL_HEIGHT = 16 };
 /* Below this there is room for the states and one graph. */
 enum { ROOMY_COLUMNS = 72, ROOMY_ROWS = 27 };
 
-static double measure(const void *self, enum gm_text_size size, const char *text) {
+static double measure(const void *self, enum gm_text_size size, const char *text)
+{
     (void)size;
     return CELL_WIDTH * gm_text_width(text, *(const bool *)self);
 }
@@ -28,7 +29,8 @@ struct painter {
     bool *taken; /* cells that hold text */
 };
 
-static bool is_free(const struct painter *painter, int column, int row, int width) {
+static bool is_free(const struct painter *painter, int column, int row, int width)
+{
     if (row < 0 || row >= painter->cells->rows || column < 0 || column + width > painter->cells->columns)
         return false;
     /* a cell of air on both sides */
@@ -40,10 +42,11 @@ static bool is_free(const struct painter *painter, int column, int row, int widt
     return true;
 }
 
-/* Writes a text whose anchor is at x. On cells texts move by up to half a cell, so what no longer fits is left out here
-   even though the layout had room for it. */
+/* Writes a text whose anchor is at x. On cells texts move by up to half a cell, so what no longer fits is
+   left out here even though the layout had room for it. */
 static void paint_text(struct painter *painter, double x, int row, enum gm_anchor anchor, const char *text,
-                       enum gm_role role, bool bold, bool on_paper) {
+                       enum gm_role role, bool bold, bool on_paper)
+{
     int width = gm_text_width(text, painter->ascii);
     double left = x / CELL_WIDTH - (anchor == GM_ANCHOR_RIGHT    ? width
                                     : anchor == GM_ANCHOR_CENTRE ? 0.5 * width
@@ -104,7 +107,10 @@ static void rule_cell(const struct painter *painter, int column, int row, unsign
     cell->foreground = gm_theme_colour(painter->theme, role);
 }
 
-static int cell_of(double position, int size) { return (int)floor(position / size); }
+static int cell_of(double position, int size)
+{
+    return (int)floor(position / size);
+}
 
 static void rule(const struct painter *painter, double x0, double y0, double x1, double y1, enum gm_role role)
 {
@@ -172,9 +178,10 @@ static int row_of(double y)
     return fabs(y) < 1e6 ? (int)floor(y / CELL_HEIGHT) : -1;
 }
 
-/* The row of a label: what stands above a panel's data moves up and what stands below moves down, so that neither comes
-   to lie in the first or last row of the data; beside them it goes where most of it is. */
-static int label_row(const struct painter *painter, const struct gm_layout *layout, const struct gm_label *label)
+/* The row of a label: what stands above a panel's data moves up and what stands below moves down, so that
+   neither comes to lie in the first or last row of the data; beside them it goes where most of it is. */
+static int label_row(const struct painter *painter, const struct gm_layout *layout,
+                     const struct gm_label *label)
 {
     double left = label->x, width = CELL_WIDTH * gm_text_width(label->text, painter->ascii);
     left -= label->anchor == GM_ANCHOR_RIGHT ? width : label->anchor == GM_ANCHOR_CENTRE ? 0.5 * width : 0;

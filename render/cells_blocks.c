@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-void gm_blocks_grid(enum gm_blocks blocks, int *columns, int *rows, bool *sharp) {
+void gm_blocks_grid(enum gm_blocks blocks, int *columns, int *rows, bool *sharp)
+{
     *columns = blocks == GM_HALF_BLOCKS ? 1 : 2;
     *rows = blocks == GM_BRAILLE || blocks == GM_ASCII ? 4 : 2;
     *sharp = blocks == GM_BRAILLE || blocks == GM_ASCII;
@@ -17,17 +18,20 @@ struct block {
     int count;
 };
 
-static int distance(struct gm_rgb a, struct gm_rgb b) {
+static int distance(struct gm_rgb a, struct gm_rgb b)
+{
     int r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b;
     return 2 * r * r + 4 * g * g + 3 * blue * blue; /* green weighs most, as in the eye */
 }
 
-static bool same(struct gm_rgb a, struct gm_rgb b) {
+static bool same(struct gm_rgb a, struct gm_rgb b)
+{
     return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
 /* The mean colour of the parts in a set (bit i is part i). */
-static struct gm_rgb mean(const struct block *block, unsigned set) {
+static struct gm_rgb mean(const struct block *block, unsigned set)
+{
     int r = 0, g = 0, b = 0, n = 0;
     for (int i = 0; i < block->count; i++) {
         if (set >> i & 1) {
@@ -43,7 +47,8 @@ static struct gm_rgb mean(const struct block *block, unsigned set) {
                            (uint8_t)((b + n / 2) / n)};
 }
 
-static unsigned parts_of_level(const struct block *block, int level) {
+static unsigned parts_of_level(const struct block *block, int level)
+{
     unsigned set = 0;
     for (int i = 0; i < block->count; i++) {
         if (block->part[i].level == level)
@@ -53,7 +58,8 @@ static unsigned parts_of_level(const struct block *block, int level) {
 }
 
 /* The role that most parts of a set have; of equals, the later. */
-static enum gm_role chief_role(const struct block *block, unsigned set) {
+static enum gm_role chief_role(const struct block *block, unsigned set)
+{
     int votes[GM_ROLE_COUNT] = {0};
     int best = GM_INK;
     for (int i = 0; i < block->count; i++) {
@@ -63,7 +69,8 @@ static enum gm_role chief_role(const struct block *block, unsigned set) {
     return (enum gm_role)best;
 }
 
-static unsigned parts_of_role(const struct block *block, unsigned set, enum gm_role role) {
+static unsigned parts_of_role(const struct block *block, unsigned set, enum gm_role role)
+{
     unsigned kept = 0;
     for (int i = 0; i < block->count; i++) {
         if (set >> i & 1 && block->part[i].role == role)
@@ -106,7 +113,8 @@ static int parts_in(unsigned set)
 /* Braille's dot of part i: the first three rows are numbered down the columns, the fourth came later. */
 static const uint8_t braille_dots[PARTS] = {0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80};
 
-static uint32_t quadrant_glyph(unsigned set) {
+static uint32_t quadrant_glyph(unsigned set)
+{
     /* bits: upper left, upper right, lower left, lower right */
     static const uint16_t glyphs[16] = {' ',    0x2598, 0x259D, 0x2580, 0x2596, 0x258C, 0x259E, 0x259B,
                                         0x2597, 0x259A, 0x2590, 0x259C, 0x2584, 0x2599, 0x259F, 0x2588};
@@ -114,7 +122,8 @@ static uint32_t quadrant_glyph(unsigned set) {
 }
 
 /* Two colours for two or four parts: of all ways to divide them the one that is off least. */
-static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_cell *cell) {
+static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_cell *cell)
+{
     unsigned all = (1u << block->count) - 1, best = all;
     long least = -1;
     for (unsigned set = all; set > all / 2; set--) { /* each division once: the last part is always in set */
@@ -153,9 +162,10 @@ static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_ce
         cell->glyph = best == 3 ? 0x2588 : best == 1 ? 0x2580 : 0x2584;
 }
 
-/* Dots of one colour for lines; what is filled is painted in quarters, as is what runs beneath or beside it. Where a
-   line runs over it, that is the background. */
-static void braille(const struct block *block, const struct block *area, struct gm_rgb paper, struct gm_cell *cell)
+/* Dots of one colour for lines; what is filled is painted in quarters, as is what runs beneath or beside it.
+   Where a line runs over it, that is the background. */
+static void braille(const struct block *block, const struct block *area, struct gm_rgb paper,
+                    struct gm_cell *cell)
 {
     struct stencil stencil = stencil_of(block);
     bool over = parts_of_level(block, GM_LEVEL_OVER) != 0;
@@ -178,7 +188,8 @@ static void braille(const struct block *block, const struct block *area, struct 
 }
 
 /* A letter whose ink lies where the line runs: by the rows the line takes and by its slope. */
-static uint32_t ascii_line(unsigned set) {
+static uint32_t ascii_line(unsigned set)
+{
     int left = 0, right = 0, left_rows = 0, right_rows = 0, rows = 0, low = 3, high = 0;
     for (int row = 0; row < 4; row++) {
         unsigned pair = set >> (2 * row) & 3;
@@ -208,7 +219,8 @@ static uint32_t ascii_line(unsigned set) {
     return high == 0 ? '"' : high <= 2 ? '-' : '_';
 }
 
-static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb ink, struct gm_cell *cell) {
+static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb ink, struct gm_cell *cell)
+{
     struct stencil stencil = stencil_of(block);
     if (!stencil.inked)
         return;
@@ -233,8 +245,8 @@ static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb 
 }
 
 /* Reads a cell's parts; whether any is not blank. */
-static bool take_block(struct block *block, const struct gm_raster *raster, int across, int down, int column, int row,
-                       struct gm_rgb paper)
+static bool take_block(struct block *block, const struct gm_raster *raster, int across, int down, int column,
+                       int row, struct gm_rgb paper)
 {
     bool drawn = false;
     block->count = across * down;
@@ -249,7 +261,8 @@ static bool take_block(struct block *block, const struct gm_raster *raster, int 
 void gm_blocks_glyphs(struct gm_cells *cells, const struct gm_raster *raster, const struct gm_raster *areas,
                       enum gm_blocks blocks)
 {
-    struct gm_rgb paper = gm_theme_colour(raster->theme, GM_PAPER), ink = gm_theme_colour(raster->theme, GM_INK);
+    struct gm_rgb paper = gm_theme_colour(raster->theme, GM_PAPER),
+                  ink = gm_theme_colour(raster->theme, GM_INK);
     int across, down;
     bool sharp;
     gm_blocks_grid(blocks, &across, &down, &sharp);

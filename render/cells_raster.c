@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_theme theme) {
+bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_theme theme)
+{
     size_t count = (size_t)width * (size_t)height;
     *raster = (struct gm_raster){.width = width,
                                  .height = height,
@@ -29,20 +30,23 @@ bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_the
     return true;
 }
 
-void gm_raster_close(struct gm_raster *raster) {
+void gm_raster_close(struct gm_raster *raster)
+{
     free(raster->at);
     free(raster->mask);
     raster->at = NULL;
     raster->mask = NULL;
 }
 
-static int clamp_int(double value, int low, int high) {
+static int clamp_int(double value, int low, int high)
+{
     if (!(value > low))
         return low;
     return value < high ? (int)value : high;
 }
 
-void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box) {
+void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box)
+{
     /* A sub-pixel belongs to the box when its middle does; the one past the end too, so that what lies on the
        edge itself is seen. */
     raster->clip_left = clamp_int(floor(box->x / raster->unit_x), 0, raster->width);
@@ -53,7 +57,8 @@ void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box) {
 
 /* ---- the mask ---- */
 
-static void cover(struct gm_raster *raster, int x, int y, double coverage) {
+static void cover(struct gm_raster *raster, int x, int y, double coverage)
+{
     if (x < raster->clip_left || x >= raster->clip_right || y < raster->clip_top || y >= raster->clip_bottom)
         return;
     uint8_t value = (uint8_t)(255 * (coverage < 1 ? coverage : 1));
@@ -66,12 +71,14 @@ static void cover(struct gm_raster *raster, int x, int y, double coverage) {
     raster->bottom = y + 1 > raster->bottom ? y + 1 : raster->bottom;
 }
 
-static uint8_t mix(uint8_t from, uint8_t to, unsigned weight) {
+static uint8_t mix(uint8_t from, uint8_t to, unsigned weight)
+{
     return (uint8_t)((from * (255 - weight) + to * weight + 127) / 255);
 }
 
 static void blend(struct gm_subpixel *at, struct gm_rgb colour, unsigned weight, enum gm_level level,
-                  enum gm_role role) {
+                  enum gm_role role)
+{
     at->colour = (struct gm_rgb){mix(at->colour.r, colour.r, weight), mix(at->colour.g, colour.g, weight),
                                  mix(at->colour.b, colour.b, weight)};
     if (level == GM_LEVEL_PAPER) /* too little of the mark to belong to it */
@@ -82,7 +89,8 @@ static void blend(struct gm_subpixel *at, struct gm_rgb colour, unsigned weight,
 
 /* Lays the mask over the raster in one colour, so that a mark that meets itself is not counted twice. */
 static void settle(struct gm_raster *raster, struct gm_rgb colour, double alpha, enum gm_level level,
-                   enum gm_role role) {
+                   enum gm_role role)
+{
     unsigned opacity = (unsigned)(255 * (alpha < 0 ? 0 : alpha < 1 ? alpha : 1));
     for (int y = raster->top; y < raster->bottom; y++) {
         size_t row = (size_t)y * (size_t)raster->width;
@@ -118,7 +126,8 @@ static const int dashes[GM_DASH_COUNT][6] = {
     [GM_DASH_DOT_DOT] = {6, 2, 1, 2, 1, 2},
 };
 
-static bool dash_on(enum gm_dash dash, double length) {
+static bool dash_on(enum gm_dash dash, double length)
+{
     const int *pattern = dashes[dash];
     if (!pattern[0])
         return true;
@@ -137,7 +146,8 @@ static bool dash_on(enum gm_dash dash, double length) {
 
 /* The part of a line within the clip box widened by `margin`: Liang and Barsky. */
 static bool clip_segment(const struct gm_raster *raster, double margin, double *x0, double *y0, double *x1,
-                         double *y1, double *start, double *end) {
+                         double *y1, double *start, double *end)
+{
     double dx = *x1 - *x0, dy = *y1 - *y0;
     double p[4] = {-dx, dx, -dy, dy};
     double q[4] = {*x0 - (raster->clip_left - margin), raster->clip_right + margin - *x0,
@@ -165,7 +175,8 @@ static bool clip_segment(const struct gm_raster *raster, double margin, double *
 }
 
 /* The sub-pixels across a line of the given width at one place of its long direction. */
-static void cover_across(struct gm_raster *raster, bool steep, int along, double middle, double width) {
+static void cover_across(struct gm_raster *raster, bool steep, int along, double middle, double width)
+{
     if (raster->sharp) {
         int count = (int)fmax(1, round(width));
         int first = (int)floor(middle - 0.5 * (count - 1));
@@ -183,7 +194,8 @@ static void cover_across(struct gm_raster *raster, bool steep, int along, double
 
 /* One straight piece; *length is the way so far, for the dash. */
 static void line_piece(struct gm_raster *raster, double x0, double y0, double x1, double y1, double width,
-                       enum gm_dash dash, double *length) {
+                       enum gm_dash dash, double *length)
+{
     double whole = fmax(fabs(x1 - x0), fabs(y1 - y0)), begun = *length, start, end;
     *length += whole;
     if (!clip_segment(raster, width + 1, &x0, &y0, &x1, &y1, &start, &end))
@@ -208,16 +220,19 @@ struct place {
 };
 
 static struct place place_of(const struct gm_raster *raster, const struct gm_frame *frame,
-                             const double *point) {
+                             const double *point)
+{
     return (struct place){gm_frame_x(frame, point[0]) / raster->unit_x,
                           gm_frame_y(frame, point[1]) / raster->unit_y};
 }
 
-static bool is_place(struct place place) {
+static bool is_place(struct place place)
+{
     return isfinite(place.x) && isfinite(place.y);
 }
 
-static void mark_line(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark) {
+static void mark_line(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     double thickness = mark->style.width * raster->scale / fmin(raster->unit_x, raster->unit_y);
     double width = raster->sharp ? round(0.7 * thickness) : fmax(1, thickness), length = 0;
     size_t count = mark->count + (mark->closed && mark->count > 1 ? 1 : 0);
@@ -235,7 +250,8 @@ static void mark_line(struct gm_raster *raster, const struct gm_frame *frame, co
 }
 
 void gm_raster_rule(struct gm_raster *raster, double x0, double y0, double x1, double y1, enum gm_role role,
-                    int gap) {
+                    int gap)
+{
     raster->clip_left = raster->clip_top = 0;
     raster->clip_right = raster->width;
     raster->clip_bottom = raster->height;
@@ -253,7 +269,8 @@ void gm_raster_rule(struct gm_raster *raster, double x0, double y0, double x1, d
 
 /* ---- points ---- */
 
-static void mark_points(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark) {
+static void mark_points(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     double radius = 0.5 * mark->style.width * raster->scale;
     double radius_x = fmax(radius / raster->unit_x, 0.5), radius_y = fmax(radius / raster->unit_y, 0.5);
     for (size_t i = 0; i < mark->count; i++) {
@@ -283,7 +300,8 @@ struct crossing {
     double x;
 };
 
-static int by_place(const void *a, const void *b) {
+static int by_place(const void *a, const void *b)
+{
     const struct crossing *one = a, *other = b;
     if (one->scan != other->scan)
         return one->scan < other->scan ? -1 : 1;
@@ -291,20 +309,23 @@ static int by_place(const void *a, const void *b) {
 }
 
 /* The scan lines an edge crosses: from `first` up to, but not including, `end`. */
-static void edge_scans(const struct gm_raster *raster, struct place a, struct place b, int *first, int *end) {
+static void edge_scans(const struct gm_raster *raster, struct place a, struct place b, int *first, int *end)
+{
     double low = fmin(a.y, b.y) * SCANS - 0.5, high = fmax(a.y, b.y) * SCANS - 0.5;
     *first = clamp_int(ceil(low), raster->clip_top * SCANS, raster->clip_bottom * SCANS);
     *end = clamp_int(ceil(high), raster->clip_top * SCANS, raster->clip_bottom * SCANS);
 }
 
-static void add_span(struct gm_raster *raster, double *row, double from, double to) {
+static void add_span(struct gm_raster *raster, double *row, double from, double to)
+{
     from = fmax(from, raster->clip_left);
     to = fmin(to, raster->clip_right);
     for (int x = (int)floor(from); x < to; x++)
         row[x] += fmax(0, fmin(to, x + 1) - fmax(from, x)) / SCANS;
 }
 
-static void fill_crossings(struct gm_raster *raster, struct crossing *crossings, size_t count, double *row) {
+static void fill_crossings(struct gm_raster *raster, struct crossing *crossings, size_t count, double *row)
+{
     qsort(crossings, count, sizeof *crossings, by_place);
     size_t i = 0;
     while (i < count) {
@@ -324,7 +345,8 @@ static void fill_crossings(struct gm_raster *raster, struct crossing *crossings,
     }
 }
 
-static bool mark_polygon(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark) {
+static bool mark_polygon(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     struct place *outline = malloc(mark->count * sizeof *outline + sizeof *outline);
     double *row = calloc((size_t)raster->width + 1, sizeof *row);
     struct crossing *crossings = NULL;
@@ -367,17 +389,20 @@ static bool mark_polygon(struct gm_raster *raster, const struct gm_frame *frame,
 
 /* ---- fields ---- */
 
-static void set_field(struct gm_raster *raster, int x, int y, struct gm_rgb colour) {
+static void set_field(struct gm_raster *raster, int x, int y, struct gm_rgb colour)
+{
     raster->at[(size_t)y * (size_t)raster->width + (size_t)x] =
         (struct gm_subpixel){colour, GM_LEVEL_FIELD, GM_INK};
 }
 
-static double map_position(const struct gm_mark *mark, double value) {
+static double map_position(const struct gm_mark *mark, double value)
+{
     return mark->high > mark->low ? (value - mark->low) / (mark->high - mark->low) : 0.5;
 }
 
 static void mesh_triangle(struct gm_raster *raster, const struct gm_mark *mark, const struct place corner[3],
-                          const double value[3]) {
+                          const double value[3])
+{
     double area = (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) -
                   (corner[2].x - corner[0].x) * (corner[1].y - corner[0].y);
     if (area == 0)
@@ -403,7 +428,8 @@ static void mesh_triangle(struct gm_raster *raster, const struct gm_mark *mark, 
     }
 }
 
-static void mark_mesh(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark) {
+static void mark_mesh(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     for (size_t i = 0; i < mark->triangle_count; i++) {
         struct place corner[3];
         double value[3];
@@ -419,7 +445,8 @@ static void mark_mesh(struct gm_raster *raster, const struct gm_frame *frame, co
     }
 }
 
-static void mark_image(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark) {
+static void mark_image(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
     struct place low = place_of(raster, frame, &mark->points[0]);
     struct place high = place_of(raster, frame, &mark->points[2]);
     if (mark->rows == 0 || mark->columns == 0 || !is_place(low) || !is_place(high) || low.x == high.x ||
@@ -442,7 +469,8 @@ static void mark_image(struct gm_raster *raster, const struct gm_frame *frame, c
     }
 }
 
-void gm_raster_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_map map) {
+void gm_raster_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_map map)
+{
     gm_raster_clip(raster, box);
     for (int y = raster->clip_top; y < raster->clip_bottom; y++) {
         double position = 1 - ((y + 0.5) * raster->unit_y - box->y) / box->height;
@@ -453,7 +481,9 @@ void gm_raster_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_m
 
 /* ---- all marks ---- */
 
-bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark, bool outline) {
+bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark,
+                    bool outline)
+{
     struct gm_rgb colour = gm_theme_colour(raster->theme, mark->style.role);
     if (mark->count == 0)
         return true;

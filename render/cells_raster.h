@@ -42,9 +42,10 @@ void gm_raster_close(struct gm_raster *raster);
 /* Marks stay within this box of the surface. */
 void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box);
 
-/* One mark of a panel, texts excepted; `outline` says that it is a line around the filled polygon before it, and counts
-   as a part of that. False when memory is short. */
-bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark, bool outline);
+/* One mark of a panel, texts excepted; `outline` says that it is a line around the filled polygon before it,
+   and counts as a part of that. False when memory is short. */
+bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark,
+                    bool outline);
 
 /* A straight line in surface units that belongs to the axes: every `gap`-th sub-pixel. */
 void gm_raster_rule(struct gm_raster *raster, double x0, double y0, double x1, double y1, enum gm_role role,

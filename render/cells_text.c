@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-uint32_t gm_text_next(const char **text) {
+uint32_t gm_text_next(const char **text)
+{
     const unsigned char *at = (const unsigned char *)*text;
     if (at[0] == 0)
         return 0;
@@ -50,24 +51,27 @@ static const struct spelling {
     {0x2193, "v"},     {0x21BA, "@"},     {0x2202, "d"},     {0x2206, "D"},      {0x2207, "grad"},
     {0x2211, "Sum"},   {0x2212, "-"},     {0x221A, "sqrt"},  {0x221E, "inf"},    {0x222B, "int"},
     {0x2248, "~"},     {0x2260, "!="},    {0x2264, "<="},    {0x2265, ">="},     {0x22C5, "."},
-    {0x2500, "-"},     {0x2501, "="},     {0x2502, "|"},    {0x2504, "~"}, {0x2505, "~"},      {0x2508, "."},
-    {0x2534, "+"},    {0x254C, "~"},    {0x254D, "~"},     {0x2581, "_"},     {0x25B8, ">"},     {0x25CB, "o"},      {0x25CF, "*"},
-    {0x2715, "x"},
+    {0x2500, "-"},     {0x2501, "="},     {0x2502, "|"},     {0x2504, "~"},      {0x2505, "~"},
+    {0x2508, "."},     {0x2534, "+"},     {0x254C, "~"},     {0x254D, "~"},      {0x2581, "_"},
+    {0x25B8, ">"},     {0x25CB, "o"},     {0x25CF, "*"},     {0x2715, "x"},
 };
 
-static int by_code(const void *key, const void *row) {
+static int by_code(const void *key, const void *row)
+{
     uint32_t code = *(const uint32_t *)key, other = ((const struct spelling *)row)->code;
     return (code > other) - (code < other);
 }
 
-const char *gm_text_ascii(uint32_t code) {
+const char *gm_text_ascii(uint32_t code)
+{
     const struct spelling *found =
         bsearch(&code, spellings, sizeof spellings / sizeof *spellings, sizeof *spellings, by_code);
     return found ? found->letters : "?";
 }
 
 /* A run of raised figures is one exponent: only its first sign is spelled "^". */
-static bool is_raised(uint32_t code) {
+static bool is_raised(uint32_t code)
+{
     return code == 0xB2 || code == 0xB3 || code == 0xB9 || (code >= 0x2070 && code <= 0x207F);
 }
 
@@ -78,7 +82,8 @@ struct reader {
     bool ascii, raised;
 };
 
-static uint32_t read_next(struct reader *reader) {
+static uint32_t read_next(struct reader *reader)
+{
     if (reader->letters && *reader->letters)
         return (unsigned char)*reader->letters++;
     uint32_t code = gm_text_next(&reader->text);
@@ -97,7 +102,8 @@ static uint32_t read_next(struct reader *reader) {
     return (unsigned char)*reader->letters++;
 }
 
-int gm_text_width(const char *text, bool ascii) {
+int gm_text_width(const char *text, bool ascii)
+{
     struct reader reader = {.text = text, .ascii = ascii};
     int width = 0;
     while (read_next(&reader) != 0)
@@ -106,7 +112,8 @@ int gm_text_width(const char *text, bool ascii) {
 }
 
 int gm_cells_text(struct gm_cells *cells, int column, int row, int limit, const char *text, bool ascii,
-                  enum gm_theme theme, enum gm_role role, bool bold) {
+                  enum gm_theme theme, enum gm_role role, bool bold)
+{
     struct reader reader = {.text = text, .ascii = ascii};
     int width = 0;
     for (uint32_t code; (limit < 0 || width < limit) && (code = read_next(&reader)) != 0; width++) {

@@ -40,9 +40,10 @@ static struct gm_context *open_kind(const struct gm_context_kind *kind, char *me
 static void unknown_kind(const char *wanted, char *message, size_t size)
 {
     char known[64] = "";
-    for (size_t i = 0; kinds[i] != NULL; i++)
+    for (size_t i = 0; kinds[i] != NULL; i++) {
         snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i > 0 ? " and " : "",
                  kinds[i]->key);
+    }
     snprintf(message, size, "GEOMINT_GL is \"%.40s\", but this geomint knows only %s.", wanted,
              known[0] != '\0' ? known : "none");
 }
@@ -53,28 +54,32 @@ struct gm_context *gm_context_open(char *message, size_t size)
     char reasons[2][192] = {"", ""};
     size_t tried = 0;
     for (size_t i = 0; kinds[i] != NULL; i++) {
-        if (wanted != NULL && wanted[0] != '\0' && strcmp(wanted, kinds[i]->key) != 0)
+        if (wanted != NULL && wanted[0] != '\0' && strcmp(wanted, kinds[i]->key) != 0) {
             continue;
+        }
         struct gm_context *context = open_kind(kinds[i], reasons[tried], sizeof reasons[tried]);
-        if (context != NULL)
+        if (context != NULL) {
             return context;
+        }
         tried++;
     }
-    if (tried == 0 && wanted != NULL && wanted[0] != '\0')
+    if (tried == 0 && wanted != NULL && wanted[0] != '\0') {
         unknown_kind(wanted, message, size);
-    else if (tried == 0)
+    } else if (tried == 0) {
         snprintf(message, size,
                  "This geomint was built without OSMesa and EGL, so it cannot paint pictures.");
-    else
+    } else {
         snprintf(message, size, "No OpenGL context could be opened: %s%s%s.", reasons[0],
                  tried > 1 ? "; " : "", reasons[1]);
+    }
     return NULL;
 }
 
 void gm_context_close(struct gm_context *context)
 {
-    if (context == NULL)
+    if (context == NULL) {
         return;
+    }
     context->kind->close(context->self);
     free(context);
 }

@@ -64,8 +64,9 @@ static void egl_close(void *self)
         egl->destroy_context(egl->display, egl->context);
     }
     /* The display is not terminated: EGL shares it between all contexts of the process. */
-    if (egl->release_thread != NULL)
+    if (egl->release_thread != NULL) {
         egl->release_thread();
+    }
     free(egl);
 }
 
@@ -73,15 +74,18 @@ static void egl_close(void *self)
 static const char *context_create(struct egl *egl)
 {
     const char *extensions = egl->query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (extensions == NULL || strstr(extensions, "EGL_MESA_platform_surfaceless") == NULL)
+    if (extensions == NULL || strstr(extensions, "EGL_MESA_platform_surfaceless") == NULL) {
         return "has no surfaceless platform";
+    }
     const PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->get_proc_address("eglGetPlatformDisplayEXT");
-    if (get_platform_display == NULL)
+    if (get_platform_display == NULL) {
         return "has no eglGetPlatformDisplayEXT";
+    }
     egl->display = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
-    if (egl->display == EGL_NO_DISPLAY || !egl->initialize(egl->display, NULL, NULL))
+    if (egl->display == EGL_NO_DISPLAY || !egl->initialize(egl->display, NULL, NULL)) {
         return "gives no surfaceless display";
+    }
     static const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     static const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                         3,
@@ -93,11 +97,13 @@ static const char *context_create(struct egl *egl)
     EGLConfig config = NULL;
     EGLint count = 0;
     if (!egl->bind_api(EGL_OPENGL_API) || !egl->choose_config(egl->display, wanted, &config, 1, &count) ||
-        count < 1)
+        count < 1) {
         return "offers no configuration for OpenGL";
+    }
     egl->context = egl->create_context(egl->display, config, EGL_NO_CONTEXT, attributes);
-    if (egl->context == EGL_NO_CONTEXT || !egl_use(egl))
+    if (egl->context == EGL_NO_CONTEXT || !egl_use(egl)) {
         return "gives no OpenGL 3.3 context";
+    }
     return NULL;
 }
 

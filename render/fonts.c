@@ -10,8 +10,9 @@ static char *find_in(FcConfig *config, const char *family, bool bold)
 {
     char *file = NULL;
     FcPattern *wanted = FcPatternCreate();
-    if (wanted == NULL)
+    if (wanted == NULL) {
         return NULL;
+    }
     FcPatternAddString(wanted, FC_FAMILY, (const FcChar8 *)family);
     FcPatternAddInteger(wanted, FC_WEIGHT, bold ? FC_WEIGHT_BOLD : FC_WEIGHT_REGULAR);
     FcPatternAddInteger(wanted, FC_SLANT, FC_SLANT_ROMAN);
@@ -21,10 +22,12 @@ static char *find_in(FcConfig *config, const char *family, bool bold)
     FcResult result;
     FcPattern *found = FcFontMatch(config, wanted, &result);
     FcChar8 *name = NULL;
-    if (found != NULL && FcPatternGetString(found, FC_FILE, 0, &name) == FcResultMatch)
+    if (found != NULL && FcPatternGetString(found, FC_FILE, 0, &name) == FcResultMatch) {
         file = strdup((const char *)name);
-    if (found != NULL)
+    }
+    if (found != NULL) {
         FcPatternDestroy(found);
+    }
     FcPatternDestroy(wanted);
     return file;
 }
@@ -36,8 +39,9 @@ char *gm_font_find(const char *family, bool bold)
     pthread_mutex_lock(&inside);
     FcConfig *config = FcInitLoadConfigAndFonts();
     char *file = config != NULL ? find_in(config, family, bold) : NULL;
-    if (config != NULL)
+    if (config != NULL) {
         FcConfigDestroy(config);
+    }
     FcFini();
     pthread_mutex_unlock(&inside);
     return file;

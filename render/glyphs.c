@@ -72,10 +72,12 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
 
 void gm_glyphs_close(struct gm_glyphs *glyphs)
 {
-    if (glyphs == NULL)
+    if (glyphs == NULL) {
         return;
-    for (int i = 0; i < GM_FONT_COUNT; i++)
+    }
+    for (int i = 0; i < GM_FONT_COUNT; i++) {
         FT_Done_Face(glyphs->faces[i]);
+    }
     FT_Done_FreeType(glyphs->library);
     free(glyphs->table);
     free(glyphs->pixels);
@@ -84,8 +86,9 @@ void gm_glyphs_close(struct gm_glyphs *glyphs)
 
 static FT_Face face_of(struct gm_glyphs *glyphs, enum gm_font font, int height)
 {
-    if (glyphs->sizes[font] != height)
+    if (glyphs->sizes[font] != height) {
         FT_Set_Pixel_Sizes(glyphs->faces[font], 0, (FT_UInt)height);
+    }
     glyphs->sizes[font] = height;
     return glyphs->faces[font];
 }
@@ -93,8 +96,9 @@ static FT_Face face_of(struct gm_glyphs *glyphs, enum gm_font font, int height)
 static struct glyph *slot_of(struct glyph *table, size_t size, uint64_t key)
 {
     size_t place = (size_t)(key * UINT64_C(0x9e3779b97f4a7c15) >> 32) & (size - 1);
-    while (table[place].used && table[place].key != key)
+    while (table[place].used && table[place].key != key) {
         place = (place + 1) & (size - 1);
+    }
     return &table[place];
 }
 
@@ -102,11 +106,14 @@ static bool table_grow(struct gm_glyphs *glyphs)
 {
     const size_t size = glyphs->table_size > 0 ? 2 * glyphs->table_size : 512;
     struct glyph *table = calloc(size, sizeof *table);
-    if (table == NULL)
+    if (table == NULL) {
         return false;
-    for (size_t i = 0; i < glyphs->table_size; i++)
-        if (glyphs->table[i].used)
+    }
+    for (size_t i = 0; i < glyphs->table_size; i++) {
+        if (glyphs->table[i].used) {
             *slot_of(table, size, glyphs->table[i].key) = glyphs->table[i];
+        }
+    }
     free(glyphs->table);
     glyphs->table = table;
     glyphs->table_size = size;
@@ -118,24 +125,28 @@ static struct glyph *glyph_of(struct gm_glyphs *glyphs, enum gm_font font, int h
                               int shift)
 {
     const uint64_t key = (uint64_t)code << 32 | (uint64_t)height << 8 | (uint64_t)shift << 4 | (uint64_t)font;
-    if (2 * glyphs->count >= glyphs->table_size && !table_grow(glyphs))
+    if (2 * glyphs->count >= glyphs->table_size && !table_grow(glyphs)) {
         return &glyphs->none;
+    }
     struct glyph *glyph = slot_of(glyphs->table, glyphs->table_size, key);
-    if (glyph->used)
+    if (glyph->used) {
         return glyph;
+    }
     const FT_Face face = face_of(glyphs, font, height);
     *glyph = (struct glyph){.used = true, .key = key, .index = FT_Get_Char_Index(face, code)};
     glyphs->count++;
-    if (FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT) == 0)
+    if (FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT) == 0) {
         glyph->advance = (float)face->glyph->linearHoriAdvance / 65536.0f;
+    }
     return glyph;
 }
 
 /* Room in the atlas: letters stand on shelves as high as their highest. */
 static bool atlas_place(struct gm_glyphs *glyphs, int width, int height, short *x, short *y)
 {
-    if (width + BORDER > ATLAS_WIDTH)
+    if (width + BORDER > ATLAS_WIDTH) {
         return false;
+    }
     if (glyphs->shelf_x + width + BORDER > ATLAS_WIDTH) {
         glyphs->shelf_y += glyphs->shelf_height;
         glyphs->shelf_x = glyphs->shelf_height = 0;
@@ -143,12 +154,14 @@ static bool atlas_place(struct gm_glyphs *glyphs, int width, int height, short *
     const int bottom = glyphs->shelf_y + height + BORDER;
     if (bottom > glyphs->atlas_height) {
         int taller = glyphs->atlas_height > 0 ? glyphs->atlas_height : 256;
-        while (taller < bottom)
+        while (taller < bottom) {
             taller *= 2;
+        }
         unsigned char *pixels =
             taller > ATLAS_HIGHEST ? NULL : realloc(glyphs->pixels, (size_t)taller * ATLAS_WIDTH);
-        if (pixels == NULL)
+        if (pixels == NULL) {
             return false;
+        }
         memset(pixels + (size_t)glyphs->atlas_height * ATLAS_WIDTH, 0,
                (size_t)(taller - glyphs->atlas_height) * ATLAS_WIDTH);
         glyphs->pixels = pixels;
@@ -158,8 +171,9 @@ static bool atlas_place(struct gm_glyphs *glyphs, int width, int height, short *
     *x = (short)glyphs->shelf_x;
     *y = (short)glyphs->shelf_y;
     glyphs->shelf_x += width + BORDER;
-    if (glyphs->shelf_height < height + BORDER)
+    if (glyphs->shelf_height < height + BORDER) {
         glyphs->shelf_height = height + BORDER;
+    }
     return true;
 }
 
@@ -168,20 +182,25 @@ static void glyph_draw(struct gm_glyphs *glyphs, struct glyph *glyph, enum gm_fo
 {
     glyph->drawn = true;
     const FT_Face face = face_of(glyphs, font, height);
-    if (FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT | FT_LOAD_NO_BITMAP) != 0)
+    if (FT_Load_Glyph(face, glyph->index, FT_LOAD_TARGET_LIGHT | FT_LOAD_NO_BITMAP) != 0) {
         return;
+    }
     FT_Outline_Translate(&face->glyph->outline, shift * 64 / SHIFTS, 0);
-    if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0)
+    if (FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL) != 0) {
         return;
+    }
     const FT_Bitmap *bitmap = &face->glyph->bitmap;
     const int columns = (int)bitmap->width, rows = (int)bitmap->rows;
-    if (!atlas_place(glyphs, columns, rows, &glyph->atlas_x, &glyph->atlas_y))
+    if (!atlas_place(glyphs, columns, rows, &glyph->atlas_x, &glyph->atlas_y)) {
         return;
-    for (int row = 0; row < rows; row++)
+    }
+    for (int row = 0; row < rows; row++) {
         memcpy(glyphs->pixels + (size_t)(glyph->atlas_y + row) * ATLAS_WIDTH + glyph->atlas_x,
                bitmap->buffer + row * bitmap->pitch, (size_t)columns);
-    if (glyphs->changed > glyph->atlas_y)
+    }
+    if (glyphs->changed > glyph->atlas_y) {
         glyphs->changed = glyph->atlas_y;
+    }
     glyph->x = (short)face->glyph->bitmap_left;
     glyph->y = (short)-face->glyph->bitmap_top;
     glyph->width = (short)columns;
@@ -191,8 +210,9 @@ static void glyph_draw(struct gm_glyphs *glyphs, struct glyph *glyph, enum gm_fo
 double gm_glyphs_width(struct gm_glyphs *glyphs, enum gm_font font, int height, const char *text)
 {
     double width = 0.0;
-    for (uint32_t code; (code = gm_text_next(&text)) != 0;)
+    for (uint32_t code; (code = gm_text_next(&text)) != 0;) {
         width += glyph_of(glyphs, font, height, code, 0)->advance;
+    }
     return width;
 }
 
@@ -212,8 +232,9 @@ bool gm_glyphs_next(struct gm_glyphs *glyphs, enum gm_font font, int height, con
                     struct gm_letter *letter)
 {
     const uint32_t code = gm_text_next(text);
-    if (code == 0)
+    if (code == 0) {
         return false;
+    }
     double whole = floor(*pen);
     int shift = height >= LARGE ? 0 : (int)((*pen - whole) * SHIFTS + 0.5);
     if (shift == SHIFTS) {
@@ -221,8 +242,9 @@ bool gm_glyphs_next(struct gm_glyphs *glyphs, enum gm_font font, int height, con
         whole += 1.0;
     }
     struct glyph *glyph = glyph_of(glyphs, font, height, code, shift);
-    if (!glyph->drawn)
+    if (!glyph->drawn) {
         glyph_draw(glyphs, glyph, font, height, shift);
+    }
     *letter = (struct gm_letter){.x = (int)whole + glyph->x,
                                  .y = glyph->y,
                                  .width = glyph->width,

@@ -83,10 +83,12 @@ static double data_size(const struct gm_label_list *list, const struct group *gr
     const double width = cell_width(group, column_gap * scale) - border.left - border.right;
     const double height = cell_height(group, row_gap * scale) - border.top - border.bottom;
     double aspect = 0.0;
-    for (size_t i = 0; i < group->count && aspect == 0.0; i++)
+    for (size_t i = 0; i < group->count && aspect == 0.0; i++) {
         aspect = aspect_of(group->frames[i].panel);
-    if (aspect == 0.0)
+    }
+    if (aspect == 0.0) {
         aspect = graph_aspect;
+    }
     return fmin(width / sqrt(aspect), height * sqrt(aspect));
 }
 
@@ -100,14 +102,16 @@ static void choose_grid(const struct gm_label_list *list, struct group *group, s
         struct group trial = *group;
         trial.columns = columns;
         trial.rows = (group->count + columns - 1) / columns;
-        if ((trial.rows - 1) * columns >= group->count || (columns - 1) * trial.rows >= group->count)
+        if ((trial.rows - 1) * columns >= group->count || (columns - 1) * trial.rows >= group->count) {
             continue; /* an empty row or column */
+        }
         double loss = 1.0;
         for (int detail = GM_DETAIL_ALL; detail <= GM_DETAIL_DATA; detail++, loss *= 0.8) {
             trial.detail = (enum gm_detail)detail;
             const double size = data_size(list, &trial);
-            if (size < least && detail < GM_DETAIL_DATA)
+            if (size < least && detail < GM_DETAIL_DATA) {
                 continue;
+            }
             if (size * loss > best) {
                 best = size * loss;
                 chosen = trial;
@@ -121,19 +125,23 @@ static void choose_grid(const struct gm_label_list *list, struct group *group, s
 /* A panel whose data need not fill its box exactly: equal axes without ticks show more than their range. */
 static bool expands(const struct gm_panel *panel)
 {
-    if (panel->axes || panel->colour_bar)
+    if (panel->axes || panel->colour_bar) {
         return false;
-    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next)
-        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE)
+    }
+    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
+        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
             return false;
+        }
+    }
     return true;
 }
 
 static bool titles_too_long(const struct gm_label_list *list, const struct group *group, double width)
 {
     bool too_long = false;
-    for (size_t i = 0; i < group->count && group->place == GM_PLACE_STATE; i++)
+    for (size_t i = 0; i < group->count && group->place == GM_PLACE_STATE; i++) {
         too_long = too_long || gm_labels_width(list, GM_TEXT_PANEL, group->frames[i].panel->title) > width;
+    }
     return too_long;
 }
 
@@ -143,10 +151,12 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
     const double scale = list->metrics->scale;
     struct gm_border border = common_border(list, group, false);
     bool bars = false;
-    for (size_t i = 0; i < group->count; i++)
+    for (size_t i = 0; i < group->count; i++) {
         bars = bars || group->frames[i].panel->colour_bar;
-    if (!bars) /* the last tick label may hang over into the margin or the gap */
+    }
+    if (!bars) { /* the last tick label may hang over into the margin or the gap */
         border.right = fmax(0.0, border.right - fmin(overhang, column_gap * scale));
+    }
     const double column = cell_width(group, column_gap * scale), row = cell_height(group, row_gap * scale);
     const double width = fmax(0.0, column - border.left - border.right);
     const double height = fmax(0.0, row - border.top - border.bottom);
@@ -164,8 +174,9 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
         } else if (group->place == GM_PLACE_GRAPH && group->columns == 1) {
             box.height = fmin(height, width / graph_narrowest);
         }
-        if (!leftmost)
+        if (!leftmost) {
             box.x += 0.5 * (width - box.width);
+        }
         box.y += 0.5 * (height - box.height);
         gm_frame_fill(list, &group->frames[i], panel,
                       &(struct gm_fill){.box = box,
@@ -201,16 +212,18 @@ static double place_header(struct gm_label_list *list, const struct gm_picture *
                                 .bold = true,
                                 .x = margin,
                                 .y = y});
-    if (header)
+    if (header) {
         y += metrics->line[GM_TEXT_TITLE];
+    }
     if (!metrics->terse &&
         gm_labels_add(
             list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, picture->subtitle, width),
                                     .size = GM_TEXT_LABEL,
                                     .role = GM_SECONDARY,
                                     .x = margin,
-                                    .y = y}))
+                                    .y = y})) {
         y += metrics->line[GM_TEXT_LABEL];
+    }
     return y + (header ? header_gap * scale : 0.0);
 }
 
@@ -223,10 +236,12 @@ static double place_caption(struct gm_label_list *list, const struct gm_picture 
     const size_t most = metrics->terse ? 1 : 2;
     size_t count = gm_labels_wrap(list, GM_TEXT_LABEL, picture->caption,
                                   fmax(0.0, metrics->width - 2.0 * margin), most, lines);
-    if ((double)count * metrics->line[GM_TEXT_LABEL] > 0.2 * metrics->height)
+    if ((double)count * metrics->line[GM_TEXT_LABEL] > 0.2 * metrics->height) {
         count = 0;
-    if (count == 0)
+    }
+    if (count == 0) {
         return bottom;
+    }
     bottom = metrics->height - 0.6 * bottom_margin * metrics->scale;
     for (size_t i = count; i-- > 0;) {
         bottom -= metrics->line[GM_TEXT_LABEL];
@@ -243,9 +258,11 @@ static size_t collect(const struct gm_picture *picture, enum gm_place place, siz
                       struct gm_frame *frames)
 {
     size_t count = 0;
-    for (const struct gm_panel *panel = picture->first; panel != NULL && count < most; panel = panel->next)
-        if (panel->place == place)
+    for (const struct gm_panel *panel = picture->first; panel != NULL && count < most; panel = panel->next) {
+        if (panel->place == place) {
             frames[count++].panel = panel;
+        }
+    }
     return count;
 }
 
@@ -256,8 +273,9 @@ static void align_graph(const struct gm_label_list *list, const struct group *st
     const struct gm_box box = states->frames[0].box;
     const double top = fmax(graphs->area.y, box.y - border.top);
     const double bottom = fmin(graphs->area.y + graphs->area.height, box.y + box.height + border.bottom);
-    if (box.height < 0.5 * graphs->area.width)
+    if (box.height < 0.5 * graphs->area.width) {
         return;
+    }
     graphs->area.y = top;
     graphs->area.height = bottom - top;
 }
@@ -280,8 +298,9 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     struct gm_layout *layout = gm_picture_memory(picture, sizeof *layout);
     struct gm_frame *frames = gm_picture_memory(picture, (panel_count + 1) * sizeof *frames);
     if (layout == NULL || frames == NULL ||
-        !gm_labels_open(&list, picture, metrics, 8 + key_count + panel_count * (5 + 3 * GM_TICK_MAX)))
+        !gm_labels_open(&list, picture, metrics, 8 + key_count + panel_count * (5 + 3 * GM_TICK_MAX))) {
         return NULL;
+    }
 
     const double scale = metrics->scale;
     const double margin = margin_of(metrics->width, side_margin * scale);
@@ -308,8 +327,9 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     }
     if (graphs.count > 0) {
         choose_grid(&list, &graphs, graph_columns(&states, &graphs));
-        if (states.rows == 1 && graphs.count == 1)
+        if (states.rows == 1 && graphs.count == 1) {
             align_graph(&list, &states, &graphs);
+        }
         place_group(&list, &graphs, margin, false);
     }
     *layout = (struct gm_layout){.frames = frames,

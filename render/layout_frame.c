@@ -10,9 +10,11 @@ enum { FEWEST_TICKS = 3, MOST_TICKS = 6 };
 
 static const struct gm_mark *field_of(const struct gm_panel *panel)
 {
-    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next)
-        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE)
+    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
+        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
             return mark;
+        }
+    }
     return NULL;
 }
 
@@ -36,16 +38,18 @@ void gm_axis_range(const struct gm_axis *axis, double *low, double *high)
 
 static double step_of(enum gm_scale scale, const double *values, size_t count)
 {
-    if (count < 2)
+    if (count < 2) {
         return scale == GM_LOG ? 1.0 : 0.0;
+    }
     return scale == GM_LOG ? log10(values[1] / values[0]) : values[1] - values[0];
 }
 
 /* The widest tick label an axis may get, whatever number of ticks it will have room for. */
 static double widest_tick(const struct gm_label_list *list, const struct gm_axis *axis, bool calm)
 {
-    if (calm)
+    if (calm) {
         return gm_labels_width(list, GM_TEXT_TICK, axis->scale == GM_LINEAR ? "−0.05" : "10⁻¹⁰");
+    }
     double widest = 0.0;
     for (size_t max = FEWEST_TICKS; max <= MOST_TICKS; max++) {
         double values[GM_TICK_MAX];
@@ -75,28 +79,34 @@ struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_
     const struct gm_metrics *metrics = list->metrics;
     const double scale = metrics->scale;
     struct gm_border border = {0};
-    if (detail < GM_DETAIL_DATA && has(panel->title))
+    if (detail < GM_DETAIL_DATA && has(panel->title)) {
         border.top += metrics->line[title_size(panel)];
-    if (detail < GM_DETAIL_NO_NOTE && (has(panel->note) || panel->first_key != NULL))
+    }
+    if (detail < GM_DETAIL_NO_NOTE && (has(panel->note) || panel->first_key != NULL)) {
         border.top += metrics->line[GM_TEXT_LABEL];
-    if (border.top > 0.0)
+    }
+    if (border.top > 0.0) {
         border.top += title_gap * scale;
+    }
     if (panel->axes && detail < GM_DETAIL_NO_TICKS) {
         border.left = widest_tick(list, &panel->y, calm) + tick_gap * scale;
         border.right = 0.5 * widest_tick(list, &panel->x, calm);
         border.bottom = metrics->line[GM_TEXT_TICK] + tick_gap * scale;
         border.top = fmax(border.top, 0.5 * metrics->line[GM_TEXT_TICK]);
-        if (detail < GM_DETAIL_NO_AXIS_LABELS && has(panel->y.label))
+        if (detail < GM_DETAIL_NO_AXIS_LABELS && has(panel->y.label)) {
             border.left += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
-        if (detail < GM_DETAIL_NO_AXIS_LABELS && x_label && has(panel->x.label))
+        }
+        if (detail < GM_DETAIL_NO_AXIS_LABELS && x_label && has(panel->x.label)) {
             border.bottom += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
+        }
     }
     const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
     if (field != NULL && detail < GM_DETAIL_NO_TICKS) {
         const struct gm_axis axis = bar_axis(field);
         border.right = (bar_gap + bar_width + tick_gap) * scale + widest_tick(list, &axis, calm);
-        if (has(panel->colour_bar_label))
+        if (has(panel->colour_bar_label)) {
             border.right += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
+        }
         border.top = fmax(border.top, 0.5 * metrics->line[GM_TEXT_TICK]);
         border.bottom = fmax(border.bottom, 0.5 * metrics->line[GM_TEXT_TICK]);
     }
@@ -131,8 +141,9 @@ static size_t place_ticks(struct gm_label_list *list, const struct gm_axis *axis
             fits = fits && ticks[i].position - half >= end;
             end = ticks[i].position + half;
         }
-        if (fits)
+        if (fits) {
             return count;
+        }
     }
     return 0;
 }
@@ -141,17 +152,19 @@ static void label_ticks(struct gm_label_list *list, const struct gm_tick *ticks,
                         double at, enum gm_anchor anchor)
 {
     const double half = 0.5 * list->metrics->line[GM_TEXT_TICK];
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         gm_labels_add(list, (struct gm_label){.text = ticks[i].label,
                                               .size = GM_TEXT_TICK,
                                               .role = GM_SECONDARY,
                                               .x = across ? ticks[i].position : at,
                                               .y = across ? at : ticks[i].position - half,
                                               .anchor = anchor});
+    }
 }
 
 /* Keys side by side, each behind a piece of its line; those that do not fit are left out. */
-static void label_keys(struct gm_label_list *list, const struct gm_panel *panel, double x, double y, double width)
+static void label_keys(struct gm_label_list *list, const struct gm_panel *panel, double x, double y,
+                       double width)
 {
     static const char *const samples[GM_DASH_COUNT] = {"───", "╌╌", "···", "─·", "╴╴╴", "─··"};
     const double right = x + width, gap = 1.2 * list->metrics->line[GM_TEXT_LABEL];
@@ -161,8 +174,9 @@ static void label_keys(struct gm_label_list *list, const struct gm_panel *panel,
         if (x + needed > right) {
             return;
         }
-        gm_labels_add(list, (struct gm_label){
-                                .text = text, .size = GM_TEXT_LABEL, .role = key->style.role, .x = x, .y = y});
+        gm_labels_add(
+            list,
+            (struct gm_label){.text = text, .size = GM_TEXT_LABEL, .role = key->style.role, .x = x, .y = y});
         x += needed + gap;
     }
 }
@@ -185,7 +199,7 @@ static void label_panel(struct gm_label_list *list, const struct gm_panel *panel
         y -= metrics->line[GM_TEXT_LABEL];
         label_keys(list, panel, fill->box.x, y, fill->title_width);
     }
-    if (fill->detail < GM_DETAIL_DATA && has(panel->title))
+    if (fill->detail < GM_DETAIL_DATA && has(panel->title)) {
         gm_labels_add(
             list, (struct gm_label){.text = gm_labels_shorten(list, size, panel->title, fill->title_width),
                                     .size = size,
@@ -193,6 +207,7 @@ static void label_panel(struct gm_label_list *list, const struct gm_panel *panel
                                     .bold = state && !fill->small_title,
                                     .x = fill->box.x,
                                     .y = y - metrics->line[size]});
+    }
 }
 
 static void label_axes(struct gm_label_list *list, struct gm_frame *frame, enum gm_detail detail,
@@ -205,9 +220,10 @@ static void label_axes(struct gm_label_list *list, struct gm_frame *frame, enum 
     const double below = box.y + box.height + tick_gap * scale;
     label_ticks(list, frame->y_ticks, frame->y_tick_count, false, box.x - tick_gap * scale, GM_ANCHOR_RIGHT);
     label_ticks(list, frame->x_ticks, frame->x_tick_count, true, below, GM_ANCHOR_CENTRE);
-    if (detail >= GM_DETAIL_NO_AXIS_LABELS)
+    if (detail >= GM_DETAIL_NO_AXIS_LABELS) {
         return;
-    if (x_label)
+    }
+    if (x_label) {
         gm_labels_add(
             list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, panel->x.label, box.width),
                                     .size = GM_TEXT_LABEL,
@@ -215,6 +231,7 @@ static void label_axes(struct gm_label_list *list, struct gm_frame *frame, enum 
                                     .x = box.x + 0.5 * box.width,
                                     .y = below + metrics->line[GM_TEXT_TICK] + label_gap * scale,
                                     .anchor = GM_ANCHOR_CENTRE});
+    }
     gm_labels_add(
         list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, panel->y.label, box.height),
                                 .size = GM_TEXT_LABEL,
@@ -259,10 +276,12 @@ void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const str
     frame->x_factor = box.width / (x_high - x_low);
     frame->y_factor = -box.height / (y_high - y_low);
     /* The middle of the range is the middle of the box, also where equal axes show more than the range. */
-    if (panel->equal)
+    if (panel->equal) {
         frame->x_factor = fmin(frame->x_factor, -frame->y_factor);
-    if (panel->equal)
+    }
+    if (panel->equal) {
         frame->y_factor = -frame->x_factor;
+    }
     frame->x_origin = box.x + 0.5 * box.width - frame->x_factor * 0.5 * (x_low + x_high);
     frame->y_origin = box.y + 0.5 * box.height - frame->y_factor * 0.5 * (y_low + y_high);
 
@@ -276,14 +295,16 @@ void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const str
                    gm_border_of(list, panel, fill->detail, fill->x_label, false).left);
     }
     const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
-    if (field != NULL && fill->detail < GM_DETAIL_NO_TICKS && box.width > 0.0)
+    if (field != NULL && fill->detail < GM_DETAIL_NO_TICKS && box.width > 0.0) {
         place_colour_bar(list, frame, field);
+    }
 }
 
 static double frame_coordinate(const struct gm_axis *axis, double origin, double factor, double value)
 {
-    if (axis->scale == GM_LOG)
+    if (axis->scale == GM_LOG) {
         value = value > 0.0 ? log10(value) : -400.0;
+    }
     return origin + factor * value;
 }
 

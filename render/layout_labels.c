@@ -21,8 +21,9 @@ static struct gm_box box_of(const struct gm_label_list *list, const struct gm_la
 {
     const double width = gm_labels_width(list, label->size, label->text);
     const double line = list->metrics->line[label->size];
-    if (label->vertical)
+    if (label->vertical) {
         return (struct gm_box){label->x, label->y - 0.5 * width, line, width};
+    }
     const double shift = label->anchor == GM_ANCHOR_LEFT     ? 0.0
                          : label->anchor == GM_ANCHOR_CENTRE ? 0.5
                                                              : 1.0;
@@ -39,17 +40,21 @@ static bool overlap(const struct gm_box *a, const struct gm_box *b, double air)
 
 bool gm_labels_add(struct gm_label_list *list, struct gm_label label)
 {
-    if (label.text == NULL || label.text[0] == '\0' || list->count == list->capacity)
+    if (label.text == NULL || label.text[0] == '\0' || list->count == list->capacity) {
         return false;
+    }
     const struct gm_metrics *metrics = list->metrics;
     const struct gm_box box = box_of(list, &label);
     const double rounding = 1e-6;
     if (!(box.x >= -rounding && box.y >= -rounding && box.x + box.width <= metrics->width + rounding &&
-          box.y + box.height <= metrics->height + rounding))
+          box.y + box.height <= metrics->height + rounding)) {
         return false;
-    for (size_t i = 0; i < list->count; i++)
-        if (overlap(&box, &list->boxes[i], 4.0 * metrics->scale))
+    }
+    for (size_t i = 0; i < list->count; i++) {
+        if (overlap(&box, &list->boxes[i], 4.0 * metrics->scale)) {
             return false;
+        }
+    }
     list->labels[list->count] = label;
     list->boxes[list->count] = box;
     list->count++;
@@ -64,23 +69,26 @@ static bool continues_character(char byte)
 /* The first `length` bytes of text, shortened with an ellipsis. */
 static const char *ellipsised(struct gm_label_list *list, const char *text, size_t length)
 {
-    while (length > 0 && (continues_character(text[length]) || text[length - 1] == ' '))
+    while (length > 0 && (continues_character(text[length]) || text[length - 1] == ' ')) {
         length--;
+    }
     return gm_picture_text(list->picture, "%.*s…", (int)length, text);
 }
 
 const char *gm_labels_shorten(struct gm_label_list *list, enum gm_text_size size, const char *text,
                               double width)
 {
-    if (text == NULL || gm_labels_width(list, size, text) <= width)
+    if (text == NULL || gm_labels_width(list, size, text) <= width) {
         return text != NULL ? text : "";
+    }
     size_t fits = 0, too_long = strlen(text);
     while (too_long - fits > 1) {
         const size_t middle = fits + (too_long - fits) / 2;
-        if (gm_labels_width(list, size, ellipsised(list, text, middle)) <= width)
+        if (gm_labels_width(list, size, ellipsised(list, text, middle)) <= width) {
             fits = middle;
-        else
+        } else {
             too_long = middle;
+        }
     }
     return fits > 0 ? ellipsised(list, text, fits) : "";
 }
@@ -97,8 +105,9 @@ size_t gm_labels_wrap(struct gm_label_list *list, enum gm_text_size size, const 
         const char *end = NULL; /* of the longest line that fits */
         for (const char *blank = strchr(text, ' '); blank != NULL; blank = strchr(blank + 1, ' ')) {
             const char *line = gm_picture_text(list->picture, "%.*s", (int)(blank - text), text);
-            if (gm_labels_width(list, size, line) > width)
+            if (gm_labels_width(list, size, line) > width) {
                 break;
+            }
             end = blank;
             lines[count] = line;
         }

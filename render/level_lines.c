@@ -41,8 +41,9 @@ static bool usable(const double *points, const double *values, size_t count, con
     for (int k = 0; k < 3; k++) {
         const int v = triangle[k];
         if (v < 0 || (size_t)v >= count || !isfinite(values[v]) || !isfinite(points[2 * v]) ||
-            !isfinite(points[2 * v + 1]))
+            !isfinite(points[2 * v + 1])) {
             return false;
+        }
     }
     return true;
 }
@@ -57,10 +58,12 @@ static size_t crossing_find(const struct level *level, int from, int to)
     uint64_t hash = ((uint64_t)(uint32_t)from << 32 | (uint32_t)to) * UINT64_C(0x9e3779b97f4a7c15);
     size_t place = (size_t)(hash >> 32) & (level->table_size - 1);
     struct crossing *table = level->table;
-    while (table[place].from != NONE && (table[place].from != from || table[place].to != to))
+    while (table[place].from != NONE && (table[place].from != from || table[place].to != to)) {
         place = (place + 1) & (level->table_size - 1);
-    if (table[place].from == NONE)
+    }
+    if (table[place].from == NONE) {
         table[place] = (struct crossing){from, to, {NONE, NONE}};
+    }
     return place;
 }
 
@@ -74,10 +77,11 @@ static void segment_add(struct level *level, const int *triangle)
     for (int k = 0; k < 2; k++) {
         segment->ends[k] = crossing_find(level, triangle[odd], triangle[(odd + 1 + k) % 3]);
         int *slots = level->table[segment->ends[k]].segments;
-        if (slots[0] == NONE)
+        if (slots[0] == NONE) {
             slots[0] = (int)level->segment_count;
-        else if (slots[1] == NONE) /* an edge of more than two triangles: the line simply ends there */
+        } else if (slots[1] == NONE) { /* an edge of more than two triangles: the line simply ends there */
             slots[1] = (int)level->segment_count;
+        }
     }
     level->segment_count++;
 }
@@ -95,9 +99,11 @@ static void crossing_point(const struct level *level, const struct crossing *cro
 static int next_segment(const struct level *level, size_t place)
 {
     const int *slots = level->table[place].segments;
-    for (int k = 0; k < 2; k++)
-        if (slots[k] != NONE && !level->segments[slots[k]].used)
+    for (int k = 0; k < 2; k++) {
+        if (slots[k] != NONE && !level->segments[slots[k]].used) {
             return slots[k];
+        }
+    }
     return NONE;
 }
 
@@ -115,8 +121,9 @@ static size_t follow(struct level *level, size_t place, double *line, size_t *la
             count++;
         }
         const int next = next_segment(level, place);
-        if (next == NONE)
+        if (next == NONE) {
             break;
+        }
         struct segment *segment = &level->segments[next];
         segment->used = true;
         place = segment->ends[segment->ends[0] == place ? 1 : 0];
@@ -128,10 +135,12 @@ static size_t follow(struct level *level, size_t place, double *line, size_t *la
 static void emit(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                  const double *line, size_t count, bool closed)
 {
-    if (closed && count > 1)
+    if (closed && count > 1) {
         count--; /* the last point is the first again */
-    if (count > 1)
+    }
+    if (count > 1) {
         gm_mark_line(picture, panel, style, line, count, closed && count > 2);
+    }
 }
 
 static void level_draw(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
@@ -141,12 +150,14 @@ static void level_draw(struct gm_picture *picture, struct gm_panel *panel, struc
     /* Lines with ends first, so that what is left is closed. */
     for (size_t i = 0; i < level->table_size; i++) {
         const struct crossing *crossing = &level->table[i];
-        if (crossing->from != NONE && crossing->segments[1] == NONE && next_segment(level, i) != NONE)
+        if (crossing->from != NONE && crossing->segments[1] == NONE && next_segment(level, i) != NONE) {
             emit(picture, panel, style, line, follow(level, i, line, &last), false);
+        }
     }
     for (size_t i = 0; i < level->segment_count; i++) {
-        if (level->segments[i].used)
+        if (level->segments[i].used) {
             continue;
+        }
         const size_t start = level->segments[i].ends[0];
         const size_t count = follow(level, start, line, &last);
         emit(picture, panel, style, line, count, last == start);
@@ -164,32 +175,38 @@ void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, str
         size_t crossed = 0;
         for (size_t t = 0; t < triangle_count; t++) {
             const int *v = triangles + 3 * t;
-            if (usable(points, values, count, v))
+            if (usable(points, values, count, v)) {
                 crossed +=
                     above(&level, v[0]) != above(&level, v[1]) || above(&level, v[0]) != above(&level, v[2]);
+            }
         }
         most = crossed > most ? crossed : most;
     }
-    if (most == 0 || most > INT32_MAX / 8)
+    if (most == 0 || most > INT32_MAX / 8) {
         return;
+    }
     size_t table_size = 16;
-    while (table_size < 4 * most)
+    while (table_size < 4 * most) {
         table_size *= 2;
+    }
     struct crossing *table = gm_picture_memory(picture, table_size * sizeof *table);
     struct segment *segments = gm_picture_memory(picture, most * sizeof *segments);
     double *line = gm_picture_memory(picture, (most + 1) * 2 * sizeof *line);
-    if (table == NULL || segments == NULL || line == NULL)
+    if (table == NULL || segments == NULL || line == NULL) {
         return;
+    }
 
     for (size_t l = 0; l < level_count; l++) {
         struct level level = {points, values, levels[l], table, table_size, segments, 0};
-        for (size_t i = 0; i < table_size; i++)
+        for (size_t i = 0; i < table_size; i++) {
             table[i].from = NONE;
+        }
         for (size_t t = 0; t < triangle_count; t++) {
             const int *v = triangles + 3 * t;
             if (usable(points, values, count, v) &&
-                (above(&level, v[0]) != above(&level, v[1]) || above(&level, v[0]) != above(&level, v[2])))
+                (above(&level, v[0]) != above(&level, v[1]) || above(&level, v[0]) != above(&level, v[2]))) {
                 segment_add(&level, v);
+            }
         }
         level_draw(picture, panel, style, &level, line);
     }

@@ -36,8 +36,9 @@ enum gm_dash gm_lane_dash(size_t lane)
 static struct chunk *chunk_open(size_t size, struct chunk *next)
 {
     struct chunk *chunk = malloc(sizeof *chunk);
-    if (chunk == NULL)
+    if (chunk == NULL) {
         return NULL;
+    }
     *chunk = (struct chunk){.next = next, .size = size, .bytes = aligned_alloc(ALIGNMENT, size)};
     if (chunk->bytes == NULL) {
         free(chunk);
@@ -78,8 +79,9 @@ struct gm_picture *gm_picture_open(void)
 
 void gm_picture_close(struct gm_picture *picture)
 {
-    if (picture == NULL)
+    if (picture == NULL) {
         return;
+    }
     chunks_close(picture->arena->chunk);
     free(picture->arena);
     free(picture);
@@ -92,26 +94,30 @@ void gm_picture_clear(struct gm_picture *picture)
     if (arena->chunk != NULL && arena->chunk->next != NULL) {
         chunks_close(arena->chunk);
         arena->chunk = chunk_open(arena->total, NULL);
-        if (arena->chunk == NULL)
+        if (arena->chunk == NULL) {
             arena->total = 0;
+        }
     }
-    if (arena->chunk != NULL)
+    if (arena->chunk != NULL) {
         arena->chunk->used = 0;
+    }
     picture_reset(picture);
 }
 
 void *gm_picture_memory(struct gm_picture *picture, size_t size)
 {
     struct gm_arena *arena = picture->arena;
-    if (size > SIZE_MAX / 4)
+    if (size > SIZE_MAX / 4) {
         return NULL;
+    }
     size = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     struct chunk *chunk = arena->chunk;
     if (chunk == NULL || chunk->size - chunk->used < size) {
         size_t wanted = arena->total > FIRST_CHUNK ? arena->total : FIRST_CHUNK;
         chunk = chunk_open(wanted > size ? wanted : size, arena->chunk);
-        if (chunk == NULL)
+        if (chunk == NULL) {
             return NULL;
+        }
         arena->chunk = chunk;
         arena->total += chunk->size;
     }
@@ -132,8 +138,9 @@ const char *gm_picture_text(struct gm_picture *picture, const char *format, ...)
     va_copy(again, arguments);
     const int length = vsnprintf(NULL, 0, format, arguments);
     char *text = length < 0 ? NULL : gm_picture_memory(picture, (size_t)length + 1);
-    if (text != NULL)
+    if (text != NULL) {
         vsnprintf(text, (size_t)length + 1, format, again);
+    }
     va_end(again);
     va_end(arguments);
     return text != NULL ? text : "";
@@ -141,8 +148,9 @@ const char *gm_picture_text(struct gm_picture *picture, const char *format, ...)
 
 static const char *text_copy(struct gm_picture *picture, const char *text)
 {
-    if (text == NULL)
+    if (text == NULL) {
         return "";
+    }
     const size_t size = strlen(text) + 1;
     char *copy = gm_picture_memory(picture, size);
     return copy != NULL ? memcpy(copy, text, size) : "";
@@ -152,8 +160,9 @@ struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, c
 {
     struct gm_panel *panel = gm_picture_memory(picture, sizeof *panel);
     const bool short_of_memory = panel == NULL;
-    if (short_of_memory)
+    if (short_of_memory) {
         panel = &picture->arena->spare_panel;
+    }
     *panel = (struct gm_panel){
         .place = place,
         .title = text_copy(picture, title),
@@ -164,12 +173,14 @@ struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, c
         .axes = place == GM_PLACE_GRAPH,
         .colour_bar_label = "",
     };
-    if (short_of_memory)
+    if (short_of_memory) {
         return panel;
-    if (picture->last != NULL)
+    }
+    if (picture->last != NULL) {
         picture->last->next = panel;
-    else
+    } else {
         picture->first = panel;
+    }
     picture->last = panel;
     return panel;
 }
@@ -184,13 +195,15 @@ static struct gm_mark *mark_add(struct gm_picture *picture, struct gm_panel *pan
                                 struct gm_style style)
 {
     struct gm_mark *mark = gm_picture_memory(picture, sizeof *mark);
-    if (mark == NULL)
+    if (mark == NULL) {
         return spare(picture);
+    }
     *mark = (struct gm_mark){.kind = kind, .style = style, .text = ""};
-    if (panel->last != NULL)
+    if (panel->last != NULL) {
         panel->last->next = mark;
-    else
+    } else {
         panel->first = mark;
+    }
     panel->last = mark;
     return mark;
 }
@@ -210,8 +223,9 @@ static size_t points_copy(const struct gm_panel *panel, double *to, const double
 {
     size_t kept = 0;
     for (size_t i = 0; i < count; i++) {
-        if (!point_drawable(panel, points + 2 * i))
+        if (!point_drawable(panel, points + 2 * i)) {
             continue;
+        }
         to[2 * kept] = points[2 * i];
         to[2 * kept + 1] = points[2 * i + 1];
         kept++;
@@ -238,8 +252,9 @@ struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel,
                              const double *points, size_t count, bool closed)
 {
     double *copy = memory_of(picture, count, 2 * sizeof *copy);
-    if (copy == NULL || count == 0)
+    if (copy == NULL || count == 0) {
         return spare(picture);
+    }
 
     /* A closed line with a gap is one that starts after the gap. */
     size_t start = 0;
@@ -276,8 +291,9 @@ static struct gm_mark *mark_of_points(struct gm_picture *picture, struct gm_pane
 {
     double *copy = memory_of(picture, count, 2 * sizeof *copy);
     const size_t kept = copy != NULL ? points_copy(panel, copy, points, count) : 0;
-    if (kept == 0)
+    if (kept == 0) {
         return spare(picture);
+    }
     struct gm_mark *mark = mark_add(picture, panel, kind, style);
     mark->points = copy;
     mark->count = kept;
@@ -323,8 +339,9 @@ struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel,
     double *places = memory_of(picture, count, 2 * sizeof *places);
     double *heights = memory_of(picture, count, sizeof *heights);
     int *corners = memory_of(picture, triangle_count, 3 * sizeof *corners);
-    if (places == NULL || heights == NULL || corners == NULL)
+    if (places == NULL || heights == NULL || corners == NULL) {
         return spare(picture);
+    }
     struct gm_mark *mark = mark_add(picture, panel, GM_MARK_MESH, opaque);
     mark_set_map(mark, map, low, high);
 
@@ -337,8 +354,9 @@ struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel,
             good =
                 v >= 0 && (size_t)v < count && point_drawable(panel, points + 2 * v) && isfinite(values[v]);
         }
-        if (good)
+        if (good) {
             memcpy(corners + 3 * kept++, triangle, 3 * sizeof *corners);
+        }
     }
     for (size_t i = 0; i < count; i++) {
         const bool good = point_drawable(panel, points + 2 * i);
@@ -361,12 +379,14 @@ struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel
     const size_t count = columns > 0 && rows > SIZE_MAX / columns ? SIZE_MAX : rows * columns;
     double *copy = memory_of(picture, count, sizeof *copy);
     double *places = gm_picture_memory(picture, 4 * sizeof *places);
-    if (copy == NULL || places == NULL || count == 0 || points_copy(panel, places, corners, 2) != 2)
+    if (copy == NULL || places == NULL || count == 0 || points_copy(panel, places, corners, 2) != 2) {
         return spare(picture);
+    }
     struct gm_mark *mark = mark_add(picture, panel, GM_MARK_IMAGE, opaque);
     mark_set_map(mark, map, low, high);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         copy[i] = isfinite(values[i]) ? values[i] : mark->low;
+    }
     mark->points = places;
     mark->count = 2;
     mark->values = copy;

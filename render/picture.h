@@ -47,7 +47,7 @@ struct gm_style {
 enum gm_map { GM_MAP_SEQUENTIAL, GM_MAP_DIVERGING }; /* perceptually uniform colour maps */
 
 enum gm_mark_kind {
-    GM_MARK_LINE,    /* points joined; closed if style says so */
+    GM_MARK_LINE, /* points joined; closed if style says so */
     GM_MARK_POINTS,
     GM_MARK_POLYGON, /* filled, even-odd */
     GM_MARK_MESH,    /* triangles coloured by a value at each vertex */
@@ -94,13 +94,13 @@ struct gm_key {
 
 struct gm_panel {
     enum gm_place place;
-    const char *title;     /* "" for none */
-    const char *note;      /* one line under the title, in secondary ink; "" for none */
+    const char *title; /* "" for none */
+    const char *note;  /* one line under the title, in secondary ink; "" for none */
     enum gm_role title_role;
     struct gm_axis x, y;
-    bool equal;            /* one unit is equally long on both axes */
-    bool axes;             /* axes, ticks and grid are drawn */
-    bool colour_bar;       /* of the first mesh or image */
+    bool equal;      /* one unit is equally long on both axes */
+    bool axes;       /* axes, ticks and grid are drawn */
+    bool colour_bar; /* of the first mesh or image */
     const char *colour_bar_label;
     struct gm_key *first_key, *last_key; /* on the note's line, where the note is empty */
     struct gm_mark *first, *last;
@@ -127,16 +127,19 @@ void *gm_picture_memory(struct gm_picture *picture, size_t size);
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
-const char *gm_picture_text(struct gm_picture *picture, const char *format, ...);
+const char *
+gm_picture_text(struct gm_picture *picture, const char *format, ...);
 
 struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, const char *title);
 
 /* Adds a name to the panel's keys; for lines whose names nothing else tells. */
-void gm_panel_key(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style, const char *name);
+void gm_panel_key(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                  const char *name);
 
 /* Marks. Points are copied. A line breaks where a coordinate is not finite, or not positive on a log axis;
    so a NaN never reaches a painter. The panel's axes are set before its marks. A mark that is not shown
-   (no points, no memory) may be written to all the same; of a line with breaks the first piece is returned. */
+   (no points, no memory) may be written to all the same; of a line with breaks the first piece is returned.
+ */
 struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                              const double *points, size_t count, bool closed);
 struct gm_mark *gm_mark_points(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,

@@ -18,30 +18,33 @@ static void write_number(FILE *stream, double value)
 
 static void write_numbers(FILE *stream, const double *values, size_t count)
 {
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
         write_number(stream, values[i]);
+    }
 }
 
 static void write_text(FILE *stream, const char *text)
 {
     fputs(" \"", stream);
     for (; text != NULL && *text != '\0'; text++) {
-        if (*text == '\n')
+        if (*text == '\n') {
             fputs("\\n", stream);
-        else if (*text == '"' || *text == '\\')
+        } else if (*text == '"' || *text == '\\') {
             fprintf(stream, "\\%c", *text);
-        else
+        } else {
             fputc(*text, stream);
+        }
     }
     fputc('"', stream);
 }
 
 static void write_role(FILE *stream, enum gm_role role)
 {
-    if (role >= GM_LANE)
+    if (role >= GM_LANE) {
         fprintf(stream, " lane%d", (int)role - GM_LANE);
-    else
+    } else {
         fprintf(stream, " %s", role_names[role]);
+    }
 }
 
 static void write_style(FILE *stream, const struct gm_style *style)
@@ -68,8 +71,9 @@ static void write_mesh(FILE *stream, const struct gm_mark *mark)
         write_numbers(stream, mark->points + 2 * i, 2);
         write_number(stream, mark->values[i]);
     }
-    for (size_t i = 0; i < 3 * mark->triangle_count; i++)
+    for (size_t i = 0; i < 3 * mark->triangle_count; i++) {
         fprintf(stream, " %d", mark->triangles[i]);
+    }
 }
 
 static void write_mark(FILE *stream, const struct gm_mark *mark)
@@ -138,8 +142,9 @@ static void write_panel(FILE *stream, const struct gm_panel *panel)
     fputc('\n', stream);
     write_axis(stream, "x", &panel->x);
     write_axis(stream, "y", &panel->y);
-    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next)
+    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
         write_mark(stream, mark);
+    }
 }
 
 void gm_picture_write(const struct gm_picture *picture, FILE *stream)
@@ -150,6 +155,7 @@ void gm_picture_write(const struct gm_picture *picture, FILE *stream)
     write_text(stream, picture->clock);
     write_text(stream, picture->caption);
     fputc('\n', stream);
-    for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next)
+    for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next) {
         write_panel(stream, panel);
+    }
 }

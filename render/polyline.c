@@ -9,14 +9,17 @@
 bool gm_polyline_reserve(struct gm_polyline *line, size_t count)
 {
     line->count = 0;
-    if (count <= line->capacity)
+    if (count <= line->capacity) {
         return true;
+    }
     size_t capacity = line->capacity > 0 ? line->capacity : 256;
-    while (capacity < count && capacity < SIZE_MAX / 4 / sizeof *line->points)
+    while (capacity < count && capacity < SIZE_MAX / 4 / sizeof *line->points) {
         capacity *= 2;
+    }
     struct gm_point *points = capacity < count ? NULL : malloc(capacity * sizeof *points);
-    if (points == NULL)
+    if (points == NULL) {
         return false;
+    }
     free(line->points);
     line->points = points;
     line->capacity = capacity;
@@ -37,8 +40,9 @@ static bool inside(struct gm_bounds bounds, struct gm_point p)
 /* Narrows the part [*enter, *leave] of a segment to where start + t * step lies in [low, high]. */
 static bool narrow(float start, float step, float low, float high, float *enter, float *leave)
 {
-    if (step == 0.0f)
+    if (step == 0.0f) {
         return start >= low && start <= high;
+    }
     const float a = (low - start) / step, b = (high - start) / step;
     *enter = fmaxf(*enter, fminf(a, b));
     *leave = fminf(*leave, fmaxf(a, b));
@@ -54,13 +58,15 @@ bool gm_polyline_clip(const struct gm_polyline *line, struct gm_bounds bounds, s
                       struct gm_polyline *piece)
 {
     const size_t segments = line->count == 0 ? 0 : line->closed ? line->count : line->count - 1;
-    if (*from > segments || line->count == 0 || !gm_polyline_reserve(piece, line->count + 1))
+    if (*from > segments || line->count == 0 || !gm_polyline_reserve(piece, line->count + 1)) {
         return false;
+    }
     piece->closed = false;
     if (*from == 0) {
         bool whole = true;
-        for (size_t i = 0; i < line->count && whole; i++)
+        for (size_t i = 0; i < line->count && whole; i++) {
             whole = inside(bounds, line->points[i]);
+        }
         if (whole) {
             memcpy(piece->points, line->points, line->count * sizeof *line->points);
             piece->count = line->count;
@@ -75,15 +81,19 @@ bool gm_polyline_clip(const struct gm_polyline *line, struct gm_bounds bounds, s
         float enter = 0.0f, leave = 1.0f;
         const bool seen = narrow(p.x, q.x - p.x, bounds.left, bounds.right, &enter, &leave) &&
                           narrow(p.y, q.y - p.y, bounds.top, bounds.bottom, &enter, &leave);
-        if (!seen && piece->count > 0)
+        if (!seen && piece->count > 0) {
             break;
-        if (!seen)
+        }
+        if (!seen) {
             continue;
-        if (piece->count == 0)
+        }
+        if (piece->count == 0) {
             piece->points[piece->count++] = along(p, q, enter);
+        }
         piece->points[piece->count++] = along(p, q, leave);
-        if (leave < 1.0f)
+        if (leave < 1.0f) {
             break;
+        }
     }
     *from = i < segments ? i + 1 : segments + 1;
     return piece->count > 0;
@@ -109,8 +119,9 @@ static struct gm_point minus(struct gm_point a, struct gm_point b)
 void gm_polyline_simplify(struct gm_polyline *line, float tolerance)
 {
     struct gm_point *points = line->points;
-    if (line->count < 3)
+    if (line->count < 3) {
         return;
+    }
     size_t kept = 1;
     struct gm_point anchor = points[0], last = points[0];
     struct gm_point left = {0}, right = {0}; /* the wedge's sides, once it exists */
@@ -132,10 +143,12 @@ void gm_polyline_simplify(struct gm_polyline *line, float tolerance)
             const float near = sqrtf(square - tolerance * tolerance);
             const struct gm_point l = {way.x * near - way.y * tolerance, way.y * near + way.x * tolerance};
             const struct gm_point r = {way.x * near + way.y * tolerance, way.y * near - way.x * tolerance};
-            if (!wedge || cross(left, l) < 0.0f)
+            if (!wedge || cross(left, l) < 0.0f) {
                 left = l;
-            if (!wedge || cross(right, r) > 0.0f)
+            }
+            if (!wedge || cross(right, r) > 0.0f) {
                 right = r;
+            }
             wedge = true;
         }
         last = point;
@@ -158,8 +171,9 @@ static size_t segments_of(const struct gm_polyline *line)
 float gm_polyline_length(const struct gm_polyline *line)
 {
     float length = 0.0f;
-    for (size_t i = 0; i < segments_of(line); i++)
+    for (size_t i = 0; i < segments_of(line); i++) {
         length += distance(line->points[i], line->points[(i + 1) % line->count]);
+    }
     return length;
 }
 
@@ -167,8 +181,9 @@ bool gm_polyline_dash(const struct gm_polyline *line, const float *pattern, size
                       struct gm_dashing *state, struct gm_polyline *dash)
 {
     const size_t segments = segments_of(line);
-    if (!gm_polyline_reserve(dash, line->count + 2))
+    if (!gm_polyline_reserve(dash, line->count + 2)) {
         return false;
+    }
     dash->closed = false;
     while (state->segment < segments) {
         const bool drawn = state->part % 2 == 0;
@@ -178,22 +193,27 @@ bool gm_polyline_dash(const struct gm_polyline *line, const float *pattern, size
             const struct gm_point p = line->points[state->segment];
             const struct gm_point q = line->points[(state->segment + 1) % line->count];
             const float length = distance(p, q);
-            if (length == 0.0f)
+            if (length == 0.0f) {
                 continue;
-            if (drawn && dash->count == 0)
+            }
+            if (drawn && dash->count == 0) {
                 dash->points[dash->count++] = along(p, q, state->within / length);
+            }
             const float rest = length - state->within;
             const bool ends = rest > left;
             state->within = ends ? state->within + left : length;
             left -= ends ? left : rest;
-            if (drawn)
+            if (drawn) {
                 dash->points[dash->count++] = along(p, q, state->within / length);
-            if (ends)
+            }
+            if (ends) {
                 break;
+            }
         }
         state->part = (state->part + 1) % parts;
-        if (drawn && dash->count > 0)
+        if (drawn && dash->count > 0) {
             return true;
+        }
     }
     return false;
 }

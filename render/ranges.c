@@ -7,8 +7,9 @@
 
 void gm_range_add(double *low, double *high, double value)
 {
-    if (!isfinite(value))
+    if (!isfinite(value)) {
         return;
+    }
     if (*low > *high) {
         *low = *high = value;
         return;
@@ -43,8 +44,9 @@ static void round_linear(double *low, double *high, double unit)
     for (int pass = 0; pass < 4; pass++) {
         const double step = round_up((b - a) / 4.0);
         const double next_a = step * floor(from / step + 1e-9), next_b = step * ceil(to / step - 1e-9);
-        if (!isfinite(next_a) || !isfinite(next_b) || (next_a == a && next_b == b))
+        if (!isfinite(next_a) || !isfinite(next_b) || (next_a == a && next_b == b)) {
             break;
+        }
         a = next_a;
         b = next_b;
     }
@@ -80,8 +82,9 @@ void gm_range_round(double *low, double *high, enum gm_scale scale)
         *high = 1.0;
         return;
     }
-    if (scale == GM_LOG)
+    if (scale == GM_LOG) {
         round_log(low, high);
-    else
+    } else {
         round_linear(low, high, scale == GM_PI ? PI : 1.0);
+    }
 }

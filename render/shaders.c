@@ -78,8 +78,9 @@ bool gm_shaders_open(const struct gm_gl *gl, GLuint *programs, char *message, si
         gl->UseProgram(programs[i]);
         for (int unit = 0; unit < 3; unit++) {
             const GLint location = gl->GetUniformLocation(programs[i], samplers[unit]);
-            if (location >= 0)
+            if (location >= 0) {
                 gl->Uniform1i(location, unit);
+            }
         }
     }
     return true;
@@ -87,8 +88,9 @@ bool gm_shaders_open(const struct gm_gl *gl, GLuint *programs, char *message, si
 
 void gm_shaders_close(const struct gm_gl *gl, GLuint *programs)
 {
-    for (int i = 0; i < GM_PROGRAM_COUNT; i++)
+    for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
         gl->DeleteProgram(programs[i]);
+    }
 }
 
 void gm_shaders_resize(const struct gm_gl *gl, const GLuint *programs, int width, int height)

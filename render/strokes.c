@@ -61,8 +61,9 @@ size_t gm_stroke_breaks(const struct gm_polyline *line, float half)
 {
     size_t breaks = 0;
     const size_t ends = line->closed ? 0 : 1;
-    for (size_t i = ends; i + ends < line->count; i++)
+    for (size_t i = ends; i + ends < line->count; i++) {
         breaks += !joint_at(line, i, half + fringe).mitred;
+    }
     return breaks;
 }
 
@@ -101,17 +102,19 @@ static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size
     const float reach = half + fringe;
     const size_t n = line->count;
     struct gm_vertex *strip = gm_batch_strip(batch, 2 * (segments + 3));
-    if (strip == NULL)
+    if (strip == NULL) {
         return;
+    }
     const struct gm_point *p = line->points, start = p[first % n], end = p[(first + segments) % n];
     float length;
     struct gm_point way = direction(start, p[(first + 1) % n], &length);
     put_sides(strip, beyond(start, way, -reach), normal(way), reach, reach, half, ink);
     put_sides(strip + 2, start, normal(way), reach, 0.0f, half, ink);
     strip += 4;
-    for (size_t i = 1; i < segments; i++, strip += 2)
+    for (size_t i = 1; i < segments; i++, strip += 2) {
         put_sides(strip, p[(first + i) % n], mitre(joint_at(line, (first + i) % n, reach)), reach, 0.0f, half,
                   ink);
+    }
     way = direction(p[(first + segments - 1) % n], end, &length);
     put_sides(strip, end, normal(way), reach, 0.0f, half, ink);
     put_sides(strip + 2, beyond(end, way, reach), normal(way), reach, reach, half, ink);
@@ -123,8 +126,9 @@ static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, flo
 {
     const float reach = half + fringe;
     struct gm_vertex *strip = gm_batch_strip(batch, 2 * (line->count + 1));
-    if (strip == NULL)
+    if (strip == NULL) {
         return;
+    }
     for (size_t i = 0; i <= line->count; i++) {
         const size_t k = i % line->count;
         put_sides(strip + 2 * i, line->points[k], mitre(joint_at(line, k, reach)), reach, 0.0f, half, ink);
@@ -136,16 +140,18 @@ void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, floa
 {
     const float reach = half + fringe;
     const size_t n = line->count;
-    if (n == 0)
+    if (n == 0) {
         return;
+    }
     if (n == 1) {
         gm_stroke_disc(batch, line->points[0], half, ink);
         return;
     }
     size_t first = 0, segments = n - 1;
     if (line->closed) {
-        while (first < n && joint_at(line, first, reach).mitred)
+        while (first < n && joint_at(line, first, reach).mitred) {
             first++;
+        }
         if (first == n && n > 2) {
             put_loop(batch, line, half, ink);
             return;
@@ -164,8 +170,9 @@ void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, floa
 void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_ink ink)
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (strip == NULL)
+    if (strip == NULL) {
         return;
+    }
     const float reach = radius + fringe;
     for (int i = 0; i < 4; i++) {
         const float x = i % 2 == 0 ? -reach : reach, y = i < 2 ? -reach : reach;
@@ -178,11 +185,13 @@ void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, f
                    struct gm_ink ink)
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (strip == NULL)
+    if (strip == NULL) {
         return;
-    for (int i = 0; i < 4; i++)
+    }
+    for (int i = 0; i < 4; i++) {
         strip[i] =
             vertex((struct gm_point){i % 2 == 0 ? left : right, i < 2 ? top : bottom}, 0.0f, 0.0f, 1.0f, ink);
+    }
     gm_batch_end(batch, 0);
 }
 
@@ -200,8 +209,9 @@ static bool convex(const struct gm_polyline *line)
         left |= turn > 0.0f;
         right |= turn < 0.0f;
         reversals += (before.x < 0.0f) != (after.x < 0.0f);
-        if ((left && right) || reversals > 2)
+        if ((left && right) || reversals > 2) {
             return false;
+        }
         before = after;
     }
     return left || right;
@@ -248,8 +258,9 @@ static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, 
     /* First the fading rim, a ring of corners half a pixel inside and outside; then the inside. */
     const size_t n = line->count;
     struct gm_vertex *ring = gm_batch_strip(batch, 2 * (n + 1));
-    if (ring == NULL)
+    if (ring == NULL) {
         return;
+    }
     for (size_t i = 0; i <= n; i++) {
         const size_t k = i % n;
         ring[2 * i] = vertex(shifted(line, k, -0.5f * outwards), 0.0f, 0.0f, 0.5f, ink);
@@ -257,8 +268,9 @@ static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, 
     }
     gm_batch_end(batch, 0);
     struct gm_vertex *strip = gm_batch_strip(batch, n);
-    if (strip == NULL)
+    if (strip == NULL) {
         return;
+    }
     for (size_t i = 0; i < n; i++) {
         const struct gm_point corner = shifted(line, zigzag(i, n), -0.5f * outwards);
         strip[i] = vertex(corner, 0.0f, 0.0f, 0.5f, ink);
@@ -270,10 +282,12 @@ static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, 
 {
     const size_t n = line->count;
     struct gm_vertex *strip = gm_batch_strip(batch, n);
-    if (strip == NULL)
+    if (strip == NULL) {
         return;
-    for (size_t i = 0; i < n; i++)
+    }
+    for (size_t i = 0; i < n; i++) {
         strip[i] = vertex(line->points[zigzag(i, n)], 0.0f, 0.0f, 1.0f, ink);
+    }
     gm_batch_end(batch, 0);
 }
 
@@ -300,15 +314,17 @@ static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, str
 
 void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
 {
-    if (line->count < 3)
+    if (line->count < 3) {
         return;
+    }
     const float area = area_of(line);
     /* Where the rim would be most of it, half a pixel inwards is already beyond the middle. */
     const bool thick = fabsf(area) > 2.0f * perimeter_of(line);
-    if (convex(line) && thick)
+    if (convex(line) && thick) {
         fill_convex(batch, line, area > 0.0f ? -1.0f : 1.0f, ink);
-    else if (convex(line))
+    } else if (convex(line)) {
         put_polygon(batch, line, ink);
-    else
+    } else {
         fill_any(batch, line, ink);
+    }
 }

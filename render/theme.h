@@ -8,7 +8,9 @@
 
 enum gm_theme { GM_THEME_LIGHT, GM_THEME_DARK, GM_THEME_COUNT };
 
-struct gm_rgb { uint8_t r, g, b; };
+struct gm_rgb {
+    uint8_t r, g, b;
+};
 
 /* What a role looks like in a theme (render/theme.c says how the lane colours were chosen). */
 struct gm_rgb gm_theme_colour(enum gm_theme theme, enum gm_role role);

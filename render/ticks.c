@@ -43,10 +43,12 @@ static size_t fill_multiples(double low, double high, double mantissa, int expon
 {
     double first;
     const double count = multiples(low, high, scaled(mantissa, exponent), &first);
-    if (!(count >= 1.0 && count <= (double)max))
+    if (!(count >= 1.0 && count <= (double)max)) {
         return 0;
-    for (size_t i = 0; i < (size_t)count; i++)
+    }
+    for (size_t i = 0; i < (size_t)count; i++) {
         values[i] = scaled((first + (double)i) * mantissa, exponent);
+    }
     return (size_t)count;
 }
 
@@ -56,8 +58,9 @@ static size_t few_ticks(double low, double high, int exponent, size_t max, doubl
     static const double steps[] = {1.0, 2.0, 5.0, 10.0, 20.0, 50.0};
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         const size_t count = fill_multiples(low, high, steps[i], exponent, max, values);
-        if (count > 0)
+        if (count > 0) {
             return count;
+        }
     }
     return 0;
 }
@@ -68,8 +71,9 @@ static size_t first_step(double low, double high, const double *steps, size_t st
 {
     for (size_t i = 0; i < step_count; i++) {
         const size_t count = fill_multiples(low, high, steps[i], exponent, max, values);
-        if (count >= 3)
+        if (count >= 3) {
             return count;
+        }
     }
     return 0;
 }
@@ -87,12 +91,14 @@ static size_t ticks_linear(double low, double high, size_t max, double *values)
     const size_t familiar_count = sizeof familiar / sizeof *familiar;
     const size_t further_count = sizeof further / sizeof *further;
     const double span = high - low;
-    if (span < 64.0 * DBL_EPSILON * fmax(fabs(low), fabs(high)) || !isfinite(span))
+    if (span < 64.0 * DBL_EPSILON * fmax(fabs(low), fabs(high)) || !isfinite(span)) {
         return 0; /* such values would all have the same label */
+    }
     const int exponent = (int)floor(log10(span / (double)max));
     size_t count = first_step(low, high, familiar, familiar_count, exponent, max, values);
-    if (count > 3 || max < 3 || spans(low, high, values, count))
+    if (count > 3 || max < 3 || spans(low, high, values, count)) {
         return count > 0 ? count : few_ticks(low, high, exponent, max, values);
+    }
 
     /* Less familiar steps where the others leave too few ticks, or where both ends of the axis get one. */
     for (size_t i = 0; i < further_count; i++) {
@@ -111,21 +117,26 @@ static size_t ticks_pi(double low, double high, size_t max, double *values)
     static const double steps[] = {1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0},
                         further[] = {1.0 / 6, 1.0 / 3, 2.0 / 3, 3.0 / 4};
     const double from = low / PI, to = high / PI;
-    if ((to - from) * 8.0 < 3.0)
+    if ((to - from) * 8.0 < 3.0) {
         return ticks_linear(low, high, max, values);
+    }
     size_t count = 0;
-    for (size_t i = 0; i < sizeof steps / sizeof *steps && count == 0; i++)
+    for (size_t i = 0; i < sizeof steps / sizeof *steps && count == 0; i++) {
         count = fill_multiples(from, to, steps[i], 0, max, values);
+    }
     for (size_t i = 0; i < sizeof further / sizeof *further && count < 3 && to - from < 4.0; i++) {
         double first;
         const double n = multiples(from, to, further[i], &first);
-        if (n >= 3.0 && n <= (double)max)
+        if (n >= 3.0 && n <= (double)max) {
             count = fill_multiples(from, to, further[i], 0, max, values);
+        }
     }
-    if (count == 0)
+    if (count == 0) {
         count = ticks_linear(from, to, max, values);
-    for (size_t i = 0; i < count; i++)
+    }
+    for (size_t i = 0; i < count; i++) {
         values[i] *= PI;
+    }
     return count;
 }
 
@@ -138,10 +149,12 @@ static size_t fill_mantissas(double low, double high, const double *mantissas, s
     for (int k = from; k <= to; k++) {
         for (size_t i = 0; i < mantissa_count; i++) {
             const double value = scaled(mantissas[i], k);
-            if (value < low * (1.0 - slack) || value > high * (1.0 + slack))
+            if (value < low * (1.0 - slack) || value > high * (1.0 + slack)) {
                 continue;
-            if (count == max)
+            }
+            if (count == max) {
                 return 0;
+            }
             values[count++] = value;
         }
     }
@@ -164,25 +177,31 @@ static size_t ticks_log(double low, double high, size_t max, double *values)
             double first, exponents[GM_TICK_MAX];
             const double stride = strides[i];
             const double n = multiples(log10(low), log10(high), stride, &first);
-            if (!(n >= 1.0 && n <= (double)max))
+            if (!(n >= 1.0 && n <= (double)max)) {
                 continue;
+            }
             few = fill_multiples(log10(low), log10(high), stride, 0, max, exponents);
-            for (size_t k = 0; k < few; k++)
+            for (size_t k = 0; k < few; k++) {
                 values[k] = scaled(1.0, (int)lround(exponents[k]));
+            }
             break;
         }
-        if (few >= 3 || max < 3)
+        if (few >= 3 || max < 3) {
             return few;
+        }
     }
     for (size_t i = 0; decades < 4.0 && i < sizeof sets / sizeof *sets; i++) {
         const size_t count = fill_mantissas(low, high, sets[i].mantissas, sets[i].count, max, values);
-        if (count >= 3)
+        if (count >= 3) {
             return count;
+        }
     }
-    if (decades < few_decades)
+    if (decades < few_decades) {
         return ticks_linear(low, high, max, values);
-    if (few > 0) /* written over meanwhile */
+    }
+    if (few > 0) { /* written over meanwhile */
         return fill_mantissas(low, high, one, 1, max, values);
+    }
     return 0;
 }
 
@@ -191,8 +210,9 @@ size_t gm_ticks(const struct gm_axis *axis, size_t max, double *values)
     double low, high;
     range_of(axis, &low, &high);
     max = max < GM_TICK_MAX ? max : GM_TICK_MAX;
-    if (max == 0)
+    if (max == 0) {
         return 0;
+    }
     switch (axis->scale) {
     case GM_LOG:
         return ticks_log(low, high, max, values);
@@ -214,8 +234,9 @@ struct writer {
 static void put(struct writer *writer, const char *text)
 {
     const size_t length = strlen(text);
-    if (writer->length + length >= writer->size)
+    if (writer->length + length >= writer->size) {
         return; /* whole characters or nothing */
+    }
     memcpy(writer->text + writer->length, text, length + 1);
     writer->length += length;
 }
@@ -224,8 +245,9 @@ static void put_number(struct writer *writer, int decimals, double value)
 {
     char digits[64];
     snprintf(digits, sizeof digits, "%.*f", decimals, fabs(value));
-    if (value < 0.0 && strtod(digits, NULL) != 0.0)
+    if (value < 0.0 && strtod(digits, NULL) != 0.0) {
         put(writer, MINUS);
+    }
     put(writer, digits);
 }
 
@@ -235,13 +257,16 @@ static void put_power(struct writer *writer, int exponent)
                                                "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     char digits[16];
     put(writer, "10");
-    if (exponent == 1)
+    if (exponent == 1) {
         return;
-    if (exponent < 0)
+    }
+    if (exponent < 0) {
         put(writer, "\u207b");
+    }
     snprintf(digits, sizeof digits, "%d", abs(exponent));
-    for (const char *digit = digits; *digit != '\0'; digit++)
+    for (const char *digit = digits; *digit != '\0'; digit++) {
         put(writer, superscripts[*digit - '0']);
+    }
 }
 
 /* How many decimals a multiple of step needs. */
@@ -249,8 +274,9 @@ static int decimals_of(double step)
 {
     for (int decimals = 0; decimals < 15; decimals++) {
         const double shifted = scaled(step, decimals);
-        if (fabs(shifted - round(shifted)) < 1e-6 * shifted)
+        if (fabs(shifted - round(shifted)) < 1e-6 * shifted) {
             return decimals;
+        }
     }
     return 15;
 }
@@ -262,8 +288,9 @@ static void put_scientific(struct writer *writer, double value, double step)
     const double mantissa = scaled(value, -exponent);
     const int decimals = decimals_of(scaled(step, -exponent));
     if (decimals == 0 && fabs(fabs(mantissa) - 1.0) < 1e-9) {
-        if (value < 0.0)
+        if (value < 0.0) {
             put(writer, MINUS);
+        }
     } else {
         put_number(writer, decimals < 6 ? decimals : 6, mantissa);
         put(writer, "×");
@@ -277,10 +304,11 @@ static void format_linear(struct writer *writer, double value, double step)
         put(writer, "0");
         return;
     }
-    if (step >= 1e4 || (step < 1e-4 && fabs(value) < 1e-2))
+    if (step >= 1e4 || (step < 1e-4 && fabs(value) < 1e-2)) {
         put_scientific(writer, value, step);
-    else
+    } else {
         put_number(writer, decimals_of(step), value);
+    }
 }
 
 static void format_pi(struct writer *writer, double value, double step)
@@ -294,14 +322,17 @@ static void format_pi(struct writer *writer, double value, double step)
         char text[16];
         const double numerator = round(fabs(value) / PI * denominators[i]);
         const double error = fabs(numerator * PI / denominators[i] - fabs(value));
-        if (numerator == 0.0 || error > 1e-9 * fabs(value) || error > 1e-3 * step)
+        if (numerator == 0.0 || error > 1e-9 * fabs(value) || error > 1e-3 * step) {
             continue;
-        if (value < 0.0)
+        }
+        if (value < 0.0) {
             put(writer, MINUS);
-        if (numerator >= 1e5)
+        }
+        if (numerator >= 1e5) {
             put_scientific(writer, numerator, 1.0 + round(fmin(step / PI, numerator)));
-        else if (numerator != 1.0)
+        } else if (numerator != 1.0) {
             put_number(writer, 0, numerator);
+        }
         put(writer, "π");
         if (denominators[i] != 1) {
             snprintf(text, sizeof text, "/%d", denominators[i]);
@@ -316,10 +347,11 @@ static void format_log(struct writer *writer, double value, double step)
 {
     const double exponent = log10(fabs(value));
     if (step >= 1.0 - slack && fabs(exponent - round(exponent)) < 1e-9) {
-        if (round(exponent) == 0.0)
+        if (round(exponent) == 0.0) {
             put(writer, "1");
-        else
+        } else {
             put_power(writer, (int)lround(exponent));
+        }
         return;
     }
     const int leading = (int)floor(exponent + 1e-9);
@@ -336,16 +368,19 @@ static void format_log(struct writer *writer, double value, double step)
 void gm_tick_format(enum gm_scale scale, double value, double step, char *text, size_t size)
 {
     struct writer writer = {text, size, 0};
-    if (size == 0)
+    if (size == 0) {
         return;
+    }
     text[0] = '\0';
-    if (!isfinite(value))
+    if (!isfinite(value)) {
         return;
+    }
     step = isfinite(step) && step != 0.0 ? fabs(step) : fmax(fabs(value), 1.0);
-    if (scale == GM_LOG && value > 0.0)
+    if (scale == GM_LOG && value > 0.0) {
         format_log(&writer, value, step);
-    else if (scale == GM_PI)
+    } else if (scale == GM_PI) {
         format_pi(&writer, value, step);
-    else
+    } else {
         format_linear(&writer, value, step);
+    }
 }

@@ -2,9 +2,9 @@
 /* A disc of initial conditions in the phase plane, carried by a scheme: Liouville's theorem made visible.
    Razafindralandy, Hamdouni & Chhay (2018), sections "Harmonic oscillator", figures 1, 2, 4, 5.
 
-   The members of the ensemble are the points of the disc's edge and, last, its centre. Every member carries two
-   tangent vectors: their mean determinant is the area's factor without the coarseness of a polygon, and the edge
-   between two points is drawn as the cubic that the tangents give. */
+   The members of the ensemble are the points of the disc's edge and, last, its centre. Every member carries
+   two tangent vectors: their mean determinant is the area's factor without the coarseness of a polygon, and
+   the edge between two points is drawn as the cubic that the tangents give. */
 #include <math.h>
 #include <stdio.h>
 
@@ -205,7 +205,8 @@ static size_t edge(const struct gm_view *view, size_t most, double *points, size
                 if (k > 0) {
                     const double a = angle(disc, i), b = angle(disc, next), end = y[at * m + next];
                     const double leave = step * (cos(a) * y[second * m + i] - sin(a) * y[first * m + i]);
-                    const double arrive = step * (cos(b) * y[second * m + next] - sin(b) * y[first * m + next]);
+                    const double arrive =
+                        step * (cos(b) * y[second * m + next] - sin(b) * y[first * m + next]);
                     const double r = 1 - s;
                     value = r * r * (1 + 2 * s) * value + s * s * (3 - 2 * s) * end +
                             s * r * (r * leave - s * arrive);
@@ -226,7 +227,10 @@ static size_t remembered(const struct gm_view *view)
     return 2 * ((members + stride - 1) / stride);
 }
 
-static double every_shape(const void *own) { return (void)own, M_PI / 6; }
+static double every_shape(const void *own)
+{
+    return (void)own, M_PI / 6;
+}
 
 static void remember(const struct gm_view *view, double *entry)
 {
@@ -287,7 +291,8 @@ static void hold(struct gm_axis *x, struct gm_axis *y, const double *points, siz
 }
 
 /* The range of all lanes, so that growth and decay are seen side by side. */
-static void state_range(const struct gm_lane *const *lanes, size_t count, struct gm_axis *x, struct gm_axis *y)
+static void state_range(const struct gm_lane *const *lanes, size_t count, struct gm_axis *x,
+                        struct gm_axis *y)
 {
     const struct disc *disc = lanes[0]->parameters;
     *x = *y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = 1, .high = 0};
@@ -328,11 +333,15 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
             continue;
         }
         const double fresh = (double)(i + 1 - oldest) / (double)(shapes->count - oldest);
-        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.03 + 0.2 * fresh}, shape, corners);
-        gm_mark_line(picture, panel, (struct gm_style){role, 0.15 + 0.6 * fresh, 1.1, GM_SOLID}, shape, corners, true);
+        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.03 + 0.2 * fresh}, shape,
+                        corners);
+        gm_mark_line(picture, panel, (struct gm_style){role, 0.15 + 0.6 * fresh, 1.1, GM_SOLID}, shape,
+                     corners, true);
     }
-    gm_mark_polygon(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.14}, shapes->values, corners);
-    gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.9, 1.6, GM_SOLID}, shapes->values, corners, true);
+    gm_mark_polygon(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.14}, shapes->values,
+                    corners);
+    gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.9, 1.6, GM_SOLID}, shapes->values, corners,
+                 true);
     if (at_start) {
         return;
     }
@@ -352,7 +361,8 @@ static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const 
             points[2 * i] = points[2 * i * refined];
             points[2 * i + 1] = points[2 * i * refined + 1];
         }
-        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 5}, points, members);
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 5}, points,
+                       members);
     }
 }
 
@@ -376,8 +386,9 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
                 struct gm_view before = view;
                 before.state = view.start;
                 const char *failure = gm_lane_failure(picture, lanes[i]);
-                panel->note = failure[0] ? failure
-                                         : gm_picture_text(picture, "area × %.3f", area(&view) / area(&before));
+                panel->note = failure[0]
+                                  ? failure
+                                  : gm_picture_text(picture, "area × %.3f", area(&view) / area(&before));
                 draw_orbit(picture, panel, lanes[i]->parameters);
             } else {
                 panel->title_role = GM_INK;
@@ -391,7 +402,7 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
 /* "four schemes"; lanes that differ in something else count once */
 static const char *counted(const struct gm_lane *const *lanes, size_t count)
 {
-    static const char *const words[] = {"no scheme",    "one scheme",  "two schemes", "three schemes",
+    static const char *const words[] = {"no scheme",    "one scheme",   "two schemes", "three schemes",
                                         "four schemes", "five schemes", "six schemes"};
     size_t schemes = 0;
     for (size_t i = 0; i < count; i++) {
@@ -416,10 +427,10 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                      disc->show == SHOW_ENERGY ? "The energy of the disc’s centre"
                                                                : "A disc of initial conditions",
                                      counted(lanes, count));
-    picture->subtitle = gm_picture_text(
-        picture, "%s%s%s%s", disc->system == PENDULUM ? "pendulum" : "harmonic oscillator",
-        one_step ? ",  Δt = " : "", one_step ? gm_time_text(picture, dt, dt) : "",
-        disc->show == SHOW_ENERGY ? "" : ",  shapes every π/6");
+    picture->subtitle =
+        gm_picture_text(picture, "%s%s%s%s", disc->system == PENDULUM ? "pendulum" : "harmonic oscillator",
+                        one_step ? ",  Δt = " : "", one_step ? gm_time_text(picture, dt, dt) : "",
+                        disc->show == SHOW_ENERGY ? "" : ",  shapes every π/6");
     gm_draw_clock(picture, lanes, count);
     if (disc->show != SHOW_ENERGY) {
         draw_states(picture, lanes, count);
@@ -463,7 +474,8 @@ static const char *const schemes[] = {"explicit-euler",
 static const struct gm_figure figures[] = {
     {
         .name = "razafindralandy-1",
-        .statement = "the area increases drastically with the explicit and decreases with the implicit scheme",
+        .statement =
+            "the area increases drastically with the explicit and decreases with the implicit scheme",
         .arguments = "scheme=explicit-euler,implicit-euler dt=pi/12 until=3*pi/2 show=disc",
     },
     {
@@ -478,7 +490,8 @@ static const struct gm_figure figures[] = {
     },
     {
         .name = "razafindralandy-5",
-        .statement = "the energy error of symplectic Euler is bounded, that of the midpoint rule is round-off",
+        .statement =
+            "the energy error of symplectic Euler is bounded, that of the midpoint rule is round-off",
         .arguments = "scheme=symplectic-euler,midpoint dt=0.1,0.06,0.02 until=60 show=energy",
     },
 };
@@ -488,8 +501,9 @@ static const struct gm_figure figures[] = {
 const struct gm_scene gm_scene_disc = {
     .name = "disc",
     .title = "A disc of initial conditions",
-    .blurb = "A disc in the phase plane of an oscillator or a pendulum, carried by a scheme. The exact flow keeps "
-             "its area (Liouville); a symplectic scheme does so too, whatever its step.",
+    .blurb =
+        "A disc in the phase plane of an oscillator or a pendulum, carried by a scheme. The exact flow keeps "
+        "its area (Liouville); a symplectic scheme does so too, whatever its step.",
     .watch = "Watch the area: a symplectic map may shear the disc, but it never grows.",
     .size = sizeof(struct disc),
     .parameters = parameters,

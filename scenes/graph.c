@@ -149,8 +149,8 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
 {
     const struct gm_scene *scene = lanes[0]->scene;
     const size_t series = series_of(scene, graph->observable);
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH,
-                                          graph->title ? graph->title : scene->observables[series].title);
+    struct gm_panel *panel =
+        gm_panel_add(picture, GM_PLACE_GRAPH, graph->title ? graph->title : scene->observables[series].title);
     panel->axes = true;
     panel->title_role = GM_INK;
     time_axis(&panel->x, lanes, count);

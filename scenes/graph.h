@@ -24,10 +24,10 @@ size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count);
 
 /* How an observable is drawn over time. */
 struct gm_graph {
-    const char *observable; /* its key */
-    const char *title;      /* NULL: the observable's */
-    bool relative;          /* divided by its value at the start */
-    enum gm_scale scale;    /* GM_LOG: zeros are gaps; a round-off line where the range comes near it */
+    const char *observable;     /* its key */
+    const char *title;          /* NULL: the observable's */
+    bool relative;              /* divided by its value at the start */
+    enum gm_scale scale;        /* GM_LOG: zeros are gaps; a round-off line where the range comes near it */
     double calm_low, calm_high; /* the range shown at least; equal: none */
 };
 

@@ -8,13 +8,16 @@
 /* The past of a few observables in bounded memory: bins of equally many steps keep the least and the
    greatest value of each; when the bins are full, pairs are merged. */
 
-struct gm_bin { double t; /* of the bin's last sample */ double low, high, last; };
+struct gm_bin {
+    double t; /* of the bin's last sample */
+    double low, high, last;
+};
 
 struct gm_history {
-    size_t series;     /* number of observables */
-    size_t count;      /* bins in use; the last one may still be filling */
-    long per_bin;      /* samples a full bin holds */
-    long in_last;      /* samples in the last bin */
+    size_t series;       /* number of observables */
+    size_t count;        /* bins in use; the last one may still be filling */
+    long per_bin;        /* samples a full bin holds */
+    long in_last;        /* samples in the last bin */
     struct gm_bin *bins; /* [bin * series + observable] */
 };
 

@@ -13,9 +13,15 @@ static const struct gm_scene *const scenes[] = {
 #undef GM_SCENE
 };
 
-size_t gm_scene_count(void) { return sizeof scenes / sizeof scenes[0]; }
+size_t gm_scene_count(void)
+{
+    return sizeof scenes / sizeof scenes[0];
+}
 
-const struct gm_scene *gm_scene_at(size_t index) { return scenes[index]; }
+const struct gm_scene *gm_scene_at(size_t index)
+{
+    return scenes[index];
+}
 
 const struct gm_scene *gm_scene_find(const char *name)
 {

@@ -12,7 +12,8 @@
 #include "core/families/implicit_runge_kutta.h"
 #include "core/families/splitting.h"
 
-static void every_row_holds(void **unused) {
+static void every_row_holds(void **unused)
+{
     (void)unused;
     assert_true(gm_scheme_count() >= 11);
     for (size_t i = 0; i < gm_scheme_count(); i++) {
@@ -23,14 +24,16 @@ static void every_row_holds(void **unused) {
     }
 }
 
-static struct gm_scheme changed(const char *name) {
+static struct gm_scheme changed(const char *name)
+{
     const struct gm_scheme *scheme = gm_scheme_find(name);
     assert_non_null(scheme);
     return *scheme;
 }
 
 /* The half and the whole of Verlet exchanged. */
-static void verlet_with_halves_exchanged(void **unused) {
+static void verlet_with_halves_exchanged(void **unused)
+{
     (void)unused;
     static const struct gm_splitting exchanged = {3, {{GM_KICK, 1}, {GM_DRIFT, 0.5}, {GM_KICK, 1}}};
     struct gm_scheme wrong = changed("verlet");
@@ -41,14 +44,16 @@ static void verlet_with_halves_exchanged(void **unused) {
     assert_true(certificate.claims[0].holds); /* any composition of shears is symplectic */
 }
 
-static void order_that_is_not_reached(void **unused) {
+static void order_that_is_not_reached(void **unused)
+{
     (void)unused;
     struct gm_scheme wrong = changed("rk4");
     wrong.order = 5;
     assert_false(gm_certify(&wrong).holds);
 }
 
-static void symplecticity_that_is_false(void **unused) {
+static void symplecticity_that_is_false(void **unused)
+{
     (void)unused;
     const char *const names[] = {"explicit-euler", "implicit-euler", "trapezoidal", "rk2", "rk4"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -62,7 +67,8 @@ static void symplecticity_that_is_false(void **unused) {
 }
 
 /* One claim too many, each on a scheme that has not the property. */
-static void properties_that_are_false(void **unused) {
+static void properties_that_are_false(void **unused)
+{
     (void)unused;
     const struct {
         const char *scheme;
@@ -80,7 +86,8 @@ static void properties_that_are_false(void **unused) {
 }
 
 /* A claim that no problem here can measure is no claim. */
-static void what_cannot_be_measured(void **unused) {
+static void what_cannot_be_measured(void **unused)
+{
     (void)unused;
     struct gm_scheme wrong = changed("verlet");
     wrong.claims |= GM_MULTISYMPLECTIC;
@@ -90,7 +97,8 @@ static void what_cannot_be_measured(void **unused) {
 }
 
 /* b with 2^(1/2) for 2^(1/3), as printed: symplectic still, but of order 2. */
-static void the_misprint_of_rk4sym(void **unused) {
+static void the_misprint_of_rk4sym(void **unused)
+{
     (void)unused;
     const double root = sqrt(2), b = (2 + root + 1 / root) / 3;
     const struct gm_implicit_row misprint = {
@@ -105,7 +113,8 @@ static void the_misprint_of_rk4sym(void **unused) {
 }
 
 /* A wrong digit in Gauss' tableau costs the order or the symplecticity. */
-static void a_wrong_digit_of_gauss4(void **unused) {
+static void a_wrong_digit_of_gauss4(void **unused)
+{
     (void)unused;
     const struct gm_implicit_row *right = gm_scheme_find("gauss4")->coefficients;
     struct gm_implicit_row digit = *right;
@@ -115,7 +124,8 @@ static void a_wrong_digit_of_gauss4(void **unused) {
     assert_false(gm_certify(&wrong).holds);
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_row_holds),           cmocka_unit_test(verlet_with_halves_exchanged),
         cmocka_unit_test(order_that_is_not_reached), cmocka_unit_test(symplecticity_that_is_false),

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Golden pictures: pictures as text, compared word by word and number by number (to 1e-6 of a range of about one;
-   pixels change with the version of Mesa, this does not).
-       golden FILE SCENE [key=value ...]            compares with FILE
-       golden --write FILE SCENE [key=value ...]    writes FILE */
+/* Golden pictures: pictures as text, compared word by word and number by number (to 1e-6 of a range of about
+   one; pixels change with the version of Mesa, this does not). golden FILE SCENE [key=value ...] compares
+   with FILE golden --write FILE SCENE [key=value ...]    writes FILE */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -45,7 +44,8 @@ static char *draw(int count, char *words[])
     return text;
 }
 
-/* Whether two words agree: the same text, or numbers close to each other. Numbers at round-off agree as such. */
+/* Whether two words agree: the same text, or numbers close to each other. Numbers at round-off agree as such.
+ */
 static int agree(const char *a, const char *b)
 {
     char *a_end = NULL, *b_end = NULL;

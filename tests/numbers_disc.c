@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The disc's numbers: area after a turn, energy errors at t = 5 and over t = 60, for the steps that Razafindralandy,
-   Hamdouni & Chhay (2018) use; each to the digits given. */
+/* The disc's numbers: area after a turn, energy errors at t = 5 and over t = 60, for the steps that
+   Razafindralandy, Hamdouni & Chhay (2018) use; each to the digits given. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -46,7 +46,9 @@ static void area_after_a_turn(void **unused)
             const double before = test_observed(lane, "area");
             assert_int_equal(gm_run_advance(lane->run, 2L * parts[k]), GM_OK);
             /* half a unit of the last digit given, of which there are at least four */
-            const double relative = table[i].ratio[k] == 1 ? 1e-13 : fabs(table[i].ratio[k] - 1) < 1e-5 ? 1e-8 : 5e-5;
+            const double relative = table[i].ratio[k] == 1               ? 1e-13
+                                    : fabs(table[i].ratio[k] - 1) < 1e-5 ? 1e-8
+                                                                         : 5e-5;
             expect(words, test_observed(lane, "area") / before, table[i].ratio[k], relative);
             gm_lane_close(lane);
         }
@@ -57,7 +59,8 @@ static void area_after_a_turn(void **unused)
 static double energy_error(const char *scheme, double dt, double until, bool largest)
 {
     char words[128];
-    snprintf(words, sizeof words, "disc points=3 scheme=%s dt=%g until=%g compensated=yes", scheme, dt, until);
+    snprintf(words, sizeof words, "disc points=3 scheme=%s dt=%g until=%g compensated=yes", scheme, dt,
+             until);
     struct gm_lane *lane = test_lane(words);
     double most = 0;
     for (long n = 0; n < lround(until / dt); n++) {

@@ -35,8 +35,9 @@ static unsigned char *paint(struct gm_picture *picture, const char *backend, int
     char message[GM_MESSAGE_SIZE] = "";
     setenv("GEOMINT_GL", backend, 1);
     struct gm_canvas *canvas = gm_canvas_open(width, height, GM_THEME_DARK, message);
-    if (canvas == NULL)
+    if (canvas == NULL) {
         fail_msg("%s", message);
+    }
     unsigned char *rgb = malloc((size_t)width * (size_t)height * 3);
     assert_non_null(rgb);
     assert_true(gm_canvas_paint(canvas, picture, rgb));
@@ -71,16 +72,18 @@ static double share_of(struct gm_rgb seen, enum gm_role role)
 static double ink_of_column(const unsigned char *rgb, int x, int top, int bottom, enum gm_role role)
 {
     double sum = 0.0;
-    for (int y = top; y < bottom; y++)
+    for (int y = top; y < bottom; y++) {
         sum += share_of(pixel(rgb, x, y), role);
+    }
     return sum;
 }
 
 static double ink_of_all(const unsigned char *rgb, enum gm_role role)
 {
     double sum = 0.0;
-    for (int x = 0; x < WIDTH; x++)
+    for (int x = 0; x < WIDTH; x++) {
         sum += ink_of_column(rgb, x, 0, HEIGHT, role);
+    }
     return sum;
 }
 
@@ -104,8 +107,9 @@ static void strokes_have_their_width_colour_and_place(void **state)
             ink[k] = ink_of_column(rgb, WIDTH / 2, 0, HEIGHT, GM_INITIAL);
             /* In the middle of the surface there is the line's own colour, and it is level. */
             int row = 0;
-            while (row < HEIGHT && share_of(pixel(rgb, WIDTH / 2, row), GM_INITIAL) < 0.99)
+            while (row < HEIGHT && share_of(pixel(rgb, WIDTH / 2, row), GM_INITIAL) < 0.99) {
                 row++;
+            }
             assert_in_range(row, HEIGHT / 2 - 20, HEIGHT / 2 + 20);
             assert_true(distance(pixel(rgb, WIDTH / 2, row), role_colour(GM_INITIAL)) <= 3);
             assert_true(distance(pixel(rgb, WIDTH / 4, row), role_colour(GM_INITIAL)) <= 3);
@@ -196,8 +200,9 @@ static void polygons_are_even_odd(void **state)
         unsigned char *rgb = paint(picture, backends[b], WIDTH, HEIGHT);
         assert_int_equal(distance(pixel(rgb, WIDTH / 2, HEIGHT / 2), role_colour(GM_PAPER)), 0);
         int filled = 0; /* the upper ray, above the middle */
-        for (int y = 0; y < HEIGHT / 2; y++)
+        for (int y = 0; y < HEIGHT / 2; y++) {
             filled += distance(pixel(rgb, WIDTH / 2, y), role_colour(GM_LANE)) <= 3;
+        }
         assert_true(filled > 50);
         free(rgb);
         gm_picture_close(picture);
@@ -220,8 +225,9 @@ static void translucent_lines_have_no_knots(void **state)
                      false);
         unsigned char *rgb = paint(picture, "osmesa", WIDTH, HEIGHT);
         double most = 0.0;
-        for (int i = 0; i < WIDTH * HEIGHT; i++)
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
             most = fmax(most, share_of(pixel(rgb, i % WIDTH, i / WIDTH), GM_INK));
+        }
         assert_true(most > 0.38 && most < 0.42);
         free(rgb);
         gm_picture_close(picture);
@@ -240,12 +246,14 @@ static void dashes_leave_out_what_they_say(void **state)
                      (const double[]){-1, 0, 1, 0}, 2, false);
         unsigned char *rgb = paint(picture, "osmesa", WIDTH, HEIGHT);
         inks[dash] = ink_of_all(rgb, GM_INK);
-        while (dash == GM_SOLID && row < HEIGHT - 2 && share_of(pixel(rgb, WIDTH / 2, row), GM_INK) < 0.9)
+        while (dash == GM_SOLID && row < HEIGHT - 2 && share_of(pixel(rgb, WIDTH / 2, row), GM_INK) < 0.9) {
             row++;
+        }
         gaps[dash] = 0;
-        for (int x = 60; x < WIDTH - 60; x++)
+        for (int x = 60; x < WIDTH - 60; x++) {
             gaps[dash] += share_of(pixel(rgb, x, row + 1), GM_INK) < 0.5 &&
                           share_of(pixel(rgb, x - 1, row + 1), GM_INK) >= 0.5;
+        }
         free(rgb);
         gm_picture_close(picture);
     }
@@ -285,12 +293,13 @@ static void fields_are_mapped_at_every_pixel(void **state)
         for (int image = 0; image < 2; image++) {
             struct gm_panel *panel;
             struct gm_picture *picture = plain_picture(&panel);
-            if (image)
+            if (image) {
                 gm_mark_image(picture, panel, GM_MAP_SEQUENTIAL, 0, 1, (const double[]){-1, -1, 1, 1},
                               (const double[]){-0.5, 1.5}, 1, 2);
-            else
+            } else {
                 gm_mark_mesh(picture, panel, GM_MAP_SEQUENTIAL, 0, 1, corners, values, 4,
                              (const int[]){0, 1, 2, 0, 2, 3}, 2);
+            }
             unsigned char *rgb = paint(picture, backends[b], WIDTH, HEIGHT);
             /* Half way it has the map's middle colour, not the mean of its ends. */
             const struct gm_rgb middle = gm_map_colour(GM_MAP_SEQUENTIAL, GM_THEME_DARK, 0.5);
@@ -339,8 +348,9 @@ static void both_contexts_paint_the_same(void **state)
     (void)state;
     struct gm_picture *picture = full_picture();
     unsigned char *painted[BACKENDS];
-    for (int b = 0; b < BACKENDS; b++)
+    for (int b = 0; b < BACKENDS; b++) {
         painted[b] = paint(picture, backends[b], WIDTH, HEIGHT);
+    }
     long different = 0, inked = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const struct gm_rgb a = pixel(painted[0], i % WIDTH, i / WIDTH),
@@ -350,8 +360,9 @@ static void both_contexts_paint_the_same(void **state)
     }
     assert_true(inked > WIDTH * HEIGHT / 50);
     assert_true(different < inked / 200);
-    for (int b = 0; b < BACKENDS; b++)
+    for (int b = 0; b < BACKENDS; b++) {
         free(painted[b]);
+    }
     gm_picture_close(picture);
 }
 

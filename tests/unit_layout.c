@@ -15,8 +15,9 @@ static double measure(const void *self, enum gm_text_size size, const char *text
 {
     const struct gm_metrics *metrics = self;
     size_t letters = 0;
-    for (; *text != '\0'; text++)
+    for (; *text != '\0'; text++) {
         letters += ((unsigned char)*text & 0xc0) != 0x80;
+    }
     return 0.6 / 1.17 * metrics->line[size] * (double)letters;
 }
 
@@ -26,8 +27,9 @@ static struct gm_metrics metrics_of(double width, double height)
     struct gm_metrics metrics = {.width = width, .height = height, .measure = measure};
     metrics.scale = fmin(height / 720.0, width / 960.0);
     metrics.terse = height < 540.0;
-    for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++)
+    for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++) {
         metrics.line[i] = 1.17 * fmax(9.0, 720.0 * metrics.scale * shares[i]);
+    }
     return metrics;
 }
 
@@ -65,8 +67,9 @@ static struct gm_picture *picture_of(size_t states, size_t graphs, bool axes, bo
 static struct gm_box label_box(const struct gm_metrics *metrics, const struct gm_label *label)
 {
     const double width = measure(metrics, label->size, label->text), line = metrics->line[label->size];
-    if (label->vertical)
+    if (label->vertical) {
         return (struct gm_box){label->x, label->y - 0.5 * width, line, width};
+    }
     const double share = label->anchor == GM_ANCHOR_LEFT     ? 0.0
                          : label->anchor == GM_ANCHOR_CENTRE ? 0.5
                                                              : 1.0;
@@ -95,20 +98,24 @@ static void check_layout(struct gm_picture *picture, struct gm_metrics *metrics)
     for (size_t i = 0; i < layout->label_count; i++) {
         const struct gm_box box = label_box(metrics, &layout->labels[i]);
         assert_true(within(metrics, box));
-        for (size_t k = 0; k < i; k++)
+        for (size_t k = 0; k < i; k++) {
             assert_true(apart(box, label_box(metrics, &layout->labels[k])));
+        }
     }
     for (size_t i = 0; i < layout->frame_count; i++) {
         const struct gm_frame *frame = &layout->frames[i];
         assert_true(within(metrics, frame->box));
         assert_true(frame->x_tick_count <= 6 && frame->y_tick_count <= 6);
-        for (size_t k = 0; k < i; k++)
+        for (size_t k = 0; k < i; k++) {
             assert_true(apart(frame->box, layout->frames[k].box));
+        }
         /* No label but its own colour bar's stands on the data. */
-        for (size_t k = 0; k < layout->label_count; k++)
+        for (size_t k = 0; k < layout->label_count; k++) {
             assert_true(apart(frame->box, label_box(metrics, &layout->labels[k])));
-        if (frame->panel->equal)
+        }
+        if (frame->panel->equal) {
             assert_true(fabs(frame->x_factor + frame->y_factor) <= 1e-9 * fabs(frame->x_factor));
+        }
     }
 }
 
@@ -134,9 +141,11 @@ static void labels_never_overlap_nor_leave(void **state)
 
 static const struct gm_label *find_label(const struct gm_layout *layout, const char *text)
 {
-    for (size_t i = 0; i < layout->label_count; i++)
-        if (strstr(layout->labels[i].text, text) != NULL)
+    for (size_t i = 0; i < layout->label_count; i++) {
+        if (strstr(layout->labels[i].text, text) != NULL) {
             return &layout->labels[i];
+        }
+    }
     return NULL;
 }
 
@@ -169,8 +178,9 @@ static void a_usual_picture_has_all_its_texts(void **state)
     assert_true(frames[0].x_factor == frames[3].x_factor);
     assert_true(frames[4].box.x == frames[5].box.x && frames[4].box.width == frames[5].box.width);
     assert_true(frames[4].box.x > frames[1].box.x + frames[1].box.width);
-    for (int i = 4; i < 6; i++)
+    for (int i = 4; i < 6; i++) {
         assert_true(frames[i].x_tick_count >= 3 && frames[i].y_tick_count >= 3);
+    }
     gm_picture_close(picture);
 }
 
@@ -216,8 +226,9 @@ static void coordinates_follow_the_axes(void **state)
     assert_float_equal(gm_frame_y(state_frame, -1.5), state_frame->box.y + state_frame->box.height, 1e-6);
     assert_float_equal(gm_frame_y(graph, 10), graph->box.y, 1e-6);
     assert_float_equal(gm_frame_y(graph, 1e-16), graph->box.y + graph->box.height, 1e-6);
-    for (size_t i = 0; i < graph->y_tick_count; i++)
+    for (size_t i = 0; i < graph->y_tick_count; i++) {
         assert_float_equal(gm_frame_y(graph, graph->y_ticks[i].value), graph->y_ticks[i].position, 1e-6);
+    }
     gm_picture_close(picture);
 }
 

@@ -17,8 +17,9 @@ static const struct gm_style line_style = {GM_LANE + 1, 0.5, 2.4, GM_LONG_DASH};
 static size_t marks_of(const struct gm_panel *panel)
 {
     size_t count = 0;
-    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next)
+    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
         count++;
+    }
     return count;
 }
 
@@ -75,8 +76,9 @@ static void nothing_undrawable_reaches_painters(void **state)
         gm_mark_mesh(picture, panel, GM_MAP_SEQUENTIAL, 0, 0, points, values, 4, triangles, 5);
     assert_int_equal(mesh->triangle_count, 1); /* the last; the others lack a place, a value or a vertex */
     assert_true(mesh->high > mesh->low);
-    for (size_t i = 0; i < 4; i++)
+    for (size_t i = 0; i < 4; i++) {
         assert_true(isfinite(mesh->values[i]) && isfinite(mesh->points[2 * i + 1]));
+    }
     const struct gm_mark *image =
         gm_mark_image(picture, panel, GM_MAP_DIVERGING, -1, 1, (const double[]){0, 0, 1, 1}, values, 2, 2);
     assert_true(image->values[2] == -1.0);
@@ -154,8 +156,9 @@ static void level_lines_are_whole_and_in_place(void **state)
             points[2 * v] = 2.0 * column / CELLS - 1.0;
             points[2 * v + 1] = 2.0 * row / CELLS - 1.0;
             values[v] = hypot(points[2 * v], points[2 * v + 1]);
-            if (row == CELLS || column == CELLS)
+            if (row == CELLS || column == CELLS) {
                 continue;
+            }
             const int cell[6] = {v, v + 1, v + CELLS + 1, v + 1, v + CELLS + 2, v + CELLS + 1};
             memcpy(triangles + 3 * triangle_count, cell, sizeof cell);
             triangle_count += 2;
@@ -176,9 +179,10 @@ static void level_lines_are_whole_and_in_place(void **state)
         assert_int_equal(marks_of(panel), expected[i].lines);
         for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
             assert_int_equal(mark->closed, expected[i].closed);
-            for (size_t k = 0; k < mark->count; k++)
+            for (size_t k = 0; k < mark->count; k++) {
                 assert_float_equal(hypot(mark->points[2 * k], mark->points[2 * k + 1]), expected[i].level,
                                    0.01);
+            }
         }
     }
     gm_picture_close(picture);

@@ -83,8 +83,9 @@ static double difference(struct lab p, struct lab q)
     const double dl = q.l - p.l, dc = c2 - c1, dh = 2.0 * sqrt(c1 * c2) * sin(radians(0.5 * turn));
     const double l = 0.5 * (p.l + q.l), c = 0.5 * (c1 + c2);
     double h = h1 + h2;
-    if (c1 * c2 != 0.0)
+    if (c1 * c2 != 0.0) {
         h = fabs(h1 - h2) <= 180.0 ? 0.5 * h : h < 360.0 ? 0.5 * (h + 360.0) : 0.5 * (h - 360.0);
+    }
     const double t = 1.0 - 0.17 * cos(radians(h - 30.0)) + 0.24 * cos(radians(2.0 * h)) +
                      0.32 * cos(radians(3.0 * h + 6.0)) - 0.20 * cos(radians(4.0 * h - 63.0));
     const double turned = 30.0 * exp(-pow((h - 275.0) / 25.0, 2.0)), m7 = pow(c, 7.0);
@@ -108,16 +109,18 @@ static void the_difference_is_that_of_the_published_pairs(void **state)
         {{22.7233, 20.0904, -46.6940}, {23.0331, 14.9730, -42.5619}, 2.0373},
         {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082},
     };
-    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         assert_float_equal(difference(pairs[i].p, pairs[i].q), pairs[i].expected, 1e-4);
+    }
 }
 
 static double contrast(struct gm_rgb colour, struct gm_rgb paper)
 {
     double y[2];
     const struct gm_rgb both[2] = {colour, paper};
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
         y[i] = 0.2126 * linear_of(both[i].r) + 0.7152 * linear_of(both[i].g) + 0.0722 * linear_of(both[i].b);
+    }
     return (fmax(y[0], y[1]) + 0.05) / (fmin(y[0], y[1]) + 0.05);
 }
 

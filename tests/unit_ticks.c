@@ -22,8 +22,9 @@ static const char *labels(enum gm_scale scale, double low, double high, size_t m
     double values[GM_TICK_MAX];
     const size_t count = gm_ticks(&axis, max, values);
     double step = 0.0;
-    if (count > 1)
+    if (count > 1) {
         step = scale == GM_LOG ? log10(values[1] / values[0]) : values[1] - values[0];
+    }
     all[0] = '\0';
     for (size_t i = 0; i < count; i++) {
         char text[64];
@@ -123,8 +124,9 @@ static void odd_ranges_do_no_harm(void **state)
             double values[GM_TICK_MAX];
             const size_t count = gm_ticks(&axis, max, values);
             assert_true(count <= max && count <= GM_TICK_MAX);
-            for (size_t k = 0; k < count; k++)
+            for (size_t k = 0; k < count; k++) {
                 assert_true(isfinite(values[k]));
+            }
         }
     }
     char text[4] = "";

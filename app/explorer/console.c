@@ -60,7 +60,8 @@ enum {
     LEAVE_COUNT = sizeof leave_signals / sizeof *leave_signals,
     CRASH_COUNT = sizeof crash_signals / sizeof *crash_signals,
 };
-static struct sigaction leave_before[LEAVE_COUNT], crash_before[CRASH_COUNT], resize_before, stop_before, pipe_before;
+static struct sigaction leave_before[LEAVE_COUNT], crash_before[CRASH_COUNT], resize_before, stop_before,
+    pipe_before;
 
 /* The process is lost; the shell behind it must not be. */
 static void on_crash(int number)
@@ -216,7 +217,10 @@ int gm_console_key(void)
     return key == ERR ? -1 : key;
 }
 
-int gm_console_leaving(void) { return leaving; }
+int gm_console_leaving(void)
+{
+    return leaving;
+}
 
 bool gm_console_resized(void)
 {

@@ -4,11 +4,11 @@
 
 #include <stdbool.h>
 
-/* The terminal as a device: taken over by ncurses at the start, given back on every way out, its keys and signals
-   read. */
+/* The terminal as a device: taken over by ncurses at the start, given back on every way out, its keys and
+   signals read. */
 
-/* Takes the terminal over. `wake` is an eventfd that signals are announced on. False with a sentence (GM_MESSAGE
-   bytes). */
+/* Takes the terminal over. `wake` is an eventfd that signals are announced on. False with a sentence
+   (GM_MESSAGE bytes). */
 bool gm_console_open(int wake, char *message);
 /* Gives it back. Harmless if it was given back before. */
 void gm_console_close(void);

@@ -23,13 +23,13 @@ struct explorer {
     struct gm_face face;
     struct gm_screen screen;
     struct gm_writer writer;
-    int wake; /* the worker's shots and all signals are announced here */
+    int wake;                 /* the worker's shots and all signals are announced here */
     struct gm_worker *worker; /* NULL: the list of scenes is shown */
     struct gm_shot *shot;
-    size_t choice; /* in the list of scenes */
-    bool dirty;    /* the screen has to be composed again */
-    bool fresh;    /* with a new picture */
-    bool asked;    /* for a shot */
+    size_t choice;     /* in the list of scenes */
+    bool dirty;        /* the screen has to be composed again */
+    bool fresh;        /* with a new picture */
+    bool asked;        /* for a shot */
     int64_t next_shot; /* in milliseconds: no shot is asked for earlier */
     bool leave;
     int status;
@@ -51,8 +51,7 @@ static void leave(struct explorer *explorer, int status)
 
 static bool open_scene(struct explorer *explorer, const struct gm_request *request)
 {
-    explorer->worker =
-        gm_worker_open(request, explorer->terminal.theme, explorer->wake, explorer->message);
+    explorer->worker = gm_worker_open(request, explorer->terminal.theme, explorer->wake, explorer->message);
     explorer->asked = true; /* a new worker owes its first shot */
     explorer->next_shot = 0;
     return explorer->worker != NULL;
@@ -186,8 +185,8 @@ static void draw(struct explorer *explorer)
     gm_writer_draw(&explorer->writer, &explorer->screen.cells);
 }
 
-/* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to wait for
-   input, in milliseconds; -1: as long as it takes. */
+/* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to
+   wait for input, in milliseconds; -1: as long as it takes. */
 static int output(struct explorer *explorer)
 {
     if (gm_writer_idle(&explorer->writer) && explorer->dirty)
@@ -213,7 +212,8 @@ static void run(struct explorer *explorer)
         struct pollfd watched[COUNT] = {
             [KEYS] = {.fd = STDIN_FILENO, .events = POLLIN},
             [NEWS] = {.fd = explorer->wake, .events = POLLIN},
-            [SCREEN] = {.fd = gm_writer_idle(&explorer->writer) ? -1 : explorer->writer.fd, .events = POLLOUT},
+            [SCREEN] = {.fd = gm_writer_idle(&explorer->writer) ? -1 : explorer->writer.fd,
+                        .events = POLLOUT},
         };
         if (explorer->leave)
             break;
@@ -262,7 +262,8 @@ int gm_explorer(const struct gm_request *request)
     if (explorer.wake >= 0)
         close(explorer.wake);
     if (!ok || explorer.status == GM_EXIT_USAGE) {
-        fprintf(stderr, "geomint: %s\n", explorer.message[0] ? explorer.message : "There is not enough memory.");
+        fprintf(stderr, "geomint: %s\n",
+                explorer.message[0] ? explorer.message : "There is not enough memory.");
         return GM_EXIT_USAGE;
     }
     if (number != 0 && number != SIGINT) {

@@ -4,8 +4,8 @@
 
 #include "app/request.h"
 
-/* The interactive explorer. A request without a scene (or NULL) begins with the list of scenes. Returns an exit
-   status; a signal that asks to leave ends the process as that signal does, the terminal restored. */
+/* The interactive explorer. A request without a scene (or NULL) begins with the list of scenes. Returns an
+   exit status; a signal that asks to leave ends the process as that signal does, the terminal restored. */
 int gm_explorer(const struct gm_request *request);
 
 #endif

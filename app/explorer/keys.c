@@ -5,9 +5,15 @@
 
 enum { ESCAPE = 27, REDRAW = 'L' - '@', PAGE = 10 };
 
-static bool is_enter(int key) { return key == '\n' || key == '\r' || key == KEY_ENTER; }
+static bool is_enter(int key)
+{
+    return key == '\n' || key == '\r' || key == KEY_ENTER;
+}
 
-static bool is_erase(int key) { return key == KEY_BACKSPACE || key == 127 || key == 8; }
+static bool is_erase(int key)
+{
+    return key == KEY_BACKSPACE || key == 127 || key == 8;
+}
 
 static enum gm_key_result press_in_help(int key, struct gm_face *face)
 {
@@ -59,7 +65,8 @@ static enum gm_key_result press_in_chooser(int key, struct gm_face *face, const 
     if (key == 'q')
         return GM_KEY_LEAVE;
     if (is_enter(key) && face->choice < count) {
-        gm_worker_order(worker, (struct gm_order){.kind = GM_ORDER_SWITCH, .scheme = shot->schemes[face->choice]});
+        gm_worker_order(worker,
+                        (struct gm_order){.kind = GM_ORDER_SWITCH, .scheme = shot->schemes[face->choice]});
         face->choosing = false;
         return GM_KEY_ORDER;
     }
@@ -102,8 +109,8 @@ static enum gm_key_result choose_parameter(struct gm_face *face, const struct gm
     return GM_KEY_FACE;
 }
 
-enum gm_key_result gm_key_press(int key, struct gm_face *face, const struct gm_shot *shot, struct gm_worker *worker,
-                                bool utf8)
+enum gm_key_result gm_key_press(int key, struct gm_face *face, const struct gm_shot *shot,
+                                struct gm_worker *worker, bool utf8)
 {
     face->read = shot->message_number;
     if (key == REDRAW)

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app/explorer/palette.h"
 
-static int distance(struct gm_rgb a, struct gm_rgb b) {
+static int distance(struct gm_rgb a, struct gm_rgb b)
+{
     int r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b;
     return 2 * r * r + 4 * g * g + 3 * blue * blue;
 }
 
-/* Distance that counts a shift of hue four times as much as one of brightness: otherwise every faded colour would end
-   among the greys. */
+/* Distance that counts a shift of hue four times as much as one of brightness: otherwise every faded colour
+   would end among the greys. */
 static int shift(struct gm_rgb a, struct gm_rgb b)
 {
     int r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b, light = (2 * r + 5 * g + blue) / 8;
@@ -42,7 +43,8 @@ static const struct gm_rgb sixteen[16] = {
     {92, 92, 255}, {255, 0, 255},   {0, 255, 255},   {255, 255, 255},
 };
 
-static int nearest_16(struct gm_rgb colour) {
+static int nearest_16(struct gm_rgb colour)
+{
     int best = 0;
     for (int i = 1; i < 16; i++) {
         if (distance(colour, sixteen[i]) < distance(colour, sixteen[best]))
@@ -79,21 +81,24 @@ static const uint8_t roles[GM_THEME_COUNT][GM_ROLE_COUNT][2] = {
                         [GM_LANE + 5] = {0, 8}},
 };
 
-int gm_palette_16(enum gm_theme theme, struct gm_rgb colour, enum gm_role role) {
+int gm_palette_16(enum gm_theme theme, struct gm_rgb colour, enum gm_role role)
+{
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
     /* distances are squares: below a third of the square is below .58 of the way */
     bool faded = 3 * distance(colour, paper) < distance(gm_theme_colour(theme, role), paper);
     return roles[theme][role][faded];
 }
 
-int gm_palette_ground(enum gm_theme theme, struct gm_rgb colour) {
+int gm_palette_ground(enum gm_theme theme, struct gm_rgb colour)
+{
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
     if (distance(colour, paper) < 4000)
         return roles[theme][GM_PAPER][0];
     return nearest_16(colour);
 }
 
-bool gm_palette_is_ink(enum gm_theme theme, struct gm_rgb colour) {
+bool gm_palette_is_ink(enum gm_theme theme, struct gm_rgb colour)
+{
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER), ink = gm_theme_colour(theme, GM_INK);
     return 16 * distance(colour, paper) > distance(ink, paper);
 }

@@ -25,12 +25,12 @@ struct gm_past {
 void gm_past_limit(struct gm_past *past, size_t bound);
 void gm_past_close(struct gm_past *past);
 
-/* Keeps the lane as it is now, if it is far enough from the last snapshot; with `always` in any case, and in place of
-   one at the same step. */
+/* Keeps the lane as it is now, if it is far enough from the last snapshot; with `always` in any case, and in
+   place of one at the same step. */
 void gm_past_note(struct gm_past *past, const struct gm_lane *lane, bool always);
 
-/* Takes the lane back to the last snapshot at or before `steps`, and forgets all later ones. False if there is
-   none. */
+/* Takes the lane back to the last snapshot at or before `steps`, and forgets all later ones. False if there
+   is none. */
 bool gm_past_return(struct gm_past *past, struct gm_lane *lane, long steps);
 
 #endif

@@ -29,7 +29,8 @@ static void clear(struct gm_cells *cells, enum gm_theme theme)
         cells->cells[i] = blank;
 }
 
-int gm_sheet_text(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role, bool bold)
+int gm_sheet_text(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
+                  bool bold)
 {
     if (row < 0 || row >= sheet->height || column >= sheet->width)
         return 0;
@@ -42,12 +43,14 @@ int gm_sheet_width(const struct gm_sheet *sheet, const char *text)
     return gm_text_width(text, sheet->face->blocks == GM_ASCII);
 }
 
-void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role, bool bold)
+void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
+                    bool bold)
 {
     gm_sheet_text(sheet, column - gm_sheet_width(sheet, text), row, text, role, bold);
 }
 
-void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t glyph, enum gm_role role, bool bold)
+void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t glyph, enum gm_role role,
+                    bool bold)
 {
     if (column < 0 || row < 0 || column >= sheet->width || row >= sheet->height)
         return;
@@ -91,8 +94,8 @@ static int status_rows(const struct gm_cells *cells)
     return cells->rows >= SIDE_FROM_ROWS ? 2 : cells->rows >= 4 ? 1 : 0;
 }
 
-static void draw_picture(struct gm_screen *screen, const struct gm_face *face, const struct gm_shot *shot, int columns,
-                         int rows)
+static void draw_picture(struct gm_screen *screen, const struct gm_face *face, const struct gm_shot *shot,
+                         int columns, int rows)
 {
     if (!screen->fresh || screen->blocks != face->blocks || screen->picture.columns != columns ||
         screen->picture.rows != rows) {
@@ -105,7 +108,8 @@ static void draw_picture(struct gm_screen *screen, const struct gm_face *face, c
     }
     for (int row = 0; row < rows; row++)
         memcpy(&screen->cells.cells[(size_t)row * (size_t)screen->cells.columns],
-               &screen->picture.cells[(size_t)row * (size_t)columns], sizeof(struct gm_cell) * (size_t)columns);
+               &screen->picture.cells[(size_t)row * (size_t)columns],
+               sizeof(struct gm_cell) * (size_t)columns);
 }
 
 struct hint {
@@ -117,7 +121,8 @@ static int draw_hints(const struct gm_sheet *sheet, int from, const struct hint 
 {
     int widths = 0, count = 0;
     for (; hints[count].key; count++) {
-        int width = gm_sheet_width(sheet, hints[count].key) + 1 + gm_sheet_width(sheet, hints[count].word) + 3;
+        int width =
+            gm_sheet_width(sheet, hints[count].key) + 1 + gm_sheet_width(sheet, hints[count].word) + 3;
         if (from + widths + width > sheet->width)
             break;
         widths += width;
@@ -131,16 +136,16 @@ static int draw_hints(const struct gm_sheet *sheet, int from, const struct hint 
 }
 
 static const struct hint running_hints[] = {
-    {"?", "help"},    {"space", "pause"}, {"q", "quit"},      {"s", "scheme"}, {"c", "compare"},
-    {"←→", "change"}, {"r", "restart"},   {". ,", "step"},    {"[ ]", "speed"}, {"p", "save"},
+    {"?", "help"},    {"space", "pause"}, {"q", "quit"},   {"s", "scheme"},  {"c", "compare"},
+    {"←→", "change"}, {"r", "restart"},   {". ,", "step"}, {"[ ]", "speed"}, {"p", "save"},
     {"tab", "lane"},  {"b", "blocks"},    {NULL, NULL},
 };
 static const struct hint paused_hints[] = {
-    {"?", "help"},    {"space", "go on"}, {"q", "quit"},   {". ,", "step"}, {"s", "scheme"},
-    {"c", "compare"}, {"←→", "change"},   {"r", "restart"}, {"p", "save"},   {"tab", "lane"},
-    {"b", "blocks"},  {NULL, NULL},
+    {"?", "help"},    {"space", "go on"}, {"q", "quit"}, {". ,", "step"}, {"s", "scheme"}, {"c", "compare"},
+    {"←→", "change"}, {"r", "restart"},   {"p", "save"}, {"tab", "lane"}, {"b", "blocks"}, {NULL, NULL},
 };
-static const struct hint chooser_hints[] = {{"enter", "switch"}, {"↑↓", "choose"}, {"esc", "back"}, {NULL, NULL}};
+static const struct hint chooser_hints[] = {
+    {"enter", "switch"}, {"↑↓", "choose"}, {"esc", "back"}, {NULL, NULL}};
 static const struct hint help_hints[] = {{"?", "back"}, {"↑↓", "scroll"}, {"q", "quit"}, {NULL, NULL}};
 static const struct hint start_hints[] = {{"enter", "open"}, {"↑↓", "choose"}, {"q", "quit"}, {NULL, NULL}};
 
@@ -157,11 +162,14 @@ static void draw_rule(struct gm_screen *screen, const struct gm_face *face, int 
 static void speed_text(const struct gm_shot *shot, char *text, size_t size)
 {
     snprintf(text, size, "%s %g×%s", shot->paused ? "‖" : "▸", shot->speed,
-             shot->paused ? " paused" : shot->behind ? " late" : "");
+             shot->paused   ? " paused"
+             : shot->behind ? " late"
+                            : "");
 }
 
 /* The last row: what there is to say or to watch at the left, keys at the right. */
-static void draw_status(struct gm_screen *screen, const struct gm_face *face, const struct gm_shot *shot, int side)
+static void draw_status(struct gm_screen *screen, const struct gm_face *face, const struct gm_shot *shot,
+                        int side)
 {
     int rows = status_rows(&screen->cells), column = 1;
     if (rows == 0)
@@ -215,7 +223,8 @@ void gm_screen_draw(struct gm_screen *screen, struct gm_face *face, const struct
         if (below == 2)
             draw_rule(screen, face, 0);
         if (below > 0)
-            draw_hints(&(const struct gm_sheet){cells, face, 0, cells->rows - 1, cells->columns, 1}, 1, help_hints);
+            draw_hints(&(const struct gm_sheet){cells, face, 0, cells->rows - 1, cells->columns, 1}, 1,
+                       help_hints);
         return;
     }
     int side = side_columns(cells);
@@ -245,8 +254,8 @@ void gm_screen_draw_start(struct gm_screen *screen, const struct gm_face *face, 
     int at = 1;
     if (rows > 6) {
         gm_sheet_text(&sheet, 0, at, "geomint", GM_INK, true);
-        gm_sheet_text(&sheet, 9, at, "what a geometric integrator keeps, and an ordinary one loses", GM_SECONDARY,
-                      false);
+        gm_sheet_text(&sheet, 9, at, "what a geometric integrator keeps, and an ordinary one loses",
+                      GM_SECONDARY, false);
         at += 2;
     } else {
         at = 0;
@@ -269,5 +278,6 @@ void gm_screen_draw_start(struct gm_screen *screen, const struct gm_face *face, 
     if (below == 2)
         draw_rule(screen, face, 0);
     if (below > 0)
-        draw_hints(&(const struct gm_sheet){cells, face, 0, cells->rows - 1, cells->columns, 1}, 1, start_hints);
+        draw_hints(&(const struct gm_sheet){cells, face, 0, cells->rows - 1, cells->columns, 1}, 1,
+                   start_hints);
 }

@@ -5,19 +5,19 @@
 #include "app/explorer/shot.h"
 #include "render/cells.h"
 
-/* What is on the screen: the picture at the left, the side panel at the right, a status line below; or a page of
-   help. All of it is composed as cells; nothing here knows the terminal. */
+/* What is on the screen: the picture at the left, the side panel at the right, a status line below; or a page
+   of help. All of it is composed as cells; nothing here knows the terminal. */
 
 /* What the user has set about the screen itself. */
 struct gm_face {
     enum gm_blocks blocks;
     enum gm_theme theme;
     bool help;
-    int scroll;       /* lines of the help above the screen */
-    bool choosing;    /* a scheme for the selected lane */
-    size_t choice;    /* its number among the schemes that fit */
-    size_t parameter; /* the one that left and right change */
-    bool explaining;  /* the status line says what that parameter is */
+    int scroll;         /* lines of the help above the screen */
+    bool choosing;      /* a scheme for the selected lane */
+    size_t choice;      /* its number among the schemes that fit */
+    size_t parameter;   /* the one that left and right change */
+    bool explaining;    /* the status line says what that parameter is */
     unsigned long read; /* the last message that was seen and dismissed */
 };
 
@@ -47,10 +47,13 @@ struct gm_sheet {
 };
 
 /* Writes in the sheet's own coordinates and stays in it; returns the cells that the text takes. */
-int gm_sheet_text(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role, bool bold);
+int gm_sheet_text(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
+                  bool bold);
 /* The same, with the text's end at `column` (exclusive). */
-void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role, bool bold);
-void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t glyph, enum gm_role role, bool bold);
+void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
+                    bool bold);
+void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t glyph, enum gm_role role,
+                    bool bold);
 int gm_sheet_width(const struct gm_sheet *sheet, const char *text);
 
 void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot);

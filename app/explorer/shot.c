@@ -37,8 +37,8 @@ static void take_sparks(struct gm_shot_lane *shot, const struct gm_lane *lane, s
     }
 }
 
-static void take_parameter(struct gm_shot *shot, const struct gm_session *session, const struct gm_parameter *row,
-                           bool of_scheme)
+static void take_parameter(struct gm_shot *shot, const struct gm_session *session,
+                           const struct gm_parameter *row, bool of_scheme)
 {
     if (shot->parameter_count == GM_SHOT_PARAMETERS)
         return;

@@ -5,8 +5,8 @@
 #include "app/explorer/session.h"
 #include "app/explorer/slider.h"
 
-/* A finished look at a session: everything the screen shows, as a copy. The thread that steps fills one while the
-   screen shows another, so neither waits for the other. */
+/* A finished look at a session: everything the screen shows, as a copy. The thread that steps fills one while
+   the screen shows another, so neither waits for the other. */
 
 enum {
     GM_SHOT_OBSERVABLES = 24,

@@ -12,7 +12,10 @@ static const char *const dash_marks[GM_DASH_COUNT] = {
     [GM_DASH_DOT] = "━•━", [GM_SHORT_DASH] = "┅┅┅", [GM_DASH_DOT_DOT] = "━••",
 };
 
-static enum gm_role role_of(const struct gm_shot_lane *lane) { return gm_lane_role(lane->shown.colour); }
+static enum gm_role role_of(const struct gm_shot_lane *lane)
+{
+    return gm_lane_role(lane->shown.colour);
+}
 
 /* ---- sections ---- */
 
@@ -25,7 +28,10 @@ struct plan {
     bool more;
 };
 
-static int least(int a, int b) { return a < b ? a : b; }
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
 
 /* Shares the rows out: what must be seen first, then what is good to see, then air. */
 static struct plan make_plan(int rows, const struct gm_shot *shot)
@@ -90,12 +96,13 @@ static void claims_text(unsigned claims, unsigned columns, char *text, size_t si
     text[0] = '\0';
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT && at + 1 < size; bit++) {
         if (columns >> bit & 1)
-            at += (size_t)snprintf(text + at, size - at, "%s", claims >> bit & 1 ? gm_claim_letter(bit) : " ");
+            at +=
+                (size_t)snprintf(text + at, size - at, "%s", claims >> bit & 1 ? gm_claim_letter(bit) : " ");
     }
 }
 
-static void scheme_facts(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme, unsigned columns,
-                         enum gm_role role)
+static void scheme_facts(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme,
+                         unsigned columns, enum gm_role role)
 {
     char text[64], order[16];
     claims_text(scheme->claims, columns, text, sizeof text);
@@ -112,17 +119,18 @@ static int title_width(const struct gm_sheet *sheet, unsigned columns)
     return width;
 }
 
-static void scheme_title(const struct gm_sheet *sheet, int column, int row, const char *text, unsigned columns,
-                         enum gm_role role, bool bold)
+static void scheme_title(const struct gm_sheet *sheet, int column, int row, const char *text,
+                         unsigned columns, enum gm_role role, bool bold)
 {
-    const struct gm_sheet left = {sheet->cells, sheet->face, sheet->column, sheet->row, title_width(sheet, columns),
-                                  sheet->height};
+    const struct gm_sheet left = {
+        sheet->cells, sheet->face, sheet->column, sheet->row, title_width(sheet, columns), sheet->height};
     gm_sheet_text(&left, column, row, text, role, bold);
 }
 
 static void lane_name(const struct gm_shot_lane *lane, char *text, size_t size)
 {
-    const char *panel = lane->shown.panel_name, *colour = lane->shown.colour_name, *title = lane->scheme->title;
+    const char *panel = lane->shown.panel_name, *colour = lane->shown.colour_name,
+               *title = lane->scheme->title;
     if (strcmp(colour, title) == 0)
         colour = "";
     snprintf(text, size, "%s%s%s%s%s", title, panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
@@ -147,12 +155,14 @@ static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot
     gm_sheet_right(sheet, sheet->width, row, text, GM_INITIAL, true);
 }
 
-static int draw_schemes(const struct gm_sheet *sheet, int row, const struct gm_shot *shot, const struct plan *plan)
+static int draw_schemes(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
+                        const struct plan *plan)
 {
     unsigned columns = claims_here(shot);
     char text[64];
     heading(sheet, row, "SCHEMES");
-    gm_sheet_right(sheet, sheet->width, row, sheet->width > 34 ? "claims order" : "order", GM_SECONDARY, false);
+    gm_sheet_right(sheet, sheet->width, row, sheet->width > 34 ? "claims order" : "order", GM_SECONDARY,
+                   false);
     row++;
     for (size_t i = 0; i < shot->lane_count; i++)
         lane_row(sheet, row++, &shot->lanes[i], i == shot->selected, columns);
@@ -183,8 +193,14 @@ static void draw_slider(const struct gm_sheet *sheet, int from, int to, int row,
 {
     int at = from + (int)(position * (to - from - 1) + 0.5);
     for (int i = from; i < to; i++)
-        gm_sheet_glyph(sheet, i, row, i == at ? 0x25CF : i < at ? 0x2501 : 0x2500,
-                       chosen && i <= at ? GM_INK : i <= at ? GM_SECONDARY : GM_GRID, false);
+        gm_sheet_glyph(sheet, i, row,
+                       i == at  ? 0x25CF
+                       : i < at ? 0x2501
+                                : 0x2500,
+                       chosen && i <= at ? GM_INK
+                       : i <= at         ? GM_SECONDARY
+                                         : GM_GRID,
+                       false);
 }
 
 static void short_number(double value, char *text, size_t size)
@@ -240,7 +256,8 @@ static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm
     draw_slider(sheet, bar, end, row, parameter->position, chosen);
 }
 
-static int draw_parameters(const struct gm_sheet *sheet, int row, const struct gm_shot *shot, const struct plan *plan)
+static int draw_parameters(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
+                           const struct plan *plan)
 {
     int count = (int)shot->parameter_count, chosen = (int)sheet->face->parameter;
     if (plan->parameters <= 0)
@@ -302,7 +319,8 @@ static void draw_spark(const struct gm_sheet *sheet, int column, int row, const 
             double bottom = spark->low[2 * cell + half], top = spark->high[2 * cell + half];
             if (bottom > top || (logarithmic && top <= 0))
                 continue;
-            double from = spark_place(bottom, logarithmic, low, high), to = spark_place(top, logarithmic, low, high);
+            double from = spark_place(bottom, logarithmic, low, high),
+                   to = spark_place(top, logarithmic, low, high);
             int first = (int)(from * 3 + 0.5), last = (int)(to * 3 + 0.5);
             /* joined to the place before, so that a steep rise is a line and not two dots */
             if (before >= 0 && before + 1 < first)
@@ -339,7 +357,8 @@ static size_t first_column(const struct gm_shot *shot, size_t columns)
     return shot->selected - columns + 1;
 }
 
-static int draw_observables(const struct gm_sheet *sheet, int row, const struct gm_shot *shot, const struct plan *plan)
+static int draw_observables(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
+                            const struct plan *plan)
 {
     char text[64];
     int label = sheet->width >= 50 ? 14 : 13;
@@ -397,7 +416,8 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
     int rows = sheet->height > 16 ? sheet->height - 8 : sheet->height - 1;
     int first = (int)choice >= rows ? (int)choice - rows + 1 : 0;
     heading(sheet, row, "SWITCH TO");
-    gm_sheet_right(sheet, sheet->width, row++, sheet->width > 34 ? "claims order" : "order", GM_SECONDARY, false);
+    gm_sheet_right(sheet, sheet->width, row++, sheet->width > 34 ? "claims order" : "order", GM_SECONDARY,
+                   false);
     for (int i = first; i < count && i < first + rows; i++, row++) {
         enum gm_role role = i == (int)choice ? GM_INK : GM_SECONDARY;
         if (i == (int)choice)

@@ -12,6 +12,7 @@ enum { GM_VALUE_TEXT = 40 };
 double gm_slider_position(const struct gm_parameter *row, const void *owner);
 
 /* The next value up (direction > 0) or down, as it would be typed. False if there is none. */
-bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction, char text[GM_VALUE_TEXT]);
+bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction,
+                    char text[GM_VALUE_TEXT]);
 
 #endif

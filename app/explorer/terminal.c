@@ -21,17 +21,20 @@ static const char *const colours_names[] = {"none", "16", "256", "truecolor", NU
 static const char *const blocks_names[] = {"braille", "quadrants", "half", "ascii", NULL};
 static const char *const theme_names[] = {"light", "dark", NULL};
 
-const char *gm_blocks_name(enum gm_blocks blocks) {
+const char *gm_blocks_name(enum gm_blocks blocks)
+{
     return blocks_names[blocks];
 }
 
-static const char *environment(const char *name) {
+static const char *environment(const char *name)
+{
     const char *value = getenv(name);
     return value ? value : "";
 }
 
 /* The number of an override's value among its names; -1 if it is not set, -2 with a sentence if unknown. */
-static int override_of(const char *name, const char *const *names, char *message) {
+static int override_of(const char *name, const char *const *names, char *message)
+{
     const char *value = environment(name);
     if (!*value)
         return -1;
@@ -51,7 +54,8 @@ static int override_of(const char *name, const char *const *names, char *message
     return -2;
 }
 
-void gm_terminal_size(int *columns, int *rows) {
+void gm_terminal_size(int *columns, int *rows)
+{
     struct winsize size = {0};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) {
         size.ws_col = (unsigned short)strtoul(environment("COLUMNS"), NULL, 10);
@@ -61,7 +65,8 @@ void gm_terminal_size(int *columns, int *rows) {
     *rows = size.ws_row ? size.ws_row : 24;
 }
 
-static void look_at_terminfo(struct gm_terminal *terminal) {
+static void look_at_terminfo(struct gm_terminal *terminal)
+{
     int error;
     terminal->terminfo_colours = -1;
     if (!*terminal->name || setupterm(terminal->name, STDOUT_FILENO, &error) != OK)
@@ -72,7 +77,8 @@ static void look_at_terminfo(struct gm_terminal *terminal) {
     del_curterm(cur_term);
 }
 
-static bool decide_colours(struct gm_terminal *terminal, char *message) {
+static bool decide_colours(struct gm_terminal *terminal, char *message)
+{
     const char *said = environment("COLORTERM");
     bool says_true = strcasecmp(said, "truecolor") == 0 || strcasecmp(said, "24bit") == 0;
     int chosen = override_of("GEOMINT_COLOURS", colours_names, message);
@@ -102,7 +108,8 @@ static bool decide_colours(struct gm_terminal *terminal, char *message) {
     return true;
 }
 
-static bool decide_blocks(struct gm_terminal *terminal, char *message) {
+static bool decide_blocks(struct gm_terminal *terminal, char *message)
+{
     int chosen = override_of("GEOMINT_BLOCKS", blocks_names, message);
     if (chosen == -2)
         return false;
@@ -123,7 +130,8 @@ static bool decide_blocks(struct gm_terminal *terminal, char *message) {
     return true;
 }
 
-static bool decide_theme(struct gm_terminal *terminal, char *message) {
+static bool decide_theme(struct gm_terminal *terminal, char *message)
+{
     int chosen = override_of("GEOMINT_THEME", theme_names, message);
     if (chosen == -2)
         return false;
@@ -142,7 +150,8 @@ static bool decide_theme(struct gm_terminal *terminal, char *message) {
     return true;
 }
 
-bool gm_terminal_detect(struct gm_terminal *terminal, char *message) {
+bool gm_terminal_detect(struct gm_terminal *terminal, char *message)
+{
     *terminal = (struct gm_terminal){
         .name = environment("TERM"), .input = isatty(STDIN_FILENO), .output = isatty(STDOUT_FILENO)};
     /* Only the letters: numbers are read and written with a point everywhere. */
@@ -161,7 +170,8 @@ bool gm_terminal_detect(struct gm_terminal *terminal, char *message) {
            decide_theme(terminal, message);
 }
 
-bool gm_terminal_serves(const struct gm_terminal *terminal, char *message) {
+bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)
+{
     if (!terminal->input || !terminal->output)
         snprintf(
             message, GM_MESSAGE,
@@ -182,11 +192,13 @@ bool gm_terminal_serves(const struct gm_terminal *terminal, char *message) {
     return false;
 }
 
-static void line(const char *what, const char *value, const char *why) {
+static void line(const char *what, const char *value, const char *why)
+{
     printf("  %-10s %-16s %s\n", what, *value ? value : "not set", why);
 }
 
-int gm_terminal_report(void) {
+int gm_terminal_report(void)
+{
     struct gm_terminal terminal;
     char message[GM_MESSAGE], text[64];
     if (!gm_terminal_detect(&terminal, message)) {

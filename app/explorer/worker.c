@@ -44,7 +44,7 @@ struct gm_worker {
     bool paused, behind, changed;
     bool restart; /* is due */
     double restarted;
-    int speed;                   /* number of the speed */
+    int speed;                  /* number of the speed */
     double clock_t, clock_wall; /* model time and wall time at the last change of pace */
     size_t frozen;              /* lanes that are */
     char message[GM_MESSAGE];
@@ -94,7 +94,8 @@ static void set_clock(struct gm_worker *worker, double t)
     worker->behind = false;
 }
 
-/* The model time that is due. A lane that lags behind the others, being new, is stepped also when all is paused. */
+/* The model time that is due. A lane that lags behind the others, being new, is stepped also when all is
+ * paused. */
 static double due_time(const struct gm_worker *worker)
 {
     double together = gm_session_time(&worker->session);
@@ -187,8 +188,8 @@ static void move_parameter(struct gm_worker *worker, const struct gm_order *orde
         say(worker, message);
         return;
     }
-    if (!gm_session_set(&worker->session, worker->selected, row, order->of_scheme, text,
-                        &worker->restart, message))
+    if (!gm_session_set(&worker->session, worker->selected, row, order->of_scheme, text, &worker->restart,
+                        message))
         say(worker, message);
 }
 
@@ -229,8 +230,9 @@ static void obey(struct gm_worker *worker, const struct gm_order *order)
         worker->speed = worker->speed < SLOWEST ? SLOWEST : worker->speed > FASTEST ? FASTEST : worker->speed;
         break;
     case GM_ORDER_SELECT:
-        worker->selected = (worker->selected + session->count + (size_t)(order->amount + (int)session->count)) %
-                           session->count;
+        worker->selected =
+            (worker->selected + session->count + (size_t)(order->amount + (int)session->count)) %
+            session->count;
         break;
     case GM_ORDER_MOVE:
     case GM_ORDER_STANDARD:
@@ -348,7 +350,8 @@ static void *work(void *self)
     return NULL;
 }
 
-struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme theme, int wake, char *message)
+struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme theme, int wake,
+                                 char *message)
 {
     struct gm_worker *worker = calloc(1, sizeof *worker);
     if (!worker || !gm_shot_open(&worker->shots[0]) || !gm_shot_open(&worker->shots[1])) {

@@ -15,7 +15,8 @@
 
 /* ---- the line of bytes ---- */
 
-static void put(struct gm_writer *writer, const char *bytes, size_t size) {
+static void put(struct gm_writer *writer, const char *bytes, size_t size)
+{
     if (writer->length + size > writer->capacity) {
         size_t capacity = 2 * (writer->length + size) + 4096;
         char *more = realloc(writer->out, capacity);
@@ -30,12 +31,14 @@ static void put(struct gm_writer *writer, const char *bytes, size_t size) {
     writer->length += size;
 }
 
-static void put_text(struct gm_writer *writer, const char *text) {
+static void put_text(struct gm_writer *writer, const char *text)
+{
     put(writer, text, strlen(text));
 }
 
 __attribute__((format(printf, 2, 3))) static void put_format(struct gm_writer *writer, const char *format,
-                                                             ...) {
+                                                             ...)
+{
     char text[64];
     va_list arguments;
     va_start(arguments, format);
@@ -44,7 +47,8 @@ __attribute__((format(printf, 2, 3))) static void put_format(struct gm_writer *w
     put_text(writer, text);
 }
 
-static void put_glyph(struct gm_writer *writer, uint32_t code) {
+static void put_glyph(struct gm_writer *writer, uint32_t code)
+{
     char bytes[4];
     size_t size = 0;
     if (code < 0x80) {
@@ -66,7 +70,8 @@ static void put_glyph(struct gm_writer *writer, uint32_t code) {
 }
 
 /* A capability without its padding $<5>: it would make us wait for terminals of old. */
-static void put_capability(struct gm_writer *writer, const char *capability) {
+static void put_capability(struct gm_writer *writer, const char *capability)
+{
     if (!capability)
         return;
     while (*capability) {
@@ -81,7 +86,8 @@ static void put_capability(struct gm_writer *writer, const char *capability) {
 
 /* ---- colours ---- */
 
-static long colour_number(struct gm_writer *writer, struct gm_rgb colour, enum gm_role role, bool ground) {
+static long colour_number(struct gm_writer *writer, struct gm_rgb colour, enum gm_role role, bool ground)
+{
     switch (writer->colours) {
     case GM_COLOURS_TRUE:
         return (long)colour.r << 16 | colour.g << 8 | colour.b;
@@ -99,7 +105,8 @@ static long colour_number(struct gm_writer *writer, struct gm_rgb colour, enum g
     return 0;
 }
 
-static void put_colour(struct gm_writer *writer, long number, bool ground) {
+static void put_colour(struct gm_writer *writer, long number, bool ground)
+{
     if (writer->colours == GM_COLOURS_TRUE)
         put_format(writer, "\033[%d;2;%ld;%ld;%ldm", ground ? 48 : 38, number >> 16 & 255, number >> 8 & 255,
                    number & 255);
@@ -121,7 +128,8 @@ struct look {
     bool bold, reverse;
 };
 
-static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell) {
+static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
+{
     struct look look = {.glyph = cell->glyph, .bold = cell->bold};
     if (writer->colours == GM_COLOURS_NONE) {
         /* ink or paper is all there is: two inks in one cell are a full block, an inked ground is reversed */
@@ -147,7 +155,8 @@ static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
     return look;
 }
 
-static void take_look(struct gm_writer *writer, const struct look *look) {
+static void take_look(struct gm_writer *writer, const struct look *look)
+{
     bool blank = look->glyph == ' ' && !look->reverse;
     bool bold = blank ? writer->bold : look->bold;
     if (writer->foreground < 0 || (writer->bold && !bold) || (writer->reverse && !look->reverse)) {
@@ -173,7 +182,8 @@ static void take_look(struct gm_writer *writer, const struct look *look) {
 
 /* ---- screens ---- */
 
-static bool same_cell(const struct gm_cell *a, const struct gm_cell *b) {
+static bool same_cell(const struct gm_cell *a, const struct gm_cell *b)
+{
     bool ground = a->background.r == b->background.r && a->background.g == b->background.g &&
                   a->background.b == b->background.b;
     if (a->glyph != b->glyph || !ground)
@@ -184,7 +194,8 @@ static bool same_cell(const struct gm_cell *a, const struct gm_cell *b) {
            a->foreground.b == b->foreground.b && a->bold == b->bold && a->role == b->role;
 }
 
-static void move_to(struct gm_writer *writer, int column, int row) {
+static void move_to(struct gm_writer *writer, int column, int row)
+{
     if (writer->row == row && writer->column == column)
         return;
     put_capability(writer, tiparm(writer->place, row, column));
@@ -192,7 +203,8 @@ static void move_to(struct gm_writer *writer, int column, int row) {
     writer->column = column;
 }
 
-static void put_cell(struct gm_writer *writer, const struct gm_cells *cells, int column, int row) {
+static void put_cell(struct gm_writer *writer, const struct gm_cells *cells, int column, int row)
+{
     struct look look = look_of(writer, &cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column]);
     take_look(writer, &look);
     put_glyph(writer, look.glyph);
@@ -201,7 +213,8 @@ static void put_cell(struct gm_writer *writer, const struct gm_cells *cells, int
         writer->row = -1; /* at the right edge terminals differ in where the cursor is */
 }
 
-static bool resize(struct gm_writer *writer, const struct gm_cells *cells) {
+static bool resize(struct gm_writer *writer, const struct gm_cells *cells)
+{
     if (writer->shown.cells && writer->shown.columns == cells->columns && writer->shown.rows == cells->rows)
         return true;
     struct gm_cell *more =
@@ -217,7 +230,8 @@ static bool resize(struct gm_writer *writer, const struct gm_cells *cells) {
 
 enum { CHEAPER = 4 }; /* so many cells written again cost less than addressing the cursor */
 
-void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells) {
+void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells)
+{
     if (!resize(writer, cells))
         return;
     /* Synchronised output: a terminal that knows it shows the frame at once, others ignore it. */
@@ -251,11 +265,13 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells) {
         put_text(writer, "\033[?2026l");
 }
 
-bool gm_writer_idle(const struct gm_writer *writer) {
+bool gm_writer_idle(const struct gm_writer *writer)
+{
     return writer->sent == writer->length;
 }
 
-bool gm_writer_send(struct gm_writer *writer) {
+bool gm_writer_send(struct gm_writer *writer)
+{
     while (writer->sent < writer->length) {
         ssize_t done = write(writer->fd, writer->out + writer->sent, writer->length - writer->sent);
         if (done > 0)
@@ -271,16 +287,19 @@ bool gm_writer_send(struct gm_writer *writer) {
     return !writer->failed;
 }
 
-void gm_writer_forget(struct gm_writer *writer) {
+void gm_writer_forget(struct gm_writer *writer)
+{
     writer->known = false;
 }
 
-static const char *capability(const char *name) {
+static const char *capability(const char *name)
+{
     const char *text = tigetstr(name);
     return text == (char *)-1 ? NULL : text;
 }
 
-bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal) {
+bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal)
+{
     *writer = (struct gm_writer){.fd = -1, .colours = terminal->colours, .theme = terminal->theme};
     writer->row = -1;
     writer->foreground = writer->background = -1;
@@ -314,7 +333,8 @@ bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal
     return true;
 }
 
-void gm_writer_close(struct gm_writer *writer) {
+void gm_writer_close(struct gm_writer *writer)
+{
     for (int tries = 0; tries < 10 && !gm_writer_idle(writer) && gm_writer_send(writer); tries++)
         poll(&(struct pollfd){.fd = writer->fd, .events = POLLOUT}, 1, 50);
     if (writer->own_fd)

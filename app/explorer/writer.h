@@ -17,7 +17,7 @@ struct gm_writer {
     bool own_fd;
     enum gm_colours colours;
     enum gm_theme theme;
-    bool bright;           /* 16 colours: the terminal has the upper eight as colours of their own */
+    bool bright; /* 16 colours: the terminal has the upper eight as colours of their own */
     /* capabilities of terminfo; NULL where it has none */
     const char *place, *plain, *strong, *reversed, *set_foreground, *set_background;
     bool corner;           /* the last cell of the screen may be written without a scroll */

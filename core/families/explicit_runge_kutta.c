@@ -14,9 +14,15 @@ static const enum gm_explicit_row rows[GM_EXPLICIT_COUNT] = {
 static const struct gm_scheme schemes[] = {
 #define GM_EXPLICIT(identifier, order_, claims_, tableau_, name_, title_, formula_, reference_)              \
     {                                                                                                        \
-        .name = name_, .title = title_, .formula = formula_, .reference = reference_,                        \
-        .family = &gm_family_explicit_runge_kutta, .coefficients = &rows[GM_EXPLICIT_##identifier],          \
-        .order = order_, .needs = GM_NEEDS_ODE, .claims = claims_,                                           \
+        .name = name_,                                                                                       \
+        .title = title_,                                                                                     \
+        .formula = formula_,                                                                                 \
+        .reference = reference_,                                                                             \
+        .family = &gm_family_explicit_runge_kutta,                                                           \
+        .coefficients = &rows[GM_EXPLICIT_##identifier],                                                     \
+        .order = order_,                                                                                     \
+        .needs = GM_NEEDS_ODE,                                                                               \
+        .claims = claims_,                                                                                   \
     },
 #include "core/families/explicit_runge_kutta.def"
 #undef GM_EXPLICIT

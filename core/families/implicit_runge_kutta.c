@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Implicit Runge-Kutta methods:  z_i = h sum_j a_ij f(y + z_j),  y' = y + h sum_i b_i f(y + z_i),
-   solved for the increments z to round-off: by fixed-point iteration, and where that does not contract, or the
-   problem is stiff, by Newton's method. A method is symplectic if b_i a_ij + b_j a_ji = b_i b_j.
-   Hairer, Lubich & Wanner, Geometric Numerical Integration (2006), sections II.1, VI.4, VIII.6. */
+   solved for the increments z to round-off: by fixed-point iteration, and where that does not contract, or
+   the problem is stiff, by Newton's method. A method is symplectic if b_i a_ij + b_j a_ji = b_i b_j. Hairer,
+   Lubich & Wanner, Geometric Numerical Integration (2006), sections II.1, VI.4, VIII.6. */
 #include "core/families/implicit_runge_kutta.h"
 
 #include "core/families/families.h"
@@ -17,10 +17,8 @@ static const struct gm_implicit_row implicit_euler = {.stages = 1, .a = {{1}}, .
 static const struct gm_implicit_row midpoint = {.stages = 1, .a = {{0.5}}, .b = {1}, ONE_STEP};
 static const struct gm_implicit_row trapezoidal = {
     .stages = 2, .a = {{0, 0}, {0.5, 0.5}}, .b = {0.5, 0.5}, ONE_STEP};
-static const struct gm_implicit_row gauss4 = {.stages = 2,
-                                              .a = {{0.25, 0.25 - SQRT3 / 6}, {0.25 + SQRT3 / 6, 0.25}},
-                                              .b = {0.5, 0.5},
-                                              ONE_STEP};
+static const struct gm_implicit_row gauss4 = {
+    .stages = 2, .a = {{0.25, 0.25 - SQRT3 / 6}, {0.25 + SQRT3 / 6, 0.25}}, .b = {0.5, 0.5}, ONE_STEP};
 static const struct gm_implicit_row rk4sym = {.stages = 1,
                                               .a = {{0.5}},
                                               .b = {1},
@@ -28,8 +26,7 @@ static const struct gm_implicit_row rk4sym = {.stages = 1,
                                               .fractions = {TRIPLE_JUMP, 1 - 2 * TRIPLE_JUMP, TRIPLE_JUMP}};
 
 #define IMPLICIT .family = &gm_family_implicit_runge_kutta, .needs = GM_NEEDS_ODE
-#define SYMPLECTIC_RK                                                                                        \
-    (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_QUADRATIC | GM_KEEPS_LINEAR)
+#define SYMPLECTIC_RK (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_QUADRATIC | GM_KEEPS_LINEAR)
 
 static const struct gm_scheme schemes[] = {
     {
@@ -56,7 +53,8 @@ static const struct gm_scheme schemes[] = {
         .name = "trapezoidal",
         .title = "trapezoidal",
         .formula = "y₁ = y₀ + h/2 [f(y₀) + f(y₁)]",
-        .reference = "Hairer, Lubich & Wanner (2006), VI.8: conjugate to the midpoint rule, not symplectic itself",
+        .reference =
+            "Hairer, Lubich & Wanner (2006), VI.8: conjugate to the midpoint rule, not symplectic itself",
         .coefficients = &trapezoidal,
         .order = 2,
         .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR,
@@ -67,7 +65,8 @@ static const struct gm_scheme schemes[] = {
         .title = "Gauss 4",
         .formula = "Yᵢ = y₀ + h Σⱼ aᵢⱼ f(Yⱼ),  y₁ = y₀ + h/2 [f(Y₁) + f(Y₂)]\n"
                    "a = [1/4, 1/4 − √3/6; 1/4 + √3/6, 1/4]",
-        .reference = "J. Kuntzmann (1961); J.C. Butcher, Math. Comp. 18 (1964) 50; symplectic: Sanz-Serna (1988)",
+        .reference =
+            "J. Kuntzmann (1961); J.C. Butcher, Math. Comp. 18 (1964) 50; symplectic: Sanz-Serna (1988)",
         .coefficients = &gauss4,
         .order = 4,
         .claims = SYMPLECTIC_RK,

@@ -3,12 +3,12 @@
 
 enum { K(IMPLICIT_ITERATIONS) = 150 };
 
-/* Solves for the slopes f_i = f(y + z_i) of the lanes by fixed-point iteration, from z = 0, until the change of z
-   is zero or, at the level of round-off, no longer decreases. A lane that is done is frozen, so its bits do not
-   depend on the others. Returns the lanes that were solved. */
+/* Solves for the slopes f_i = f(y + z_i) of the lanes by fixed-point iteration, from z = 0, until the change
+   of z is zero or, at the level of round-off, no longer decreases. A lane that is done is frozen, so its bits
+   do not depend on the others. Returns the lanes that were solved. */
 GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int stages, const real *y, double h,
                                        const void *parameters, real f[][GM_COMPONENTS],
-                                       struct K(counts) *counts)
+                                       struct K(counts) * counts)
 {
     real z[GM_IMPLICIT_STAGES][GM_COMPONENTS];
     real size = K(constant)(0);
@@ -21,7 +21,7 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
     }
     const real roundoff = (8 * stages * 2.220446049250313e-16) * size;
     real previous = K(constant)(INFINITY);
-    mask active = K(all)(), solved = K(not)(active);
+    mask active = K(all)(), solved = K(not )(active);
     for (int iteration = 0; iteration < K(IMPLICIT_ITERATIONS); iteration++) {
         for (int i = 0; i < stages; i++) {
             real stage[GM_COMPONENTS], slope[GM_COMPONENTS];
@@ -52,7 +52,7 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
         mask stagnant = K(both)(change >= previous, change <= roundoff);
         mask done = K(both)(active, K(either)(change == K(constant)(0), stagnant));
         solved |= done;
-        active &= K(both)(K(not)(done), change < K(constant)(1e100));
+        active &= K(both)(K(not )(done), change < K(constant)(1e100));
         if (!K(somewhere)(active)) {
             break;
         }
@@ -165,9 +165,10 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
 /* Lane by lane, for those in `which`. */
 static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_implicit_row *row, mask which,
                                                             const real *y, double h, const void *parameters,
-                                                            real f[][GM_COMPONENTS], struct K(counts) *counts)
+                                                            real f[][GM_COMPONENTS],
+                                                            struct K(counts) * counts)
 {
-    mask solved = K(not)(K(all)());
+    mask solved = K(not )(K(all)());
     for (int l = 0; l < GM_LANES; l++) {
         if (!K(mask_lane)(which, l)) {
             continue;
@@ -192,20 +193,20 @@ static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_impl
     return solved;
 }
 
-GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int stages,
-                                       struct K(block) *block, double dt, const void *parameters,
-                                       bool compensated, bool stiff, struct K(counts) *counts)
+GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int stages, struct K(block) * block,
+                                       double dt, const void *parameters, bool compensated, bool stiff,
+                                       struct K(counts) * counts)
 {
     mask good = K(all)();
     for (int substep = 0; substep < row->substeps; substep++) {
         const double h = dt * row->fractions[substep];
         real f[GM_IMPLICIT_STAGES][GM_COMPONENTS];
-        mask solved = K(not)(K(all)());
+        mask solved = K(not )(K(all)());
         if (!stiff) {
             solved = K(implicit_fixed_point)(row, stages, block->y, h, parameters, f, counts);
         }
         if (!K(everywhere)(solved)) {
-            solved |= K(implicit_by_newton)(row, K(not)(solved), block->y, h, parameters, f, counts);
+            solved |= K(implicit_by_newton)(row, K(not )(solved), block->y, h, parameters, f, counts);
         }
         good &= solved;
         for (int c = 0; c < GM_COMPONENTS; c++) {
@@ -221,9 +222,9 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
 
 /* The number of stages as a constant, so that the small loops unroll. */
 #define GM_IMPLICIT_STEP(count)                                                                              \
-    GM_INLINE mask K(implicit_step_##count)(                                                                 \
-        const struct gm_implicit_row *row, struct K(block) *block, double dt, const void *parameters,        \
-        bool compensated, bool stiff, struct K(counts) *counts)                                              \
+    GM_INLINE mask K(implicit_step_##count)(const struct gm_implicit_row *row, struct K(block) * block,      \
+                                            double dt, const void *parameters, bool compensated, bool stiff, \
+                                            struct K(counts) * counts)                                       \
     {                                                                                                        \
         return K(implicit_step_stages)(row, count, block, dt, parameters, compensated, stiff, counts);       \
     }

@@ -7,8 +7,14 @@
 
 #include "core/families/families.h"
 
-#define DRIFT(c) {GM_DRIFT, c}
-#define KICK(c) {GM_KICK, c}
+#define DRIFT(c)                                                                                             \
+    {                                                                                                        \
+        GM_DRIFT, c                                                                                          \
+    }
+#define KICK(c)                                                                                              \
+    {                                                                                                        \
+        GM_KICK, c                                                                                           \
+    }
 
 static const struct gm_splitting symplectic_euler = {2, {KICK(1), DRIFT(1)}};
 static const struct gm_splitting symplectic_euler_adjoint = {2, {DRIFT(1), KICK(1)}};

@@ -3,9 +3,9 @@
 
 /* The force is kept from the last kick of a step to the first of the next, where q has not moved between, and
    is counted once, even where a call ends in between and it is computed again. */
-GM_INLINE mask K(splitting_step)(const struct gm_splitting *table, struct K(block) *block, double h,
+GM_INLINE mask K(splitting_step)(const struct gm_splitting *table, struct K(block) * block, double h,
                                  const void *parameters, bool compensated, bool stiff,
-                                 struct K(counts) *counts)
+                                 struct K(counts) * counts)
 {
     (void)stiff;
     enum { HALF = GM_COMPONENTS / 2 };

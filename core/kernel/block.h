@@ -16,7 +16,7 @@ struct K(counts) {
 };
 
 /* Members from `first` on; a block that sticks out repeats the last member, which changes nothing. */
-GM_INLINE void K(block_load)(struct K(block) *block, const struct gm_task *task, size_t first)
+GM_INLINE void K(block_load)(struct K(block) * block, const struct gm_task *task, size_t first)
 {
     size_t m = task->problem->m;
     block->force_known = false;
@@ -39,7 +39,7 @@ GM_INLINE void K(block_load)(struct K(block) *block, const struct gm_task *task,
     }
 }
 
-GM_INLINE void K(block_store)(const struct K(block) *block, const struct gm_task *task, size_t first)
+GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_task *task, size_t first)
 {
     size_t m = task->problem->m;
     size_t lanes = first + GM_LANES <= m ? GM_LANES : m - first;
@@ -65,7 +65,7 @@ GM_INLINE void K(add)(real *y, real *carry, real increment, bool compensated)
 }
 
 /* Which lanes are finite and below the limit (a NaN compares false). */
-GM_INLINE mask K(within)(const struct K(block) *block, double limit)
+GM_INLINE mask K(within)(const struct K(block) * block, double limit)
 {
     mask good = K(magnitude)(block->y[0]) <= K(constant)(limit);
     for (int c = 1; c < GM_COMPONENTS; c++) {

@@ -2,21 +2,20 @@
 /* The loop over blocks and steps, included once per family and pass. Before it
        GM_DRIVE     name of the function made here
        GM_ROW       type of the family's row
-       GM_STEP      name of its step: mask step(const GM_ROW *, struct block *, double h, const void *parameters,
-                    bool compensated, bool stiff, struct counts *), the lanes that were solved
-   Each block makes all steps in registers. Whether it failed is asked every GM_BURST steps only; then the burst
-   is made again step by step, so the step that failed is found exactly, whoever called how often. */
+       GM_STEP      name of its step: mask step(const GM_ROW *, struct block *, double h, const void
+   *parameters, bool compensated, bool stiff, struct counts *), the lanes that were solved Each block makes
+   all steps in registers. Whether it failed is asked every GM_BURST steps only; then the burst is made again
+   step by step, so the step that failed is found exactly, whoever called how often. */
 
-GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *row, bool compensated)
-{
+GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *row, bool compensated) {
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
     const void *parameters = task->problem->parameters;
     const bool stiff = task->problem->ode->stiff;
     const double h = task->dt;
     for (size_t first = 0; first < task->problem->m; first += GM_LANES) {
         const size_t rest = task->problem->m - first;
-        struct K(counts) counts = {.lanes = rest < GM_LANES ? (int)rest : GM_LANES,
-                                   .continued = task->steps_before > 0};
+        struct K(counts)
+            counts = {.lanes = rest < GM_LANES ? (int)rest : GM_LANES, .continued = task->steps_before > 0};
         struct K(block) block;
         K(block_load)(&block, task, first);
         long done = 0;

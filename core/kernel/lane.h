@@ -11,21 +11,66 @@
 #define GM_LANES 1
 #define K(name) name##_scalar
 
-GM_INLINE double K(constant)(double value) { return value; }
-GM_INLINE double K(pick)(bool choose, double yes, double no) { return choose ? yes : no; }
-GM_INLINE double K(magnitude)(double x) { return fabs(x); }
-GM_INLINE double K(sine)(double x) { return sin(x); }
-GM_INLINE double K(cosine)(double x) { return cos(x); }
-GM_INLINE bool K(everywhere)(bool which) { return which; }
-GM_INLINE bool K(somewhere)(bool which) { return which; }
-GM_INLINE bool K(all)(void) { return true; }
-GM_INLINE double K(lane)(double x, int lane) { return (void)lane, x; }
-GM_INLINE void K(set_lane)(double *x, int lane, double value) { (void)lane, *x = value; }
-GM_INLINE bool K(mask_lane)(bool which, int lane) { return (void)lane, which; }
-GM_INLINE void K(set_mask_lane)(bool *which, int lane, bool value) { (void)lane, *which = value; }
-GM_INLINE bool K(not)(bool which) { return !which; }
-GM_INLINE bool K(both)(bool a, bool b) { return a && b; }
-GM_INLINE bool K(either)(bool a, bool b) { return a || b; }
+GM_INLINE double K(constant)(double value)
+{
+    return value;
+}
+GM_INLINE double K(pick)(bool choose, double yes, double no)
+{
+    return choose ? yes : no;
+}
+GM_INLINE double K(magnitude)(double x)
+{
+    return fabs(x);
+}
+GM_INLINE double K(sine)(double x)
+{
+    return sin(x);
+}
+GM_INLINE double K(cosine)(double x)
+{
+    return cos(x);
+}
+GM_INLINE bool K(everywhere)(bool which)
+{
+    return which;
+}
+GM_INLINE bool K(somewhere)(bool which)
+{
+    return which;
+}
+GM_INLINE bool K(all)(void)
+{
+    return true;
+}
+GM_INLINE double K(lane)(double x, int lane)
+{
+    return (void)lane, x;
+}
+GM_INLINE void K(set_lane)(double *x, int lane, double value)
+{
+    (void)lane, *x = value;
+}
+GM_INLINE bool K(mask_lane)(bool which, int lane)
+{
+    return (void)lane, which;
+}
+GM_INLINE void K(set_mask_lane)(bool *which, int lane, bool value)
+{
+    (void)lane, *which = value;
+}
+GM_INLINE bool K(not )(bool which)
+{
+    return !which;
+}
+GM_INLINE bool K(both)(bool a, bool b)
+{
+    return a && b;
+}
+GM_INLINE bool K(either)(bool a, bool b)
+{
+    return a || b;
+}
 
 #else
 
@@ -34,12 +79,18 @@ GM_INLINE bool K(either)(bool a, bool b) { return a || b; }
 #define GM_LANES GM_WIDTH
 #define K(name) name##_lanes
 
-GM_INLINE gm_lanes K(constant)(double value) { return value - (gm_lanes){0}; }
+GM_INLINE gm_lanes K(constant)(double value)
+{
+    return value - (gm_lanes){0};
+}
 GM_INLINE gm_lanes K(pick)(gm_lanes_mask choose, gm_lanes yes, gm_lanes no)
 {
     return (gm_lanes)((choose & (gm_lanes_mask)yes) | (~choose & (gm_lanes_mask)no));
 }
-GM_INLINE gm_lanes K(magnitude)(gm_lanes x) { return (gm_lanes)((gm_lanes_mask)x & INT64_MAX); }
+GM_INLINE gm_lanes K(magnitude)(gm_lanes x)
+{
+    return (gm_lanes)((gm_lanes_mask)x & INT64_MAX);
+}
 GM_INLINE gm_lanes K(sine)(gm_lanes x)
 {
     for (int i = 0; i < GM_WIDTH; i++) {
@@ -70,13 +121,37 @@ GM_INLINE bool K(somewhere)(gm_lanes_mask which)
     }
     return any != 0;
 }
-GM_INLINE gm_lanes_mask K(all)(void) { return ~(gm_lanes_mask){0}; }
-GM_INLINE double K(lane)(gm_lanes x, int lane) { return x[lane]; }
-GM_INLINE void K(set_lane)(gm_lanes *x, int lane, double value) { (*x)[lane] = value; }
-GM_INLINE bool K(mask_lane)(gm_lanes_mask which, int lane) { return which[lane] != 0; }
-GM_INLINE void K(set_mask_lane)(gm_lanes_mask *which, int lane, bool value) { (*which)[lane] = value ? -1 : 0; }
-GM_INLINE gm_lanes_mask K(not)(gm_lanes_mask which) { return ~which; }
-GM_INLINE gm_lanes_mask K(both)(gm_lanes_mask a, gm_lanes_mask b) { return a & b; }
-GM_INLINE gm_lanes_mask K(either)(gm_lanes_mask a, gm_lanes_mask b) { return a | b; }
+GM_INLINE gm_lanes_mask K(all)(void)
+{
+    return ~(gm_lanes_mask){0};
+}
+GM_INLINE double K(lane)(gm_lanes x, int lane)
+{
+    return x[lane];
+}
+GM_INLINE void K(set_lane)(gm_lanes *x, int lane, double value)
+{
+    (*x)[lane] = value;
+}
+GM_INLINE bool K(mask_lane)(gm_lanes_mask which, int lane)
+{
+    return which[lane] != 0;
+}
+GM_INLINE void K(set_mask_lane)(gm_lanes_mask *which, int lane, bool value)
+{
+    (*which)[lane] = value ? -1 : 0;
+}
+GM_INLINE gm_lanes_mask K(not )(gm_lanes_mask which)
+{
+    return ~which;
+}
+GM_INLINE gm_lanes_mask K(both)(gm_lanes_mask a, gm_lanes_mask b)
+{
+    return a & b;
+}
+GM_INLINE gm_lanes_mask K(either)(gm_lanes_mask a, gm_lanes_mask b)
+{
+    return a | b;
+}
 
 #endif

@@ -24,7 +24,10 @@ struct gm_loops {
     }
 #else
 #define GM_LOOPS_DECLARE(problem) extern const struct gm_loops gm_loops_##problem##_baseline;
-#define GM_LOOPS(problem) {&gm_loops_##problem##_baseline}
+#define GM_LOOPS(problem)                                                                                    \
+    {                                                                                                        \
+        &gm_loops_##problem##_baseline                                                                       \
+    }
 #endif
 
 /* The best instruction set of this machine and build: an index into problem->loops. */

@@ -7,8 +7,17 @@
 #endif
 #define GM_SEPARABLE
 
-GM_INLINE real K(slope)(real q) { return q; }
-GM_INLINE real K(curvature)(real q) { return (void)q, K(constant)(1); }
-GM_INLINE real K(third)(real q) { return (void)q, K(constant)(0); }
+GM_INLINE real K(slope)(real q)
+{
+    return q;
+}
+GM_INLINE real K(curvature)(real q)
+{
+    return (void)q, K(constant)(1);
+}
+GM_INLINE real K(third)(real q)
+{
+    return (void)q, K(constant)(0);
+}
 
 #include "core/kernel/one_degree.h"

@@ -7,8 +7,17 @@
 #endif
 #define GM_SEPARABLE
 
-GM_INLINE real K(slope)(real q) { return K(sine)(q); }
-GM_INLINE real K(curvature)(real q) { return K(cosine)(q); }
-GM_INLINE real K(third)(real q) { return -K(sine)(q); }
+GM_INLINE real K(slope)(real q)
+{
+    return K(sine)(q);
+}
+GM_INLINE real K(curvature)(real q)
+{
+    return K(cosine)(q);
+}
+GM_INLINE real K(third)(real q)
+{
+    return -K(sine)(q);
+}
 
 #include "core/kernel/one_degree.h"
