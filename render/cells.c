@@ -31,13 +31,15 @@ struct painter {
 
 static bool is_free(const struct painter *painter, int column, int row, int width)
 {
-    if (row < 0 || row >= painter->cells->rows || column < 0 || column + width > painter->cells->columns)
+    if (row < 0 || row >= painter->cells->rows || column < 0 || column + width > painter->cells->columns) {
         return false;
+    }
     /* a cell of air on both sides */
     for (int i = column - 1; i <= column + width; i++) {
         if (i >= 0 && i < painter->cells->columns &&
-            painter->taken[(size_t)row * (size_t)painter->cells->columns + (size_t)i])
+            painter->taken[(size_t)row * (size_t)painter->cells->columns + (size_t)i]) {
             return false;
+        }
     }
     return true;
 }
@@ -51,20 +53,25 @@ static void paint_text(struct painter *painter, double x, int row, enum gm_ancho
     double left = x / CELL_WIDTH - (anchor == GM_ANCHOR_RIGHT    ? width
                                     : anchor == GM_ANCHOR_CENTRE ? 0.5 * width
                                                                  : 0);
-    if (!(fabs(left) < 1e6) || width == 0)
+    if (!(fabs(left) < 1e6) || width == 0) {
         return;
+    }
     int column = (int)floor(left + 0.5);
-    if (column + width > painter->cells->columns && column + width <= painter->cells->columns + 2)
+    if (column + width > painter->cells->columns && column + width <= painter->cells->columns + 2) {
         column = painter->cells->columns - width;
-    if (column < 0 && column >= -2)
+    }
+    if (column < 0 && column >= -2) {
         column = 0;
-    if (!is_free(painter, column, row, width))
+    }
+    if (!is_free(painter, column, row, width)) {
         return;
+    }
     size_t first = (size_t)row * (size_t)painter->cells->columns + (size_t)column;
     for (size_t i = first; i < first + (size_t)width; i++) {
         painter->taken[i] = true;
-        if (on_paper)
+        if (on_paper) {
             painter->cells->cells[i].background = gm_theme_colour(painter->theme, GM_PAPER);
+        }
     }
     gm_cells_text(painter->cells, column, row, -1, text, painter->ascii, painter->theme, role, bold);
 }
@@ -92,17 +99,20 @@ enum { RULE_LEFT = 1, RULE_RIGHT = 2, RULE_UP = 4, RULE_DOWN = 8 };
 static void rule_cell(const struct painter *painter, int column, int row, unsigned arms, enum gm_role role)
 {
     static const uint16_t drawn[16] = {[3] = 0x2500, [12] = 0x2502, [15] = 0x253C, [6] = 0x2514};
-    if (column < 0 || row < 0 || column >= painter->cells->columns || row >= painter->cells->rows)
+    if (column < 0 || row < 0 || column >= painter->cells->columns || row >= painter->cells->rows) {
         return;
+    }
     struct gm_cell *cell =
         &painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column];
     bool crosses = cell->role == GM_GRID && cell->glyph != ' ' && role == GM_GRID;
-    if (cell->glyph != ' ' && cell->role != GM_GRID)
+    if (cell->glyph != ' ' && cell->role != GM_GRID) {
         return;
-    if (painter->ascii)
+    }
+    if (painter->ascii) {
         cell->glyph = role == GM_GRID ? (arms == 3 ? '.' : ':') : arms == 3 ? '-' : arms == 12 ? '|' : '+';
-    else
+    } else {
         cell->glyph = crosses ? drawn[15] : drawn[arms];
+    }
     cell->role = role;
     cell->foreground = gm_theme_colour(painter->theme, role);
 }
@@ -117,8 +127,9 @@ static void rule(const struct painter *painter, double x0, double y0, double x1,
     int left = cell_of(x0, CELL_WIDTH), right = cell_of(x1, CELL_WIDTH);
     int top = cell_of(y0, CELL_HEIGHT), bottom = cell_of(y1, CELL_HEIGHT);
     for (int row = top; row <= bottom; row++) {
-        for (int column = left; column <= right; column++)
+        for (int column = left; column <= right; column++) {
             rule_cell(painter, column, row, y0 == y1 ? RULE_LEFT | RULE_RIGHT : RULE_UP | RULE_DOWN, role);
+        }
     }
 }
 
@@ -126,18 +137,21 @@ static void paint_thin_grid(const struct painter *painter, const struct gm_frame
 {
     const struct gm_box *box = &frame->box;
     double right = box->x + box->width, bottom = box->y + box->height;
-    for (size_t i = 0; i < frame->x_tick_count; i++)
+    for (size_t i = 0; i < frame->x_tick_count; i++) {
         rule(painter, frame->x_ticks[i].position, box->y, frame->x_ticks[i].position, bottom, GM_GRID);
-    for (size_t i = 0; i < frame->y_tick_count; i++)
+    }
+    for (size_t i = 0; i < frame->y_tick_count; i++) {
         rule(painter, box->x, frame->y_ticks[i].position, right, frame->y_ticks[i].position, GM_GRID);
+    }
     rule(painter, box->x, bottom, right, bottom, GM_SECONDARY);
     rule(painter, box->x, box->y, box->x, bottom, GM_SECONDARY);
     int column = cell_of(box->x, CELL_WIDTH), row = cell_of(bottom, CELL_HEIGHT);
     if (row < painter->cells->rows && column < painter->cells->columns && row >= 0 && column >= 0) {
         struct gm_cell *corner =
             &painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column];
-        if (corner->role == GM_SECONDARY)
+        if (corner->role == GM_SECONDARY) {
             corner->glyph = painter->ascii ? '+' : 0x2514;
+        }
     }
 }
 
@@ -151,24 +165,51 @@ static bool is_outline(const struct gm_mark *before, const struct gm_mark *mark)
 static enum gm_map map_of(const struct gm_panel *panel)
 {
     for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
-        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE)
+        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
             return mark->map;
+        }
     }
     return GM_MAP_SEQUENTIAL;
 }
 
-static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout, enum gm_blocks blocks)
+/* What of the marks a raster takes. */
+struct taking {
+    bool grid;     /* dotted, beneath the marks */
+    bool areas;    /* an outline counts as a part of what it surrounds */
+    bool outlines; /* what has an outline is not filled */
+    bool only;     /* only panels in which something is filled */
+};
+
+static bool is_filled(const struct gm_panel *panel)
 {
-    bool ok = true, dotted = blocks == GM_BRAILLE;
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        if (mark->kind == GM_MARK_POLYGON || mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout, struct taking taking)
+{
+    bool ok = true;
     for (size_t i = 0; i < layout->frame_count; i++) {
         const struct gm_frame *frame = &layout->frames[i];
         const struct gm_mark *before = NULL;
-        if (frame->panel->axes && dotted && raster->sharp)
+        if (taking.only && !is_filled(frame->panel)) {
+            continue;
+        }
+        if (frame->panel->axes && taking.grid) {
             paint_dotted_grid(raster, frame);
-        for (const struct gm_mark *mark = frame->panel->first; ok && mark; before = mark, mark = mark->next)
-            ok = gm_raster_mark(raster, frame, mark, dotted && is_outline(before, mark));
-        if (frame->colour_bar.width > 0)
+        }
+        for (const struct gm_mark *mark = frame->panel->first; ok && mark; before = mark, mark = mark->next) {
+            if (!taking.outlines || !mark->next || !is_outline(mark, mark->next)) {
+                ok = gm_raster_mark(raster, frame, mark, taking.areas && is_outline(before, mark));
+            }
+        }
+        if (frame->colour_bar.width > 0) {
             gm_raster_bar(raster, &frame->colour_bar, map_of(frame->panel));
+        }
     }
     return ok;
 }
@@ -186,14 +227,17 @@ static int label_row(const struct painter *painter, const struct gm_layout *layo
     double left = label->x, width = CELL_WIDTH * gm_text_width(label->text, painter->ascii);
     left -= label->anchor == GM_ANCHOR_RIGHT ? width : label->anchor == GM_ANCHOR_CENTRE ? 0.5 * width : 0;
     int row = row_of(label->y + 0.5 * CELL_HEIGHT);
-    for (size_t i = 0; i < layout->frame_count; i++) {
+    for (size_t i = 0; i < layout->frame_count && label->size != GM_TEXT_TITLE; i++) {
         const struct gm_box *box = &layout->frames[i].box;
-        if (left + width < box->x || left > box->x + box->width)
+        if (left + width < box->x || left > box->x + box->width) {
             continue;
-        if (label->y + CELL_HEIGHT <= box->y + 0.5 && label->y + 4 * CELL_HEIGHT > box->y)
-            return row_of(label->y);
-        if (label->y >= box->y + box->height - 0.5 && label->y < box->y + box->height + 3 * CELL_HEIGHT)
+        }
+        if (label->y + CELL_HEIGHT <= box->y + 0.5 && label->y + 4 * CELL_HEIGHT > box->y) {
+            return row_of(box->y) - 1 - row_of(box->y - label->y - CELL_HEIGHT + 0.5);
+        }
+        if (label->y >= box->y + box->height - 0.5 && label->y < box->y + box->height + 3 * CELL_HEIGHT) {
             row = row_of(label->y + CELL_HEIGHT - 1);
+        }
     }
     return row == painter->cells->rows ? row - 1 : row;
 }
@@ -202,17 +246,20 @@ static void paint_texts(struct painter *painter, const struct gm_layout *layout)
 {
     for (size_t i = 0; i < layout->label_count; i++) {
         const struct gm_label *label = &layout->labels[i];
-        if (!label->vertical) /* letters do not turn in a terminal; the panel's title says what the axis is */
+        if (!label->vertical) { /* letters do not turn in a terminal; the panel's title says what the axis is
+                                 */
             paint_text(painter, label->x, label_row(painter, layout, label), label->anchor, label->text,
                        label->role, label->bold, true);
+        }
     }
     for (size_t i = 0; i < layout->frame_count; i++) {
         const struct gm_frame *frame = &layout->frames[i];
         for (const struct gm_mark *mark = frame->panel->first; mark; mark = mark->next) {
-            if (mark->kind == GM_MARK_TEXT && mark->count > 0)
+            if (mark->kind == GM_MARK_TEXT && mark->count > 0) {
                 paint_text(painter, gm_frame_x(frame, mark->points[0]),
                            row_of(gm_frame_y(frame, mark->points[1])), mark->anchor, mark->text,
                            mark->style.role, false, false);
+            }
         }
     }
 }
@@ -223,8 +270,9 @@ static bool open_raster(struct gm_raster *raster, const struct gm_cells *cells, 
     int across, down;
     bool sharp;
     gm_blocks_grid(blocks, &across, &down, &sharp);
-    if (!gm_raster_open(raster, cells->columns * across, cells->rows * down, theme))
+    if (!gm_raster_open(raster, cells->columns * across, cells->rows * down, theme)) {
         return false;
+    }
     raster->unit_x = (double)CELL_WIDTH / across;
     raster->unit_y = (double)CELL_HEIGHT / down;
     raster->scale = scale;
@@ -237,11 +285,13 @@ static bool paint_blocks(struct gm_cells *cells, const struct gm_layout *layout,
                          enum gm_blocks blocks, double scale)
 {
     struct gm_raster raster = {0}, areas = {0};
-    bool two = blocks == GM_BRAILLE;
+    bool dots = blocks == GM_BRAILLE, two = dots && !cells->outlines;
+    const struct taking taking = {.grid = dots, .areas = two, .outlines = dots && cells->outlines};
     bool ok = open_raster(&raster, cells, theme, blocks, scale) &&
               (!two || open_raster(&areas, cells, theme, GM_QUADRANTS, scale));
     if (ok) {
-        ok = paint_marks(&raster, layout, blocks) && (!two || paint_marks(&areas, layout, blocks));
+        ok = paint_marks(&raster, layout, taking) &&
+             (!two || paint_marks(&areas, layout, (struct taking){.areas = true, .only = true}));
         gm_blocks_glyphs(cells, &raster, two ? &areas : NULL, blocks);
     }
     gm_raster_close(&raster);
@@ -259,19 +309,22 @@ bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_
                                  .self = &ascii,
                                  .terse = cells->columns < ROOMY_COLUMNS || cells->rows < ROOMY_ROWS};
     metrics.scale = metrics.height / 720;
-    for (int size = 0; size < GM_TEXT_SIZE_COUNT; size++)
+    for (int size = 0; size < GM_TEXT_SIZE_COUNT; size++) {
         metrics.line[size] = CELL_HEIGHT;
+    }
 
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
     struct painter painter = {.cells = cells, .theme = theme, .ascii = ascii};
     painter.taken = calloc((size_t)cells->columns * (size_t)cells->rows, sizeof *painter.taken);
     bool ok = layout && painter.taken && paint_blocks(cells, layout, theme, blocks, metrics.scale);
     for (size_t i = 0; ok && blocks != GM_BRAILLE && i < layout->frame_count; i++) {
-        if (layout->frames[i].panel->axes)
+        if (layout->frames[i].panel->axes) {
             paint_thin_grid(&painter, &layout->frames[i]);
+        }
     }
-    if (ok)
+    if (ok) {
         paint_texts(&painter, layout);
+    }
     free(painter.taken);
     return ok;
 }

@@ -19,6 +19,7 @@ struct gm_cell {
 struct gm_cells {
     int columns, rows;
     struct gm_cell *cells; /* row by row */
+    bool outlines; /* there are too few colours for shades: braille draws areas by their outline alone */
 };
 
 /* Paints the picture over all cells (at least 1 x 1). False when memory is short. */

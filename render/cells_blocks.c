@@ -41,8 +41,9 @@ static struct gm_rgb mean(const struct block *block, unsigned set)
             n++;
         }
     }
-    if (n == 0)
+    if (n == 0) {
         return (struct gm_rgb){0, 0, 0};
+    }
     return (struct gm_rgb){(uint8_t)((r + n / 2) / n), (uint8_t)((g + n / 2) / n),
                            (uint8_t)((b + n / 2) / n)};
 }
@@ -51,8 +52,9 @@ static unsigned parts_of_level(const struct block *block, int level)
 {
     unsigned set = 0;
     for (int i = 0; i < block->count; i++) {
-        if (block->part[i].level == level)
+        if (block->part[i].level == level) {
             set |= 1u << i;
+        }
     }
     return set;
 }
@@ -63,8 +65,9 @@ static enum gm_role chief_role(const struct block *block, unsigned set)
     int votes[GM_ROLE_COUNT] = {0};
     int best = GM_INK;
     for (int i = 0; i < block->count; i++) {
-        if (set >> i & 1 && ++votes[block->part[i].role] >= votes[best])
+        if (set >> i & 1 && ++votes[block->part[i].role] >= votes[best]) {
             best = block->part[i].role;
+        }
     }
     return (enum gm_role)best;
 }
@@ -73,8 +76,9 @@ static unsigned parts_of_role(const struct block *block, unsigned set, enum gm_r
 {
     unsigned kept = 0;
     for (int i = 0; i < block->count; i++) {
-        if (set >> i & 1 && block->part[i].role == role)
+        if (set >> i & 1 && block->part[i].role == role) {
             kept |= 1u << i;
+        }
     }
     return kept;
 }
@@ -105,8 +109,9 @@ static struct stencil stencil_of(const struct block *block)
 static int parts_in(unsigned set)
 {
     int count = 0;
-    for (; set; set &= set - 1)
+    for (; set; set &= set - 1) {
         count++;
+    }
     return count;
 }
 
@@ -129,8 +134,9 @@ static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_ce
     for (unsigned set = all; set > all / 2; set--) { /* each division once: the last part is always in set */
         struct gm_rgb one = mean(block, set), other = mean(block, all & ~set);
         long off = 0;
-        for (int i = 0; i < block->count; i++)
+        for (int i = 0; i < block->count; i++) {
             off += distance(block->part[i].colour, set >> i & 1 ? one : other);
+        }
         if (least < 0 || off < least) {
             least = off;
             best = set;
@@ -147,19 +153,21 @@ static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_ce
     bool blank = best == all && same(one, paper);
     unsigned high = 0;
     for (int i = 0; i < block->count; i++) {
-        if (best >> i & 1 && block->part[i].level > high)
+        if (best >> i & 1 && block->part[i].level > high) {
             high = block->part[i].level;
+        }
     }
     unsigned chief = parts_of_level(block, (int)high) & best;
     cell->role = blank || high == GM_LEVEL_PAPER ? GM_INK : chief_role(block, chief);
     cell->foreground = blank ? gm_theme_colour(GM_THEME_DARK, GM_INK) : one;
     cell->background = best == all ? paper : other;
-    if (blank)
+    if (blank) {
         cell->glyph = ' ';
-    else if (block->count == 4)
+    } else if (block->count == 4) {
         cell->glyph = quadrant_glyph(best);
-    else
+    } else {
         cell->glyph = best == 3 ? 0x2588 : best == 1 ? 0x2580 : 0x2584;
+    }
 }
 
 /* Dots of one colour for lines; what is filled is painted in quarters, as is what runs beneath or beside it.
@@ -173,14 +181,17 @@ static void braille(const struct block *block, const struct block *area, struct 
         fit_two(area, paper, cell);
         return;
     }
-    if (!stencil.inked)
+    if (!stencil.inked) {
         return;
-    if (2 * parts_in(stencil.ground) >= block->count - parts_in(stencil.inked) && stencil.ground)
+    }
+    if (2 * parts_in(stencil.ground) >= block->count - parts_in(stencil.inked) && stencil.ground) {
         cell->background = mean(block, stencil.ground);
+    }
     uint32_t dots = 0;
     for (int i = 0; i < PARTS; i++) {
-        if (stencil.inked >> i & 1)
+        if (stencil.inked >> i & 1) {
             dots |= braille_dots[i];
+        }
     }
     cell->glyph = 0x2800 + dots;
     cell->foreground = mean(block, stencil.colour);
@@ -207,23 +218,28 @@ static uint32_t ascii_line(unsigned set)
             right_rows += row;
         }
     }
-    if (left + right >= 6)
+    if (left + right >= 6) {
         return '#';
-    if (left + right == 1)
+    }
+    if (left + right == 1) {
         return high == 0 ? '\'' : '.';
-    if (left == 0 || right == 0 || (rows >= 3 && left_rows * right == right_rows * left))
+    }
+    if (left == 0 || right == 0 || (rows >= 3 && left_rows * right == right_rows * left)) {
         return rows >= 3 ? '|' : high <= 1 ? '\'' : low >= 2 ? '.' : ':';
+    }
     int slope = left_rows * right - right_rows * left; /* above 0: the left end is lower */
-    if (rows >= 3 || (rows == 2 && abs(slope) > left * right))
+    if (rows >= 3 || (rows == 2 && abs(slope) > left * right)) {
         return slope > 0 ? '/' : slope < 0 ? '\\' : '*';
+    }
     return high == 0 ? '"' : high <= 2 ? '-' : '_';
 }
 
 static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb ink, struct gm_cell *cell)
 {
     struct stencil stencil = stencil_of(block);
-    if (!stencil.inked)
+    if (!stencil.inked) {
         return;
+    }
     if (stencil.lines) {
         cell->glyph = ascii_line(stencil.inked);
     } else if (!stencil.ground) {
@@ -234,8 +250,9 @@ static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb 
         static const char ramp[] = " .:-+*#@";
         long strength = 0, full = distance(ink, paper);
         for (int i = 0; i < PARTS; i++) {
-            if (stencil.ground >> i & 1)
+            if (stencil.ground >> i & 1) {
                 strength += distance(block->part[i].colour, paper);
+            }
         }
         int step = (int)(strength * 14 / (full * PARTS));
         cell->glyph = (uint32_t)ramp[step < 1 ? 1 : step > 7 ? 7 : step];
@@ -270,20 +287,24 @@ void gm_blocks_glyphs(struct gm_cells *cells, const struct gm_raster *raster, co
         for (int column = 0; column < cells->columns; column++) {
             struct block block, area = {.count = 4};
             bool drawn = take_block(&block, raster, across, down, column, row, paper);
-            if (areas)
+            if (areas) {
                 drawn |= take_block(&area, areas, 2, 2, column, row, paper);
+            }
             struct gm_cell *cell = &cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column];
             *cell = (struct gm_cell){.glyph = ' ', .foreground = ink, .background = paper, .role = GM_INK};
-            if (!drawn)
+            if (!drawn) {
                 continue;
-            if (blocks == GM_BRAILLE)
+            }
+            if (blocks == GM_BRAILLE) {
                 braille(&block, &area, paper, cell);
-            else if (blocks == GM_ASCII)
+            } else if (blocks == GM_ASCII) {
                 ascii(&block, paper, ink, cell);
-            else
+            } else {
                 fit_two(&block, paper, cell);
-            if (cell->glyph == ' ')
+            }
+            if (cell->glyph == ' ') {
                 cell->foreground = ink;
+            }
         }
     }
 }

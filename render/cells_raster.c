@@ -25,8 +25,12 @@ bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_the
         return false;
     }
     struct gm_subpixel paper = {gm_theme_colour(theme, GM_PAPER), GM_LEVEL_PAPER, GM_PAPER};
-    for (size_t i = 0; i < count; i++)
+    for (int i = 0; i < width; i++) {
         raster->at[i] = paper;
+    }
+    for (int row = 1; row < height; row++) {
+        memcpy(&raster->at[(size_t)row * (size_t)width], raster->at, (size_t)width * sizeof paper);
+    }
     return true;
 }
 
@@ -38,10 +42,21 @@ void gm_raster_close(struct gm_raster *raster)
     raster->mask = NULL;
 }
 
+/* fmin and fmax are calls, because of what they do with NaN; no NaN comes here. */
+static inline double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 static int clamp_int(double value, int low, int high)
 {
-    if (!(value > low))
+    if (!(value > low)) {
         return low;
+    }
     return value < high ? (int)value : high;
 }
 
@@ -59,12 +74,15 @@ void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box)
 
 static void cover(struct gm_raster *raster, int x, int y, double coverage)
 {
-    if (x < raster->clip_left || x >= raster->clip_right || y < raster->clip_top || y >= raster->clip_bottom)
+    if (x < raster->clip_left || x >= raster->clip_right || y < raster->clip_top ||
+        y >= raster->clip_bottom) {
         return;
+    }
     uint8_t value = (uint8_t)(255 * (coverage < 1 ? coverage : 1));
     uint8_t *mask = &raster->mask[(size_t)y * (size_t)raster->width + (size_t)x];
-    if (value > *mask)
+    if (value > *mask) {
         *mask = value;
+    }
     raster->left = x < raster->left ? x : raster->left;
     raster->top = y < raster->top ? y : raster->top;
     raster->right = x + 1 > raster->right ? x + 1 : raster->right;
@@ -81,8 +99,9 @@ static void blend(struct gm_subpixel *at, struct gm_rgb colour, unsigned weight,
 {
     at->colour = (struct gm_rgb){mix(at->colour.r, colour.r, weight), mix(at->colour.g, colour.g, weight),
                                  mix(at->colour.b, colour.b, weight)};
-    if (level == GM_LEVEL_PAPER) /* too little of the mark to belong to it */
+    if (level == GM_LEVEL_PAPER) { /* too little of the mark to belong to it */
         return;
+    }
     at->level = (uint8_t)(level == GM_LEVEL_LINE && at->level >= GM_LEVEL_FIELD ? GM_LEVEL_OVER : level);
     at->role = (uint8_t)role;
 }
@@ -96,16 +115,19 @@ static void settle(struct gm_raster *raster, struct gm_rgb colour, double alpha,
         size_t row = (size_t)y * (size_t)raster->width;
         for (int x = raster->left; x < raster->right; x++) {
             uint8_t *mask = &raster->mask[row + (size_t)x];
-            if (!*mask)
+            if (!*mask) {
                 continue;
+            }
             unsigned coverage = *mask;
             *mask = 0;
-            if (raster->sharp)
+            if (raster->sharp) {
                 coverage = coverage >= 128 ? 255 : 0;
+            }
             unsigned weight = coverage * opacity / 255;
-            if (weight > 0)
+            if (weight > 0) {
                 blend(&raster->at[row + (size_t)x], colour, weight, coverage >= 64 ? level : GM_LEVEL_PAPER,
                       role);
+            }
         }
     }
     raster->left = raster->width;
@@ -129,16 +151,19 @@ static const int dashes[GM_DASH_COUNT][6] = {
 static bool dash_on(enum gm_dash dash, double length)
 {
     const int *pattern = dashes[dash];
-    if (!pattern[0])
+    if (!pattern[0]) {
         return true;
+    }
     /* DASH_DOT repeats after four entries, the others after any even number */
     int entries = dash == GM_DASH_DOT ? 4 : 6, period = 0;
-    for (int i = 0; i < entries; i++)
+    for (int i = 0; i < entries; i++) {
         period += pattern[i];
+    }
     int at = (int)fmod(length, period);
     for (int i = 0; i < entries; i++) {
-        if (at < pattern[i])
+        if (at < pattern[i]) {
             return i % 2 == 0;
+        }
         at -= pattern[i];
     }
     return false;
@@ -155,16 +180,18 @@ static bool clip_segment(const struct gm_raster *raster, double margin, double *
     double low = 0, high = 1;
     for (int i = 0; i < 4; i++) {
         if (p[i] == 0) {
-            if (q[i] < 0)
+            if (q[i] < 0) {
                 return false;
+            }
         } else if (p[i] < 0) {
-            low = fmax(low, q[i] / p[i]);
+            low = larger(low, q[i] / p[i]);
         } else {
-            high = fmin(high, q[i] / p[i]);
+            high = smaller(high, q[i] / p[i]);
         }
     }
-    if (low > high)
+    if (low > high) {
         return false;
+    }
     *start = low;
     *end = high;
     *x1 = *x0 + high * dx;
@@ -178,17 +205,19 @@ static bool clip_segment(const struct gm_raster *raster, double margin, double *
 static void cover_across(struct gm_raster *raster, bool steep, int along, double middle, double width)
 {
     if (raster->sharp) {
-        int count = (int)fmax(1, round(width));
+        int count = (int)larger(1, round(width));
         int first = (int)floor(middle - 0.5 * (count - 1));
-        for (int i = 0; i < count; i++)
+        for (int i = 0; i < count; i++) {
             cover(raster, steep ? first + i : along, steep ? along : first + i, 1);
+        }
         return;
     }
     double low = middle - 0.5 * width, high = middle + 0.5 * width;
     for (int i = (int)floor(low); i < high; i++) {
-        double part = fmin(high, i + 1) - fmax(low, i);
-        if (part > 0)
+        double part = smaller(high, i + 1) - larger(low, i);
+        if (part > 0) {
             cover(raster, steep ? i : along, steep ? along : i, part);
+        }
     }
 }
 
@@ -196,10 +225,11 @@ static void cover_across(struct gm_raster *raster, bool steep, int along, double
 static void line_piece(struct gm_raster *raster, double x0, double y0, double x1, double y1, double width,
                        enum gm_dash dash, double *length)
 {
-    double whole = fmax(fabs(x1 - x0), fabs(y1 - y0)), begun = *length, start, end;
+    double whole = larger(fabs(x1 - x0), fabs(y1 - y0)), begun = *length, start, end;
     *length += whole;
-    if (!clip_segment(raster, width + 1, &x0, &y0, &x1, &y1, &start, &end))
+    if (!clip_segment(raster, width + 1, &x0, &y0, &x1, &y1, &start, &end)) {
         return;
+    }
     bool steep = fabs(y1 - y0) > fabs(x1 - x0);
     double from = steep ? y0 : x0, to = steep ? y1 : x1;
     double across = steep ? x0 : y0, slope = to == from ? 0 : ((steep ? x1 : y1) - across) / (to - from);
@@ -207,11 +237,13 @@ static void line_piece(struct gm_raster *raster, double x0, double y0, double x1
     for (int along = (int)floor(from);; along += step) {
         /* the ends are met exactly, the sub-pixels between in their middle */
         double at = along + 0.5;
-        at = step > 0 ? fmin(fmax(at, from), to) : fmax(fmin(at, from), to);
-        if (dash_on(dash, begun + start * whole + fabs(at - from)))
+        at = step > 0 ? smaller(larger(at, from), to) : larger(smaller(at, from), to);
+        if (dash_on(dash, begun + start * whole + fabs(at - from))) {
             cover_across(raster, steep, along, across + slope * (at - from), width);
-        if (along == last)
+        }
+        if (along == last) {
             break;
+        }
     }
 }
 
@@ -233,16 +265,17 @@ static bool is_place(struct place place)
 
 static void mark_line(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
 {
-    double thickness = mark->style.width * raster->scale / fmin(raster->unit_x, raster->unit_y);
-    double width = raster->sharp ? round(0.7 * thickness) : fmax(1, thickness), length = 0;
+    double thickness = mark->style.width * raster->scale / smaller(raster->unit_x, raster->unit_y);
+    double width = raster->sharp ? round(0.7 * thickness) : larger(1, thickness), length = 0;
     size_t count = mark->count + (mark->closed && mark->count > 1 ? 1 : 0);
     struct place before = {NAN, NAN};
     for (size_t i = 0; i < count; i++) {
         struct place now = place_of(raster, frame, &mark->points[2 * (i % mark->count)]);
         if (is_place(before) && is_place(now)) {
             /* what is nearer than a part of a sub-pixel adds nothing but work */
-            if (i + 1 < count && fabs(now.x - before.x) + fabs(now.y - before.y) < 0.25)
+            if (i + 1 < count && fabs(now.x - before.x) + fabs(now.y - before.y) < 0.25) {
                 continue;
+            }
             line_piece(raster, before.x, before.y, now.x, now.y, width, mark->style.dash, &length);
         }
         before = now;
@@ -257,12 +290,13 @@ void gm_raster_rule(struct gm_raster *raster, double x0, double y0, double x1, d
     raster->clip_bottom = raster->height;
     bool upright = fabs(x1 - x0) / raster->unit_x < fabs(y1 - y0) / raster->unit_y;
     double unit = upright ? raster->unit_y : raster->unit_x;
-    int from = (int)floor((upright ? fmin(y0, y1) : fmin(x0, x1)) / unit);
-    int to = (int)floor((upright ? fmax(y0, y1) : fmax(x0, x1)) / unit);
+    int from = (int)floor((upright ? smaller(y0, y1) : smaller(x0, x1)) / unit);
+    int to = (int)floor((upright ? larger(y0, y1) : larger(x0, x1)) / unit);
     int across = (int)floor(upright ? x0 / raster->unit_x : y0 / raster->unit_y);
     for (int along = from; along <= to; along++) {
-        if (along % gap == 0)
+        if (along % gap == 0) {
             cover(raster, upright ? across : along, upright ? along : across, 1);
+        }
     }
     settle(raster, gm_theme_colour(raster->theme, role), 1, GM_LEVEL_GRID, role);
 }
@@ -272,20 +306,22 @@ void gm_raster_rule(struct gm_raster *raster, double x0, double y0, double x1, d
 static void mark_points(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
 {
     double radius = 0.5 * mark->style.width * raster->scale;
-    double radius_x = fmax(radius / raster->unit_x, 0.5), radius_y = fmax(radius / raster->unit_y, 0.5);
+    double radius_x = larger(radius / raster->unit_x, 0.5), radius_y = larger(radius / raster->unit_y, 0.5);
     for (size_t i = 0; i < mark->count; i++) {
         struct place middle = place_of(raster, frame, &mark->points[2 * i]);
         if (!is_place(middle) || middle.x < raster->clip_left - radius_x ||
             middle.y < raster->clip_top - radius_y || middle.x > raster->clip_right + radius_x ||
-            middle.y > raster->clip_bottom + radius_y)
+            middle.y > raster->clip_bottom + radius_y) {
             continue;
+        }
         cover(raster, (int)floor(middle.x), (int)floor(middle.y), 1);
         for (int y = (int)floor(middle.y - radius_y); y <= middle.y + radius_y; y++) {
             for (int x = (int)floor(middle.x - radius_x); x <= middle.x + radius_x; x++) {
                 double dx = (x + 0.5 - middle.x) / radius_x, dy = (y + 0.5 - middle.y) / radius_y;
-                double inside = (1 - sqrt(dx * dx + dy * dy)) * fmin(radius_x, radius_y) + 0.5;
-                if (inside > 0)
+                double inside = (1 - sqrt(dx * dx + dy * dy)) * smaller(radius_x, radius_y) + 0.5;
+                if (inside > 0) {
                     cover(raster, x, y, inside);
+                }
             }
         }
     }
@@ -293,7 +329,8 @@ static void mark_points(struct gm_raster *raster, const struct gm_frame *frame, 
 
 /* ---- polygons ---- */
 
-enum { SCANS = 4 }; /* scan lines a sub-pixel: the smoothness of a polygon's upper and lower edges */
+/* Scan lines a sub-pixel, at most: the smoothness of a polygon's upper and lower edges. */
+enum { SCANS = 4 };
 
 struct crossing {
     int scan;
@@ -303,43 +340,75 @@ struct crossing {
 static int by_place(const void *a, const void *b)
 {
     const struct crossing *one = a, *other = b;
-    if (one->scan != other->scan)
+    if (one->scan != other->scan) {
         return one->scan < other->scan ? -1 : 1;
+    }
     return (one->x > other->x) - (one->x < other->x);
 }
 
-/* The scan lines an edge crosses: from `first` up to, but not including, `end`. */
-static void edge_scans(const struct gm_raster *raster, struct place a, struct place b, int *first, int *end)
+/* A polygon's outline crossing the scan lines. */
+struct scan {
+    struct crossing *crossings;
+    size_t count, capacity;
+    int fine; /* scan lines a sub-pixel */
+    bool failed;
+};
+
+static void add_edge(const struct gm_raster *raster, struct scan *scan, struct place a, struct place b)
 {
-    double low = fmin(a.y, b.y) * SCANS - 0.5, high = fmax(a.y, b.y) * SCANS - 0.5;
-    *first = clamp_int(ceil(low), raster->clip_top * SCANS, raster->clip_bottom * SCANS);
-    *end = clamp_int(ceil(high), raster->clip_top * SCANS, raster->clip_bottom * SCANS);
+    double low = smaller(a.y, b.y) * scan->fine - 0.5, high = larger(a.y, b.y) * scan->fine - 0.5;
+    int first = clamp_int(ceil(low), raster->clip_top * scan->fine, raster->clip_bottom * scan->fine);
+    int end = clamp_int(ceil(high), raster->clip_top * scan->fine, raster->clip_bottom * scan->fine);
+    if (first >= end || scan->failed) {
+        return;
+    }
+    size_t wanted = scan->count + (size_t)(end - first);
+    if (wanted > scan->capacity) {
+        struct crossing *more = realloc(scan->crossings, 2 * wanted * sizeof *more);
+        if (!more) {
+            scan->failed = true;
+            return;
+        }
+        scan->crossings = more;
+        scan->capacity = 2 * wanted;
+    }
+    double slope = (b.x - a.x) / (b.y - a.y);
+    for (int i = first; i < end; i++) {
+        double y = (i + 0.5) / scan->fine;
+        scan->crossings[scan->count++] = (struct crossing){i, a.x + (y - a.y) * slope};
+    }
 }
 
-static void add_span(struct gm_raster *raster, double *row, double from, double to)
+static void add_span(struct gm_raster *raster, double *row, double from, double to, double weight)
 {
-    from = fmax(from, raster->clip_left);
-    to = fmin(to, raster->clip_right);
-    for (int x = (int)floor(from); x < to; x++)
-        row[x] += fmax(0, fmin(to, x + 1) - fmax(from, x)) / SCANS;
+    from = larger(from, raster->clip_left);
+    to = smaller(to, raster->clip_right);
+    for (int x = (int)floor(from); x < to; x++) {
+        row[x] += larger(0, smaller(to, x + 1) - larger(from, x)) * weight;
+    }
 }
 
-static void fill_crossings(struct gm_raster *raster, struct crossing *crossings, size_t count, double *row)
+static void fill_crossings(struct gm_raster *raster, const struct scan *scan, double *row)
 {
-    qsort(crossings, count, sizeof *crossings, by_place);
+    const struct crossing *crossings = scan->crossings;
     size_t i = 0;
-    while (i < count) {
-        int y = crossings[i].scan / SCANS;
-        for (; i < count && crossings[i].scan / SCANS == y; i++) {
+    while (i < scan->count) {
+        int y = crossings[i].scan / scan->fine;
+        double left = raster->clip_right, right = raster->clip_left;
+        for (; i < scan->count && crossings[i].scan / scan->fine == y; i++) {
             /* even-odd: the crossings of a scan line come in pairs, as the outline is closed */
-            if (i + 1 < count && crossings[i + 1].scan == crossings[i].scan) {
-                add_span(raster, row, crossings[i].x, crossings[i + 1].x);
+            if (i + 1 < scan->count && crossings[i + 1].scan == crossings[i].scan) {
+                add_span(raster, row, crossings[i].x, crossings[i + 1].x, 1.0 / scan->fine);
+                left = smaller(left, crossings[i].x);
+                right = larger(right, crossings[i + 1].x);
                 i++;
             }
         }
-        for (int x = raster->clip_left; x < raster->clip_right; x++) {
-            if (row[x] > 0)
+        int end = clamp_int(ceil(right), raster->clip_left, raster->clip_right);
+        for (int x = clamp_int(floor(left), raster->clip_left, raster->clip_right); x < end; x++) {
+            if (row[x] > 0) {
                 cover(raster, x, y, row[x]);
+            }
             row[x] = 0;
         }
     }
@@ -347,44 +416,36 @@ static void fill_crossings(struct gm_raster *raster, struct crossing *crossings,
 
 static bool mark_polygon(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
 {
-    struct place *outline = malloc(mark->count * sizeof *outline + sizeof *outline);
     double *row = calloc((size_t)raster->width + 1, sizeof *row);
-    struct crossing *crossings = NULL;
-    size_t corners = 0, count = 0;
-    bool ok = outline && row;
-    for (size_t i = 0; ok && i < mark->count; i++) {
+    struct scan scan = {.fine = raster->sharp ? 1 : SCANS};
+    struct place first = {NAN, NAN}, before = first;
+    if (!row) {
+        return false;
+    }
+    for (size_t i = 0; i < mark->count; i++) {
         struct place now = place_of(raster, frame, &mark->points[2 * i]);
-        if (!is_place(now))
+        if (!is_place(now)) {
             continue;
-        if (corners == 0 || fabs(now.x - outline[corners - 1].x) + fabs(now.y - outline[corners - 1].y) > 0.1)
-            outline[corners++] = now;
-    }
-    for (size_t i = 0; ok && i < corners; i++) {
-        int first, end;
-        edge_scans(raster, outline[i], outline[(i + 1) % corners], &first, &end);
-        count += (size_t)(end - first);
-    }
-    if (ok && count > 0) {
-        crossings = malloc(count * sizeof *crossings);
-        ok = crossings != NULL;
-    }
-    if (ok && count > 0) {
-        size_t at = 0;
-        for (size_t i = 0; i < corners; i++) {
-            struct place a = outline[i], b = outline[(i + 1) % corners];
-            int first, end;
-            edge_scans(raster, a, b, &first, &end);
-            for (int scan = first; scan < end; scan++) {
-                double y = (scan + 0.5) / SCANS;
-                crossings[at++] = (struct crossing){scan, a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y)};
-            }
         }
-        fill_crossings(raster, crossings, count, row);
+        if (!is_place(before)) {
+            first = now;
+        } else if (fabs(now.x - before.x) + fabs(now.y - before.y) < 0.2) {
+            continue;
+        } else {
+            add_edge(raster, &scan, before, now);
+        }
+        before = now;
     }
-    free(crossings);
+    if (is_place(before)) {
+        add_edge(raster, &scan, before, first);
+    }
+    if (scan.count > 0 && !scan.failed) {
+        qsort(scan.crossings, scan.count, sizeof *scan.crossings, by_place);
+        fill_crossings(raster, &scan, row);
+    }
+    free(scan.crossings);
     free(row);
-    free(outline);
-    return ok;
+    return !scan.failed;
 }
 
 /* ---- fields ---- */
@@ -405,12 +466,13 @@ static void mesh_triangle(struct gm_raster *raster, const struct gm_mark *mark, 
 {
     double area = (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) -
                   (corner[2].x - corner[0].x) * (corner[1].y - corner[0].y);
-    if (area == 0)
+    if (area == 0) {
         return;
-    double low_x = fmin(corner[0].x, fmin(corner[1].x, corner[2].x));
-    double low_y = fmin(corner[0].y, fmin(corner[1].y, corner[2].y));
-    double high_x = fmax(corner[0].x, fmax(corner[1].x, corner[2].x));
-    double high_y = fmax(corner[0].y, fmax(corner[1].y, corner[2].y));
+    }
+    double low_x = smaller(corner[0].x, smaller(corner[1].x, corner[2].x));
+    double low_y = smaller(corner[0].y, smaller(corner[1].y, corner[2].y));
+    double high_x = larger(corner[0].x, larger(corner[1].x, corner[2].x));
+    double high_y = larger(corner[0].y, larger(corner[1].y, corner[2].y));
     int left = clamp_int(floor(low_x), raster->clip_left, raster->clip_right);
     int right = clamp_int(ceil(high_x), raster->clip_left, raster->clip_right);
     int top = clamp_int(floor(low_y), raster->clip_top, raster->clip_bottom);
@@ -420,8 +482,9 @@ static void mesh_triangle(struct gm_raster *raster, const struct gm_mark *mark, 
             double px = x + 0.5 - corner[0].x, py = y + 0.5 - corner[0].y;
             double b = (px * (corner[2].y - corner[0].y) - (corner[2].x - corner[0].x) * py) / area;
             double c = ((corner[1].x - corner[0].x) * py - px * (corner[1].y - corner[0].y)) / area;
-            if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9)
+            if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9) {
                 continue;
+            }
             double here = value[0] + b * (value[1] - value[0]) + c * (value[2] - value[0]);
             set_field(raster, x, y, gm_map_colour(mark->map, raster->theme, map_position(mark, here)));
         }
@@ -440,8 +503,9 @@ static void mark_mesh(struct gm_raster *raster, const struct gm_frame *frame, co
             value[k] = mark->values[vertex];
             drawn = drawn && is_place(corner[k]) && isfinite(value[k]);
         }
-        if (drawn)
+        if (drawn) {
             mesh_triangle(raster, mark, corner, value);
+        }
     }
 }
 
@@ -450,21 +514,25 @@ static void mark_image(struct gm_raster *raster, const struct gm_frame *frame, c
     struct place low = place_of(raster, frame, &mark->points[0]);
     struct place high = place_of(raster, frame, &mark->points[2]);
     if (mark->rows == 0 || mark->columns == 0 || !is_place(low) || !is_place(high) || low.x == high.x ||
-        low.y == high.y)
+        low.y == high.y) {
         return;
+    }
     for (int y = raster->clip_top; y < raster->clip_bottom; y++) {
         double v = (y + 0.5 - low.y) / (high.y - low.y);
-        if (v < 0 || v > 1)
+        if (v < 0 || v > 1) {
             continue;
+        }
         size_t row = (size_t)clamp_int(v * (double)mark->rows, 0, (int)mark->rows - 1);
         for (int x = raster->clip_left; x < raster->clip_right; x++) {
             double u = (x + 0.5 - low.x) / (high.x - low.x);
-            if (u < 0 || u > 1)
+            if (u < 0 || u > 1) {
                 continue;
+            }
             size_t column = (size_t)clamp_int(u * (double)mark->columns, 0, (int)mark->columns - 1);
             double value = mark->values[row * mark->columns + column];
-            if (isfinite(value))
+            if (isfinite(value)) {
                 set_field(raster, x, y, gm_map_colour(mark->map, raster->theme, map_position(mark, value)));
+            }
         }
     }
 }
@@ -474,8 +542,9 @@ void gm_raster_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_m
     gm_raster_clip(raster, box);
     for (int y = raster->clip_top; y < raster->clip_bottom; y++) {
         double position = 1 - ((y + 0.5) * raster->unit_y - box->y) / box->height;
-        for (int x = raster->clip_left; x < raster->clip_right; x++)
+        for (int x = raster->clip_left; x < raster->clip_right; x++) {
             set_field(raster, x, y, gm_map_colour(map, raster->theme, position));
+        }
     }
 }
 
@@ -485,8 +554,9 @@ bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, cons
                     bool outline)
 {
     struct gm_rgb colour = gm_theme_colour(raster->theme, mark->style.role);
-    if (mark->count == 0)
+    if (mark->count == 0) {
         return true;
+    }
     gm_raster_clip(raster, &frame->box);
     switch (mark->kind) {
     case GM_MARK_LINE:

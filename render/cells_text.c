@@ -7,8 +7,9 @@
 uint32_t gm_text_next(const char **text)
 {
     const unsigned char *at = (const unsigned char *)*text;
-    if (at[0] == 0)
+    if (at[0] == 0) {
         return 0;
+    }
     int more = at[0] < 0x80 ? 0 : at[0] >= 0xF0 ? 3 : at[0] >= 0xE0 ? 2 : at[0] >= 0xC0 ? 1 : -1;
     if (more < 0 || at[0] > 0xF4) {
         *text += 1;
@@ -84,20 +85,24 @@ struct reader {
 
 static uint32_t read_next(struct reader *reader)
 {
-    if (reader->letters && *reader->letters)
+    if (reader->letters && *reader->letters) {
         return (unsigned char)*reader->letters++;
+    }
     uint32_t code = gm_text_next(&reader->text);
-    while (!reader->ascii && code >= 0x300 && code < 0x370) /* an accent would need a cell of its own */
+    while (!reader->ascii && code >= 0x300 && code < 0x370) { /* an accent would need a cell of its own */
         code = gm_text_next(&reader->text);
-    if (code != 0 && code < ' ')
+    }
+    if (code != 0 && code < ' ') {
         code = ' ';
+    }
     if (!reader->ascii || code < 0x7F) {
         reader->raised = false;
         return code;
     }
     reader->letters = gm_text_ascii(code);
-    if (is_raised(code) && reader->raised && *reader->letters == '^')
+    if (is_raised(code) && reader->raised && *reader->letters == '^') {
         reader->letters++;
+    }
     reader->raised = is_raised(code);
     return (unsigned char)*reader->letters++;
 }
@@ -106,8 +111,9 @@ int gm_text_width(const char *text, bool ascii)
 {
     struct reader reader = {.text = text, .ascii = ascii};
     int width = 0;
-    while (read_next(&reader) != 0)
+    while (read_next(&reader) != 0) {
         width++;
+    }
     return width;
 }
 
@@ -118,8 +124,9 @@ int gm_cells_text(struct gm_cells *cells, int column, int row, int limit, const 
     int width = 0;
     for (uint32_t code; (limit < 0 || width < limit) && (code = read_next(&reader)) != 0; width++) {
         int at = column + width;
-        if (row < 0 || row >= cells->rows || at < 0 || at >= cells->columns)
+        if (row < 0 || row >= cells->rows || at < 0 || at >= cells->columns) {
             continue;
+        }
         struct gm_cell *cell = &cells->cells[(size_t)row * (size_t)cells->columns + (size_t)at];
         cell->glyph = code;
         cell->foreground = gm_theme_colour(theme, role);

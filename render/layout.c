@@ -12,7 +12,7 @@ static const double side_margin = 40.0, top_margin = 16.0, bottom_margin = 18.0,
                     column_gap = 26.0, row_gap = 22.0, group_gap = 44.0;
 
 /* Share of the width that the column of graphs takes beside states. */
-static const double graph_share = 0.3;
+static const double graph_share = 0.3, terse_graph_share = 0.38;
 
 /* A graph is as wide as this many heights where nothing else decides, and never narrower than that. */
 static const double graph_aspect = 1.75, graph_narrowest = 1.0;
@@ -317,7 +317,8 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     states.area = graphs.area = area;
     if (states.count > 0 && graphs.count > 0) {
         const double gap = margin_of(metrics->width, group_gap * scale);
-        graphs.area.width = fmin(area.width, graph_share * metrics->width);
+        graphs.area.width =
+            fmin(area.width, (metrics->terse ? terse_graph_share : graph_share) * metrics->width);
         graphs.area.x = area.x + area.width - graphs.area.width;
         states.area.width = fmax(0.0, area.width - graphs.area.width - gap);
     }

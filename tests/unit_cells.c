@@ -12,7 +12,8 @@
 
 static struct gm_cells cells_of(int columns, int rows)
 {
-    struct gm_cells cells = {columns, rows, calloc((size_t)columns * (size_t)rows, sizeof(struct gm_cell))};
+    struct gm_cells cells = {.columns = columns, .rows = rows};
+    cells.cells = calloc((size_t)columns * (size_t)rows, sizeof(struct gm_cell));
     assert_non_null(cells.cells);
     return cells;
 }
@@ -63,8 +64,9 @@ static bool has_text(const struct gm_cells *cells, const char *wanted)
     char text[512];
     for (int row = 0; row < cells->rows; row++) {
         row_text(cells, row, text);
-        if (strstr(text, wanted))
+        if (strstr(text, wanted)) {
             return true;
+        }
     }
     return false;
 }
@@ -91,8 +93,9 @@ static size_t count_role(const struct gm_cells *cells, enum gm_role role, double
 
 static bool is_text_of(enum gm_blocks blocks, uint32_t glyph)
 {
-    if (glyph < 0x2500 || glyph == 0x2500 || glyph == 0x2502 || glyph == 0x253C || glyph == 0x2514)
+    if (glyph < 0x2500 || glyph == 0x2500 || glyph == 0x2502 || glyph == 0x253C || glyph == 0x2514) {
         return true; /* letters and the axes */
+    }
     return blocks == GM_BRAILLE && glyph >= 0x2800 && glyph < 0x2900;
 }
 
@@ -158,12 +161,14 @@ static void half_blocks_fill(void **state)
     assert_int_equal(middle->glyph, 0x2588);
     assert_int_not_equal(middle->foreground.b, paper.b);
     int width = 0, height = 0;
-    for (int x = 0; x < 80; x++)
+    for (int x = 0; x < 80; x++) {
         width +=
             cells.cells[(int)row * 120 + x].role == GM_LANE && cells.cells[(int)row * 120 + x].glyph != ' ';
-    for (int y = 6; y < 36; y++)
+    }
+    for (int y = 6; y < 36; y++) {
         height += cells.cells[y * 120 + (int)column].role == GM_LANE &&
                   cells.cells[y * 120 + (int)column].glyph != ' ';
+    }
     assert_true(abs(width - 2 * height) <= 3);
     free(cells.cells);
     gm_picture_close(picture);
@@ -205,8 +210,9 @@ static void fields(void **state)
         struct gm_cells cells = cells_of(60, 20);
         assert_true(gm_cells_paint(&cells, picture, GM_THEME_DARK, (enum gm_blocks)blocks));
         size_t drawn = 0;
-        for (int i = 0; i < 60 * 20; i++)
+        for (int i = 0; i < 60 * 20; i++) {
             drawn += cells.cells[i].glyph != ' ';
+        }
         assert_true(drawn > 200);
         free(cells.cells);
         gm_picture_close(picture);

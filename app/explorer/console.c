@@ -74,8 +74,9 @@ static void on_crash(int number)
         tcsetattr(STDIN_FILENO, TCSANOW, &before);
     }
     for (int i = 0; i < CRASH_COUNT; i++) {
-        if (crash_signals[i] == number)
+        if (crash_signals[i] == number) {
             sigaction(number, &crash_before[i], NULL);
+        }
     }
     raise(number);
 }
@@ -89,10 +90,12 @@ static void handle(int number, void (*handler)(int), struct sigaction *old)
 
 static void handle_all(void)
 {
-    for (int i = 0; i < LEAVE_COUNT; i++)
+    for (int i = 0; i < LEAVE_COUNT; i++) {
         handle(leave_signals[i], on_leave, &leave_before[i]);
-    for (int i = 0; i < CRASH_COUNT; i++)
+    }
+    for (int i = 0; i < CRASH_COUNT; i++) {
         handle(crash_signals[i], on_crash, &crash_before[i]);
+    }
     /* Set before ncurses looks, so that it leaves these two to us: its own handlers would draw. */
     handle(SIGWINCH, on_resize, &resize_before);
     handle(SIGTSTP, on_stop, &stop_before);
@@ -101,10 +104,12 @@ static void handle_all(void)
 
 static void unhandle_all(void)
 {
-    for (int i = 0; i < LEAVE_COUNT; i++)
+    for (int i = 0; i < LEAVE_COUNT; i++) {
         sigaction(leave_signals[i], &leave_before[i], NULL);
-    for (int i = 0; i < CRASH_COUNT; i++)
+    }
+    for (int i = 0; i < CRASH_COUNT; i++) {
         sigaction(crash_signals[i], &crash_before[i], NULL);
+    }
     sigaction(SIGWINCH, &resize_before, NULL);
     sigaction(SIGTSTP, &stop_before, NULL);
     sigaction(SIGPIPE, &pipe_before, NULL);
@@ -114,15 +119,17 @@ static void unhandle_all(void)
 
 static void add_parting(const char *text)
 {
-    if (!text || text == (char *)-1)
+    if (!text || text == (char *)-1) {
         return;
+    }
     /* without padding, which means nothing to today's terminals */
     while (*text && parting_size < sizeof parting) {
         const char *end = text[0] == '$' && text[1] == '<' ? strchr(text, '>') : NULL;
-        if (end)
+        if (end) {
             text = end + 1;
-        else
+        } else {
             parting[parting_size++] = *text++;
+        }
     }
 }
 
@@ -136,8 +143,9 @@ static bool has_other_screen(void)
 static void prepare_parting(bool modern)
 {
     parting_size = 0;
-    if (modern)
+    if (modern) {
         add_parting("\030\033[?2026l"); /* cancels what may be half written */
+    }
     add_parting(tigetstr("sgr0"));
     add_parting(tigetstr("rmkx"));
     add_parting(tigetstr("cnorm"));
@@ -193,18 +201,21 @@ bool gm_console_open(int wake, char *message)
     prepare_parting(tigetnum("colors") >= 256);
     take_over();
     static bool registered;
-    if (!registered)
+    if (!registered) {
         registered = atexit(gm_console_close) == 0;
+    }
     return true;
 }
 
 void gm_console_close(void)
 {
-    if (!screen)
+    if (!screen) {
         return;
+    }
     give_back();
-    if (keys)
+    if (keys) {
         delwin(keys);
+    }
     delscreen(screen);
     keys = NULL;
     screen = NULL;

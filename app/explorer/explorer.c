@@ -61,8 +61,9 @@ static bool open_by_name(struct explorer *explorer, const struct gm_scene *scene
 {
     struct gm_request request;
     char *words[] = {(char *)scene->name};
-    if (!gm_request_parse(&request, 1, words, FIRST_SCHEMES, explorer->message))
+    if (!gm_request_parse(&request, 1, words, FIRST_SCHEMES, explorer->message)) {
         return false;
+    }
     bool ok = open_scene(explorer, &request);
     gm_request_close(&request);
     return ok;
@@ -72,8 +73,9 @@ static void resize(struct explorer *explorer)
 {
     int columns, rows;
     gm_terminal_size(&columns, &rows);
-    if (!gm_screen_resize(&explorer->screen, columns, rows))
+    if (!gm_screen_resize(&explorer->screen, columns, rows)) {
         leave(explorer, GM_EXIT_USAGE);
+    }
     gm_writer_forget(&explorer->writer);
     explorer->dirty = explorer->fresh = true;
 }
@@ -96,8 +98,9 @@ static void press_at_start(struct explorer *explorer, int key)
     case '\n':
     case '\r':
     case KEY_ENTER:
-        if (!open_by_name(explorer, gm_scene_at(explorer->choice)))
+        if (!open_by_name(explorer, gm_scene_at(explorer->choice))) {
             leave(explorer, GM_EXIT_USAGE);
+        }
         break;
     default:
         return;
@@ -112,8 +115,9 @@ static void press(struct explorer *explorer, int key)
         return;
     }
     if (!explorer->shot) { /* before the first picture there is only leaving */
-        if (key == 'q')
+        if (key == 'q') {
             leave(explorer, GM_EXIT_OK);
+        }
         return;
     }
     switch (gm_key_press(key, &explorer->face, explorer->shot, explorer->worker, explorer->terminal.utf8)) {
@@ -139,14 +143,16 @@ static void read_keys(struct explorer *explorer)
         leave(explorer, GM_EXIT_OK); /* readable, yet nothing to read: the terminal is gone */
         return;
     }
-    for (int key; !explorer->leave && (key = gm_console_key()) >= 0;)
+    for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
         press(explorer, key);
+    }
 }
 
 static void suspend(struct explorer *explorer)
 {
-    while (!gm_writer_idle(&explorer->writer) && gm_writer_send(&explorer->writer))
+    while (!gm_writer_idle(&explorer->writer) && gm_writer_send(&explorer->writer)) {
         poll(&(struct pollfd){.fd = explorer->writer.fd, .events = POLLOUT}, 1, -1);
+    }
     gm_console_stop();
     resize(explorer);
 }
@@ -154,14 +160,18 @@ static void suspend(struct explorer *explorer)
 static void read_news(struct explorer *explorer)
 {
     uint64_t count;
-    if (read(explorer->wake, &count, sizeof count) < 0 && errno != EAGAIN && errno != EINTR)
+    if (read(explorer->wake, &count, sizeof count) < 0 && errno != EAGAIN && errno != EINTR) {
         leave(explorer, GM_EXIT_USAGE);
-    if (gm_console_leaving())
+    }
+    if (gm_console_leaving()) {
         leave(explorer, GM_EXIT_INTERRUPTED);
-    if (gm_console_stopping())
+    }
+    if (gm_console_stopping()) {
         suspend(explorer);
-    if (gm_console_resized())
+    }
+    if (gm_console_resized()) {
         resize(explorer);
+    }
     struct gm_shot *shot = explorer->worker ? gm_worker_take(explorer->worker) : NULL;
     if (shot) {
         explorer->shot = shot;
@@ -175,12 +185,13 @@ static void read_news(struct explorer *explorer)
 
 static void draw(struct explorer *explorer)
 {
-    if (!explorer->worker)
+    if (!explorer->worker) {
         gm_screen_draw_start(&explorer->screen, &explorer->face, explorer->choice);
-    else if (explorer->shot)
+    } else if (explorer->shot) {
         gm_screen_draw(&explorer->screen, &explorer->face, explorer->shot, explorer->fresh);
-    else
+    } else {
         return;
+    }
     explorer->dirty = explorer->fresh = false;
     gm_writer_draw(&explorer->writer, &explorer->screen.cells);
 }
@@ -189,15 +200,19 @@ static void draw(struct explorer *explorer)
    wait for input, in milliseconds; -1: as long as it takes. */
 static int output(struct explorer *explorer)
 {
-    if (gm_writer_idle(&explorer->writer) && explorer->dirty)
+    if (gm_writer_idle(&explorer->writer) && explorer->dirty) {
         draw(explorer);
-    if (!gm_writer_send(&explorer->writer))
+    }
+    if (!gm_writer_send(&explorer->writer)) {
         leave(explorer, GM_EXIT_FILE);
-    if (!explorer->worker || explorer->asked || !gm_writer_idle(&explorer->writer))
+    }
+    if (!explorer->worker || explorer->asked || !gm_writer_idle(&explorer->writer)) {
         return -1;
+    }
     int64_t wait = explorer->next_shot - milliseconds();
-    if (wait > 0)
+    if (wait > 0) {
         return (int)wait;
+    }
     gm_worker_want(explorer->worker);
     explorer->asked = true;
     return -1;
@@ -215,19 +230,23 @@ static void run(struct explorer *explorer)
             [SCREEN] = {.fd = gm_writer_idle(&explorer->writer) ? -1 : explorer->writer.fd,
                         .events = POLLOUT},
         };
-        if (explorer->leave)
+        if (explorer->leave) {
             break;
+        }
         if (poll(watched, COUNT, wait) < 0) {
-            if (errno != EINTR)
+            if (errno != EINTR) {
                 leave(explorer, GM_EXIT_USAGE);
+            }
             continue; /* a signal's news is on its way */
         }
-        if (watched[NEWS].revents)
+        if (watched[NEWS].revents) {
             read_news(explorer);
-        if (watched[KEYS].revents & POLLIN)
+        }
+        if (watched[KEYS].revents & POLLIN) {
             read_keys(explorer);
-        else if (watched[KEYS].revents)
+        } else if (watched[KEYS].revents) {
             leave(explorer, GM_EXIT_OK);
+        }
     }
 }
 
@@ -239,16 +258,19 @@ int gm_explorer(const struct gm_request *request)
         fprintf(stderr, "geomint: %s\n", explorer.message);
         return GM_EXIT_USAGE;
     }
-    explorer.face = (struct gm_face){.blocks = explorer.terminal.blocks, .theme = explorer.terminal.theme};
+    explorer.face = (struct gm_face){.blocks = explorer.terminal.blocks,
+                                     .theme = explorer.terminal.theme,
+                                     .few_colours = explorer.terminal.colours < GM_COLOURS_256};
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     /* The lanes are opened before the terminal is taken over: a mistake is best read in the shell. */
     bool ok = explorer.wake >= 0;
-    if (!ok)
+    if (!ok) {
         snprintf(explorer.message, GM_MESSAGE, "The system has no eventfd to spare.");
-    else if (request && request->scene)
+    } else if (request && request->scene) {
         ok = open_scene(&explorer, request);
-    else if (gm_scene_count() == 1)
+    } else if (gm_scene_count() == 1) {
         ok = open_by_name(&explorer, gm_scene_at(0));
+    }
     ok = ok && gm_console_open(explorer.wake, explorer.message);
     int number = 0;
     if (ok && gm_writer_open(&explorer.writer, &explorer.terminal)) {
@@ -259,8 +281,9 @@ int gm_explorer(const struct gm_request *request)
     gm_console_close();
     gm_worker_close(explorer.worker);
     gm_screen_close(&explorer.screen);
-    if (explorer.wake >= 0)
+    if (explorer.wake >= 0) {
         close(explorer.wake);
+    }
     if (!ok || explorer.status == GM_EXIT_USAGE) {
         fprintf(stderr, "geomint: %s\n",
                 explorer.message[0] ? explorer.message : "There is not enough memory.");

@@ -27,28 +27,33 @@ static void put_wrapped(struct page *page, int column, const char *text, enum gm
             bool end = text[i] == '\0' || text[i] == '\n', blank = end || text[i] == ' ';
             if (blank) {
                 snprintf(line, sizeof line, "%.*s", (int)i, text);
-                if (gm_sheet_width(&page->sheet, line) > room && fits > 0)
+                if (gm_sheet_width(&page->sheet, line) > room && fits > 0) {
                     break;
+                }
                 fits = i;
             }
-            if (end)
+            if (end) {
                 break;
+            }
         }
-        if (fits == 0)
+        if (fits == 0) {
             fits = strlen(text) < sizeof line ? strlen(text) : sizeof line - 1;
+        }
         snprintf(line, sizeof line, "%.*s", (int)fits, text);
         put(page, column, line, role, false);
         page->row++;
         text += fits;
-        while (*text == ' ' || *text == '\n')
+        while (*text == ' ' || *text == '\n') {
             text++;
+        }
     }
 }
 
 static void put_heading(struct page *page, const char *text)
 {
-    if (page->row > 0)
+    if (page->row > 0) {
         page->row++;
+    }
     put(page, 0, text, GM_SECONDARY, true);
     page->row++;
 }
@@ -124,15 +129,18 @@ static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *
 {
     bool two = sheet->width >= TWO_COLUMNS;
     struct page left = {.sheet = *sheet, .scroll = scroll};
-    if (two)
+    if (two) {
         left.sheet.width = (sheet->width - COLUMN_GAP) / 2;
+    }
     struct page right = left;
-    if (two)
+    if (two) {
         right.sheet.column += left.sheet.width + COLUMN_GAP;
+    }
     put_scene(&left, shot->scene);
     put_keys(&left);
-    if (!two)
+    if (!two) {
         right.row = left.row;
+    }
     put_claims(&right);
     put_scheme(&right, &shot->lanes[shot->selected]);
     return left.row > right.row ? left.row : right.row;
@@ -144,9 +152,11 @@ void gm_help_draw(const struct gm_sheet *sheet, struct gm_face *face, const stru
     struct gm_sheet nothing = *sheet;
     nothing.height = 0;
     int most = draw(&nothing, 0, shot) - sheet->height;
-    if (face->scroll > most)
+    if (face->scroll > most) {
         face->scroll = most;
-    if (face->scroll < 0)
+    }
+    if (face->scroll < 0) {
         face->scroll = 0;
+    }
     draw(sheet, face->scroll, shot);
 }

@@ -44,16 +44,19 @@ static size_t first_choice(const struct gm_shot *shot)
 {
     size_t own = 0;
     for (size_t i = 0; i < shot->scheme_count; i++) {
-        if (shot->schemes[i] == shot->lanes[shot->selected].scheme)
+        if (shot->schemes[i] == shot->lanes[shot->selected].scheme) {
             own = i;
+        }
     }
     for (size_t i = 1; i < shot->scheme_count; i++) {
         size_t at = (own + i) % shot->scheme_count;
         bool used = false;
-        for (size_t k = 0; k < shot->lane_count; k++)
+        for (size_t k = 0; k < shot->lane_count; k++) {
             used = used || shot->lanes[k].scheme == shot->schemes[at];
-        if (!used)
+        }
+        if (!used) {
             return at;
+        }
     }
     return own;
 }
@@ -62,20 +65,22 @@ static enum gm_key_result press_in_chooser(int key, struct gm_face *face, const 
                                            struct gm_worker *worker)
 {
     size_t count = shot->scheme_count;
-    if (key == 'q')
+    if (key == 'q') {
         return GM_KEY_LEAVE;
+    }
     if (is_enter(key) && face->choice < count) {
         gm_worker_order(worker,
                         (struct gm_order){.kind = GM_ORDER_SWITCH, .scheme = shot->schemes[face->choice]});
         face->choosing = false;
         return GM_KEY_ORDER;
     }
-    if ((key == KEY_UP || key == KEY_DOWN || key == 's') && count > 0)
+    if ((key == KEY_UP || key == KEY_DOWN || key == 's') && count > 0) {
         face->choice = (face->choice + (key == KEY_UP ? count - 1 : 1)) % count;
-    else if (key == ESCAPE || is_erase(key))
+    } else if (key == ESCAPE || is_erase(key)) {
         face->choosing = false;
-    else
+    } else {
         return GM_KEY_IGNORED;
+    }
     return GM_KEY_FACE;
 }
 
@@ -88,8 +93,9 @@ static enum gm_key_result order(struct gm_worker *worker, enum gm_order_kind kin
 static enum gm_key_result order_parameter(struct gm_worker *worker, enum gm_order_kind kind, int amount,
                                           struct gm_face *face, const struct gm_shot *shot)
 {
-    if (face->parameter >= shot->parameter_count)
+    if (face->parameter >= shot->parameter_count) {
         return GM_KEY_IGNORED;
+    }
     const struct gm_shot_parameter *parameter = &shot->parameters[face->parameter];
     face->explaining = true;
     gm_worker_order(worker, (struct gm_order){
@@ -103,8 +109,9 @@ static enum gm_key_result order_parameter(struct gm_worker *worker, enum gm_orde
 
 static enum gm_key_result choose_parameter(struct gm_face *face, const struct gm_shot *shot, size_t step)
 {
-    if (shot->parameter_count > 0)
+    if (shot->parameter_count > 0) {
         face->parameter = (face->parameter + step) % shot->parameter_count;
+    }
     face->explaining = true;
     return GM_KEY_FACE;
 }
@@ -113,12 +120,15 @@ enum gm_key_result gm_key_press(int key, struct gm_face *face, const struct gm_s
                                 struct gm_worker *worker, bool utf8)
 {
     face->read = shot->message_number;
-    if (key == REDRAW)
+    if (key == REDRAW) {
         return GM_KEY_REPAINT;
-    if (face->help)
+    }
+    if (face->help) {
         return press_in_help(key, face);
-    if (face->choosing)
+    }
+    if (face->choosing) {
         return press_in_chooser(key, face, shot, worker);
+    }
     face->explaining = false;
     switch (key) {
     case 'q':
@@ -128,8 +138,9 @@ enum gm_key_result gm_key_press(int key, struct gm_face *face, const struct gm_s
         face->scroll = 0;
         return GM_KEY_FACE;
     case 'b':
-        if (utf8)
+        if (utf8) {
             face->blocks = (enum gm_blocks)((face->blocks + 1) % GM_BLOCKS_COUNT);
+        }
         return GM_KEY_FACE;
     case 's':
         face->choosing = true;
@@ -166,8 +177,9 @@ enum gm_key_result gm_key_press(int key, struct gm_face *face, const struct gm_s
     case KEY_BTAB:
         return order(worker, GM_ORDER_SELECT, -1);
     default:
-        if (is_erase(key))
+        if (is_erase(key)) {
             return order_parameter(worker, GM_ORDER_STANDARD, 0, face, shot);
+        }
         return GM_KEY_FACE; /* any other key dismisses a message */
     }
 }

@@ -30,8 +30,9 @@ int gm_palette_256(struct gm_rgb colour)
 {
     int best = 16;
     for (int i = 17; i < 256; i++) {
-        if (shift(colour, of_256(i)) < shift(colour, of_256(best)))
+        if (shift(colour, of_256(i)) < shift(colour, of_256(best))) {
             best = i;
+        }
     }
     return best;
 }
@@ -47,8 +48,9 @@ static int nearest_16(struct gm_rgb colour)
 {
     int best = 0;
     for (int i = 1; i < 16; i++) {
-        if (distance(colour, sixteen[i]) < distance(colour, sixteen[best]))
+        if (distance(colour, sixteen[i]) < distance(colour, sixteen[best])) {
             best = i;
+        }
     }
     return best;
 }
@@ -92,8 +94,9 @@ int gm_palette_16(enum gm_theme theme, struct gm_rgb colour, enum gm_role role)
 int gm_palette_ground(enum gm_theme theme, struct gm_rgb colour)
 {
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
-    if (distance(colour, paper) < 4000)
+    if (distance(colour, paper) < 4000) {
         return roles[theme][GM_PAPER][0];
+    }
     return nearest_16(colour);
 }
 

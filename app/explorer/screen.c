@@ -13,9 +13,10 @@
 static bool resize(struct gm_cells *cells, int columns, int rows)
 {
     struct gm_cell *more = realloc(cells->cells, sizeof *more * (size_t)columns * (size_t)rows);
-    if (!more)
+    if (!more) {
         return false;
-    *cells = (struct gm_cells){columns, rows, more};
+    }
+    *cells = (struct gm_cells){.columns = columns, .rows = rows, .cells = more};
     return true;
 }
 
@@ -25,15 +26,17 @@ static void clear(struct gm_cells *cells, enum gm_theme theme)
                                   .foreground = gm_theme_colour(theme, GM_INK),
                                   .background = gm_theme_colour(theme, GM_PAPER),
                                   .role = GM_INK};
-    for (size_t i = 0; i < (size_t)cells->columns * (size_t)cells->rows; i++)
+    for (size_t i = 0; i < (size_t)cells->columns * (size_t)cells->rows; i++) {
         cells->cells[i] = blank;
+    }
 }
 
 int gm_sheet_text(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
                   bool bold)
 {
-    if (row < 0 || row >= sheet->height || column >= sheet->width)
+    if (row < 0 || row >= sheet->height || column >= sheet->width) {
         return 0;
+    }
     return gm_cells_text(sheet->cells, sheet->column + column, sheet->row + row, sheet->width - column, text,
                          sheet->face->blocks == GM_ASCII, sheet->face->theme, role, bold);
 }
@@ -52,10 +55,12 @@ void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const cha
 void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t glyph, enum gm_role role,
                     bool bold)
 {
-    if (column < 0 || row < 0 || column >= sheet->width || row >= sheet->height)
+    if (column < 0 || row < 0 || column >= sheet->width || row >= sheet->height) {
         return;
-    if (sheet->face->blocks == GM_ASCII && glyph >= 0x7F)
+    }
+    if (sheet->face->blocks == GM_ASCII && glyph >= 0x7F) {
         glyph = (unsigned char)gm_text_ascii(glyph)[0];
+    }
     size_t at = (size_t)(sheet->row + row) * (size_t)sheet->cells->columns + (size_t)(sheet->column + column);
     struct gm_cell *cell = &sheet->cells->cells[at];
     cell->glyph = glyph;
@@ -83,8 +88,9 @@ enum { SIDE_FROM_COLUMNS = 60, SIDE_FROM_ROWS = 12, SIDE_LEAST = 31, SIDE_MOST =
 
 static int side_columns(const struct gm_cells *cells)
 {
-    if (cells->columns < SIDE_FROM_COLUMNS || cells->rows < SIDE_FROM_ROWS)
+    if (cells->columns < SIDE_FROM_COLUMNS || cells->rows < SIDE_FROM_ROWS) {
         return 0;
+    }
     int columns = cells->columns * 2 / 5;
     return columns < SIDE_LEAST ? SIDE_LEAST : columns > SIDE_MOST ? SIDE_MOST : columns;
 }
@@ -99,17 +105,20 @@ static void draw_picture(struct gm_screen *screen, const struct gm_face *face, c
 {
     if (!screen->fresh || screen->blocks != face->blocks || screen->picture.columns != columns ||
         screen->picture.rows != rows) {
-        if (!resize(&screen->picture, columns, rows))
+        if (!resize(&screen->picture, columns, rows)) {
             return;
+        }
         clear(&screen->picture, face->theme);
+        screen->picture.outlines = face->few_colours;
         gm_cells_paint(&screen->picture, shot->picture, face->theme, face->blocks);
         screen->blocks = face->blocks;
         screen->fresh = true;
     }
-    for (int row = 0; row < rows; row++)
+    for (int row = 0; row < rows; row++) {
         memcpy(&screen->cells.cells[(size_t)row * (size_t)screen->cells.columns],
                &screen->picture.cells[(size_t)row * (size_t)columns],
                sizeof(struct gm_cell) * (size_t)columns);
+    }
 }
 
 struct hint {
@@ -123,8 +132,9 @@ static int draw_hints(const struct gm_sheet *sheet, int from, const struct hint 
     for (; hints[count].key; count++) {
         int width =
             gm_sheet_width(sheet, hints[count].key) + 1 + gm_sheet_width(sheet, hints[count].word) + 3;
-        if (from + widths + width > sheet->width)
+        if (from + widths + width > sheet->width) {
             break;
+        }
         widths += width;
     }
     int begin = sheet->width - widths + 2, column = begin;
@@ -153,10 +163,12 @@ static void draw_rule(struct gm_screen *screen, const struct gm_face *face, int 
 {
     int row = screen->cells.rows - 2, foot = screen->cells.columns - side;
     const struct gm_sheet sheet = {&screen->cells, face, 0, 0, screen->cells.columns, screen->cells.rows};
-    for (int i = 0; i < screen->cells.columns; i++)
+    for (int i = 0; i < screen->cells.columns; i++) {
         gm_sheet_glyph(&sheet, i, row, side && i == foot ? 0x2534 : 0x2500, GM_GRID, false);
-    for (int i = 0; side && i < row; i++)
+    }
+    for (int i = 0; side && i < row; i++) {
         gm_sheet_glyph(&sheet, foot, i, 0x2502, GM_GRID, false);
+    }
 }
 
 static void speed_text(const struct gm_shot *shot, char *text, size_t size)
@@ -172,8 +184,9 @@ static void draw_status(struct gm_screen *screen, const struct gm_face *face, co
                         int side)
 {
     int rows = status_rows(&screen->cells), column = 1;
-    if (rows == 0)
+    if (rows == 0) {
         return;
+    }
     const struct gm_sheet sheet = {&screen->cells, face, 0, screen->cells.rows - 1, screen->cells.columns, 1};
     char text[GM_MESSAGE];
     if (!side) { /* the side panel has it otherwise */
@@ -181,17 +194,18 @@ static void draw_status(struct gm_screen *screen, const struct gm_face *face, co
         column += gm_sheet_text(&sheet, column, 0, text, GM_INK, true) + 2;
     }
     bool news = shot->message[0] && shot->message_number != face->read;
-    if (face->choosing)
+    if (face->choosing) {
         snprintf(text, sizeof text, "Another scheme for %s, from its present state on",
                  shot->lanes[shot->selected].scheme->title);
-    else if (news)
+    } else if (news) {
         snprintf(text, sizeof text, "%s", shot->message);
-    else if (face->explaining && face->parameter < shot->parameter_count) {
+    } else if (face->explaining && face->parameter < shot->parameter_count) {
         const struct gm_shot_parameter *parameter = &shot->parameters[face->parameter];
         snprintf(text, sizeof text, "%s: %s; %s", parameter->row->key, parameter->row->help,
                  parameter->row->live && !parameter->of_scheme ? "acts at once" : "starts again");
-    } else
+    } else {
         snprintf(text, sizeof text, "%s", shot->scene->watch ? shot->scene->watch : "");
+    }
     int width = gm_sheet_width(&sheet, text);
     const struct hint *hints = face->choosing ? chooser_hints : shot->paused ? paused_hints : running_hints;
     /* the first hint, help, is always there if it fits at all */
@@ -216,29 +230,34 @@ void gm_screen_draw(struct gm_screen *screen, struct gm_face *face, const struct
     struct gm_cells *cells = &screen->cells;
     int below = status_rows(cells), rows = cells->rows - below;
     clear(cells, face->theme);
-    if (fresh)
+    if (fresh) {
         screen->fresh = false;
+    }
     if (face->help) {
         gm_help_draw(&(const struct gm_sheet){cells, face, 1, 0, cells->columns - 2, rows}, face, shot);
-        if (below == 2)
+        if (below == 2) {
             draw_rule(screen, face, 0);
-        if (below > 0)
+        }
+        if (below > 0) {
             draw_hints(&(const struct gm_sheet){cells, face, 0, cells->rows - 1, cells->columns, 1}, 1,
                        help_hints);
+        }
         return;
     }
     int side = side_columns(cells);
     draw_picture(screen, face, shot, cells->columns - side, rows);
-    if (below == 2)
+    if (below == 2) {
         draw_rule(screen, face, side);
+    }
     if (side) {
         const struct gm_sheet sheet = {cells, face, cells->columns - side + 2, 0, side - 3, rows};
         const struct gm_sheet body = {cells, face, sheet.column, 1, sheet.width, rows - 1};
         draw_head(&sheet, shot);
-        if (face->choosing)
+        if (face->choosing) {
             gm_chooser_draw(&body, shot);
-        else
+        } else {
             gm_side_draw(&body, shot);
+        }
     }
     draw_status(screen, face, shot, side);
 }
@@ -262,22 +281,27 @@ void gm_screen_draw_start(struct gm_screen *screen, const struct gm_face *face, 
     }
     int each = rows - at >= 3 * (int)gm_scene_count() ? 3 : 1;
     int visible = (rows - at) / each, first = 0;
-    if (visible < 1)
+    if (visible < 1) {
         visible = 1;
-    if ((int)choice >= visible)
+    }
+    if ((int)choice >= visible) {
         first = (int)choice - visible + 1;
+    }
     for (size_t i = (size_t)first; i < gm_scene_count() && at < rows; i++, at += each) {
         const struct gm_scene *scene = gm_scene_at(i);
         bool chosen = i == choice;
         gm_sheet_text(&sheet, 0, at, chosen ? "▸" : " ", GM_LANE, true);
         gm_sheet_text(&sheet, 2, at, scene->name, chosen ? GM_LANE : GM_INK, chosen);
         gm_sheet_text(&sheet, 18, at, scene->title, GM_INK, chosen);
-        if (each > 1 && scene->watch)
+        if (each > 1 && scene->watch) {
             gm_sheet_text(&sheet, 18, at + 1, scene->watch, GM_SECONDARY, false);
+        }
     }
-    if (below == 2)
+    if (below == 2) {
         draw_rule(screen, face, 0);
-    if (below > 0)
+    }
+    if (below > 0) {
         draw_hints(&(const struct gm_sheet){cells, face, 0, cells->rows - 1, cells->columns, 1}, 1,
                    start_hints);
+    }
 }

@@ -12,6 +12,7 @@
 struct gm_face {
     enum gm_blocks blocks;
     enum gm_theme theme;
+    bool few_colours;
     bool help;
     int scroll;         /* lines of the help above the screen */
     bool choosing;      /* a scheme for the selected lane */

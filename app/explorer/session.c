@@ -25,8 +25,9 @@ static bool short_of_memory(char *message)
 static void *copy_parameters(const struct gm_scene *scene, const void *parameters)
 {
     void *copy = malloc(scene->size);
-    if (copy)
+    if (copy) {
         memcpy(copy, parameters, scene->size);
+    }
     return copy;
 }
 
@@ -42,8 +43,9 @@ static bool log_open(struct gm_session *session, const struct gm_request *reques
 
 static void log_close(struct gm_session *session)
 {
-    for (size_t i = 0; i < session->count; i++)
+    for (size_t i = 0; i < session->count; i++) {
         free(session->log.lanes[i].parameters);
+    }
     free(session->log.lanes);
     free(session->log.changes);
     free(session->log.arguments);
@@ -56,8 +58,9 @@ static void log_cut(struct gm_session *session, size_t lane, long step)
     size_t kept = 0;
     for (size_t i = 0; i < session->log.change_count; i++) {
         const struct gm_change *change = &session->log.changes[i];
-        if (change->lane != lane || (step >= 0 && change->step <= step))
+        if (change->lane != lane || (step >= 0 && change->step <= step)) {
             session->log.changes[kept++] = *change;
+        }
     }
     session->log.change_count = kept;
 }
@@ -83,8 +86,9 @@ static struct fresh open_lane(const struct gm_scene *scene, const void *paramete
 {
     char sentence[GM_SENTENCE] = "There is not enough memory.";
     struct fresh fresh = {.start = copy_parameters(scene, parameters)};
-    if (fresh.start)
+    if (fresh.start) {
         fresh.lane = gm_lane_open(scene, parameters, settings, scheme, sentence);
+    }
     if (!fresh.lane) {
         free(fresh.start);
         fresh.start = NULL;
@@ -119,8 +123,9 @@ static void show_in_order(struct gm_session *session)
     for (size_t i = 0; i < session->count; i++) {
         struct gm_shown *shown = &session->lanes[i]->shown;
         shown->panel = shown->colour = i;
-        if (!shown->panel_name[0])
+        if (!shown->panel_name[0]) {
             memcpy(shown->panel_name, shown->colour_name, sizeof shown->panel_name);
+        }
         shown->colour_name[0] = '\0';
         session->log.lanes[i].shown = *shown;
     }
@@ -135,8 +140,9 @@ static void forget_wanted(struct gm_session *session, size_t i)
 static void note_all(struct gm_session *session)
 {
     share_budget(session);
-    for (size_t i = 0; i < session->count; i++)
+    for (size_t i = 0; i < session->count; i++) {
         gm_past_note(&session->pasts[i], session->lanes[i], false);
+    }
 }
 
 static void clear_lane(struct gm_session *session, size_t i)
@@ -204,8 +210,9 @@ static double next_time(const struct gm_lane *lane)
 double gm_session_time(const struct gm_session *session)
 {
     double latest = session->lanes[0]->run->t;
-    for (size_t i = 1; i < session->count; i++)
+    for (size_t i = 1; i < session->count; i++) {
         latest = fmax(latest, session->lanes[i]->run->t);
+    }
     return latest;
 }
 
@@ -213,8 +220,9 @@ double gm_session_next(const struct gm_session *session)
 {
     double next = INFINITY;
     for (size_t i = 0; i < session->count; i++) {
-        if (goes(session->lanes[i]))
+        if (goes(session->lanes[i])) {
             next = fmin(next, session->lanes[i]->run->t + session->lanes[i]->run->dt);
+        }
     }
     return next;
 }
@@ -228,18 +236,21 @@ bool gm_session_advance(struct gm_session *session, double t)
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_lane *lane = session->lanes[i];
         if (goes(lane) && next_time(lane) <= t &&
-            (chosen == session->count || next_time(lane) < next_time(session->lanes[chosen])))
+            (chosen == session->count || next_time(lane) < next_time(session->lanes[chosen]))) {
             chosen = i;
+        }
     }
-    if (chosen == session->count)
+    if (chosen == session->count) {
         return false;
+    }
     struct gm_lane *lane = session->lanes[chosen];
     double due = (t - lane->run->t) / lane->run->dt;
     long steps = due > 2 * RECORDS ? (long)fmin(due / RECORDS, 1e6) : 1;
     gm_run_advance(lane->run, steps);
     gm_lane_record(lane);
-    if (goes(lane))
+    if (goes(lane)) {
         gm_past_note(&session->pasts[chosen], lane, false);
+    }
     return true;
 }
 
@@ -255,10 +266,12 @@ static void replay(struct gm_session *session, size_t i, long steps)
         gm_lane_record(lane);
         for (; change < session->log.change_count; change++) {
             const struct gm_change *next = &session->log.changes[change];
-            if (next->lane != i || next->step <= from)
+            if (next->lane != i || next->step <= from) {
                 continue;
-            if (next->step > lane->run->steps)
+            }
+            if (next->step > lane->run->steps) {
                 break;
+            }
             gm_change_apply(lane, next->text, message);
         }
     }
@@ -271,12 +284,14 @@ bool gm_session_back(struct gm_session *session, char *message)
     for (size_t i = 0; i < session->count; i++) {
         struct gm_lane *lane = session->lanes[i];
         long steps = lane->run->steps;
-        if (lane->run->t < latest - 1e-9 * fabs(lane->run->dt) || steps == 0)
+        if (lane->run->t < latest - 1e-9 * fabs(lane->run->dt) || steps == 0) {
             continue;
+        }
+        if (!gm_past_return(&session->pasts[i], lane, steps - 1)) {
+            return refuse(message,
+                          "There is no snapshot to step back to: the ensemble is too large to keep any.");
+        }
         log_cut(session, i, steps - 1);
-        if (!gm_past_return(&session->pasts[i], lane, steps - 1))
-            return refuse(
-                message, "There is no snapshot left to step back to: the ensemble is too large to keep any.");
         replay(session, i, steps - 1);
         moved = true;
     }
@@ -316,8 +331,9 @@ bool gm_session_restart(struct gm_session *session, char *message)
 const void *gm_session_owner(const struct gm_session *session, size_t lane, bool of_scheme)
 {
     const struct gm_lane_spec *wanted = &session->wanted[lane];
-    if (of_scheme)
+    if (of_scheme) {
         return wanted->parameters ? &wanted->settings : &session->lanes[lane]->settings;
+    }
     return wanted->parameters ? wanted->parameters : session->lanes[lane]->parameters;
 }
 
@@ -325,8 +341,9 @@ bool gm_session_differs(const struct gm_session *session, const struct gm_parame
 {
     double first = gm_parameter_get(row, gm_session_owner(session, 0, of_scheme));
     for (size_t i = 1; i < session->count; i++) {
-        if (gm_parameter_get(row, gm_session_owner(session, i, of_scheme)) != first)
+        if (gm_parameter_get(row, gm_session_owner(session, i, of_scheme)) != first) {
             return true;
+        }
     }
     return false;
 }
@@ -339,12 +356,14 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
     if (!wanted->parameters) {
         wanted->settings = session->lanes[i]->settings;
         wanted->parameters = copy_parameters(session->scene, session->lanes[i]->parameters);
-        if (!wanted->parameters)
+        if (!wanted->parameters) {
             return short_of_memory(message);
+        }
     }
     void *owner = of_scheme ? (void *)&wanted->settings : wanted->parameters;
-    if (gm_parameter_set(row, owner, text) == GM_PARSED)
+    if (gm_parameter_set(row, owner, text) == GM_PARSED) {
         return true;
+    }
     snprintf(message, GM_MESSAGE, "%s cannot be %s.", row->key, text);
     return false;
 }
@@ -352,18 +371,21 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
 static bool change_now(struct gm_session *session, size_t i, const char *text, char *message)
 {
     struct gm_lane *lane = session->lanes[i];
-    if (!gm_change_apply(lane, text, message))
+    if (!gm_change_apply(lane, text, message)) {
         return false;
+    }
     /* of several changes of one key at one step only the last one counts */
     size_t key = (size_t)(strchr(text, '=') - text) + 1, kept = 0;
     for (size_t k = 0; k < session->log.change_count; k++) {
         const struct gm_change *change = &session->log.changes[k];
-        if (change->lane != i || change->step != lane->run->steps || strncmp(change->text, text, key) != 0)
+        if (change->lane != i || change->step != lane->run->steps || strncmp(change->text, text, key) != 0) {
             session->log.changes[kept++] = *change;
+        }
     }
     session->log.change_count = kept;
-    if (!gm_change_add(&session->log, i, lane->run->steps, text))
+    if (!gm_change_add(&session->log, i, lane->run->steps, text)) {
         return short_of_memory(message);
+    }
     gm_past_note(&session->pasts[i], lane, true);
     return true;
 }
@@ -375,8 +397,9 @@ static void rename_lane(struct gm_session *session, size_t i, const char *before
     struct gm_shown *shown = &session->lanes[i]->shown;
     char *names[] = {shown->panel_name, shown->colour_name};
     for (size_t k = 0; k < 2; k++) {
-        if (names[k][0] && strncmp(names[k], before, length) == 0)
+        if (names[k][0] && strncmp(names[k], before, length) == 0) {
             snprintf(names[k], sizeof shown->panel_name, "%.47s", after);
+        }
     }
     session->log.lanes[i].shown = *shown;
 }
@@ -397,13 +420,16 @@ bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_par
     snprintf(change, sizeof change, "%s=%s", row->key, text);
     bool now = row->live && !of_scheme;
     for (size_t i = 0; i < session->count; i++) {
-        if (alone && i != lane)
+        if (alone && i != lane) {
             continue;
-        if (now && !change_now(session, i, change, message))
+        }
+        if (now && !change_now(session, i, change, message)) {
             return false;
+        }
         /* a restart that is already due keeps a live change too */
-        if ((!now || session->wanted[i].parameters) && !want(session, i, row, of_scheme, text, message))
+        if ((!now || session->wanted[i].parameters) && !want(session, i, row, of_scheme, text, message)) {
             return false;
+        }
         rename_by_parameter(session, i, row->key, text);
     }
     *restart = *restart || !now;
@@ -415,21 +441,24 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
     char change[sizeof(struct gm_change){0}.text];
     snprintf(change, sizeof change, "scheme=%s", scheme->name);
     const char *before = session->lanes[lane]->scheme->title;
-    if (!change_now(session, lane, change, message))
+    if (!change_now(session, lane, change, message)) {
         return false;
+    }
     rename_lane(session, lane, before, scheme->title, strlen(before) + 1);
     return true;
 }
 
 bool gm_session_add(struct gm_session *session, size_t like, const struct gm_scheme *scheme, char *message)
 {
-    if (session->count >= GM_LANE_COLOURS)
+    if (session->count >= GM_LANE_COLOURS) {
         return refuse(message,
                       "Six lanes have a colour of their own; remove one with x before adding another.");
+    }
     const struct gm_lane *model = session->lanes[like];
     struct fresh fresh = open_lane(session->scene, model->parameters, &model->settings, scheme, message);
-    if (!fresh.lane)
+    if (!fresh.lane) {
         return false;
+    }
     place_lane(session, session->count, fresh, &(const struct gm_shown){0});
     session->log.count = ++session->count;
     show_in_order(session);
@@ -439,8 +468,9 @@ bool gm_session_add(struct gm_session *session, size_t like, const struct gm_sch
 
 bool gm_session_remove(struct gm_session *session, size_t lane, char *message)
 {
-    if (session->count == 1)
+    if (session->count == 1) {
         return refuse(message, "The last lane stays.");
+    }
     forget_wanted(session, lane);
     clear_lane(session, lane);
     size_t after = session->count - lane - 1;
@@ -449,8 +479,9 @@ bool gm_session_remove(struct gm_session *session, size_t lane, char *message)
     memmove(&session->wanted[lane], &session->wanted[lane + 1], after * sizeof *session->wanted);
     memmove(&session->log.lanes[lane], &session->log.lanes[lane + 1], after * sizeof *session->log.lanes);
     for (size_t k = 0; k < session->log.change_count; k++) {
-        if (session->log.changes[k].lane > lane)
+        if (session->log.changes[k].lane > lane) {
             session->log.changes[k].lane--;
+        }
     }
     session->log.count = --session->count;
     session->log.lanes[session->count] = session->wanted[session->count] = (struct gm_lane_spec){0};
@@ -464,8 +495,9 @@ bool gm_session_remove(struct gm_session *session, size_t lane, char *message)
 static bool is_among(const struct gm_scheme *scheme, const struct gm_scheme *const *schemes, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        if (schemes[i] == scheme)
+        if (schemes[i] == scheme) {
             return true;
+        }
     }
     return false;
 }
@@ -476,13 +508,15 @@ size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme 
     size_t count = 0;
     for (size_t i = 0; session->scene->schemes && session->scene->schemes[i] && count < bound; i++) {
         const struct gm_scheme *scheme = gm_scheme_find(session->scene->schemes[i]);
-        if (scheme && gm_scheme_fits(scheme, problem) && !is_among(scheme, schemes, count))
+        if (scheme && gm_scheme_fits(scheme, problem) && !is_among(scheme, schemes, count)) {
             schemes[count++] = scheme;
+        }
     }
     for (size_t i = 0; i < gm_scheme_count() && count < bound; i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (gm_scheme_fits(scheme, problem) && !is_among(scheme, schemes, count))
+        if (gm_scheme_fits(scheme, problem) && !is_among(scheme, schemes, count)) {
             schemes[count++] = scheme;
+        }
     }
     return count;
 }
@@ -494,10 +528,12 @@ const struct gm_scheme *gm_session_unused(const struct gm_session *session)
     size_t count = gm_session_fits(session, schemes, MOST);
     for (size_t i = 0; i < count; i++) {
         bool used = false;
-        for (size_t k = 0; k < session->count; k++)
+        for (size_t k = 0; k < session->count; k++) {
             used = used || session->lanes[k]->scheme == schemes[i];
-        if (!used)
+        }
+        if (!used) {
             return schemes[i];
+        }
     }
     return NULL;
 }

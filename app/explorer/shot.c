@@ -40,8 +40,9 @@ static void take_sparks(struct gm_shot_lane *shot, const struct gm_lane *lane, s
 static void take_parameter(struct gm_shot *shot, const struct gm_session *session,
                            const struct gm_parameter *row, bool of_scheme)
 {
-    if (shot->parameter_count == GM_SHOT_PARAMETERS)
+    if (shot->parameter_count == GM_SHOT_PARAMETERS) {
         return;
+    }
     struct gm_shot_parameter *parameter = &shot->parameters[shot->parameter_count++];
     const void *owner = gm_session_owner(session, shot->selected, of_scheme);
     *parameter = (struct gm_shot_parameter){.row = row,
@@ -56,8 +57,9 @@ static bool is_used(const struct gm_session *session, const struct gm_parameter 
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_parameter *const *used = session->lanes[i]->scheme->family->parameters;
         for (; used && *used; used++) {
-            if (*used == row)
+            if (*used == row) {
                 return true;
+            }
         }
     }
     return false;
@@ -76,8 +78,9 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
     shot->selected = selected;
     shot->t = gm_session_time(session);
     shot->observable_count = session->scene->observable_count;
-    if (shot->observable_count > GM_SHOT_OBSERVABLES)
+    if (shot->observable_count > GM_SHOT_OBSERVABLES) {
         shot->observable_count = GM_SHOT_OBSERVABLES;
+    }
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_lane *lane = session->lanes[i];
         struct gm_shot_lane *copy = &shot->lanes[i];
@@ -85,18 +88,21 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
         copy->scheme = lane->scheme;
         copy->status = lane->run->status;
         copy->t = lane->run->t;
-        for (size_t k = 0; k < shot->observable_count; k++)
+        for (size_t k = 0; k < shot->observable_count; k++) {
             copy->values[k] = gm_lane_observe(lane, k);
+        }
         take_sparks(copy, lane, shot->observable_count);
     }
     shot->parameter_count = 0;
     for (size_t i = 0; i < session->scene->parameter_count; i++) {
-        if (has_effect(&session->scene->parameters[i]))
+        if (has_effect(&session->scene->parameters[i])) {
             take_parameter(shot, session, &session->scene->parameters[i], false);
+        }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
-        if (is_used(session, &gm_settings_parameters[i]))
+        if (is_used(session, &gm_settings_parameters[i])) {
             take_parameter(shot, session, &gm_settings_parameters[i], true);
+        }
     }
     shot->scheme_count = gm_session_fits(session, shot->schemes, GM_SHOT_SCHEMES);
     gm_picture_clear(shot->picture);

@@ -40,8 +40,9 @@ static struct plan make_plan(int rows, const struct gm_shot *shot)
     int observables = (int)shot->observable_count, unused = 0;
     for (size_t i = 0; i < shot->scheme_count; i++) {
         bool used = false;
-        for (size_t k = 0; k < shot->lane_count; k++)
+        for (size_t k = 0; k < shot->lane_count; k++) {
             used = used || shot->lanes[k].scheme == shot->schemes[i];
+        }
         unused += !used;
     }
     struct plan plan = {0};
@@ -83,10 +84,12 @@ static void heading(const struct gm_sheet *sheet, int row, const char *text)
 static unsigned claims_here(const struct gm_shot *shot)
 {
     unsigned claims = 0;
-    for (size_t i = 0; i < shot->scheme_count; i++)
+    for (size_t i = 0; i < shot->scheme_count; i++) {
         claims |= shot->schemes[i]->claims;
-    for (size_t i = 0; i < shot->lane_count; i++)
+    }
+    for (size_t i = 0; i < shot->lane_count; i++) {
         claims |= shot->lanes[i].scheme->claims;
+    }
     return claims;
 }
 
@@ -95,9 +98,10 @@ static void claims_text(unsigned claims, unsigned columns, char *text, size_t si
     size_t at = 0;
     text[0] = '\0';
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT && at + 1 < size; bit++) {
-        if (columns >> bit & 1)
+        if (columns >> bit & 1) {
             at +=
                 (size_t)snprintf(text + at, size - at, "%s", claims >> bit & 1 ? gm_claim_letter(bit) : " ");
+        }
     }
 }
 
@@ -114,8 +118,9 @@ static void scheme_facts(const struct gm_sheet *sheet, int row, const struct gm_
 static int title_width(const struct gm_sheet *sheet, unsigned columns)
 {
     int width = sheet->width - 7;
-    for (; columns; columns &= columns - 1)
+    for (; columns; columns &= columns - 1) {
         width--;
+    }
     return width;
 }
 
@@ -131,8 +136,9 @@ static void lane_name(const struct gm_shot_lane *lane, char *text, size_t size)
 {
     const char *panel = lane->shown.panel_name, *colour = lane->shown.colour_name,
                *title = lane->scheme->title;
-    if (strcmp(colour, title) == 0)
+    if (strcmp(colour, title) == 0) {
         colour = "";
+    }
     snprintf(text, size, "%s%s%s%s%s", title, panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
 }
 
@@ -141,8 +147,9 @@ static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot
 {
     char text[160];
     enum gm_role role = role_of(lane);
-    if (selected)
+    if (selected) {
         gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
+    }
     gm_sheet_text(sheet, 2, row, dash_marks[gm_lane_dash(lane->shown.colour)], role, false);
     lane_name(lane, text, sizeof text);
     if (lane->status == GM_OK) {
@@ -164,15 +171,18 @@ static int draw_schemes(const struct gm_sheet *sheet, int row, const struct gm_s
     gm_sheet_right(sheet, sheet->width, row, sheet->width > 34 ? "claims order" : "order", GM_SECONDARY,
                    false);
     row++;
-    for (size_t i = 0; i < shot->lane_count; i++)
+    for (size_t i = 0; i < shot->lane_count; i++) {
         lane_row(sheet, row++, &shot->lanes[i], i == shot->selected, columns);
+    }
     int shown = 0, unused = 0;
     for (size_t i = 0; i < shot->scheme_count; i++) {
         bool used = false;
-        for (size_t k = 0; k < shot->lane_count; k++)
+        for (size_t k = 0; k < shot->lane_count; k++) {
             used = used || shot->lanes[k].scheme == shot->schemes[i];
-        if (used)
+        }
+        if (used) {
             continue;
+        }
         unused++;
         if (shown < plan->schemes - plan->more) {
             shown++;
@@ -192,7 +202,7 @@ static int draw_schemes(const struct gm_sheet *sheet, int row, const struct gm_s
 static void draw_slider(const struct gm_sheet *sheet, int from, int to, int row, double position, bool chosen)
 {
     int at = from + (int)(position * (to - from - 1) + 0.5);
-    for (int i = from; i < to; i++)
+    for (int i = from; i < to; i++) {
         gm_sheet_glyph(sheet, i, row,
                        i == at  ? 0x25CF
                        : i < at ? 0x2501
@@ -201,6 +211,7 @@ static void draw_slider(const struct gm_sheet *sheet, int from, int to, int row,
                        : i <= at         ? GM_SECONDARY
                                          : GM_GRID,
                        false);
+    }
 }
 
 static void short_number(double value, char *text, size_t size)
@@ -211,16 +222,19 @@ static void short_number(double value, char *text, size_t size)
     size_t at = 0;
     text[0] = '\0';
     for (const char *c = digits; *c && at + 4 < size; c++) {
-        if (*c == '-')
+        if (*c == '-') {
             at += (size_t)snprintf(text + at, size - at, "−");
-        else if (*c != '+')
+        } else if (*c != '+') {
             at += (size_t)snprintf(text + at, size - at, "%c", *c);
+        }
         if (*c == 'e') {
             bool minus = c[1] == '-';
-            while (c[1] == '-' || c[1] == '+' || (c[1] == '0' && c[2]))
+            while (c[1] == '-' || c[1] == '+' || (c[1] == '0' && c[2])) {
                 c++;
-            if (minus)
+            }
+            if (minus) {
                 at += (size_t)snprintf(text + at, size - at, "−");
+            }
         }
     }
 }
@@ -231,8 +245,9 @@ static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm
     char text[64];
     enum gm_role ink = chosen ? GM_INK : GM_SECONDARY;
     int values = 14, bar = sheet->width >= 40 ? 25 : 23;
-    if (chosen)
+    if (chosen) {
         gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
+    }
     gm_sheet_text(sheet, 2, row, parameter->row->key, ink, chosen);
     if (parameter->position < 0) {
         snprintf(text, sizeof text, chosen ? "‹ %s ›" : "%s", parameter->value);
@@ -240,10 +255,12 @@ static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm
         return;
     }
     int width = gm_sheet_text(sheet, values, row, parameter->value, GM_INK, chosen);
-    if (parameter->differs)
+    if (parameter->differs) {
         width += gm_sheet_text(sheet, values + width, row, "…", GM_SECONDARY, false);
-    if (values + width + 1 > bar)
+    }
+    if (values + width + 1 > bar) {
         bar = values + width + 1;
+    }
     int end = sheet->width;
     if (sheet->width - bar >= 24) {
         short_number(parameter->row->lowest, text, sizeof text);
@@ -260,17 +277,20 @@ static int draw_parameters(const struct gm_sheet *sheet, int row, const struct g
                            const struct plan *plan)
 {
     int count = (int)shot->parameter_count, chosen = (int)sheet->face->parameter;
-    if (plan->parameters <= 0)
+    if (plan->parameters <= 0) {
         return row;
+    }
     heading(sheet, row++, "PARAMETERS");
     /* the chosen one is always among those shown */
     int first = chosen - plan->parameters / 2;
     first = least(first, count - plan->parameters);
     first = first < 0 ? 0 : first;
-    for (int i = first; i < first + plan->parameters && i < count; i++)
+    for (int i = first; i < first + plan->parameters && i < count; i++) {
         parameter_row(sheet, row++, &shot->parameters[i], i == chosen);
-    if (first + plan->parameters < count)
+    }
+    if (first + plan->parameters < count) {
         gm_sheet_right(sheet, sheet->width, row - plan->parameters - 1, "↑↓ more", GM_SECONDARY, false);
+    }
     return row;
 }
 
@@ -287,8 +307,9 @@ static bool spark_range(const struct gm_shot *shot, size_t observable, double *l
     for (size_t i = 0; i < shot->lane_count; i++) {
         const struct gm_spark *spark = &shot->lanes[i].sparks[observable];
         for (size_t k = 0; k < GM_SPARK; k++) {
-            if (spark->low[k] > spark->high[k] || (logarithmic && spark->high[k] <= 0))
+            if (spark->low[k] > spark->high[k] || (logarithmic && spark->high[k] <= 0)) {
                 continue;
+            }
             *low = fmin(*low, logarithmic && spark->low[k] <= 0 ? spark->high[k] : spark->low[k]);
             *high = fmax(*high, spark->high[k]);
         }
@@ -317,26 +338,31 @@ static void draw_spark(const struct gm_sheet *sheet, int column, int row, const 
         uint32_t glyph = 0, braille = 0;
         for (int half = 0; half < 2; half++) {
             double bottom = spark->low[2 * cell + half], top = spark->high[2 * cell + half];
-            if (bottom > top || (logarithmic && top <= 0))
+            if (bottom > top || (logarithmic && top <= 0)) {
                 continue;
+            }
             double from = spark_place(bottom, logarithmic, low, high),
                    to = spark_place(top, logarithmic, low, high);
             int first = (int)(from * 3 + 0.5), last = (int)(to * 3 + 0.5);
             /* joined to the place before, so that a steep rise is a line and not two dots */
-            if (before >= 0 && before + 1 < first)
+            if (before >= 0 && before + 1 < first) {
                 first = before + 1;
-            if (before >= 0 && before - 1 > last)
+            }
+            if (before >= 0 && before - 1 > last) {
                 last = before - 1;
+            }
             before = (int)(to * 3 + 0.5);
-            for (int i = first; i <= last; i++)
+            for (int i = first; i <= last; i++) {
                 braille |= dots[half][i];
+            }
             glyph = sheet->face->blocks == GM_ASCII ? (uint32_t)letters[(int)(to * 4 + 0.5)]
                                                     : 0x2581 + (uint32_t)(to * 7 + 0.5);
         }
-        if (sheet->face->blocks == GM_BRAILLE && braille)
+        if (sheet->face->blocks == GM_BRAILLE && braille) {
             gm_sheet_glyph(sheet, column + cell, row, 0x2800 + braille, role, false);
-        else if (glyph)
+        } else if (glyph) {
             gm_sheet_glyph(sheet, column + cell, row, glyph, role, false);
+        }
     }
 }
 
@@ -344,16 +370,18 @@ static void observable_name(const struct gm_observable *observable, char *text, 
 {
     snprintf(text, size, "%s", observable->key);
     for (char *c = text; *c; c++) {
-        if (*c == '_')
+        if (*c == '_') {
             *c = ' ';
+        }
     }
 }
 
 /* The lanes whose values fit side by side; the selected one is always among them. */
 static size_t first_column(const struct gm_shot *shot, size_t columns)
 {
-    if (shot->lane_count <= columns || shot->selected < columns)
+    if (shot->lane_count <= columns || shot->selected < columns) {
         return 0;
+    }
     return shot->selected - columns + 1;
 }
 
@@ -363,8 +391,9 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
     char text[64];
     int label = sheet->width >= 50 ? 14 : 13;
     size_t columns = (size_t)((sheet->width - label + 1) / VALUE_WIDTH);
-    if (plan->observables <= 0)
+    if (plan->observables <= 0) {
         return row;
+    }
     columns = columns < 1 ? 1 : columns > shot->lane_count ? shot->lane_count : columns;
     size_t first = first_column(shot, columns);
     int begin = sheet->width - (int)columns * VALUE_WIDTH + 1;
@@ -388,13 +417,38 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
             int column = begin + (int)i * VALUE_WIDTH;
             short_number(lane->values[k], text, sizeof text);
             gm_sheet_right(sheet, column + SPARK_CELLS, row, text, role_of(lane), false);
-            if (graphs)
+            if (graphs) {
                 draw_spark(sheet, column, row + 1, &lane->sparks[k], observable->logarithmic, low, high,
                            role_of(lane));
+            }
         }
         row += plan->sparks ? 2 : 1;
     }
     return row;
+}
+
+/* ---- a scheme's formula ---- */
+
+static int formula_rows(const struct gm_scheme *scheme)
+{
+    int rows = 1; /* the reference */
+    for (const char *at = scheme->formula; at && *at; rows++) {
+        at += strcspn(at, "\n");
+        at += *at == '\n';
+    }
+    return rows;
+}
+
+static void draw_formula(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme)
+{
+    for (const char *at = scheme->formula; at && *at; row++) {
+        char line[256];
+        size_t length = strcspn(at, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, at);
+        gm_sheet_text(sheet, 0, row, line, GM_INK, false);
+        at += length + (at[length] == '\n');
+    }
+    gm_sheet_text(sheet, 0, row, scheme->reference ? scheme->reference : "", GM_SECONDARY, false);
 }
 
 void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
@@ -402,7 +456,14 @@ void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
     struct plan plan = make_plan(sheet->height, shot);
     int row = draw_schemes(sheet, plan.gap, shot, &plan);
     row = draw_parameters(sheet, row + plan.gap, shot, &plan);
-    draw_observables(sheet, row + plan.gap, shot, &plan);
+    row = draw_observables(sheet, row + plan.gap, shot, &plan);
+    const struct gm_shot_lane *lane = &shot->lanes[shot->selected];
+    if (sheet->height - row < formula_rows(lane->scheme) + 2) {
+        return;
+    }
+    heading(sheet, row + 1, "FORMULA");
+    gm_sheet_right(sheet, sheet->width, row + 1, lane->scheme->title, role_of(lane), false);
+    draw_formula(sheet, row + 2, lane->scheme);
 }
 
 /* ---- choosing a scheme ---- */
@@ -420,8 +481,9 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
                    false);
     for (int i = first; i < count && i < first + rows; i++, row++) {
         enum gm_role role = i == (int)choice ? GM_INK : GM_SECONDARY;
-        if (i == (int)choice)
+        if (i == (int)choice) {
             gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
+        }
         for (size_t k = 0; k < shot->lane_count; k++) {
             if (shot->lanes[k].scheme == shot->schemes[i]) {
                 gm_sheet_text(sheet, 2, row, "●", role_of(&shot->lanes[k]), false);
@@ -432,14 +494,7 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
         scheme_title(sheet, 4, row, shot->schemes[i]->title, columns, role, i == (int)choice);
         scheme_facts(sheet, row, shot->schemes[i], columns, role);
     }
-    row++;
-    for (const char *at = chosen ? chosen->formula : NULL; at && *at && row < sheet->height - 1; row++) {
-        char line[160];
-        size_t length = strcspn(at, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)length, at);
-        gm_sheet_text(sheet, 0, row, line, GM_INK, false);
-        at += length + (at[length] == '\n');
+    if (chosen) {
+        draw_formula(sheet, row + 1, chosen);
     }
-    if (chosen && row < sheet->height)
-        gm_sheet_text(sheet, 0, row, chosen->reference, GM_SECONDARY, false);
 }

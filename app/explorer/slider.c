@@ -7,10 +7,12 @@
 double gm_slider_position(const struct gm_parameter *row, const void *owner)
 {
     double value = gm_parameter_get(row, owner), low = row->lowest, high = row->highest;
-    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN || !(high > low) || !isfinite(high - low))
+    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN || !(high > low) || !isfinite(high - low)) {
         return -1;
-    if (row->logarithmic && low <= 0) /* a range from 0 on has no logarithm; ten decades stand for it */
+    }
+    if (row->logarithmic && low <= 0) { /* a range from 0 on has no logarithm; ten decades stand for it */
         low = high * 1e-10;
+    }
     double position =
         row->logarithmic ? log(fmax(value, low) / low) / log(high / low) : (value - low) / (high - low);
     return fmin(fmax(position, 0), 1);
@@ -25,12 +27,14 @@ static double next_by_ratio(double value, int direction)
     double decade = floor(log10(value) + 1e-9), scale = pow(10, decade), mantissa = value / scale;
     double near = 1e-6; /* what differs less is the same value, read back from its text */
     for (int i = 0; direction > 0 && i < ROUND_COUNT; i++) {
-        if (rounds[i] > mantissa * (1 + near))
+        if (rounds[i] > mantissa * (1 + near)) {
             return rounds[i] * scale;
+        }
     }
     for (int i = ROUND_COUNT - 1; direction < 0 && i >= 0; i--) {
-        if (rounds[i] < mantissa * (1 - near))
+        if (rounds[i] < mantissa * (1 - near)) {
             return rounds[i] * scale;
+        }
     }
     return direction > 0 ? 12 * scale : 0.8 * scale;
 }
@@ -60,10 +64,12 @@ static bool next_choice(const struct gm_parameter *row, const void *owner, int d
         snprintf(text, GM_VALUE_TEXT, "%s", at ? "no" : "yes");
         return true;
     }
-    while (row->choices[count])
+    while (row->choices[count]) {
         count++;
-    if (count < 2)
+    }
+    if (count < 2) {
         return false;
+    }
     snprintf(text, GM_VALUE_TEXT, "%s", row->choices[(at + (direction > 0 ? 1 : count - 1)) % count]);
     return true;
 }
@@ -71,21 +77,24 @@ static bool next_choice(const struct gm_parameter *row, const void *owner, int d
 bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction,
                     char text[GM_VALUE_TEXT])
 {
-    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN)
+    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
         return next_choice(row, owner, direction, text);
+    }
     double value = gm_parameter_get(row, owner), next;
-    if (row->logarithmic && value > 0)
+    if (row->logarithmic && value > 0) {
         next = next_by_ratio(value, direction);
-    else if (row->logarithmic)
+    } else if (row->logarithmic) {
         next = direction > 0 ? fmax(row->highest * 1e-10, row->type == GM_INTEGER ? 1 : 0) : 0;
-    else
+    } else {
         next = next_by_step(value, linear_step(row, value), direction);
+    }
     if (row->type == GM_INTEGER) {
         next = direction > 0 ? fmax(value + 1, floor(next)) : fmin(value - 1, ceil(next));
     }
     next = fmin(fmax(next, row->lowest), row->highest);
-    if (next == value)
+    if (next == value) {
         return false;
+    }
     snprintf(text, GM_VALUE_TEXT, row->type == GM_INTEGER ? "%.0f" : "%.10g", next == 0 ? 0.0 : next);
     return true;
 }

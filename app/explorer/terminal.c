@@ -36,20 +36,23 @@ static const char *environment(const char *name)
 static int override_of(const char *name, const char *const *names, char *message)
 {
     const char *value = environment(name);
-    if (!*value)
+    if (!*value) {
         return -1;
+    }
     int count = 0;
     for (; names[count]; count++) {
-        if (strcasecmp(value, names[count]) == 0)
+        if (strcasecmp(value, names[count]) == 0) {
             return count;
+        }
     }
     int at = snprintf(message, GM_MESSAGE, "%s is \"%.40s\", but it must be ", name, value);
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
         at += snprintf(message + at, (size_t)(GM_MESSAGE - at), "%s%s",
                        i == 0          ? ""
                        : i + 1 < count ? ", "
                                        : " or ",
                        names[i]);
+    }
     snprintf(message + at, (size_t)(GM_MESSAGE - at), ".");
     return -2;
 }
@@ -69,8 +72,9 @@ static void look_at_terminfo(struct gm_terminal *terminal)
 {
     int error;
     terminal->terminfo_colours = -1;
-    if (!*terminal->name || setupterm(terminal->name, STDOUT_FILENO, &error) != OK)
+    if (!*terminal->name || setupterm(terminal->name, STDOUT_FILENO, &error) != OK) {
         return;
+    }
     terminal->terminfo_colours = tigetnum("colors");
     const char *address = tigetstr("cup");
     terminal->known = address && address != (char *)-1;
@@ -82,8 +86,9 @@ static bool decide_colours(struct gm_terminal *terminal, char *message)
     const char *said = environment("COLORTERM");
     bool says_true = strcasecmp(said, "truecolor") == 0 || strcasecmp(said, "24bit") == 0;
     int chosen = override_of("GEOMINT_COLOURS", colours_names, message);
-    if (chosen == -2)
+    if (chosen == -2) {
         return false;
+    }
     int has = terminal->terminfo_colours;
     if (chosen >= 0) {
         terminal->colours = (enum gm_colours)chosen;
@@ -111,8 +116,9 @@ static bool decide_colours(struct gm_terminal *terminal, char *message)
 static bool decide_blocks(struct gm_terminal *terminal, char *message)
 {
     int chosen = override_of("GEOMINT_BLOCKS", blocks_names, message);
-    if (chosen == -2)
+    if (chosen == -2) {
         return false;
+    }
     if (chosen >= 0) {
         terminal->blocks = (enum gm_blocks)chosen;
         snprintf(terminal->blocks_why, GM_REASON, "GEOMINT_BLOCKS=%s", blocks_names[chosen]);
@@ -133,8 +139,9 @@ static bool decide_blocks(struct gm_terminal *terminal, char *message)
 static bool decide_theme(struct gm_terminal *terminal, char *message)
 {
     int chosen = override_of("GEOMINT_THEME", theme_names, message);
-    if (chosen == -2)
+    if (chosen == -2) {
         return false;
+    }
     const char *said = environment("COLORFGBG"), *ground = strrchr(said, ';');
     if (chosen >= 0) {
         terminal->theme = chosen == 0 ? GM_THEME_LIGHT : GM_THEME_DARK;
@@ -172,23 +179,24 @@ bool gm_terminal_detect(struct gm_terminal *terminal, char *message)
 
 bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)
 {
-    if (!terminal->input || !terminal->output)
+    if (!terminal->input || !terminal->output) {
         snprintf(
             message, GM_MESSAGE,
             "The explorer needs a terminal, but standard %s is none; `geomint render` makes pictures without.",
             terminal->input ? "output" : "input");
-    else if (!*terminal->name)
+    } else if (!*terminal->name) {
         snprintf(message, GM_MESSAGE,
                  "The explorer cannot start because TERM is not set; try TERM=xterm-256color geomint.");
-    else if (!terminal->known)
+    } else if (!terminal->known) {
         snprintf(message, GM_MESSAGE,
                  "The explorer cannot start because TERM is \"%.40s\", %s; try TERM=xterm-256color geomint.",
                  terminal->name,
                  strcmp(terminal->name, "dumb") == 0 || terminal->terminfo_colours != -1
                      ? "which cannot place the cursor"
                      : "which terminfo does not know or which cannot place the cursor");
-    else
+    } else {
         return true;
+    }
     return false;
 }
 
@@ -221,8 +229,9 @@ int gm_terminal_report(void)
     line("colours", colours_names[terminal.colours], terminal.colours_why);
     line("blocks", blocks_names[terminal.blocks], terminal.blocks_why);
     line("theme", terminal.theme == GM_THEME_LIGHT ? "light" : "dark", terminal.theme_why);
-    if (!gm_terminal_serves(&terminal, message))
+    if (!gm_terminal_serves(&terminal, message)) {
         printf("  %s\n", message);
+    }
     printf(
         "Override with GEOMINT_COLOURS=truecolor|256|16|none, GEOMINT_BLOCKS=braille|quadrants|half|ascii,\n"
         "GEOMINT_THEME=light|dark.\n");

@@ -99,8 +99,9 @@ static void set_clock(struct gm_worker *worker, double t)
 static double due_time(const struct gm_worker *worker)
 {
     double together = gm_session_time(&worker->session);
-    if (worker->paused)
+    if (worker->paused) {
         return together;
+    }
     double due = worker->clock_t + speed_of(worker->speed) * (wall_time() - worker->clock_wall);
     return fmax(due, together);
 }
@@ -109,10 +110,12 @@ static bool step(struct gm_worker *worker)
 {
     double begun = wall_time(), due = due_time(worker);
     bool worked = false;
-    while (wall_time() - begun < SLICE && gm_session_advance(&worker->session, due))
+    while (wall_time() - begun < SLICE && gm_session_advance(&worker->session, due)) {
         worked = true;
-    if (worked)
+    }
+    if (worked) {
         worker->changed = true;
+    }
     double next = gm_session_next(&worker->session);
     if (!worker->paused && isfinite(next)) {
         double lag = (due_time(worker) - next) / speed_of(worker->speed);
@@ -135,11 +138,13 @@ static void watch_frozen(struct gm_worker *worker)
     size_t frozen = 0;
     for (size_t i = 0; i < worker->session.count; i++) {
         const struct gm_lane *lane = worker->session.lanes[i];
-        if (lane->run->status == GM_OK)
+        if (lane->run->status == GM_OK) {
             continue;
+        }
         frozen++;
-        if (!latest || lane->run->t >= latest->run->t)
+        if (!latest || lane->run->t >= latest->run->t) {
             latest = lane;
+        }
     }
     if (frozen > worker->frozen && latest) {
         static const char *const sentences[] = {
@@ -164,11 +169,12 @@ static void save_picture(struct gm_worker *worker)
 {
     char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
     int number = 1;
-    do
+    do {
         snprintf(path, sizeof path, "%.80s-%04d.png", worker->session.scene->name, number);
-    while (access(path, F_OK) == 0 && number++ < 9999);
-    for (size_t i = 0; i < worker->session.count; i++)
+    } while (access(path, F_OK) == 0 && number++ < 9999);
+    for (size_t i = 0; i < worker->session.count; i++) {
         worker->session.log.lanes[i].steps = worker->session.lanes[i]->run->steps;
+    }
     bool ok = gm_still_write(path, 1920, 1080, worker->theme, &worker->session.log,
                              (const struct gm_lane *const *)worker->session.lanes, message);
     snprintf(sentence, sizeof sentence, ok ? "Saved %.400s." : "Not saved: %.400s", ok ? path : message);
@@ -189,16 +195,18 @@ static void move_parameter(struct gm_worker *worker, const struct gm_order *orde
         return;
     }
     if (!gm_session_set(&worker->session, worker->selected, row, order->of_scheme, text, &worker->restart,
-                        message))
+                        message)) {
         say(worker, message);
+    }
 }
 
 static void step_forward(struct gm_worker *worker)
 {
     double next = gm_session_next(&worker->session);
     if (isfinite(next)) {
-        while (gm_session_advance(&worker->session, next))
+        while (gm_session_advance(&worker->session, next)) {
             ;
+        }
     }
 }
 
@@ -243,23 +251,26 @@ static void obey(struct gm_worker *worker, const struct gm_order *order)
         break;
     case GM_ORDER_ADD: {
         const struct gm_scheme *scheme = gm_session_unused(session);
-        if (!scheme)
+        if (!scheme) {
             say(worker, "Every scheme that fits has a lane already.");
-        else if ((ok = gm_session_add(session, worker->selected, scheme, message)))
+        } else if ((ok = gm_session_add(session, worker->selected, scheme, message))) {
             worker->selected = session->count - 1;
+        }
         break;
     }
     case GM_ORDER_REMOVE:
         ok = gm_session_remove(session, worker->selected, message);
-        if (worker->selected >= session->count)
+        if (worker->selected >= session->count) {
             worker->selected = session->count - 1;
+        }
         break;
     case GM_ORDER_SAVE:
         save_picture(worker);
         break;
     }
-    if (!ok)
+    if (!ok) {
         say(worker, message);
+    }
     set_clock(worker, jumps ? gm_session_time(session) : due);
     worker->changed = true;
 }
@@ -269,13 +280,15 @@ static bool restart_if_due(struct gm_worker *worker)
 {
     char message[GM_MESSAGE];
     double now = wall_time();
-    if (!worker->restart || now - worker->restarted < RESTART_PAUSE)
+    if (!worker->restart || now - worker->restarted < RESTART_PAUSE) {
         return false;
+    }
     worker->restart = false;
     worker->restarted = now;
     worker->frozen = 0;
-    if (!gm_session_restart(&worker->session, message))
+    if (!gm_session_restart(&worker->session, message)) {
         say(worker, message);
+    }
     set_clock(worker, gm_session_time(&worker->session));
     worker->changed = true;
     return true;
@@ -299,18 +312,21 @@ static void take_shot(struct gm_worker *worker)
     pthread_mutex_lock(&worker->lock);
     worker->ready = true;
     const uint64_t one = 1;
-    if (write(worker->wake, &one, sizeof one) < 0)
+    if (write(worker->wake, &one, sizeof one) < 0) {
         worker->leave = errno != EAGAIN; /* without a screen there is nothing to do */
+    }
 }
 
 /* Called with the lock held: waits for news, at most until the next step is due. */
 static void rest(struct gm_worker *worker)
 {
     double next = gm_session_next(&worker->session), pause = INFINITY;
-    if (!worker->paused && isfinite(next))
+    if (!worker->paused && isfinite(next)) {
         pause = fmax((next - due_time(worker)) / speed_of(worker->speed), SLICE);
-    if (worker->restart)
+    }
+    if (worker->restart) {
         pause = fmin(pause, RESTART_PAUSE);
+    }
     if (pause > 1e6) {
         pthread_cond_wait(&worker->news, &worker->lock);
         return;
@@ -341,10 +357,11 @@ static void *work(void *self)
         bool worked = step(worker);
         watch_frozen(worker);
         pthread_mutex_lock(&worker->lock);
-        if (worker->wanted && worker->changed)
+        if (worker->wanted && worker->changed) {
             take_shot(worker);
-        else if (!worked && worker->count == 0 && !worker->leave)
+        } else if (!worked && worker->count == 0 && !worker->leave) {
             rest(worker);
+        }
     }
     pthread_mutex_unlock(&worker->lock);
     return NULL;
@@ -358,8 +375,9 @@ struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme
         snprintf(message, GM_MESSAGE, "There is not enough memory.");
         goto failed;
     }
-    if (!gm_session_open(&worker->session, request, message))
+    if (!gm_session_open(&worker->session, request, message)) {
         goto failed;
+    }
     worker->theme = theme;
     worker->wake = wake;
     worker->changed = worker->wanted = true;
@@ -378,8 +396,9 @@ struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme
     pthread_sigmask(SIG_SETMASK, &all, &before);
     int error = pthread_create(&worker->thread, NULL, work, worker);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
-    if (error == 0)
+    if (error == 0) {
         return worker;
+    }
     snprintf(message, GM_MESSAGE, "No thread could be started: %s.", strerror(error));
     gm_session_close(&worker->session);
 failed:
@@ -393,8 +412,9 @@ failed:
 
 void gm_worker_close(struct gm_worker *worker)
 {
-    if (!worker)
+    if (!worker) {
         return;
+    }
     pthread_mutex_lock(&worker->lock);
     worker->leave = true;
     pthread_cond_signal(&worker->news);
@@ -411,8 +431,9 @@ void gm_worker_close(struct gm_worker *worker)
 void gm_worker_order(struct gm_worker *worker, struct gm_order order)
 {
     pthread_mutex_lock(&worker->lock);
-    if (worker->count < QUEUE)
+    if (worker->count < QUEUE) {
         worker->queue[(worker->first + worker->count++) % QUEUE] = order;
+    }
     pthread_cond_signal(&worker->news);
     pthread_mutex_unlock(&worker->lock);
 }

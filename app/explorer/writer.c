@@ -72,8 +72,9 @@ static void put_glyph(struct gm_writer *writer, uint32_t code)
 /* A capability without its padding $<5>: it would make us wait for terminals of old. */
 static void put_capability(struct gm_writer *writer, const char *capability)
 {
-    if (!capability)
+    if (!capability) {
         return;
+    }
     while (*capability) {
         const char *end = capability[0] == '$' && capability[1] == '<' ? strchr(capability, '>') : NULL;
         if (end) {
@@ -93,8 +94,9 @@ static long colour_number(struct gm_writer *writer, struct gm_rgb colour, enum g
         return (long)colour.r << 16 | colour.g << 8 | colour.b;
     case GM_COLOURS_256: {
         size_t key = (size_t)(colour.r >> 3) << 10 | (size_t)(colour.g >> 3) << 5 | (size_t)(colour.b >> 3);
-        if (writer->nearest[key] < 0)
+        if (writer->nearest[key] < 0) {
             writer->nearest[key] = (int16_t)gm_palette_256(colour);
+        }
         return writer->nearest[key];
     }
     case GM_COLOURS_16:
@@ -107,18 +109,19 @@ static long colour_number(struct gm_writer *writer, struct gm_rgb colour, enum g
 
 static void put_colour(struct gm_writer *writer, long number, bool ground)
 {
-    if (writer->colours == GM_COLOURS_TRUE)
+    if (writer->colours == GM_COLOURS_TRUE) {
         put_format(writer, "\033[%d;2;%ld;%ld;%ldm", ground ? 48 : 38, number >> 16 & 255, number >> 8 & 255,
                    number & 255);
-    else if (writer->colours == GM_COLOURS_256)
+    } else if (writer->colours == GM_COLOURS_256) {
         put_format(writer, "\033[%d;5;%ldm", ground ? 48 : 38, number);
-    else if (!writer->bright && writer->set_foreground)
+    } else if (!writer->bright && writer->set_foreground) {
         put_capability(writer,
                        tiparm(ground ? writer->set_background : writer->set_foreground, (int)(number & 7)));
-    else if (writer->set_foreground)
+    } else if (writer->set_foreground) {
         put_capability(writer, tiparm(ground ? writer->set_background : writer->set_foreground, (int)number));
-    else
+    } else {
         put_format(writer, "\033[%ldm", (number < 8 ? 30 + number : 82 + number) + (ground ? 10 : 0));
+    }
 }
 
 /* Letters, colours and attributes as this terminal has them. */
@@ -127,6 +130,8 @@ struct look {
     long foreground, background;
     bool bold, reverse;
 };
+
+enum { BLUE = 4, DARK_GREY = 8 };
 
 static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
 {
@@ -146,12 +151,16 @@ static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
     look.foreground = colour_number(writer, cell->foreground, cell->role, false);
     look.background = colour_number(writer, cell->background, GM_PAPER, true);
     if (writer->colours == GM_COLOURS_16 && !writer->bright) {
+        if (look.foreground == DARK_GREY) { /* bold black is black on many terminals */
+            look.foreground = BLUE;
+        }
         look.bold = look.bold || look.foreground >= 8;
         look.foreground &= 7;
         look.background &= 7;
     }
-    if (cell->glyph == ' ') /* only the ground is seen */
+    if (cell->glyph == ' ') { /* only the ground is seen */
         look.foreground = writer->foreground >= 0 ? writer->foreground : look.foreground;
+    }
     return look;
 }
 
@@ -164,15 +173,19 @@ static void take_look(struct gm_writer *writer, const struct look *look)
         writer->bold = writer->reverse = false;
         writer->foreground = writer->background = -1;
     }
-    if (bold && !writer->bold)
+    if (bold && !writer->bold) {
         put_capability(writer, writer->strong);
-    if (look->reverse && !writer->reverse)
+    }
+    if (look->reverse && !writer->reverse) {
         put_capability(writer, writer->reversed);
+    }
     if (writer->colours != GM_COLOURS_NONE) {
-        if (look->foreground != writer->foreground)
+        if (look->foreground != writer->foreground) {
             put_colour(writer, look->foreground, false);
-        if (look->background != writer->background)
+        }
+        if (look->background != writer->background) {
             put_colour(writer, look->background, true);
+        }
     }
     writer->foreground = look->foreground;
     writer->background = look->background;
@@ -186,18 +199,21 @@ static bool same_cell(const struct gm_cell *a, const struct gm_cell *b)
 {
     bool ground = a->background.r == b->background.r && a->background.g == b->background.g &&
                   a->background.b == b->background.b;
-    if (a->glyph != b->glyph || !ground)
+    if (a->glyph != b->glyph || !ground) {
         return false;
-    if (a->glyph == ' ')
+    }
+    if (a->glyph == ' ') {
         return true;
+    }
     return a->foreground.r == b->foreground.r && a->foreground.g == b->foreground.g &&
            a->foreground.b == b->foreground.b && a->bold == b->bold && a->role == b->role;
 }
 
 static void move_to(struct gm_writer *writer, int column, int row)
 {
-    if (writer->row == row && writer->column == column)
+    if (writer->row == row && writer->column == column) {
         return;
+    }
     put_capability(writer, tiparm(writer->place, row, column));
     writer->row = row;
     writer->column = column;
@@ -209,21 +225,23 @@ static void put_cell(struct gm_writer *writer, const struct gm_cells *cells, int
     take_look(writer, &look);
     put_glyph(writer, look.glyph);
     writer->column++;
-    if (writer->column >= cells->columns)
+    if (writer->column >= cells->columns) {
         writer->row = -1; /* at the right edge terminals differ in where the cursor is */
+    }
 }
 
 static bool resize(struct gm_writer *writer, const struct gm_cells *cells)
 {
-    if (writer->shown.cells && writer->shown.columns == cells->columns && writer->shown.rows == cells->rows)
+    if (writer->shown.cells && writer->shown.columns == cells->columns && writer->shown.rows == cells->rows) {
         return true;
+    }
     struct gm_cell *more =
         realloc(writer->shown.cells, sizeof *more * (size_t)cells->columns * (size_t)cells->rows);
     if (!more) {
         writer->failed = true;
         return false;
     }
-    writer->shown = (struct gm_cells){cells->columns, cells->rows, more};
+    writer->shown = (struct gm_cells){.columns = cells->columns, .rows = cells->rows, .cells = more};
     writer->known = false;
     return true;
 }
@@ -232,25 +250,31 @@ enum { CHEAPER = 4 }; /* so many cells written again cost less than addressing t
 
 void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells)
 {
-    if (!resize(writer, cells))
+    if (!resize(writer, cells)) {
         return;
+    }
     /* Synchronised output: a terminal that knows it shows the frame at once, others ignore it. */
     bool together = writer->colours >= GM_COLOURS_256;
-    if (together)
+    if (together) {
         put_text(writer, "\033[?2026h");
+    }
     size_t begun = writer->length;
-    if (!writer->known)
+    if (!writer->known) {
         writer->row = writer->foreground = -1;
+    }
     for (int row = 0; row < cells->rows; row++) {
         for (int column = 0; column < cells->columns; column++) {
             size_t at = (size_t)row * (size_t)cells->columns + (size_t)column;
-            if (writer->known && same_cell(&cells->cells[at], &writer->shown.cells[at]))
+            if (writer->known && same_cell(&cells->cells[at], &writer->shown.cells[at])) {
                 continue;
-            if (!writer->corner && row + 1 == cells->rows && column + 1 == cells->columns)
+            }
+            if (!writer->corner && row + 1 == cells->rows && column + 1 == cells->columns) {
                 continue;
+            }
             if (writer->row == row && column > writer->column && column - writer->column <= CHEAPER) {
-                while (writer->column < column)
+                while (writer->column < column) {
                     put_cell(writer, cells, writer->column, row);
+                }
             }
             move_to(writer, column, row);
             put_cell(writer, cells, column, row);
@@ -259,10 +283,11 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells)
     memcpy(writer->shown.cells, cells->cells,
            sizeof *cells->cells * (size_t)cells->columns * (size_t)cells->rows);
     writer->known = true;
-    if (writer->length == begun)
+    if (writer->length == begun) {
         writer->length = writer->sent = 0;
-    else if (together)
+    } else if (together) {
         put_text(writer, "\033[?2026l");
+    }
 }
 
 bool gm_writer_idle(const struct gm_writer *writer)
@@ -274,14 +299,15 @@ bool gm_writer_send(struct gm_writer *writer)
 {
     while (writer->sent < writer->length) {
         ssize_t done = write(writer->fd, writer->out + writer->sent, writer->length - writer->sent);
-        if (done > 0)
+        if (done > 0) {
             writer->sent += (size_t)done;
-        else if (done < 0 && errno == EINTR)
+        } else if (done < 0 && errno == EINTR) {
             continue;
-        else if (done < 0 && errno == EAGAIN)
+        } else if (done < 0 && errno == EAGAIN) {
             return true;
-        else
+        } else {
             return false;
+        }
     }
     writer->sent = writer->length = 0;
     return !writer->failed;
@@ -309,17 +335,20 @@ bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal
     writer->reversed = capability("rev");
     writer->set_foreground = capability("setaf");
     writer->set_background = capability("setab");
-    if (!writer->set_background)
+    if (!writer->set_background) {
         writer->set_foreground = NULL;
+    }
     writer->bright = tigetnum("colors") >= 16 || !writer->set_foreground;
     writer->corner = tigetflag("am") <= 0 || tigetflag("xenl") > 0;
     /* The terminal opened a second time can be made not to wait without changing that for the shell. */
     const char *name = ttyname(STDOUT_FILENO);
-    if (name)
+    if (name) {
         writer->fd = open(name, O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    }
     writer->own_fd = writer->fd >= 0;
-    if (!writer->own_fd)
+    if (!writer->own_fd) {
         writer->fd = STDOUT_FILENO;
+    }
     if (writer->colours == GM_COLOURS_256) {
         size_t size = (size_t)1 << 15;
         writer->nearest = malloc(size * sizeof *writer->nearest);
@@ -327,18 +356,21 @@ bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal
             gm_writer_close(writer);
             return false;
         }
-        for (size_t i = 0; i < size; i++)
+        for (size_t i = 0; i < size; i++) {
             writer->nearest[i] = -1;
+        }
     }
     return true;
 }
 
 void gm_writer_close(struct gm_writer *writer)
 {
-    for (int tries = 0; tries < 10 && !gm_writer_idle(writer) && gm_writer_send(writer); tries++)
+    for (int tries = 0; tries < 10 && !gm_writer_idle(writer) && gm_writer_send(writer); tries++) {
         poll(&(struct pollfd){.fd = writer->fd, .events = POLLOUT}, 1, 50);
-    if (writer->own_fd)
+    }
+    if (writer->own_fd) {
         close(writer->fd);
+    }
     free(writer->out);
     free(writer->shown.cells);
     free(writer->nearest);
