@@ -440,9 +440,11 @@ bool gm_request_parse(struct gm_request *request, int count, char *const words[]
         good = read_word(&lists, request->scene, words[i], message);
     }
     const struct list *zip = find_list(&lists, "zip");
-    lists.zip = zip && strcmp(zip->values[0], "yes") == 0;
-    if (good && zip && !lists.zip && strcmp(zip->values[0], "no") != 0) {
-        good = refuse(message, "zip=%.60s is none of: no, yes", zip->values[0]);
+    if (good && zip) {
+        lists.zip = strcmp(zip->values[0], "yes") == 0;
+        if (zip->count > 1 || (!lists.zip && strcmp(zip->values[0], "no") != 0)) {
+            good = refuse(message, "zip= is one of: no, yes");
+        }
     }
     good = good && prefer(&lists, request->scene, schemes, message) && make_lanes(request, &lists, message);
     if (good) {

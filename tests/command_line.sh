@@ -60,6 +60,9 @@ refused 1 'none of: oscillator, pendulum' run disc system=spring
 refused 1 'one of them follows' run disc steps=3 until=4
 refused 1 'whole number' run disc steps=-1
 refused 1 'equal length' run disc scheme=rk2,rk4 dt=1,2,3 zip=yes
+refused 1 'one of: no, yes' run disc zip=maybe
+refused 1 'one of: no, yes' run disc zip=yes,no
+refused 1 'empty value' run disc zip=
 refused 1 'none of: no, yes' run disc compensated=maybe
 refused 1 'more than' run disc dt=1,2,3,4,5,6,7,8,9 radius=1,2,3,4,5,6,7,8,9
 refused 1 'needs a value' render disc --size

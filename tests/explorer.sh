@@ -13,10 +13,6 @@ pane=main
 unset TMUX COLORTERM NO_COLOR GEOMINT_COLOURS GEOMINT_BLOCKS GEOMINT_THEME
 export LC_ALL=C.UTF-8
 
-# Under a sanitizer: what OSMesa does not give back is not ours.
-echo 'leak:libOSMesa' >"$folder/leaks"
-export LSAN_OPTIONS=suppressions=$folder/leaks:print_suppressions=0
-
 tm() { tmux -L "$socket" -f /dev/null "$@"; }
 
 finish() {
