@@ -79,6 +79,7 @@ struct gm_exact {
 enum gm_facet {
     GM_NEEDS_ODE = 1u << 0,
     GM_NEEDS_SPLIT = 1u << 1,
+    GM_NEEDS_NYSTROM = 1u << 8, /* split, with a quadratic T */
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain

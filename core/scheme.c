@@ -70,7 +70,7 @@ const struct gm_scheme *gm_scheme_find(const char *name)
 {
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (strcmp(scheme->name, name) == 0) {
+        if (strcmp(scheme->name, name) == 0 || (scheme->alias && strcmp(scheme->alias, name) == 0)) {
             return scheme;
         }
     }
@@ -79,7 +79,8 @@ const struct gm_scheme *gm_scheme_find(const char *name)
 
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
-    const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0);
+    const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0) |
+                         (problem->split && problem->split->nystrom ? GM_NEEDS_NYSTROM : 0);
     const struct gm_loops *loops = problem->loops[GM_ISA_BASELINE];
     return (scheme->needs & ~has) == 0 && (scheme->family->loop || (loops && loops->family[scheme->family->id]));
 }
