@@ -41,10 +41,44 @@ const struct gm_parameter gm_settings_parameters[] = {
         .lowest = 0,
         .highest = 1,
     },
+    {
+        .key = "binding",
+        .unit = "",
+        .help = "frequency that binds the two copies of phase space (tao2, tao4)",
+        .type = GM_REAL,
+        .offset = offsetof(struct gm_settings, binding),
+        .standard = "20",
+        .lowest = 0,
+        .highest = 1e6,
+    },
+    {
+        .key = "tau0",
+        .unit = "",
+        .help = "first time step of the schemes that choose their step by the variational principle",
+        .type = GM_REAL,
+        .offset = offsetof(struct gm_settings, tau0),
+        .standard = "0.02",
+        .lowest = 1e-6,
+        .highest = 1,
+        .logarithmic = true,
+    },
+    {
+        .key = "tolerance",
+        .unit = "",
+        .help = "error that a GSL stepper allows within a time step; 0: one step of fixed length",
+        .type = GM_REAL,
+        .offset = offsetof(struct gm_settings, tolerance),
+        .standard = "0",
+        .lowest = 0,
+        .highest = 1,
+    },
 };
 const size_t gm_settings_parameter_count = sizeof gm_settings_parameters / sizeof gm_settings_parameters[0];
 
 const struct gm_parameter *const gm_settings_of_sums[] = {&gm_settings_parameters[0], NULL};
+const struct gm_parameter *const gm_settings_of_tao[] = {&gm_settings_parameters[1], NULL};
+const struct gm_parameter *const gm_settings_of_variational_time[] = {&gm_settings_parameters[2], NULL};
+const struct gm_parameter *const gm_settings_of_gsl[] = {&gm_settings_parameters[3], NULL};
 
 size_t gm_scheme_count(void)
 {
@@ -77,10 +111,40 @@ const struct gm_scheme *gm_scheme_find(const char *name)
     return NULL;
 }
 
+const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem)
+{
+    const struct gm_scheme *found = gm_scheme_find(name);
+    for (size_t i = 0; found && i < gm_scheme_count() && !gm_scheme_fits(found, problem); i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (strcmp(scheme->name, name) == 0 && gm_scheme_fits(scheme, problem)) {
+            return scheme;
+        }
+    }
+    return found;
+}
+
+static unsigned facets_of(const struct gm_problem *problem)
+{
+    const struct gm_ode *ode = problem->ode;
+    const struct gm_split *split = problem->split;
+    const struct gm_hamiltonian *hamiltonian = problem->hamiltonian;
+    const struct gm_kepler_split *kepler = problem->kepler_split;
+    const bool canonical = hamiltonian && hamiltonian->canonical, nystrom = split && split->nystrom;
+    return (ode ? GM_NEEDS_ODE : 0) | (ode && ode->quadratic ? GM_NEEDS_QUADRATIC : 0) |
+           (split ? GM_NEEDS_SPLIT : 0) | (nystrom ? GM_NEEDS_NYSTROM : 0) |
+           (hamiltonian ? GM_NEEDS_HAMILTONIAN : 0) | (canonical ? GM_NEEDS_CANONICAL : 0) |
+           (hamiltonian && !split ? GM_NEEDS_INSEPARABLE : 0) | (problem->volume ? GM_NEEDS_VOLUME : 0) |
+           (problem->fast_linear ? GM_NEEDS_FAST_LINEAR : 0) | (kepler ? GM_NEEDS_KEPLER : 0) |
+           (kepler && !kepler->perturbation ? GM_NEEDS_PURE_KEPLER : 0) |
+           (canonical && nystrom && problem->n == 2 ? GM_NEEDS_ONE_DEGREE : 0);
+}
+
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
-    const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0) |
-                         (problem->split && problem->split->nystrom ? GM_NEEDS_NYSTROM : 0);
+    const struct gm_family *family = scheme->family;
+    if ((scheme->needs & ~facets_of(problem)) != 0 || (family->own_time && problem->m > 1)) {
+        return false;
+    }
     const struct gm_loops *loops = problem->loops[GM_ISA_BASELINE];
-    return (scheme->needs & ~has) == 0 && (scheme->family->loop || (loops && loops->family[scheme->family->id]));
+    return family->loop || (loops && loops->family[family->id]);
 }
