@@ -77,9 +77,26 @@ const struct gm_scheme *gm_scheme_find(const char *name)
     return NULL;
 }
 
+static unsigned facets_of(const struct gm_problem *problem)
+{
+    const struct gm_ode *ode = problem->ode;
+    const struct gm_split *split = problem->split;
+    return (ode ? GM_NEEDS_ODE : 0) | (split ? GM_NEEDS_SPLIT : 0) |
+           (problem->hamiltonian ? GM_NEEDS_HAMILTONIAN : 0) | (problem->lagrangian ? GM_NEEDS_LAGRANGIAN : 0) |
+           (problem->fast_linear ? GM_NEEDS_FAST_LINEAR : 0) |
+           (problem->kepler_split ? GM_NEEDS_KEPLER_SPLIT : 0) | (problem->volume ? GM_NEEDS_VOLUME : 0) |
+           (ode && ode->quadratic ? GM_NEEDS_QUADRATIC : 0) | (split && split->nystrom ? GM_NEEDS_NYSTROM : 0);
+}
+
+gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const struct gm_loops *loops = problem->loops[gm_isa_best()];
+    gm_loop *by_kernels = loops ? loops->family[scheme->family->id] : NULL;
+    return by_kernels ? by_kernels : scheme->family->loop;
+}
+
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
-    const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0);
-    const struct gm_loops *loops = problem->loops[GM_ISA_BASELINE];
-    return (scheme->needs & ~has) == 0 && (scheme->family->loop || (loops && loops->family[scheme->family->id]));
+    return (scheme->needs & ~facets_of(problem)) == 0 && gm_scheme_loop(scheme, problem) &&
+           (problem->passive == 0 || scheme->family->carries_passive);
 }

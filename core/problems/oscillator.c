@@ -15,6 +15,14 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
     }
 }
 
+static void potential(const struct gm_problem *problem, double q, double values[3])
+{
+    (void)problem;
+    values[0] = q * q / 2;
+    values[1] = q;
+    values[2] = 1;
+}
+
 const struct gm_problem gm_problem_oscillator = {
     .name = "oscillator",
     .n = 2,
@@ -22,6 +30,7 @@ const struct gm_problem gm_problem_oscillator = {
     .ode = &(const struct gm_ode){.stiff = false},
     .split = &(const struct gm_split){.nystrom = true},
     .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+    .lagrangian = &(const struct gm_lagrangian){.potential = potential},
     .loops = GM_LOOPS(oscillator),
 };
 
