@@ -82,7 +82,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     if (!run) {
         return NULL;
     }
-    if (scheme->family->workspace_open) {
+    if (scheme->family->workspace_open && gm_scheme_loop(scheme, problem) == scheme->family->loop) {
         head.workspace = scheme->family->workspace_open(problem, scheme);
         if (!head.workspace) {
             free(run);
@@ -121,7 +121,7 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
     }
     struct gm_task task = task_of(run, run->current, 1 - run->current, steps);
     const struct gm_family *family = run->scheme->family;
-    gm_loop *loop = family->loop ? family->loop : run->problem->loops[gm_isa_best()]->family[family->id];
+    gm_loop *loop = gm_scheme_loop(run->scheme, run->problem);
     struct gm_progress progress = loop(&task);
     if (progress.done < steps) {
         run->status = progress.status;

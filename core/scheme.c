@@ -128,23 +128,25 @@ static unsigned facets_of(const struct gm_problem *problem)
     const struct gm_ode *ode = problem->ode;
     const struct gm_split *split = problem->split;
     const struct gm_hamiltonian *hamiltonian = problem->hamiltonian;
-    const struct gm_kepler_split *kepler = problem->kepler_split;
-    const bool canonical = hamiltonian && hamiltonian->canonical, nystrom = split && split->nystrom;
-    return (ode ? GM_NEEDS_ODE : 0) | (ode && ode->quadratic ? GM_NEEDS_QUADRATIC : 0) |
-           (split ? GM_NEEDS_SPLIT : 0) | (nystrom ? GM_NEEDS_NYSTROM : 0) |
-           (hamiltonian ? GM_NEEDS_HAMILTONIAN : 0) | (canonical ? GM_NEEDS_CANONICAL : 0) |
-           (hamiltonian && !split ? GM_NEEDS_INSEPARABLE : 0) | (problem->volume ? GM_NEEDS_VOLUME : 0) |
-           (problem->fast_linear ? GM_NEEDS_FAST_LINEAR : 0) | (kepler ? GM_NEEDS_KEPLER : 0) |
-           (kepler && !kepler->perturbation ? GM_NEEDS_PURE_KEPLER : 0) |
-           (canonical && nystrom && problem->n == 2 ? GM_NEEDS_ONE_DEGREE : 0);
+    return (ode ? GM_NEEDS_ODE : 0) | (split ? GM_NEEDS_SPLIT : 0) |
+           (hamiltonian ? GM_NEEDS_HAMILTONIAN : 0) | (problem->lagrangian ? GM_NEEDS_LAGRANGIAN : 0) |
+           (problem->fast_linear ? GM_NEEDS_FAST_LINEAR : 0) |
+           (problem->kepler_split ? GM_NEEDS_KEPLER_SPLIT : 0) | (problem->volume ? GM_NEEDS_VOLUME : 0) |
+           (hamiltonian && !split ? GM_NEEDS_INSEPARABLE : 0) |
+           (hamiltonian && !hamiltonian->partial ? GM_NEEDS_ENERGY : 0) |
+           (ode && ode->quadratic ? GM_NEEDS_QUADRATIC : 0) | (split && split->nystrom ? GM_NEEDS_NYSTROM : 0);
+}
+
+gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    const struct gm_loops *loops = problem->loops[gm_isa_best()];
+    gm_loop *by_kernels = loops ? loops->family[scheme->family->id] : NULL;
+    return by_kernels ? by_kernels : scheme->family->loop;
 }
 
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
-    const struct gm_family *family = scheme->family;
-    if ((scheme->needs & ~facets_of(problem)) != 0 || (family->own_time && problem->m > 1)) {
-        return false;
-    }
-    const struct gm_loops *loops = problem->loops[GM_ISA_BASELINE];
-    return family->loop || (loops && loops->family[family->id]);
+    return (scheme->needs & ~facets_of(problem)) == 0 && gm_scheme_loop(scheme, problem) &&
+           (problem->passive == 0 || scheme->family->carries_passive) &&
+           (problem->m == 1 || !scheme->family->own_time);
 }

@@ -55,7 +55,8 @@ struct gm_family {
     const struct gm_parameter *const *parameters; /* rows of gm_settings_parameters, NULL-terminated */
 
     /* All that follows is for families that are not loops over a problem's kernels. */
-    gm_loop *loop; /* advances any problem that has the facets; NULL: problem->loops */
+    gm_loop *loop; /* advances any problem that has the facets, where problem->loops has none; NULL: none */
+    bool carries_passive; /* loop knows what to do with a passive block */
     /* Doubles of memory that a scheme carries from step to step, in the run's block. */
     size_t (*memory)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.
@@ -78,6 +79,9 @@ const struct gm_scheme *gm_scheme_find(const char *name);
 /* The row of that name that fits the problem, where one name has rows for several facets; a row that does not
    fit if there is none that does; NULL if there is no scheme of that name. */
 const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem);
+/* The loop that advances this problem by this scheme: that over the problem's kernels, else the family's; NULL if
+   there is neither. The family's workspace is opened for its own loop only. */
+gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem);
 /* whether the problem has what the scheme needs */
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem);
 

@@ -3,7 +3,7 @@
        Average vector field:  y1 = y0 + h integral_0^1 f((1 - s) y0 + s y1) ds
    Quispel & McLaren, J. Phys. A 41 (2008) 045206: H(y1) - H(y0) = integral of grad H . (y1 - y0) = 0.
    The integral is a Gauss-Legendre sum of 8 nodes, exact for polynomials of degree 15.
-       Discrete gradient:  y1 = y0 + h J G,  G = g + (H(y1) - H(y0) - g . d) / |d|^2 d,
+       Discrete gradient:  y1 = y0 + h S G,  G = g + (H(y1) - H(y0) - g . d) / |d|^2 d,
        d = y1 - y0,  g = grad H((y0 + y1)/2)
    O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
    Both are solved for d to round-off by fixed-point iteration, and where that does not contract by Newton's method
@@ -50,7 +50,7 @@ static double average_field(const struct gm_problem *problem, const double *y, c
         for (size_t c = 0; c < n; c++) {
             at[c] = y[c] + quadrature[k].node * d[c];
         }
-        gm_field(problem, at, f);
+        gm_field(problem, at, f, 1);
         for (size_t c = 0; c < n; c++) {
             mean[c] += quadrature[k].weight * f[c];
         }
@@ -59,16 +59,18 @@ static double average_field(const struct gm_problem *problem, const double *y, c
     return 0;
 }
 
-/* With canonical J, J g is f at the midpoint, and g = (-f_p, f_q). */
+/* f at the midpoint is S g, S = w J, and so g = (-f_p, f_q) / w. */
 static double gradient_field(const struct gm_problem *problem, const double *y, const double *d, double *mean,
                              double *at, double *f, struct gm_progress *progress)
 {
     const size_t n = problem->n, half = n / 2;
+    double (*const weight_of)(const struct gm_problem *) = problem->hamiltonian->weight;
+    const double weight = weight_of ? weight_of(problem) : 1;
     double square = 0, along = 0;
     for (size_t c = 0; c < n; c++) {
         at[c] = y[c] + 0.5 * d[c];
     }
-    gm_field(problem, at, mean);
+    gm_field(problem, at, mean, 1);
     progress->evaluations++;
     for (size_t c = 0; c < half; c++) {
         along += mean[c] * d[half + c] - mean[half + c] * d[c];
@@ -81,12 +83,12 @@ static double gradient_field(const struct gm_problem *problem, const double *y, 
         f[c] = y[c] + d[c];
     }
     const double before = gm_energy(problem, y);
-    const double excess = (gm_energy(problem, f) - before - along) / square;
+    const double excess = weight * (gm_energy(problem, f) - before - along / weight) / square;
     for (size_t c = 0; c < half; c++) {
         mean[c] += excess * d[half + c];
         mean[half + c] -= excess * d[c];
     }
-    return fabs(before) / sqrt(square);
+    return fabs(weight * before) / sqrt(square);
 }
 
 /* r := h mean - d, whose zero is wanted; returns |r| and the level of round-off */
@@ -114,9 +116,6 @@ static bool by_newton(const struct gm_task *task, const struct method *method, s
     const size_t n = members->n;
     double *d = members->scratch + D * n, *at = members->scratch + AT * n, *r = members->scratch + RIGHT * n;
     double *matrix = members->scratch + VECTORS * n;
-    if (n > GM_NEWTON_LARGEST) {
-        return false;
-    }
     double previous = INFINITY, roundoff;
     memset(d, 0, n * sizeof *d);
     for (int iteration = 0; iteration < NEWTON_ITERATIONS; iteration++) {
@@ -126,7 +125,9 @@ static bool by_newton(const struct gm_task *task, const struct method *method, s
         for (size_t c = 0; c < n; c++) {
             at[c] = members->y[c] + 0.5 * d[c];
         }
-        task->problem->loops[GM_ISA_BASELINE]->jacobian(task->problem, at, matrix);
+        if (!gm_jacobian(task->problem, at, matrix)) {
+            return false;
+        }
         for (size_t i = 0; i < n * n; i++) {
             matrix[i] = (i % (n + 1) == 0 ? 1 : 0) - 0.5 * h * matrix[i];
         }
@@ -152,7 +153,7 @@ static bool by_fixed_point(const struct gm_task *task, const struct method *meth
     const size_t n = members->n;
     double *d = members->scratch + D * n, *r = members->scratch + RIGHT * n;
     double previous = INFINITY, roundoff;
-    gm_field(task->problem, members->y, d);
+    gm_field(task->problem, members->y, d, 1);
     progress->evaluations++;
     for (size_t c = 0; c < n; c++) {
         d[c] *= h;
@@ -194,8 +195,7 @@ static struct gm_progress loop(const struct gm_task *task) { return gm_members_a
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    const size_t n = problem->n;
-    return gm_members_open(problem, 0, VECTORS * n + (n > GM_NEWTON_LARGEST ? 0 : n * n));
+    return gm_members_open(problem, 0, VECTORS * problem->n + gm_matrix_size(problem));
 }
 
 static const struct method avf2 = {average_field, 1, {1}};
@@ -233,7 +233,7 @@ static const struct gm_scheme schemes[] = {
         .family = &gm_family_energy_keeping,
         .coefficients = &discrete_gradient2,
         .order = 2,
-        .needs = GM_NEEDS_ODE | GM_NEEDS_CANONICAL,
+        .needs = GM_NEEDS_ODE | GM_NEEDS_HAMILTONIAN | GM_NEEDS_ENERGY,
         .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_ENERGY,
     },
 };

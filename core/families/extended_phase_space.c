@@ -13,6 +13,7 @@
 #include "core/families/compositions.h"
 #include "core/families/families.h"
 #include "core/families/members.h"
+#include "core/kernel/loops.h"
 
 struct composition {
     int substeps;
@@ -26,7 +27,7 @@ static void shear(const struct gm_problem *problem, double h, double *first, dou
     double *mixed = scratch, *f = scratch + problem->n;
     memcpy(mixed, first, half * sizeof *mixed);
     memcpy(mixed + half, second + half, half * sizeof *mixed);
-    gm_field(problem, mixed, f);
+    gm_field(problem, mixed, f, 1);
     for (size_t c = 0; c < half; c++) {
         second[c] += h * f[c];
         first[half + c] += h * f[half + c];

@@ -13,8 +13,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 {
     const size_t n = members->n;
     double *f = members->scratch, *matrix = f + n;
-    gm_field(task->problem, members->y, f);
-    task->problem->loops[GM_ISA_BASELINE]->jacobian(task->problem, members->y, matrix);
+    gm_field(task->problem, members->y, f, 1);
+    if (!gm_jacobian(task->problem, members->y, matrix)) {
+        return GM_NO_CONVERGENCE;
+    }
     for (size_t i = 0; i < n * n; i++) {
         matrix[i] = (i % (n + 1) == 0 ? 1 : 0) - 0.5 * task->dt * matrix[i];
     }
@@ -34,7 +36,7 @@ static struct gm_progress loop(const struct gm_task *task) { return gm_members_a
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    return gm_members_open(problem, 0, problem->n + problem->n * problem->n);
+    return gm_members_open(problem, 0, problem->n + gm_matrix_size(problem));
 }
 
 static const struct gm_scheme schemes[] = {

@@ -73,9 +73,19 @@ struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step
     return progress;
 }
 
-void gm_field(const struct gm_problem *problem, const double *y, double *f)
+size_t gm_matrix_size(const struct gm_problem *problem)
 {
-    problem->loops[GM_ISA_BASELINE]->field(problem, y, f, 1);
+    const bool made = problem->loops[GM_ISA_BASELINE]->jacobian && problem->n <= GM_NEWTON_LARGEST;
+    return made ? problem->n * problem->n : 0;
+}
+
+bool gm_jacobian(const struct gm_problem *problem, const double *y, double *jacobian)
+{
+    if (gm_matrix_size(problem) == 0) {
+        return false;
+    }
+    problem->loops[GM_ISA_BASELINE]->jacobian(problem, y, jacobian);
+    return true;
 }
 
 double gm_energy(const struct gm_problem *problem, const double *y)

@@ -8,6 +8,7 @@
 
 /* Beyond this many components no matrix is made, and an iteration that does not contract has failed. */
 enum { GM_NEWTON_LARGEST = 64 };
+size_t gm_matrix_size(const struct gm_problem *problem); /* n * n, or 0 */
 
 /* The workspace: one member's state and memory, and scratch for the step. */
 struct gm_members {
@@ -29,8 +30,8 @@ typedef enum gm_status gm_member_step(const struct gm_task *task, struct gm_memb
 /* All steps of all members; the workspace is a gm_members. Memory is [double * m + member], as the state. */
 struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step *step);
 
-/* f(y) of one member, n components. */
-void gm_field(const struct gm_problem *problem, const double *y, double *f);
+/* The Jacobian of f at y, n * n by rows; false where the problem has none, or it would be too large a matrix. */
+bool gm_jacobian(const struct gm_problem *problem, const double *y, double *jacobian);
 
 /* H(y) of one member. */
 double gm_energy(const struct gm_problem *problem, const double *y);

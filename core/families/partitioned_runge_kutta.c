@@ -50,7 +50,7 @@ static double slopes(const struct gm_task *task, const struct gm_members *member
             scratch->stage[c] = members->y[c] + scratch->z[i * n + c];
             size += fabs(members->y[c]) + fabs(scratch->z[i * n + c]);
         }
-        gm_field(task->problem, scratch->stage, scratch->f + i * n);
+        gm_field(task->problem, scratch->stage, scratch->f + i * n, 1);
     }
     progress->evaluations += stages;
     progress->iterations++;
@@ -107,9 +107,6 @@ static bool by_newton(const struct gm_task *task, struct gm_members *members, co
 {
     const struct scratch scratch = scratch_of(members);
     const size_t n = members->n, size = tableau->stages * n;
-    if (n > GM_NEWTON_LARGEST) {
-        return false;
-    }
     double previous = INFINITY;
     memset(scratch.z, 0, size * sizeof(double));
     for (int iteration = 0; iteration < NEWTON_ITERATIONS; iteration++) {
@@ -121,7 +118,9 @@ static bool by_newton(const struct gm_task *task, struct gm_members *members, co
             for (size_t c = 0; c < n; c++) {
                 scratch.stage[c] = members->y[c] + scratch.z[j * n + c];
             }
-            task->problem->loops[GM_ISA_BASELINE]->jacobian(task->problem, scratch.stage, scratch.jacobian);
+            if (!gm_jacobian(task->problem, scratch.stage, scratch.jacobian)) {
+                return false;
+            }
             for (size_t i = 0; i < tableau->stages; i++) {
                 for (size_t r = 0; r < n; r++) {
                     const double factor = task->dt * coefficient(tableau, i, j, r >= n / 2);
@@ -173,8 +172,8 @@ static struct gm_progress loop(const struct gm_task *task) { return gm_members_a
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    const size_t n = problem->n, matrices = n > GM_NEWTON_LARGEST ? 0 : (1 + STAGES * STAGES) * n * n;
-    return gm_members_open(problem, 0, (3 * STAGES + 1) * n + matrices);
+    const size_t matrices = (1 + STAGES * STAGES) * gm_matrix_size(problem);
+    return gm_members_open(problem, 0, (3 * STAGES + 1) * problem->n + matrices);
 }
 
 static const struct tableau symplectic_euler = {.stages = 1, .a = {{0}}, .c = {{1}}, .b = {1}};

@@ -15,13 +15,13 @@ static void pass(const struct gm_task *task, double *y)
     const struct gm_volume *volume = problem->volume;
     const enum form form = *(const enum form *)task->scheme->coefficients;
     const double h = form == SIMPLE ? task->dt : task->dt / 2;
-    for (size_t part = 0; part + (form == PALINDROME) < volume->parts; part++) {
-        volume->flow(problem, part, h, y, problem->m);
+    for (size_t piece = 0; piece + (form == PALINDROME) < volume->pieces; piece++) {
+        volume->flow(problem, piece, h, y, problem->m);
     }
     if (form == PALINDROME) {
-        volume->flow(problem, volume->parts - 1, task->dt, y, problem->m);
-        for (size_t part = volume->parts - 1; part-- > 0;) {
-            volume->flow(problem, part, h, y, problem->m);
+        volume->flow(problem, volume->pieces - 1, task->dt, y, problem->m);
+        for (size_t piece = volume->pieces - 1; piece-- > 0;) {
+            volume->flow(problem, piece, h, y, problem->m);
         }
     }
 }
