@@ -194,7 +194,8 @@ static struct gm_progress loop(const struct gm_task *task)
     }
     long done = 0;
     while (done < task->steps && workspace->status == GM_OK) {
-        workspace->status = step(task, workspace, task->t + (double)done * task->dt);
+        /* a time of the library's own that does not depend on how the run was cut; problems are autonomous */
+        workspace->status = step(task, workspace, (double)(task->steps_before + done) * task->dt);
         done += workspace->status == GM_OK ? 1 : 0;
     }
     workspace->good = task->steps_before + done;
