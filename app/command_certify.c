@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint certify: measured order and properties against the claims. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -12,9 +13,14 @@ static const char *scheme_name(size_t i, const void *data) { return (void)data, 
 
 static void print_json(const struct gm_certificate *certificate)
 {
-    printf("{\"scheme\":\"%s\",\"order\":%d,\"measured_order\":%.6g,\"holds\":%s,\"properties\":{",
-           certificate->scheme->name, certificate->scheme->order, certificate->order,
-           certificate->holds ? "true" : "false");
+    printf("{\"scheme\":\"%s\",\"order\":%d,\"measured_order\":", certificate->scheme->name,
+           certificate->scheme->order);
+    if (isfinite(certificate->order)) {
+        printf("%.6g", certificate->order);
+    } else {
+        printf("null");
+    }
+    printf(",\"holds\":%s,\"properties\":{", certificate->holds ? "true" : "false");
     const char *comma = "";
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_measure *measure = &certificate->claims[bit];
@@ -31,8 +37,14 @@ static void print_json(const struct gm_certificate *certificate)
 
 static void print_text(const struct gm_certificate *certificate)
 {
-    printf("%-26s order %d, measured %.3f (%s)%s\n", certificate->scheme->name, certificate->scheme->order,
-           certificate->order, certificate->order_problem, certificate->order_holds ? "" : "  BROKEN");
+    const char *broken = certificate->order_holds ? "" : "  BROKEN";
+    if (certificate->scheme->order == 0) {
+        printf("%-30s order of its own choice, error ~ tolerance^%.3f (%s)%s\n", certificate->scheme->name,
+               certificate->order, certificate->order_problem, broken);
+    } else {
+        printf("%-30s order %d, measured %.3f (%s)%s\n", certificate->scheme->name, certificate->scheme->order,
+               certificate->order, certificate->order_problem, broken);
+    }
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_measure *measure = &certificate->claims[bit];
         if (!measure->claimed && !measure->measured) {

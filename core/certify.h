@@ -5,7 +5,8 @@
 #include "core/scheme.h"
 
 /* Measures what a scheme's row claims. Order is a log-log slope on non-linear problems, against a solution of
-   GSL's Prince-Dormand stepper at its tightest tolerance; properties are defects of single steps or short runs.
+   GSL's Prince-Dormand stepper at its tightest tolerance (for a scheme that chooses its order, whose row says 0, the
+   slope of log error against the logarithm of its tolerance); properties are defects of single steps or short runs.
    Every claim is measured wherever it can be; what is not claimed is told, not judged. */
 
 struct gm_measure {

@@ -42,7 +42,7 @@ struct gm_scheme {
     const char *reference; /* where it comes from */
     const struct gm_family *family;
     const void *coefficients; /* the family knows their type */
-    int order;
+    int order; /* 0: it chooses its order itself */
     unsigned needs;  /* facets, GM_NEEDS_*; all of them */
     unsigned claims; /* GM_SYMPLECTIC | ... */
 };
