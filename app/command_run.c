@@ -133,7 +133,7 @@ static bool run_lane(struct outcome *outcome, long steps, const struct gm_option
     if (!csv && !outcome->maxima) {
         return gm_drive_to(drive, steps, false, message);
     }
-    while (run->steps < steps && run->status == GM_OK && !gm_interrupted) {
+    while (run->steps < steps && run->status == GM_OK && !gm_interrupted && !gm_drive_is_over(drive)) {
         const long next = run->steps + every < steps ? run->steps + every : steps;
         const long before = run->steps;
         if (!gm_drive_to(drive, next, false, message)) {

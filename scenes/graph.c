@@ -114,7 +114,7 @@ static void time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, 
     }
     *axis = (struct gm_axis){.label = "t", .scale = counts_in_pi(lanes[0]->run->dt) ? GM_PI : GM_LINEAR};
     const double until = timing->until;
-    if (low >= lanes[0]->t0 && high <= until * (1 + 1e-9) && until > lanes[0]->t0) {
+    if (low >= lanes[0]->t0 && until < GM_NEVER && high <= until * (1 + 1e-9) && until > lanes[0]->t0) {
         high = until;
     } else {
         gm_range_round(&low, &high, axis->scale);

@@ -224,7 +224,7 @@ bool gm_session_advance(struct gm_session *session, double t)
     struct gm_lane *lane = session->lanes[chosen];
     double due = (t - lane->run->t) / lane->run->dt;
     long steps = due > 2 * RECORDS ? (long)fmin(due / RECORDS, 1e6) : 1;
-    gm_run_advance(lane->run, steps);
+    gm_lane_advance(lane, steps);
     gm_lane_record(lane);
     if (goes(lane))
         gm_past_note(&session->pasts[chosen], lane, false);
