@@ -19,7 +19,7 @@ struct gm_measure {
 
 struct gm_certificate {
     const struct gm_scheme *scheme;
-    double order;              /* measured, the farthest from the claim over the problems */
+    double order;              /* measured, the lowest over the problems */
     bool order_holds;
     const char *order_problem;
     struct gm_measure claims[GM_CLAIM_COUNT]; /* by bit number */

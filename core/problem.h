@@ -73,6 +73,7 @@ struct gm_split {
 struct gm_hamiltonian {
     void (*energy)(const struct gm_problem *problem, const double *y, double *energy, size_t m);
     double (*weight)(const struct gm_problem *problem);
+    bool partial; /* `energy` is that of the first of several copies, as where tangent vectors are carried along */
 };
 
 /* L(q, v) = v^2/2 - V(q), one degree of freedom: values[0..2] = V, V', V'' at q */
@@ -114,6 +115,8 @@ enum gm_facet {
     GM_NEEDS_VOLUME = 1u << 6,
     GM_NEEDS_QUADRATIC = 1u << 7, /* an ode whose field is quadratic */
     GM_NEEDS_NYSTROM = 1u << 8,   /* a split whose kinetic energy is quadratic */
+    GM_NEEDS_INSEPARABLE = 1u << 9, /* a hamiltonian without a split */
+    GM_NEEDS_ENERGY = 1u << 10,     /* a hamiltonian whose energy generates the whole field */
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain

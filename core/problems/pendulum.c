@@ -42,6 +42,6 @@ const struct gm_problem gm_problem_pendulum_tangent = {
     .m = 1,
     .ode = &(const struct gm_ode){.stiff = false},
     .split = &(const struct gm_split){.nystrom = true},
-    .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+    .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .partial = true},
     .loops = GM_LOOPS(pendulum_tangent),
 };
