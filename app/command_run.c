@@ -69,7 +69,8 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
         printf(",\"layout\":\"y[component * m + member], n = %zu components, m = %zu members\",\"state\":[",
                lane->problem.n, lane->problem.m);
         for (size_t i = 0; i < lane->problem.n * lane->problem.m; i++) {
-            printf("%s%.17g", i ? "," : "", y[i]);
+            fputs(i ? "," : "", stdout);
+            print_json_number(y[i]); /* null: a tracer that was lost */
         }
         printf("]");
     }

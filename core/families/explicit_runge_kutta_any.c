@@ -21,8 +21,7 @@ struct workspace {
     double room[];
 };
 
-void *gm_explicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
+void *gm_explicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme) {
     (void)scheme;
     const size_t active = gm_active_count(problem);
     struct workspace *workspace = malloc(sizeof *workspace + (2 * STAGES + 1) * active * sizeof(double));
@@ -36,8 +35,7 @@ void *gm_explicit_any_open(const struct gm_problem *problem, const struct gm_sch
 
 /* stage = y + h sum_(j<i) a_ij k_j, for `count` components whose slopes lie `stride` apart */
 static void stage_of(const struct gm_explicit_tableau *tableau, int i, double h, const double *y,
-                     const double *slopes, size_t stride, double *stage, size_t count)
-{
+                     const double *slopes, size_t stride, double *stage, size_t count) {
     for (size_t c = 0; c < count; c++) {
         stage[c] = y[c];
     }
@@ -51,9 +49,8 @@ static void stage_of(const struct gm_explicit_tableau *tableau, int i, double h,
     }
 }
 
-static void increment_of(const struct gm_explicit_tableau *tableau, double h, const double *slopes, size_t stride,
-                         double *increment, size_t count)
-{
+static void increment_of(const struct gm_explicit_tableau *tableau, double h, const double *slopes,
+                         size_t stride, double *increment, size_t count) {
     for (size_t c = 0; c < count; c++) {
         increment[c] = h * tableau->b[0] * slopes[c];
     }
@@ -66,9 +63,8 @@ static void increment_of(const struct gm_explicit_tableau *tableau, double h, co
 }
 
 /* The passive particles, a block at a time, through the stages that the active components have gone. */
-static void carry_along(const struct gm_task *task, const struct gm_explicit_tableau *tableau, const double *from,
-                        const double *carry)
-{
+static void carry_along(const struct gm_task *task, const struct gm_explicit_tableau *tableau,
+                        const double *from, const double *carry) {
     const struct gm_problem *problem = task->problem;
     const struct workspace *workspace = task->workspace;
     const struct gm_loops *loops = problem->loops[gm_isa_best()];
@@ -86,20 +82,19 @@ static void carry_along(const struct gm_task *task, const struct gm_explicit_tab
         }
         for (int side = 0; side < 2; side++) {
             increment_of(tableau, task->dt, slopes[side][0], BLOCK, increment, count);
-            gm_add_increments(from + at[side], increment, carry ? carry + at[side] : NULL, task->out + at[side],
-                              carry ? task->carry_out + at[side] : NULL, count);
+            gm_add_increments(from + at[side], increment, carry ? carry + at[side] : NULL,
+                              task->out + at[side], carry ? task->carry_out + at[side] : NULL, count);
         }
     }
 }
 
-struct gm_progress gm_explicit_any_loop(const struct gm_task *task)
-{
+struct gm_progress gm_explicit_any_loop(const struct gm_task *task) {
     const struct gm_problem *problem = task->problem;
     const enum gm_explicit_row *row = task->scheme->coefficients;
     const struct gm_explicit_tableau *tableau = tableaus[*row];
     const struct gm_loops *loops = problem->loops[gm_isa_best()];
     struct workspace *workspace = task->workspace;
-    const size_t active = gm_active_count(problem), all = problem->n * problem->m;
+    const size_t active = gm_active_count(problem);
     struct gm_progress progress = {.status = GM_OK};
     const double *from = task->y, *carry = task->carry;
     for (; progress.done < task->steps; progress.done++) {
@@ -111,7 +106,7 @@ struct gm_progress gm_explicit_any_loop(const struct gm_task *task)
         carry_along(task, tableau, from, carry);
         increment_of(tableau, task->dt, workspace->slopes, active, workspace->increment, active);
         gm_add_increments(from, workspace->increment, carry, task->out, task->carry_out, active);
-        if (!gm_all_within(task->out, all, task->limit)) {
+        if (!gm_all_within(task->out, active, task->limit)) {
             progress.status = GM_BLOW_UP;
             break;
         }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Implicit Runge-Kutta methods for any number of components:
        z_i = h sum_j a_ij f(y + z_j),  y' = y + h sum_i b_i f(y + z_i),
-   solved to round-off by fixed-point iteration; a passive particle for which that does not contract, because a
-   vortex turns it too fast, by Newton's method. */
+   solved to round-off by fixed-point iteration; a passive particle for which that does not contract, because
+   a vortex turns it too fast, by Newton's method. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,8 +22,7 @@ struct workspace {
     double room[];
 };
 
-void *gm_implicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
-{
+void *gm_implicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme) {
     (void)scheme;
     const size_t active = gm_active_count(problem);
     struct workspace *workspace = malloc(sizeof *workspace + (3 * STAGES + 1) * active * sizeof(double));
@@ -38,8 +37,7 @@ void *gm_implicit_any_open(const struct gm_problem *problem, const struct gm_sch
 
 /* Solves for the stages of the active components; false if the iteration does not contract. */
 static bool solve(const struct gm_task *task, const struct gm_implicit_row *row, double h, const double *y,
-                  struct gm_progress *progress)
-{
+                  struct gm_progress *progress) {
     const struct gm_problem *problem = task->problem;
     const struct workspace *workspace = task->workspace;
     const struct gm_loops *loops = problem->loops[gm_isa_best()];
@@ -91,8 +89,7 @@ struct block {
     double z[STAGES][2][BLOCK], slopes[STAGES][2][BLOCK];
 };
 
-static void block_slopes(const struct gm_task *task, size_t stages, struct block *block)
-{
+static void block_slopes(const struct gm_task *task, size_t stages, struct block *block) {
     const struct gm_problem *problem = task->problem;
     const struct workspace *workspace = task->workspace;
     for (size_t i = 0; i < stages; i++) {
@@ -102,16 +99,15 @@ static void block_slopes(const struct gm_task *task, size_t stages, struct block
                 stage[side][k] = block->start[side][k] + block->z[i][side][k];
             }
         }
-        problem->loops[gm_isa_best()]->passive(problem, workspace->stages + i * gm_active_count(problem), stage[0],
-                                               stage[1], block->slopes[i][0], block->slopes[i][1], NULL,
-                                               block->count);
+        problem->loops[gm_isa_best()]->passive(problem, workspace->stages + i * gm_active_count(problem),
+                                               stage[0], stage[1], block->slopes[i][0], block->slopes[i][1],
+                                               NULL, block->count);
     }
 }
 
 /* One particle by Newton's method, from z = 0; leaves its slopes in the block. */
-static bool solve_one(const struct gm_task *task, const struct gm_implicit_row *row, double h, struct block *block,
-                      size_t k)
-{
+static bool solve_one(const struct gm_task *task, const struct gm_implicit_row *row, double h,
+                      struct block *block, size_t k) {
     const struct gm_problem *problem = task->problem;
     const struct workspace *workspace = task->workspace;
     const size_t stages = (size_t)row->stages, size = 2 * stages;
@@ -122,8 +118,9 @@ static bool solve_one(const struct gm_task *task, const struct gm_implicit_row *
             const double x = block->start[0][k] + z[2 * j], y = block->start[1][k] + z[2 * j + 1];
             double strain[2];
             scale += fabs(x) + fabs(y);
-            problem->loops[gm_isa_best()]->passive(problem, workspace->stages + j * gm_active_count(problem), &x, &y,
-                                                   &block->slopes[j][0][k], &block->slopes[j][1][k], strain, 1);
+            problem->loops[gm_isa_best()]->passive(problem, workspace->stages + j * gm_active_count(problem),
+                                                   &x, &y, &block->slopes[j][0][k], &block->slopes[j][1][k],
+                                                   strain, 1);
             for (size_t i = 0; i < stages; i++) {
                 const double a = h * row->a[i][j], unit = i == j ? 1 : 0;
                 double *corner = matrix + 2 * i * size + 2 * j;
@@ -158,9 +155,10 @@ static bool solve_one(const struct gm_task *task, const struct gm_implicit_row *
     return false;
 }
 
-/* The particles of a block, each frozen where it is solved, so that its bits do not depend on its neighbours. */
-static bool solve_block(const struct gm_task *task, const struct gm_implicit_row *row, double h, struct block *block)
-{
+/* The particles of a block, each frozen where it is solved, so that its bits do not depend on its neighbours.
+   Those without a solution get NaN for slopes. */
+static void solve_block(const struct gm_task *task, const struct gm_implicit_row *row, double h,
+                        struct block *block) {
     const size_t stages = (size_t)row->stages;
     double previous[BLOCK];
     double kept[STAGES][2][BLOCK];
@@ -169,6 +167,8 @@ static bool solve_block(const struct gm_task *task, const struct gm_implicit_row
     memset(block->z, 0, sizeof block->z);
     for (size_t k = 0; k < block->count; k++) {
         previous[k] = INFINITY;
+        diverged[k] = !isfinite(block->start[0][k] + block->start[1][k]);
+        left -= diverged[k];
     }
     for (int iteration = 0; iteration < FIXED_POINT && left > 0; iteration++) {
         block_slopes(task, stages, block);
@@ -200,23 +200,17 @@ static bool solve_block(const struct gm_task *task, const struct gm_implicit_row
         }
     }
     for (size_t k = 0; k < block->count; k++) {
-        if (!solved[k]) {
-            if (!solve_one(task, row, h, block, k)) {
-                return false;
-            }
-            continue;
-        }
-        for (size_t i = 0; i < stages; i++) {
-            block->slopes[i][0][k] = kept[i][0][k];
-            block->slopes[i][1][k] = kept[i][1][k];
+        const bool by_newton =
+            !solved[k] && isfinite(block->start[0][k]) && solve_one(task, row, h, block, k);
+        for (size_t i = 0; i < stages && !by_newton; i++) {
+            block->slopes[i][0][k] = solved[k] ? kept[i][0][k] : NAN;
+            block->slopes[i][1][k] = solved[k] ? kept[i][1][k] : NAN;
         }
     }
-    return true;
 }
 
-static bool carry_along(const struct gm_task *task, const struct gm_implicit_row *row, double h, const double *from,
-                        const double *carry)
-{
+static void carry_along(const struct gm_task *task, const struct gm_implicit_row *row, double h,
+                        const double *from, const double *carry) {
     const struct gm_problem *problem = task->problem;
     const size_t active = gm_active_count(problem), passive = problem->passive;
     for (size_t first = 0; first < passive; first += BLOCK) {
@@ -225,9 +219,7 @@ static bool carry_along(const struct gm_task *task, const struct gm_implicit_row
         for (int side = 0; side < 2; side++) {
             memcpy(block.start[side], from + at[side], block.count * sizeof(double));
         }
-        if (!solve_block(task, row, h, &block)) {
-            return false;
-        }
+        solve_block(task, row, h, &block);
         for (int side = 0; side < 2; side++) {
             double increment[BLOCK];
             for (size_t k = 0; k < block.count; k++) {
@@ -236,28 +228,27 @@ static bool carry_along(const struct gm_task *task, const struct gm_implicit_row
                     increment[k] += h * row->b[i] * block.slopes[i][side][k];
                 }
             }
-            gm_add_increments(from + at[side], increment, carry ? carry + at[side] : NULL, task->out + at[side],
-                              carry ? task->carry_out + at[side] : NULL, block.count);
+            gm_add_increments(from + at[side], increment, carry ? carry + at[side] : NULL,
+                              task->out + at[side], carry ? task->carry_out + at[side] : NULL, block.count);
         }
     }
-    return true;
 }
 
-struct gm_progress gm_implicit_any_loop(const struct gm_task *task)
-{
+struct gm_progress gm_implicit_any_loop(const struct gm_task *task) {
     const struct gm_problem *problem = task->problem;
     const struct gm_implicit_row *row = task->scheme->coefficients;
     const struct workspace *workspace = task->workspace;
-    const size_t active = gm_active_count(problem), all = problem->n * problem->m;
+    const size_t active = gm_active_count(problem);
     struct gm_progress progress = {.status = GM_OK};
     const double *from = task->y, *carry = task->carry;
     for (; progress.done < task->steps; progress.done++) {
         for (int substep = 0; substep < row->substeps; substep++) {
             const double h = task->dt * row->fractions[substep];
-            if (!solve(task, row, h, from, &progress) || !carry_along(task, row, h, from, carry)) {
+            if (!solve(task, row, h, from, &progress)) {
                 progress.status = GM_NO_CONVERGENCE;
                 return progress;
             }
+            carry_along(task, row, h, from, carry);
             for (size_t c = 0; c < active; c++) {
                 workspace->increment[c] = 0;
                 for (int i = 0; i < row->stages; i++) {
@@ -268,7 +259,7 @@ struct gm_progress gm_implicit_any_loop(const struct gm_task *task)
             from = task->out;
             carry = task->carry_out;
         }
-        if (!gm_all_within(task->out, all, task->limit)) {
+        if (!gm_all_within(task->out, active, task->limit)) {
             progress.status = GM_BLOW_UP;
             return progress;
         }
