@@ -65,6 +65,15 @@ static void thin(struct gm_entries *entries)
     entries->every *= 2;
 }
 
+/* Forgets the older half. */
+static void forget(struct gm_entries *entries)
+{
+    const size_t kept = entries->count / 2, gone = entries->count - kept;
+    memmove(entries->times, entries->times + gone, kept * sizeof(double));
+    memmove(entries->values, entry_values(entries, gone), kept * entries->width * sizeof(double));
+    entries->count = kept;
+}
+
 /* How many whole intervals lie between t0 and t; a step that misses one by round-off has made it. */
 static double intervals(const struct gm_lane *lane, double interval, double t)
 {
@@ -149,7 +158,11 @@ static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
             }
         }
         if (entries->count == track->bound) {
-            thin(entries);
+            if (track->recent) {
+                forget(entries);
+            } else {
+                thin(entries);
+            }
         }
         entries->times[entries->count] = view->t;
         track->record(view, entry_values(entries, entries->count));
