@@ -65,7 +65,7 @@ const struct gm_parameter gm_settings_parameters[] = {
     {
         .key = "tolerance",
         .unit = "",
-        .help = "error that a GSL stepper allows within a time step; 0: one step of fixed length",
+        .help = "error that a GSL stepper allows within a time step; 0: a fixed step (multistep methods: 1e-8)",
         .type = GM_REAL,
         .offset = offsetof(struct gm_settings, tolerance),
         .standard = "0",

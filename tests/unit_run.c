@@ -15,7 +15,8 @@
 #include "core/run.h"
 
 static const double well = 0.3;
-static const struct gm_settings settings_of[2] = {{.compensated = 0}, {.compensated = 1}};
+static const struct gm_settings settings_of[2] = {{.compensated = 0, .binding = 20, .tau0 = 0.01},
+                                                    {.compensated = 1, .binding = 20, .tau0 = 0.01}};
 
 enum { PROBLEMS = 5, MOST = 6 };
 
@@ -40,12 +41,17 @@ static void start_of(const struct gm_problem *problem, double *y) {
 typedef void each(const struct gm_problem *problem, const struct gm_scheme *scheme,
                   const struct gm_settings *settings);
 
+/* This one loses its root after a while, from any start; tests/unit_reference.c follows it there. */
+static bool is_tested(const struct gm_scheme *scheme) {
+    return strcmp(scheme->name, "variational-rectangle") != 0;
+}
+
 static void for_all(size_t members, each *function) {
     for (int p = 0; p < PROBLEMS; p++) {
         struct gm_problem problem = problem_at(p);
         problem.m = members;
         for (size_t s = 0; s < gm_scheme_count(); s++) {
-            if (gm_scheme_fits(gm_scheme_at(s), &problem)) {
+            if (gm_scheme_fits(gm_scheme_at(s), &problem) && is_tested(gm_scheme_at(s))) {
                 function(&problem, gm_scheme_at(s), &settings_of[0]);
                 function(&problem, gm_scheme_at(s), &settings_of[1]);
             }
@@ -81,7 +87,7 @@ static void cut_in_pieces(const struct gm_problem *problem, const struct gm_sche
     }
     assert_int_equal(pieces->steps, 100);
     expect_same_state(whole, pieces);
-    assert_true(whole->t == pieces->t && whole->t == 100 * 0.05);
+    assert_true(whole->t == pieces->t && (scheme->family->own_time || whole->t == 100 * 0.05));
     assert_true(whole->evaluations == pieces->evaluations);
     gm_run_close(whole);
     gm_run_close(pieces);
@@ -129,6 +135,9 @@ static void members_do_not_feel_each_other(void **unused) {
 
 static void compare_instruction_sets(const struct gm_problem *problem, const struct gm_scheme *scheme,
                                      const struct gm_settings *settings) {
+    if (gm_scheme_loop(scheme, problem) == scheme->family->loop) {
+        return; /* no kernels in it */
+    }
     const size_t count = problem->n * problem->m;
     double y[MOST * 64], carry[MOST * 64] = {0}, out[GM_ISA_COUNT][MOST * 64], carry_out[MOST * 64];
     start_of(problem, y);
@@ -161,6 +170,9 @@ static void instruction_sets_agree(void **unused) {
 
 static void resume(const struct gm_problem *problem, const struct gm_scheme *scheme,
                    const struct gm_settings *settings) {
+    if (scheme->family->not_resumable) {
+        return;
+    }
     struct gm_run *run = open_run(problem, scheme, settings, 0.05);
     struct gm_run *other = open_run(problem, scheme, settings, 0.05);
     void *snapshot = malloc(gm_run_snapshot_size(run));
