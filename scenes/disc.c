@@ -383,13 +383,6 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-static const char *counted(size_t count)
-{
-    static const char *const words[] = {"", "one scheme", "two schemes", "three schemes",
-                                        "four schemes", "five schemes", "six schemes"};
-    return count < sizeof words / sizeof words[0] ? words[count] : "many schemes";
-}
-
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct disc *disc = lanes[0]->parameters;
@@ -398,7 +391,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     for (size_t i = 1; i < count; i++) {
         one_step &= lanes[i]->run->dt == dt;
     }
-    picture->title = gm_picture_text(picture, "A disc of initial conditions, carried by %s", counted(count));
+    picture->title = gm_picture_text(picture, "A disc of initial conditions, carried by %s", gm_counted_schemes(count));
     picture->subtitle = gm_picture_text(
         picture, "%s%s%s,  shapes every π/6", disc->system == PENDULUM ? "pendulum" : "harmonic oscillator",
         one_step ? ",  Δt = " : "", one_step ? gm_time_text(picture, dt, dt) : "");

@@ -5,8 +5,11 @@
    Lubich & Wanner, Geometric Numerical Integration (2006), sections II.1, VI.4, VIII.6. */
 #include "core/families/implicit_runge_kutta.h"
 
+#include <stdlib.h>
+
 #include "core/families/compositions.h"
 #include "core/families/families.h"
+#include "core/families/runge_kutta_any.h"
 
 #define SQRT2 1.4142135623730950488016887242097
 #define SQRT3 1.7320508075688772935274463415058724
@@ -216,4 +219,8 @@ const struct gm_family gm_family_implicit_runge_kutta = {
     .schemes = schemes,
     .count = sizeof schemes / sizeof schemes[0],
     .parameters = gm_settings_of_sums,
+    .loop = gm_implicit_any_loop,
+    .carries_passive = true,
+    .workspace_open = gm_implicit_any_open,
+    .workspace_close = free,
 };
