@@ -70,7 +70,8 @@ int gm_command_certify(const struct gm_options *options)
     }
     const char *name = options->words[0];
     const bool all = strcmp(name, "all") == 0;
-    if (!all && !gm_scheme_find(name)) {
+    const struct gm_scheme *found = gm_scheme_find(name);
+    if (!all && !found) {
         const char *near = gm_nearest(name, gm_scheme_count(), scheme_name, NULL);
         gm_complain("there is no scheme \"%.40s\"%s%s", name, near ? "; did you mean " : "; see geomint list schemes",
                     near ? near : "");
@@ -79,7 +80,7 @@ int gm_command_certify(const struct gm_options *options)
     size_t certified = 0, broken = 0;
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (!all && strcmp(scheme->name, name) != 0) {
+        if (!all && strcmp(scheme->name, found->name) != 0) {
             continue;
         }
         const struct gm_certificate certificate = gm_certify(scheme);
