@@ -5,7 +5,7 @@
 #define GM_COMPONENTS 8
 
 GM_INLINE void K(field)(const real *state, real *f, const void *parameters) {
-    const double factor = *(const double *)parameters / (2 * 3.14159265358979323846);
+    const double factor = *(const double *)parameters * 0.15915494309189533577; /* 1/(2 pi) */
     const real *x = state, *y = state + 4;
     real sum_x[4], sum_y[4];
     for (int i = 0; i < 4; i++) {
