@@ -140,7 +140,7 @@ bool gm_change_apply(struct gm_lane *lane, const char *text, char *message)
     *equals = '\0';
     const char *value = equals + 1;
     if (strcmp(key, "scheme") == 0) {
-        const struct gm_scheme *scheme = gm_scheme_find(value);
+        const struct gm_scheme *scheme = gm_scheme_find_for(value, &lane->problem);
         if (!scheme) {
             snprintf(message, GM_MESSAGE, "there is no scheme \"%.40s\"", value);
             return false;

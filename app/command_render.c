@@ -117,10 +117,16 @@ static bool paint_frame(struct work *work, long frame, char *message)
 {
     for (size_t i = 0; i < work->request->count; i++) {
         const long steps = work->request->lanes[i].steps;
-        const long due = gm_drive_step_at(&work->drives[i], frame_time(&work->schedule, frame));
-        if (!gm_drive_to(&work->drives[i], due < steps ? due : steps, true, message)) {
-            return false;
-        }
+        struct gm_drive *drive = &work->drives[i];
+        long due = 0, before = -1;
+        /* where the scheme chooses its step, one after the other until the time is reached */
+        do {
+            before = drive->lane->run->steps;
+            due = gm_drive_step_at(drive, frame_time(&work->schedule, frame));
+            if (!gm_drive_to(drive, due < steps ? due : steps, true, message)) {
+                return false;
+            }
+        } while (drive->lane->scheme->family->own_time && drive->lane->run->steps > before);
     }
     if (gm_interrupted) {
         return true;

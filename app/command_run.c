@@ -70,7 +70,8 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
         printf(",\"layout\":\"y[component * m + member], n = %zu components, m = %zu members\",\"state\":[",
                lane->problem.n, lane->problem.m);
         for (size_t i = 0; i < lane->problem.n * lane->problem.m; i++) {
-            printf("%s%.17g", i ? "," : "", y[i]);
+            fputs(i ? "," : "", stdout);
+            print_json_number(y[i]); /* null: a tracer that was lost */
         }
         printf("]");
     }
@@ -133,7 +134,7 @@ static bool run_lane(struct outcome *outcome, long steps, const struct gm_option
     if (!csv && !outcome->maxima) {
         return gm_drive_to(drive, steps, false, message);
     }
-    while (run->steps < steps && run->status == GM_OK && !gm_interrupted) {
+    while (run->steps < steps && run->status == GM_OK && !gm_interrupted && !gm_drive_is_over(drive)) {
         const long next = run->steps + every < steps ? run->steps + every : steps;
         const long before = run->steps;
         if (!gm_drive_to(drive, next, false, message)) {

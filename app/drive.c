@@ -67,11 +67,21 @@ static long next_stop(const struct gm_drive *drive, long step)
     return step;
 }
 
+bool gm_drive_is_over(const struct gm_drive *drive)
+{
+    const struct gm_lane *lane = drive->lane;
+    const struct gm_timing *timing = lane->parameters;
+    /* a step that misses the end by round-off has reached it */
+    return lane->scheme->family->own_time && lane->run->t >= timing->until - 1e-12 * fabs(timing->until);
+}
+
 bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
 {
     struct gm_lane *lane = drive->lane;
-    const long burst = record ? 1 : burst_of(lane);
-    while (lane->run->status == GM_OK && !gm_interrupted) {
+    const long follow = lane->scene->follow;
+    long burst = record || lane->scheme->family->own_time ? 1 : burst_of(lane);
+    burst = follow > 0 && follow < burst ? follow : burst;
+    while (lane->run->status == GM_OK && !gm_interrupted && !gm_drive_is_over(drive)) {
         if (!make_changes(drive, message)) {
             return false;
         }
@@ -83,8 +93,13 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
         const double start = processor_seconds();
         gm_run_advance(lane->run, left < burst ? left : burst);
         drive->seconds += processor_seconds() - start;
-        if (record && lane->run->steps > before) {
+        if (lane->run->steps == before) {
+            continue;
+        }
+        if (record) {
             gm_lane_record(lane);
+        } else if (follow > 0) {
+            gm_lane_follow(lane);
         }
     }
     return true;
@@ -93,6 +108,9 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
 long gm_drive_step_at(const struct gm_drive *drive, double t)
 {
     const struct gm_run *run = drive->lane->run;
+    if (run->scheme->family->own_time) {
+        return run->steps + (run->t < t ? 1 : 0);
+    }
     const double ahead = (t - run->t) / run->dt;
     return run->steps + (long)floor(fmin(ahead * (1 + 1e-12) + 1e-6, 1e15));
 }

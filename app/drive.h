@@ -24,7 +24,11 @@ struct gm_drive {
    Stops early on a numerical failure or an interruption. False with a sentence if a change cannot be made. */
 bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message);
 
-/* The last step not after the time t: how many steps in all the lane has made then. */
+/* Whether a scheme that chooses its own step has come to its end, the first t >= until. */
+bool gm_drive_is_over(const struct gm_drive *drive);
+
+/* The last step not after the time t: how many steps in all the lane has made then. Where the
+   scheme chooses its step: one step more, as long as t is not reached. */
 long gm_drive_step_at(const struct gm_drive *drive, double t);
 
 /* Prints "geomint: sentence" to standard error. */

@@ -310,8 +310,13 @@ static bool count_lanes(const struct lists *lists, size_t *lanes, char *message)
 static bool settle_time(struct gm_lane_spec *spec, bool steps_given, char *message)
 {
     struct gm_timing *timing = spec->parameters;
+    const bool own_time = spec->scheme && spec->scheme->family->own_time;
     if (steps_given) {
-        timing->until = (double)spec->steps * timing->dt;
+        timing->until = own_time ? GM_NEVER : (double)spec->steps * timing->dt;
+        return true;
+    }
+    if (own_time) {
+        spec->steps = (long)1e15; /* it ends at the first t >= until, after steps that it chooses */
         return true;
     }
     const double steps = round(timing->until / timing->dt);
@@ -374,6 +379,7 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
         if (!scene->setup(spec->parameters, &problem, message)) {
             return false;
         }
+        spec->scheme = gm_scheme_find_for(spec->scheme->name, &problem);
         if (!gm_scheme_fits(spec->scheme, &problem)) {
             return refuse(message, "scheme %s does not fit scene %s; geomint list %s names those that do",
                           spec->scheme->name, scene->name, scene->name);

@@ -57,9 +57,10 @@ typedef struct gm_progress gm_loop(const struct gm_task *task);
 /* Facets: the structure a problem has. A NULL facet means that it has none of that kind.
    All arrays are component-major, [component * m + member], for the m members passed. */
 
-/* y' = f(y), evaluated by loops[...]->field */
+/* y' = f(y), evaluated by gm_field (core/kernel/loops.h), its Jacobian by loops[...]->jacobian */
 struct gm_ode {
-    bool stiff; /* implicit equations are solved by Newton's method from the first iteration on */
+    bool stiff;     /* implicit equations are solved by Newton's method from the first iteration on */
+    bool quadratic; /* f is a polynomial of degree 2 */
 };
 
 /* H(q, p) = T(p) + V(q): exact flows of two parts; q are the first n / 2 components */
@@ -67,8 +68,40 @@ struct gm_split {
     bool nystrom; /* T is quadratic */
 };
 
+/* q' = w dH/dp, p' = -w dH/dq with q the first n / 2 components and w = weight(problem) (NULL: 1). So the
+   gradient of H is made of the field: dH/dq = -p' / w, dH/dp = q' / w. */
 struct gm_hamiltonian {
     void (*energy)(const struct gm_problem *problem, const double *y, double *energy, size_t m);
+    double (*weight)(const struct gm_problem *problem);
+    bool partial; /* `energy` is that of the first of several copies, as where tangent vectors are carried
+                     along */
+};
+
+/* L(q, v) = v^2/2 - V(q), one degree of freedom: values[0..2] = V, V', V'' at q */
+struct gm_lagrangian {
+    void (*potential)(const struct gm_problem *problem, double q, double values[3]);
+};
+
+/* H = |p|^2/2 + sum_i omega_i^2 q_i^2 / 2 + U(q): a stiff linear part that is solved exactly */
+struct gm_fast_linear {
+    double (*frequency)(const struct gm_problem *problem,
+                        size_t i); /* omega_i of component i < n / 2; 0: slow */
+    /* -dU/dq (n/2 * m) */
+    void (*slow_force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
+};
+
+/* H = |p|^2/2 + V(q), V = -1/|q| + W(q) < 0 in the plane, (q1, q2, p1, p2) */
+struct gm_kepler_split {
+    void (*potential)(const struct gm_problem *problem, const double *q, double *potential, size_t m); /* V */
+    void (*perturbing_force)(const struct gm_problem *problem, const double *q, double *force,
+                             size_t m); /* -dW/dq */
+};
+
+/* f = f_0 + ... + f_(pieces - 1), each without divergence and with an exact flow */
+struct gm_volume {
+    size_t pieces;
+    void (*flow)(const struct gm_problem *problem, size_t piece, double h, double *y,
+                 size_t m); /* in place */
 };
 
 /* the exact, or a trusted, solution from y0 after the time t */
@@ -79,17 +112,39 @@ struct gm_exact {
 enum gm_facet {
     GM_NEEDS_ODE = 1u << 0,
     GM_NEEDS_SPLIT = 1u << 1,
+    GM_NEEDS_HAMILTONIAN = 1u << 2,
+    GM_NEEDS_LAGRANGIAN = 1u << 3,
+    GM_NEEDS_FAST_LINEAR = 1u << 4,
+    GM_NEEDS_KEPLER_SPLIT = 1u << 5,
+    GM_NEEDS_VOLUME = 1u << 6,
+    GM_NEEDS_QUADRATIC = 1u << 7,   /* an ode whose field is quadratic */
+    GM_NEEDS_NYSTROM = 1u << 8,     /* a split whose kinetic energy is quadratic */
+    GM_NEEDS_INSEPARABLE = 1u << 9, /* a hamiltonian without a split */
+    GM_NEEDS_ENERGY = 1u << 10,     /* a hamiltonian whose energy generates the whole field */
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain
-   data: a scene copies one of core/problems and sets m and parameters. */
+   data: a scene copies one of core/problems and sets m and parameters.
+
+   Where n is a constant, loops[...]->family holds loops over the problem's kernels. Where n is chosen at run
+   time (vortices) it holds none, and a family steps through gm_field if it can.
+
+   The last 2 * passive components are a passive block, x of all then y of all: particles in the plane that
+   the others, the active components, carry and that act on nothing. A scheme advances the active ones alone
+   and then the passive ones with the active states of its stages, so looking at tracers changes no
+   trajectory. */
 struct gm_problem {
     const char *name;
     size_t n, m;
+    size_t passive;         /* 0, or m is 1 */
     const void *parameters; /* constants of the kernels; they outlive every run */
     const struct gm_ode *ode;
     const struct gm_split *split;
     const struct gm_hamiltonian *hamiltonian;
+    const struct gm_lagrangian *lagrangian;
+    const struct gm_fast_linear *fast_linear;
+    const struct gm_kepler_split *kepler_split;
+    const struct gm_volume *volume;
     const struct gm_exact *exact;
     const struct gm_loops *loops[GM_ISA_COUNT]; /* made of the problem's kernels by core/kernel/loops.c */
 };

@@ -49,6 +49,11 @@ const double *gm_run_state(const struct gm_run *run)
     return half(run, run->current);
 }
 
+const double *gm_run_memory(const struct gm_run *run)
+{
+    return run->scheme->family->memory ? half(run, run->current) + state_count(run) + carry_count(run) : NULL;
+}
+
 /* The task that reads half `from` and writes half `to`. */
 static struct gm_task task_of(const struct gm_run *run, int from, int to, long steps)
 {
@@ -94,7 +99,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     if (!run) {
         return NULL;
     }
-    if (scheme->family->workspace_open) {
+    if (scheme->family->workspace_open && gm_scheme_loop(scheme, problem) == scheme->family->loop) {
         head.workspace = scheme->family->workspace_open(problem, scheme);
         if (!head.workspace) {
             free(run);
@@ -133,7 +138,7 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
     }
     struct gm_task task = task_of(run, run->current, 1 - run->current, steps);
     const struct gm_family *family = run->scheme->family;
-    gm_loop *loop = family->loop ? family->loop : run->problem->loops[gm_isa_best()]->family[family->id];
+    gm_loop *loop = gm_scheme_loop(run->scheme, run->problem);
     struct gm_progress progress = loop(&task);
     if (progress.done < steps) {
         run->status = progress.status;

@@ -25,7 +25,10 @@ const char *gm_claim_word(unsigned bit);
 
 /* Parameters that schemes bring; every lane whose scheme uses one shares it. */
 struct gm_settings {
-    int compensated; /* compensated summation of the increments */
+    int compensated;  /* compensated summation of the increments */
+    double binding;   /* between the two copies of phase space, of Tao's schemes */
+    double tau0;      /* the first step of the schemes with variational time */
+    double tolerance; /* of GSL's steppers; 0: fixed step */
 };
 extern const struct gm_parameter gm_settings_parameters[];
 extern const size_t gm_settings_parameter_count;
@@ -33,14 +36,15 @@ extern const size_t gm_settings_parameter_count;
 /* A scheme is a row of data. A number at the end of a name is the order. */
 struct gm_scheme {
     const char *name;      /* "rk4" */
+    const char *alias;     /* another name it is known by; or NULL */
     const char *title;     /* "RK4", as pictures write it */
     const char *formula;   /* Unicode, lines separated by \n */
     const char *reference; /* where it comes from */
     const struct gm_family *family;
     const void *coefficients; /* the family knows their type */
-    int order;
-    unsigned needs;  /* facets, GM_NEEDS_*; all of them */
-    unsigned claims; /* GM_SYMPLECTIC | ... */
+    int order;                /* 0: it chooses its order itself */
+    unsigned needs;           /* facets, GM_NEEDS_*; all of them */
+    unsigned claims;          /* GM_SYMPLECTIC | ... */
 };
 
 struct gm_family {
@@ -51,7 +55,8 @@ struct gm_family {
     const struct gm_parameter *const *parameters; /* rows of gm_settings_parameters, NULL-terminated */
 
     /* All that follows is for families that are not loops over a problem's kernels. */
-    gm_loop *loop; /* advances any problem that has the facets; NULL: problem->loops */
+    gm_loop *loop; /* advances any problem that has the facets, where problem->loops has none; NULL: none */
+    bool carries_passive; /* loop knows what to do with a passive block */
     /* Doubles of memory that a scheme carries from step to step, in the run's block. */
     size_t (*memory)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.
@@ -62,13 +67,24 @@ struct gm_family {
     void *(*workspace_open)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     void (*workspace_close)(void *workspace);
     void (*workspace_reset)(void *workspace); /* forgets what was derived from an earlier state */
-    bool own_time; /* the scheme chooses its step: the loop returns the time, dt is what its rows say it is */
+    /* The scheme chooses its step: the loop returns the time, dt is what its rows say it is. One member only.
+     */
+    bool own_time;
+    bool doubled; /* the memory is a second copy of phase space, and the scheme is symplectic on both together
+                   */
+    bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 
 size_t gm_scheme_count(void);
 const struct gm_scheme *gm_scheme_at(size_t index);
 /* NULL if there is no scheme of that name */
 const struct gm_scheme *gm_scheme_find(const char *name);
+/* The row of that name that fits the problem, where one name has rows for several facets; a row that does not
+   fit if there is none that does; NULL if there is no scheme of that name. */
+const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem);
+/* The loop that advances this problem by this scheme: that over the problem's kernels, else the family's;
+   NULL if there is neither. The family's workspace is opened for its own loop only. */
+gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem);
 /* whether the problem has what the scheme needs */
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem);
 

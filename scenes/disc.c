@@ -399,22 +399,6 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-/* "four schemes"; lanes that differ in something else count once */
-static const char *counted(const struct gm_lane *const *lanes, size_t count)
-{
-    static const char *const words[] = {"no scheme",    "one scheme",   "two schemes", "three schemes",
-                                        "four schemes", "five schemes", "six schemes"};
-    size_t schemes = 0;
-    for (size_t i = 0; i < count; i++) {
-        bool seen = false;
-        for (size_t k = 0; k < i; k++) {
-            seen |= lanes[k]->scheme == lanes[i]->scheme;
-        }
-        schemes += seen ? 0 : 1;
-    }
-    return schemes < sizeof words / sizeof words[0] ? words[schemes] : "many schemes";
-}
-
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct disc *disc = lanes[0]->parameters;
@@ -426,7 +410,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->title = gm_picture_text(picture, "%s, carried by %s",
                                      disc->show == SHOW_ENERGY ? "The energy of the disc’s centre"
                                                                : "A disc of initial conditions",
-                                     counted(lanes, count));
+                                     gm_counted_schemes(lanes, count));
     picture->subtitle =
         gm_picture_text(picture, "%s%s%s%s", disc->system == PENDULUM ? "pendulum" : "harmonic oscillator",
                         one_step ? ",  Δt = " : "", one_step ? gm_time_text(picture, dt, dt) : "",

@@ -2,6 +2,7 @@
 #include "scenes/graph.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Time is told in fractions of pi where the step is a simple one. */
@@ -69,6 +70,54 @@ struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double w
                              gm_lane_dash(lane->shown.colour)};
 }
 
+void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                   const double *points, size_t count)
+{
+    enum { PIECES = 16 };
+    const double alpha = style.alpha;
+    for (size_t i = 0; i < PIECES; i++) {
+        const size_t first = i * count / PIECES, last = (i + 1) * count / PIECES;
+        const size_t end = last < count ? last + 1 : count; /* pieces meet */
+        style.alpha = alpha * (0.06 + 0.94 * pow((double)(i + 1) / PIECES, 2));
+        if (end - first > 1) {
+            gm_mark_line(picture, panel, style, points + 2 * first, end - first, false);
+        }
+    }
+}
+
+const char *gm_power_text(struct gm_picture *picture, double value)
+{
+    static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    if (value == 0 || !isfinite(value) || (fabs(value) >= 0.01 && fabs(value) < 1000)) {
+        return gm_picture_text(picture, "%.2g", value);
+    }
+    int power = (int)floor(log10(fabs(value)));
+    double front = value / pow(10, power);
+    if (fabs(front) > 9.95) {
+        front /= 10;
+        power++;
+    }
+    const unsigned size = (unsigned)abs(power);
+    return gm_picture_text(picture, "%.1f·10%s%s%s%s", front, power < 0 ? "⁻" : "",
+                           size > 99 ? digits[size / 100] : "", size > 9 ? digits[size / 10 % 10] : "",
+                           digits[size % 10]);
+}
+
+const char *gm_counted_schemes(const struct gm_lane *const *lanes, size_t count)
+{
+    static const char *const words[] = {"no scheme",    "one scheme",   "two schemes", "three schemes",
+                                        "four schemes", "five schemes", "six schemes"};
+    size_t schemes = 0;
+    for (size_t i = 0; i < count; i++) {
+        bool seen = false;
+        for (size_t k = 0; k < i; k++) {
+            seen |= lanes[k]->scheme == lanes[i]->scheme;
+        }
+        schemes += seen ? 0 : 1;
+    }
+    return schemes < sizeof words / sizeof words[0] ? words[schemes] : "many schemes";
+}
+
 size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count)
 {
     size_t panels = 0;
@@ -79,20 +128,44 @@ size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count)
 }
 
 /* The history of one observable as points: one per bin while a bin is a step, then its low and high. */
-static size_t history_points(const struct gm_lane *lane, size_t series, double divisor, double *points)
+static size_t history_points(const struct gm_lane *lane, size_t series, double divisor,
+                             const struct gm_graph *graph, double *points)
 {
+    enum { TOLD_APART = 160 };
     const struct gm_history *history = &lane->history;
+    const bool magnitude = graph->magnitude;
     size_t count = 0;
+    if (graph->highest && history->count > TOLD_APART) {
+        const size_t group = (history->count + TOLD_APART - 1) / TOLD_APART;
+        for (size_t b = 0; b < history->count; b += group) {
+            double highest = -INFINITY, t = 0;
+            for (size_t k = b; k < b + group && k < history->count; k++) {
+                const struct gm_bin *bin = &history->bins[k * history->series + series];
+                const double low = magnitude ? -bin->low : bin->low;
+                highest = fmax(highest, fmax(low, bin->high));
+                t = bin->t;
+            }
+            points[2 * count] = t;
+            points[2 * count + 1] = highest / divisor;
+            count++;
+        }
+        return count;
+    }
     for (size_t b = 0; b < history->count; b++) {
         const struct gm_bin *bin = &history->bins[b * history->series + series];
         if (history->per_bin == 1) {
             points[2 * count] = bin->t;
-            points[2 * count + 1] = bin->last / divisor;
+            points[2 * count + 1] = (magnitude ? fabs(bin->last) : bin->last) / divisor;
             count++;
             continue;
         }
         /* alternate, so that the line does not run back */
-        const double first = b % 2 ? bin->high : bin->low, second = b % 2 ? bin->low : bin->high;
+        double low = bin->low, high = bin->high;
+        if (magnitude) {
+            high = fmax(fabs(bin->low), fabs(bin->high));
+            low = bin->low <= 0 && bin->high >= 0 ? 0 : fmin(fabs(bin->low), fabs(bin->high));
+        }
+        const double first = b % 2 ? high : low, second = b % 2 ? low : high;
         points[2 * count] = points[2 * count + 2] = bin->t;
         points[2 * count + 1] = first / divisor;
         points[2 * count + 3] = second / divisor;
@@ -114,7 +187,7 @@ static void time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, 
     }
     *axis = (struct gm_axis){.label = "t", .scale = counts_in_pi(lanes[0]->run->dt) ? GM_PI : GM_LINEAR};
     const double until = timing->until;
-    if (low >= lanes[0]->t0 && high <= until * (1 + 1e-9) && until > lanes[0]->t0) {
+    if (low >= lanes[0]->t0 && until < GM_NEVER && high <= until * (1 + 1e-9) && until > lanes[0]->t0) {
         high = until;
     } else {
         gm_range_round(&low, &high, axis->scale);
@@ -167,7 +240,7 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
     }
     for (size_t i = 0; i < count; i++) {
         const double divisor = divisor_of(lanes[i], series, graph->relative);
-        const size_t made = history_points(lanes[i], series, divisor, points);
+        const size_t made = history_points(lanes[i], series, divisor, graph, points);
         for (size_t k = 0; k < made; k++) {
             if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
                 gm_range_add(&low, &high, points[2 * k + 1]);
@@ -191,7 +264,7 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
             continue;
         }
         const double divisor = divisor_of(lanes[i], series, graph->relative);
-        const size_t made = history_points(lanes[i], series, divisor, points);
+        const size_t made = history_points(lanes[i], series, divisor, graph, points);
         gm_mark_line(picture, panel, gm_lane_style(lanes[i], 1, 2.4), points, made, false);
         if (named) {
             const char *name =

@@ -16,6 +16,16 @@ const char *gm_time_text(struct gm_picture *picture, double t, double dt);
 const char *gm_lane_title(const struct gm_lane *lane);
 const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *lane);
 
+/* A recent past as a line that fades: `points` are count pairs, the newest last. */
+void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                   const double *points, size_t count);
+
+/* A number as 2.4·10⁻⁴. */
+const char *gm_power_text(struct gm_picture *picture, double value);
+
+/* "one scheme", "two schemes" ... */
+const char *gm_counted_schemes(const struct gm_lane *const *lanes, size_t count);
+
 /* The colour and dash of a lane. */
 struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double width);
 
@@ -27,6 +37,8 @@ struct gm_graph {
     const char *observable;     /* its key */
     const char *title;          /* NULL: the observable's */
     bool relative;              /* divided by its value at the start */
+    bool magnitude;             /* its absolute value */
+    bool highest;               /* the greatest values only, where there are too many to tell apart */
     enum gm_scale scale;        /* GM_LOG: zeros are gaps; a round-off line where the range comes near it */
     double calm_low, calm_high; /* the range shown at least; equal: none */
 };

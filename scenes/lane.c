@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/kernel/loops.h"
+
 enum { MOST_OBSERVABLES = 64 };
 
 static const struct gm_timing *timing(const struct gm_lane *lane)
@@ -23,12 +25,17 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .t0 = lane->t0,
         .t = lane->run->t,
         .dt = lane->run->dt,
+        .tracks = lane->entries,
     };
 }
 
-static double observe(const struct gm_observable *observable, const struct gm_view *view)
+/* `near`: where an angle was when it was last looked at */
+static double observe(const struct gm_observable *observable, const struct gm_view *view, double near)
 {
     const double value = observable->evaluate(view);
+    if (observable->period > 0) {
+        return value + observable->period * round((near - value) / observable->period);
+    }
     if (!observable->error) {
         return value;
     }
@@ -42,7 +49,7 @@ static double observe(const struct gm_observable *observable, const struct gm_vi
 double gm_lane_observe(const struct gm_lane *lane, size_t observable)
 {
     const struct gm_view view = gm_lane_view(lane);
-    return observe(&lane->scene->observables[observable], &view);
+    return observe(&lane->scene->observables[observable], &view, lane->angles[observable]);
 }
 
 static double *entry_values(const struct gm_entries *entries, size_t index)
@@ -61,10 +68,78 @@ static void thin(struct gm_entries *entries)
     entries->every *= 2;
 }
 
+/* Forgets the older half. */
+static void forget(struct gm_entries *entries)
+{
+    const size_t kept = entries->count / 2, gone = entries->count - kept;
+    memmove(entries->times, entries->times + gone, kept * sizeof(double));
+    memmove(entries->values, entry_values(entries, gone), kept * entries->width * sizeof(double));
+    entries->count = kept;
+}
+
 /* How many whole intervals lie between t0 and t; a step that misses one by round-off has made it. */
 static double intervals(const struct gm_lane *lane, double interval, double t)
 {
     return floor(fabs(t - lane->t0) / interval * (1 + 1e-12) + 1e-9);
+}
+
+static size_t active_count(const struct gm_lane *lane)
+{
+    return (lane->problem.n - 2 * lane->problem.passive) * lane->problem.m;
+}
+
+/* Makes an entry if the section was passed upwards in the step that ended in `view`. Between the two states
+   the cubic is taken that has the field's slopes at both ends; its error is of order 4 in the step. */
+static void record_crossing(struct gm_lane *lane, const struct gm_track *track, struct gm_entries *entries,
+                            const struct gm_view *view)
+{
+    const double after = track->section(view), before = entries->before;
+    entries->before = after;
+    if (!(before < 0 && after >= 0 && lane->t_behind != view->t)) {
+        return;
+    }
+    const size_t active = active_count(lane);
+    double *slopes = lane->behind + active, *between = slopes + 2 * active;
+    const double h = view->t - lane->t_behind;
+    const struct gm_loops *loops = lane->problem.loops[gm_isa_best()];
+    loops->field(&lane->problem, lane->behind, slopes, lane->problem.m);
+    loops->field(&lane->problem, view->state, slopes + active, lane->problem.m);
+    struct gm_view there = *view;
+    there.state = between;
+    double low = 0, high = 1, below = before, above = after;
+    /* regula falsi with bisection in between, so that neither end stands still */
+    for (int i = 0; i < 60 && high - low > 1e-15; i++) {
+        const double secant = low - below * (high - low) / (above - below);
+        const double s = i % 3 < 2 && secant > low && secant < high ? secant : (low + high) / 2, r = 1 - s;
+        for (size_t c = 0; c < active; c++) {
+            between[c] = r * r * (1 + 2 * s) * lane->behind[c] + s * s * (3 - 2 * s) * view->state[c] +
+                         h * s * r * (r * slopes[c] - s * slopes[active + c]);
+        }
+        there.t = lane->t_behind + s * h;
+        const double value = track->section(&there);
+        if (value == 0) {
+            break;
+        }
+        if (value > 0) {
+            high = s;
+            above = value;
+        } else {
+            low = s;
+            below = value;
+        }
+    }
+    if (entries->count == track->bound) {
+        thin(entries);
+        entries->skipped = 0;
+    }
+    if (entries->skipped > 0) {
+        entries->skipped--;
+        return;
+    }
+    entries->skipped = entries->every - 1;
+    entries->times[entries->count] = there.t;
+    track->record(&there, entry_values(entries, entries->count));
+    entries->count++;
 }
 
 static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
@@ -72,6 +147,10 @@ static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
     for (size_t i = 0; i < lane->scene->track_count; i++) {
         const struct gm_track *track = &lane->scene->tracks[i];
         struct gm_entries *entries = &lane->entries[i];
+        if (track->section) {
+            record_crossing(lane, track, entries, view);
+            continue;
+        }
         if (entries->count > 0) {
             const double last = entries->times[entries->count - 1];
             const double interval = track->interval(lane->parameters) * (double)entries->every;
@@ -83,20 +162,62 @@ static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
             }
         }
         if (entries->count == track->bound) {
-            thin(entries);
+            if (track->recent) {
+                forget(entries);
+            } else {
+                thin(entries);
+            }
         }
         entries->times[entries->count] = view->t;
         track->record(view, entry_values(entries, entries->count));
         entries->count++;
     }
+    if (lane->behind) {
+        memcpy(lane->behind, view->state, active_count(lane) * sizeof(double));
+        lane->t_behind = view->t;
+    }
+}
+
+/* An angle is unwrapped from where it was, so it has to be followed. */
+static void follow_angles(struct gm_lane *lane, const struct gm_view *view)
+{
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        const struct gm_observable *observable = &lane->scene->observables[i];
+        if (observable->period > 0) {
+            const double angle = observe(observable, view, lane->angles[i]);
+            lane->angles[i] = isfinite(angle) ? angle : lane->angles[i];
+        }
+    }
+}
+
+void gm_lane_follow(struct gm_lane *lane)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    follow_angles(lane, &view);
+    record_tracks(lane, &view);
+}
+
+enum gm_status gm_lane_advance(struct gm_lane *lane, long steps)
+{
+    const long follow = lane->scene->follow;
+    while (steps > 0 && lane->run->status == GM_OK) {
+        const long burst = follow > 0 && follow < steps ? follow : steps;
+        gm_run_advance(lane->run, burst);
+        steps -= burst;
+        if (follow > 0) {
+            gm_lane_follow(lane);
+        }
+    }
+    return lane->run->status;
 }
 
 void gm_lane_record(struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
     double values[MOST_OBSERVABLES];
+    follow_angles(lane, &view);
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        values[i] = observe(&lane->scene->observables[i], &view);
+        values[i] = observe(&lane->scene->observables[i], &view, lane->angles[i]);
     }
     gm_history_add(&lane->history, view.t, values);
     record_tracks(lane, &view);
@@ -112,6 +233,8 @@ void gm_lane_close(struct gm_lane *lane)
         free(lane->entries[i].values);
     }
     free(lane->entries);
+    free(lane->angles);
+    free(lane->behind);
     gm_history_close(&lane->history);
     gm_run_close(lane->run);
     free(lane->start);
@@ -123,13 +246,22 @@ static bool open_tracks(struct gm_lane *lane)
 {
     const struct gm_scene *scene = lane->scene;
     lane->entries = calloc(scene->track_count ? scene->track_count : 1, sizeof *lane->entries);
-    if (!lane->entries) {
+    lane->angles = calloc(scene->observable_count ? scene->observable_count : 1, sizeof *lane->angles);
+    if (!lane->entries || !lane->angles) {
         return false;
     }
     const struct gm_view view = gm_lane_view(lane);
     for (size_t i = 0; i < scene->track_count; i++) {
         struct gm_entries *entries = &lane->entries[i];
         entries->every = 1;
+        entries->before = NAN;
+        if (scene->tracks[i].section && !lane->behind) {
+            /* the state before, slopes at both ends, a state between */
+            lane->behind = calloc(4 * active_count(lane), sizeof *lane->behind);
+            if (!lane->behind) {
+                return false;
+            }
+        }
         entries->width = scene->tracks[i].width(&view);
         entries->times = malloc(scene->tracks[i].bound * sizeof(double));
         entries->values = malloc(scene->tracks[i].bound * entries->width * sizeof(double));
@@ -252,8 +384,15 @@ struct gm_lane *gm_lane_copy(const struct gm_lane *lane)
         struct gm_entries *to = &copy->entries[i];
         to->count = from->count;
         to->every = from->every;
+        to->before = from->before;
+        to->skipped = from->skipped;
         memcpy(to->times, from->times, from->count * sizeof(double));
         memcpy(to->values, from->values, from->count * from->width * sizeof(double));
+    }
+    memcpy(copy->angles, lane->angles, lane->scene->observable_count * sizeof *copy->angles);
+    if (lane->behind) {
+        memcpy(copy->behind, lane->behind, active_count(lane) * sizeof *copy->behind);
+        copy->t_behind = lane->t_behind;
     }
     return copy;
 }
@@ -293,8 +432,17 @@ void gm_lane_load(struct gm_lane *lane, const void *snapshot)
     gm_history_cut(&lane->history, t, dt);
     for (size_t i = 0; i < lane->scene->track_count; i++) {
         struct gm_entries *entries = &lane->entries[i];
-        while (entries->count > 1 && (entries->times[entries->count - 1] - t) * dt > 0) {
+        const size_t kept = lane->scene->tracks[i].section ? 0 : 1;
+        while (entries->count > kept && (entries->times[entries->count - 1] - t) * dt > 0) {
             entries->count--;
+        }
+        /* what the step before was is not known; it is again after the next one */
+        entries->before = NAN;
+    }
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        const struct gm_history *history = &lane->history;
+        if (history->count > 0) {
+            lane->angles[i] = history->bins[(history->count - 1) * history->series + i].last;
         }
     }
 }

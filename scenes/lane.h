@@ -12,6 +12,8 @@ struct gm_entries { /* the record of one track */
     long every;     /* of the intervals, this many make one entry (doubled by thinning) */
     double *times;  /* count */
     double *values; /* count * width */
+    long skipped;   /* of a section: so many crossings more go unrecorded (after thinning) */
+    double before;  /* of a section: its value after the step before; NAN: not known */
 };
 
 /* How a lane is shown: lanes of one panel share its axes, each in its own colour. */
@@ -33,6 +35,9 @@ struct gm_lane {
     struct gm_run *run;
     struct gm_history history;  /* one series per observable */
     struct gm_entries *entries; /* one per track */
+    double *angles;             /* per observable, where it was when last looked at: what unwraps an angle */
+    double *behind; /* the active components after the step before, for sections; NULL: no sections */
+    double t_behind;
 };
 
 /* Opens a lane at its start, with the start recorded. NULL with a sentence (GM_SENTENCE bytes) if the
@@ -49,6 +54,12 @@ double gm_lane_observe(const struct gm_lane *lane, size_t observable);
 
 /* Takes the present state into history and tracks: once after every step that is looked at. */
 void gm_lane_record(struct gm_lane *lane);
+
+/* Takes it into tracks only, and follows angles: after every scene->follow steps that are not recorded. */
+void gm_lane_follow(struct gm_lane *lane);
+
+/* Advances by `steps`, following on the way as the scene asks; records nothing. */
+enum gm_status gm_lane_advance(struct gm_lane *lane, long steps);
 
 /* Continues the present state with another scheme; false if it does not fit or memory is short. */
 bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *sentence);

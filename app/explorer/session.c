@@ -246,7 +246,7 @@ bool gm_session_advance(struct gm_session *session, double t)
     struct gm_lane *lane = session->lanes[chosen];
     double due = (t - lane->run->t) / lane->run->dt;
     long steps = due > 2 * RECORDS ? (long)fmin(due / RECORDS, 1e6) : 1;
-    gm_run_advance(lane->run, steps);
+    gm_lane_advance(lane, steps);
     gm_lane_record(lane);
     if (goes(lane)) {
         gm_past_note(&session->pasts[chosen], lane, false);
@@ -507,7 +507,7 @@ size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme 
     const struct gm_problem *problem = &session->lanes[0]->problem;
     size_t count = 0;
     for (size_t i = 0; session->scene->schemes && session->scene->schemes[i] && count < bound; i++) {
-        const struct gm_scheme *scheme = gm_scheme_find(session->scene->schemes[i]);
+        const struct gm_scheme *scheme = gm_scheme_find_for(session->scene->schemes[i], problem);
         if (scheme && gm_scheme_fits(scheme, problem) && !is_among(scheme, schemes, count)) {
             schemes[count++] = scheme;
         }

@@ -3,7 +3,10 @@
    Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, section II.1. */
 #include "core/families/explicit_runge_kutta.h"
 
+#include <stdlib.h>
+
 #include "core/families/families.h"
+#include "core/families/runge_kutta_any.h"
 
 static const enum gm_explicit_row rows[GM_EXPLICIT_COUNT] = {
 #define GM_EXPLICIT(identifier, ...) GM_EXPLICIT_##identifier,
@@ -34,4 +37,8 @@ const struct gm_family gm_family_explicit_runge_kutta = {
     .schemes = schemes,
     .count = GM_EXPLICIT_COUNT,
     .parameters = gm_settings_of_sums,
+    .loop = gm_explicit_any_loop,
+    .carries_passive = true,
+    .workspace_open = gm_explicit_any_open,
+    .workspace_close = free,
 };

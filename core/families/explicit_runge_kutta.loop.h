@@ -36,6 +36,7 @@ GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struc
 #define GM_DRIVE K(explicit_drive)
 #define GM_ROW struct gm_explicit_tableau
 #define GM_STEP K(explicit_step)
+#define GM_ABREAST K(ABREAST)
 #include "core/kernel/drive.h"
 
 static struct gm_progress K(explicit_runge_kutta_run)(const struct gm_task *task)

@@ -10,5 +10,8 @@
 
 /* The parameters of families that add increments: compensated. */
 extern const struct gm_parameter *const gm_settings_of_sums[];
+extern const struct gm_parameter *const gm_settings_of_tao[];              /* binding */
+extern const struct gm_parameter *const gm_settings_of_variational_time[]; /* tau0 */
+extern const struct gm_parameter *const gm_settings_of_gsl[];              /* tolerance */
 
 #endif

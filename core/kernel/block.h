@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A block: GM_LANES members in registers. Loading and storing, compensated addition, the blow-up test. */
 
+/* Explicit schemes: blocks that advance side by side, as many as the registers hold. */
+#ifdef GM_PASS_SCALAR
+enum { K(ABREAST) = 1 };
+#else
+enum { K(ABREAST) = GM_COMPONENTS <= 2 ? 4 : GM_COMPONENTS <= 4 ? 2 : 1 };
+#endif
+
 struct K(block) {
     real y[GM_COMPONENTS];
     real carry[GM_COMPONENTS]; /* what rounding lost from y, for compensated summation */
@@ -22,6 +29,7 @@ GM_INLINE void K(block_load)(struct K(block) * block, const struct gm_task *task
     block->force_known = false;
     for (int c = 0; c < GM_COMPONENTS; c++) {
         block->carry[c] = K(constant)(0);
+        block->force[c] = K(constant)(0);
         if (first + GM_LANES <= m) {
             memcpy(&block->y[c], task->y + (size_t)c * m + first, sizeof(real));
             if (task->carry) {

@@ -23,6 +23,10 @@ GM_INLINE double K(magnitude)(double x)
 {
     return fabs(x);
 }
+GM_INLINE double K(root)(double x)
+{
+    return sqrt(x);
+}
 GM_INLINE double K(sine)(double x)
 {
     return sin(x);
@@ -90,6 +94,13 @@ GM_INLINE gm_lanes K(pick)(gm_lanes_mask choose, gm_lanes yes, gm_lanes no)
 GM_INLINE gm_lanes K(magnitude)(gm_lanes x)
 {
     return (gm_lanes)((gm_lanes_mask)x & INT64_MAX);
+}
+GM_INLINE gm_lanes K(root)(gm_lanes x)
+{
+    for (int i = 0; i < GM_WIDTH; i++) {
+        x[i] = sqrt(x[i]);
+    }
+    return x;
 }
 GM_INLINE gm_lanes K(sine)(gm_lanes x)
 {

@@ -67,8 +67,16 @@ static void field(const struct gm_problem *problem, const double *y, double *f, 
     }
 }
 
+static void jacobian(const struct gm_problem *problem, const double *y, double *rows)
+{
+    double square[GM_COMPONENTS][GM_COMPONENTS];
+    jacobian_scalar(y, square, problem->parameters);
+    memcpy(rows, square, sizeof square);
+}
+
 const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, GM_ISA) = {
     .field = field,
+    .jacobian = jacobian,
     .family =
         {
             [GM_FAMILY_explicit_runge_kutta] = explicit_runge_kutta_loop,

@@ -6,7 +6,14 @@
 
 /* What core/kernel/loops.c makes of a problem's kernels for one instruction set. */
 struct gm_loops {
+    /* f(y) of the active components of m members */
     void (*field)(const struct gm_problem *problem, const double *y, double *f, size_t m);
+    /* the Jacobian of one member, n * n row by row; NULL where n is chosen at run time */
+    void (*jacobian)(const struct gm_problem *problem, const double *y, double *jacobian);
+    /* The velocities of `count` passive particles at (x, y), carried by the active components `active`; if
+       strain is not NULL also their derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
+    void (*passive)(const struct gm_problem *problem, const double *active, const double *x, const double *y,
+                    double *velocity_x, double *velocity_y, double *strain, size_t count);
     gm_loop *family[GM_FAMILY_COUNT]; /* NULL: the problem lacks what the family needs */
 };
 
@@ -29,6 +36,9 @@ struct gm_loops {
         &gm_loops_##problem##_baseline                                                                       \
     }
 #endif
+
+/* f(y) of the active components of m members, whichever way the problem gives it. */
+void gm_field(const struct gm_problem *problem, const double *y, double *f, size_t m);
 
 /* The best instruction set of this machine and build: an index into problem->loops. */
 enum gm_isa gm_isa_best(void);

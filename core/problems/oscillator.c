@@ -15,13 +15,22 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
     }
 }
 
+static void potential(const struct gm_problem *problem, double q, double values[3])
+{
+    (void)problem;
+    values[0] = q * q / 2;
+    values[1] = q;
+    values[2] = 1;
+}
+
 const struct gm_problem gm_problem_oscillator = {
     .name = "oscillator",
     .n = 2,
     .m = 1,
-    .ode = &(const struct gm_ode){.stiff = false},
+    .ode = &(const struct gm_ode){.quadratic = true},
     .split = &(const struct gm_split){.nystrom = true},
     .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+    .lagrangian = &(const struct gm_lagrangian){.potential = potential},
     .loops = GM_LOOPS(oscillator),
 };
 
@@ -29,8 +38,8 @@ const struct gm_problem gm_problem_oscillator_tangent = {
     .name = "oscillator",
     .n = 6,
     .m = 1,
-    .ode = &(const struct gm_ode){.stiff = false},
+    .ode = &(const struct gm_ode){.quadratic = true},
     .split = &(const struct gm_split){.nystrom = true},
-    .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+    .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .partial = true},
     .loops = GM_LOOPS(oscillator_tangent),
 };

@@ -17,6 +17,14 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
     }
 }
 
+static void potential(const struct gm_problem *problem, double q, double values[3])
+{
+    (void)problem;
+    values[0] = -cos(q);
+    values[1] = sin(q);
+    values[2] = cos(q);
+}
+
 const struct gm_problem gm_problem_pendulum = {
     .name = "pendulum",
     .n = 2,
@@ -24,6 +32,7 @@ const struct gm_problem gm_problem_pendulum = {
     .ode = &(const struct gm_ode){.stiff = false},
     .split = &(const struct gm_split){.nystrom = true},
     .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+    .lagrangian = &(const struct gm_lagrangian){.potential = potential},
     .loops = GM_LOOPS(pendulum),
 };
 
@@ -33,6 +42,6 @@ const struct gm_problem gm_problem_pendulum_tangent = {
     .m = 1,
     .ode = &(const struct gm_ode){.stiff = false},
     .split = &(const struct gm_split){.nystrom = true},
-    .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+    .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .partial = true},
     .loops = GM_LOOPS(pendulum_tangent),
 };

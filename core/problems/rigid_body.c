@@ -10,6 +10,6 @@ const struct gm_problem gm_problem_rigid_body = {
     .name = "rigid-body",
     .n = 3,
     .m = 1,
-    .ode = &(const struct gm_ode){.stiff = false},
+    .ode = &(const struct gm_ode){.quadratic = true},
     .loops = GM_LOOPS(rigid_body),
 };

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Four point vortices of equal strength g with z3 = -z1 and z4 = -z2 built in: (x1, x2, y1, y2) is carried.
+   With F(d) = (-d_y, d_x)/|d|^2,  z1' = (g/2 pi) [F(z1 - z2) + F(2 z1) + F(z1 + z2)], and z2' likewise;
+   g = *(const double *)parameters. */
+#define GM_COMPONENTS 4
+
+GM_INLINE void K(field)(const real *state, real *f, const void *parameters)
+{
+    const double factor = *(const double *)parameters / (2 * 3.14159265358979323846);
+    const real x1 = state[0], x2 = state[1], y1 = state[2], y2 = state[3];
+    const real dx = x1 - x2, dy = y1 - y2, sx = x1 + x2, sy = y1 + y2;
+    const real near = 1 / (dx * dx + dy * dy), far = 1 / (sx * sx + sy * sy);
+    const real own1 = 0.5 / (x1 * x1 + y1 * y1), own2 = 0.5 / (x2 * x2 + y2 * y2);
+    f[0] = -(factor * (dy * near + y1 * own1 + sy * far));
+    f[1] = -(factor * (y2 * own2 - dy * near + sy * far));
+    f[2] = factor * (dx * near + x1 * own1 + sx * far);
+    f[3] = factor * (x2 * own2 - dx * near + sx * far);
+}
+
+#ifdef GM_PASS_SCALAR
+/* dF/dd = [a, b; b, -a] */
+static void K(strain)(double dx, double dy, double factor, double ab[2])
+{
+    const double square = dx * dx + dy * dy;
+    ab[0] = factor * 2 * dx * dy / (square * square);
+    ab[1] = factor * (dy * dy - dx * dx) / (square * square);
+}
+
+static void K(jacobian)(const double *state, double jacobian[][GM_COMPONENTS], const void *parameters)
+{
+    const double factor = *(const double *)parameters / (2 * 3.14159265358979323846);
+    double near[2], far[2];
+    K(strain)(state[0] - state[1], state[2] - state[3], factor, near);
+    K(strain)(state[0] + state[1], state[2] + state[3], factor, far);
+    for (int i = 0; i < 2; i++) {
+        double own[2], by[2][2];
+        K(strain)(2 * state[i], 2 * state[2 + i], factor, own);
+        for (int k = 0; k < 2; k++) {
+            by[i][k] = near[k] + 2 * own[k] + far[k];
+            by[1 - i][k] = far[k] - near[k];
+        }
+        for (int j = 0; j < 2; j++) {
+            jacobian[i][j] = by[j][0];
+            jacobian[i][2 + j] = by[j][1];
+            jacobian[2 + i][j] = by[j][1];
+            jacobian[2 + i][2 + j] = -by[j][0];
+        }
+    }
+}
+#endif
