@@ -300,8 +300,11 @@ static const struct gm_figure figures[] = {
     },
 };
 
-static const struct gm_work work = {
-    .arguments = "until=40*pi", .measure = "position_error", .coarsest = 2 * M_PI / 30, .halvings = 10};
+static const struct gm_work work = {.arguments = "until=40*pi",
+                                    .measure = "position_error",
+                                    .coarsest = 2 * M_PI / 30,
+                                    .halvings = 10,
+                                    .is_exact = "wisdom-holman2"};
 
 /* the time in which the pericentre is passed */
 static double passage(const void *own) {

@@ -75,6 +75,8 @@ struct gm_work {
     int halvings;          /* halved so many times */
     const char *reference; /* the scheme of the reference run, where the problem has no exact solution; NULL: the
                               highest order that fits */
+    const char *is_exact;  /* name of a scheme that solves the scene exactly where it has an exact solution, and is no
+                              entrant then; NULL: none */
 };
 
 /* What `geomint stability` does with a scene: a grid of time steps and of one parameter. */
