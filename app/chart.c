@@ -10,8 +10,8 @@
 #include "render/canvas.h"
 #include "render/png.h"
 
-bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, const char *name,
-                   char *message) {
+bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, const char *name, char *message)
+{
     const char *folder = options->out ? options->out : ".";
     chart->options = options;
     const int png = snprintf(chart->png, sizeof chart->png, "%s/%s.png", folder, name);
@@ -28,7 +28,8 @@ bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, con
 }
 
 bool gm_chart_paint(const struct gm_chart *chart, const void *data,
-                    void (*draw)(const void *data, struct gm_picture *picture), char *message) {
+                    void (*draw)(const void *data, struct gm_picture *picture), char *message)
+{
     const int width = chart->options->width, height = chart->options->height;
     struct gm_canvas *canvas = gm_canvas_open(width, height, chart->options->theme, message);
     if (!canvas) {

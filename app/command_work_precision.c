@@ -11,7 +11,8 @@
 #include "app/drive.h"
 #include "app/work.h"
 
-static bool write_csv(const struct gm_work_table *table, const char *path) {
+static bool write_csv(const struct gm_work_table *table, const char *path)
+{
     FILE *csv = fopen(path, "w");
     if (!csv) {
         return false;
@@ -33,7 +34,8 @@ static bool write_csv(const struct gm_work_table *table, const char *path) {
     return fclose(csv) == 0 && !failed;
 }
 
-static void print_cell(double value) {
+static void print_cell(double value)
+{
     if (isfinite(value)) {
         printf(" %11.3g", value);
     } else {
@@ -41,7 +43,8 @@ static void print_cell(double value) {
     }
 }
 
-static void print_table(const struct gm_work_table *table) {
+static void print_table(const struct gm_work_table *table)
+{
     const struct gm_timing *timing = table->request.lanes[0].parameters;
     char sentence[512];
     printf("%s, %s at t = %.6g", table->request.scene->name, table->measure, timing->until);
@@ -76,11 +79,13 @@ static void print_table(const struct gm_work_table *table) {
     printf("%s\n", gm_work_sentence(table, sentence, sizeof sentence));
 }
 
-static void draw(const void *table, struct gm_picture *picture) {
+static void draw(const void *table, struct gm_picture *picture)
+{
     gm_work_draw(table, picture);
 }
 
-int gm_command_work_precision(const struct gm_options *options) {
+int gm_command_work_precision(const struct gm_options *options)
+{
     char message[GM_MESSAGE];
     struct gm_work_table table;
     if (!gm_work_open(&table, options, message)) {

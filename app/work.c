@@ -21,23 +21,27 @@ const double gm_work_errors[3] = {1e-3, 1e-6, 1e-9};
 
 static const char solution_error[] = "solution_error";
 
-static bool refuse(char *message, const char *text) {
+static bool refuse(char *message, const char *text)
+{
     snprintf(message, GM_MESSAGE, "%s", text);
     return false;
 }
 
-static double processor_seconds(void) {
+static double processor_seconds(void)
+{
     struct timespec now;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static struct gm_timing *timing_of(const struct gm_work_table *table) {
+static struct gm_timing *timing_of(const struct gm_work_table *table)
+{
     return table->request.lanes[0].parameters;
 }
 
 /* Whether the user gave a word with the key of `word`. */
-static bool overridden(const struct gm_options *options, const char *word) {
+static bool overridden(const struct gm_options *options, const char *word)
+{
     const size_t length = strcspn(word, "=") + 1;
     for (int i = 0; i < options->word_count; i++) {
         if (strncmp(options->words[i], word, length) == 0) {
@@ -48,7 +52,8 @@ static bool overridden(const struct gm_options *options, const char *word) {
 }
 
 /* The scene, its arguments for this purpose unless overridden, and the user's words. */
-static bool parse(struct gm_request *request, const struct gm_options *options, char *message) {
+static bool parse(struct gm_request *request, const struct gm_options *options, char *message)
+{
     char *words[MOST_WORDS], arguments[512] = "", *rest = NULL;
     int count = 0;
     const struct gm_scene *scene = options->word_count > 0 ? gm_scene_find(options->words[0]) : NULL;
@@ -70,7 +75,8 @@ static bool parse(struct gm_request *request, const struct gm_options *options, 
 }
 
 /* Lanes may differ in scheme and dt alone. */
-static bool alike(const struct gm_request *request) {
+static bool alike(const struct gm_request *request)
+{
     const struct gm_scene *scene = request->scene;
     for (size_t i = 1; i < request->count; i++) {
         for (size_t k = 0; k < scene->parameter_count; k++) {
@@ -85,7 +91,8 @@ static bool alike(const struct gm_request *request) {
     return true;
 }
 
-static bool add_scheme(struct gm_work_table *table, const struct gm_scheme *scheme) {
+static bool add_scheme(struct gm_work_table *table, const struct gm_scheme *scheme)
+{
     for (size_t i = 0; i < table->scheme_count; i++) {
         if (table->schemes[i] == scheme) {
             return true;
@@ -95,7 +102,8 @@ static bool add_scheme(struct gm_work_table *table, const struct gm_scheme *sche
     return true;
 }
 
-static bool choose_schemes(struct gm_work_table *table, bool named, char *message) {
+static bool choose_schemes(struct gm_work_table *table, bool named, char *message)
+{
     const struct gm_request *request = &table->request;
     table->schemes = calloc(gm_scheme_count() + request->count, sizeof *table->schemes);
     table->lines = calloc(gm_scheme_count() + request->count, sizeof *table->lines);
@@ -116,12 +124,14 @@ static bool choose_schemes(struct gm_work_table *table, bool named, char *messag
     return true;
 }
 
-static int falling(const void *a, const void *b) {
+static int falling(const void *a, const void *b)
+{
     const double *x = a, *y = b;
     return (*x < *y) - (*x > *y);
 }
 
-static bool choose_steps(struct gm_work_table *table, bool given, char *message) {
+static bool choose_steps(struct gm_work_table *table, bool given, char *message)
+{
     const struct gm_request *request = &table->request;
     const struct gm_work *work = request->scene->work;
     const struct gm_timing *timing = timing_of(table);
@@ -153,13 +163,15 @@ static bool choose_steps(struct gm_work_table *table, bool given, char *message)
     return true;
 }
 
-static const char *observable_name(size_t i, const void *scene) {
+static const char *observable_name(size_t i, const void *scene)
+{
     return ((const struct gm_scene *)scene)->observables[i].key;
 }
 
 /* A measure that says nothing with these parameters, as a distance from an exact solution that there is not.
  */
-static bool is_silent(const struct gm_work_table *table, size_t observable) {
+static bool is_silent(const struct gm_work_table *table, size_t observable)
+{
     char sentence[GM_MESSAGE];
     struct gm_lane *lane = gm_request_open_lane(&table->request, 0, sentence);
     const bool silent = lane && !isfinite(gm_lane_observe(lane, observable));
@@ -167,7 +179,8 @@ static bool is_silent(const struct gm_work_table *table, size_t observable) {
     return silent;
 }
 
-static bool choose_measure(struct gm_work_table *table, const char *asked, char *message) {
+static bool choose_measure(struct gm_work_table *table, const char *asked, char *message)
+{
     const struct gm_scene *scene = table->request.scene;
     table->measure = asked                                 ? asked
                      : scene->work && scene->work->measure ? scene->work->measure
@@ -197,7 +210,8 @@ static bool choose_measure(struct gm_work_table *table, const char *asked, char 
     return false;
 }
 
-bool gm_work_open(struct gm_work_table *table, const struct gm_options *options, char *message) {
+bool gm_work_open(struct gm_work_table *table, const struct gm_options *options, char *message)
+{
     *table = (struct gm_work_table){0};
     if (options->word_count == 0) {
         return refuse(message, "work-precision of which scene? See geomint list scenes");
@@ -222,7 +236,8 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_options *options,
     return true;
 }
 
-void gm_work_close(struct gm_work_table *table) {
+void gm_work_close(struct gm_work_table *table)
+{
     for (size_t i = 0; i < table->line_count; i++) {
         free(table->lines[i].points);
     }
@@ -235,7 +250,8 @@ void gm_work_close(struct gm_work_table *table) {
 
 /* A lane of this scheme and step at its start. */
 static struct gm_lane *open_lane(const struct gm_work_table *table, const struct gm_scheme *scheme, double dt,
-                                 char *message) {
+                                 char *message)
+{
     struct gm_timing *timing = timing_of(table);
     const double usual = timing->dt;
     timing->dt = dt; /* the lane takes a copy */
@@ -245,7 +261,8 @@ static struct gm_lane *open_lane(const struct gm_work_table *table, const struct
     return lane;
 }
 
-static bool ended(const struct gm_lane *lane, long steps) {
+static bool ended(const struct gm_lane *lane, long steps)
+{
     const struct gm_run *run = lane->run;
     const double until = ((const struct gm_timing *)lane->parameters)->until;
     return run->status != GM_OK || gm_interrupted ||
@@ -254,7 +271,8 @@ static bool ended(const struct gm_lane *lane, long steps) {
 
 /* To the end, in bursts that answer an interruption; gives up after `most` seconds. Returns the processor
  * time. */
-static double run_through(struct gm_lane *lane, long steps, bool follow, double most) {
+static double run_through(struct gm_lane *lane, long steps, bool follow, double most)
+{
     const double size = (double)(lane->problem.n * lane->problem.m);
     const long burst = lane->scheme->family->own_time ? 1 : (long)fmax(1, fmin(1e5, 1e6 / size));
     double spent = 0;
@@ -273,7 +291,8 @@ static double run_through(struct gm_lane *lane, long steps, bool follow, double 
 
 /* The state that solutions are measured against: the exact one, or that of a trusted run, for all steps of
    the ladder. NULL if there is none. */
-static double *reference_state(struct gm_work_table *table, char *message) {
+static double *reference_state(struct gm_work_table *table, char *message)
+{
     const struct gm_work *work = table->request.scene->work;
     const struct gm_scheme *trusted = work && work->reference ? gm_scheme_find(work->reference) : NULL;
     struct gm_lane *lane = open_lane(table, table->request.lanes[0].scheme, timing_of(table)->dt, message);
@@ -282,7 +301,8 @@ static double *reference_state(struct gm_work_table *table, char *message) {
     }
     const size_t count = lane->problem.n * lane->problem.m;
     double *state = malloc(count * sizeof *state);
-    for (size_t i = 0; !trusted && i < gm_scheme_count(); i++) {
+    const bool named = trusted != NULL;
+    for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
         if (gm_scheme_fits(scheme, &lane->problem) && !scheme->family->own_time && scheme->order >= 4) {
             trusted = trusted && trusted->order >= scheme->order ? trusted : scheme;
@@ -326,8 +346,8 @@ static double *reference_state(struct gm_work_table *table, char *message) {
     return state;
 }
 
-static double error_of(const struct gm_work_table *table, const struct gm_lane *lane,
-                       const double *reference) {
+static double error_of(const struct gm_work_table *table, const struct gm_lane *lane, const double *reference)
+{
     const struct gm_scene *scene = lane->scene;
     if (reference) {
         const double *state = gm_run_state(lane->run);
@@ -348,7 +368,8 @@ static double error_of(const struct gm_work_table *table, const struct gm_lane *
 
 /* One scheme with one step. False with a sentence only if no lane could be opened. */
 static bool measure_point(const struct gm_work_table *table, const struct gm_scheme *scheme, double dt,
-                          const double *reference, struct gm_work_point *point, char *message) {
+                          const double *reference, struct gm_work_point *point, char *message)
+{
     const bool own_time = scheme->family->own_time;
     const long steps = own_time ? INT64_MAX : (long)round(timing_of(table)->until / dt);
     const bool follow = table->request.scene->follow > 0 && !reference;
@@ -390,7 +411,8 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
 }
 
 /* Shorter steps than this are of no use: round-off rules, or it takes too long. */
-static bool is_enough(const struct gm_work_line *line) {
+static bool is_enough(const struct gm_work_line *line)
+{
     if (line->count < 2) {
         return false;
     }
@@ -399,7 +421,8 @@ static bool is_enough(const struct gm_work_line *line) {
     return round_off || last->seconds > most_seconds / 3 || !isfinite(last->seconds);
 }
 
-bool gm_work_measure(struct gm_work_table *table, char *message) {
+bool gm_work_measure(struct gm_work_table *table, char *message)
+{
     const bool bar = isatty(STDERR_FILENO);
     double *reference = NULL;
     if (strcmp(table->measure, solution_error) == 0) {
@@ -440,11 +463,13 @@ bool gm_work_measure(struct gm_work_table *table, char *message) {
     return good;
 }
 
-double gm_work_cost(const struct gm_work_point *point, enum gm_work_cost cost) {
+double gm_work_cost(const struct gm_work_point *point, enum gm_work_cost cost)
+{
     return cost == GM_COST_SECONDS ? point->seconds : point->evaluations;
 }
 
-double gm_work_price(const struct gm_work_line *line, double error, enum gm_work_cost cost) {
+double gm_work_price(const struct gm_work_line *line, double error, enum gm_work_cost cost)
+{
     for (size_t k = 0; k < line->count; k++) {
         const struct gm_work_point *here = &line->points[k];
         if (!(here->error <= error)) {
@@ -464,7 +489,8 @@ double gm_work_price(const struct gm_work_line *line, double error, enum gm_work
 }
 
 const struct gm_work_line *gm_work_cheapest(const struct gm_work_table *table, double error,
-                                            enum gm_work_cost cost) {
+                                            enum gm_work_cost cost)
+{
     const struct gm_work_line *best = NULL;
     double least = INFINITY;
     for (size_t i = 0; i < table->line_count; i++) {
@@ -477,15 +503,16 @@ const struct gm_work_line *gm_work_cheapest(const struct gm_work_table *table, d
     return best;
 }
 
-const char *gm_work_sentence(const struct gm_work_table *table, char *text, size_t size) {
+const char *gm_work_sentence(const struct gm_work_table *table, char *text, size_t size)
+{
     static const char *const words[] = {"10⁻³", "10⁻⁶", "10⁻⁹"};
     size_t used = (size_t)snprintf(text, size, "Cheapest by run time:");
     for (size_t i = 0; i < 3; i++) {
         const struct gm_work_line *line = gm_work_cheapest(table, gm_work_errors[i], GM_COST_SECONDS);
-        used +=
-            (size_t)snprintf(text + used, used < size ? size - used : 0, " at %.0e %s%s", gm_work_errors[i],
-                             line ? line->scheme->title : "none gets there", i < 2 ? "," : ".");
+        used += (size_t)snprintf(text + used, used < size ? size - used : 0, "%s %s for an error of %s",
+                                 i ? "," : "", line ? line->scheme->title : "none", words[i]);
         used = used < size ? used : size - 1;
     }
+    snprintf(text + used, size - used, ".");
     return text;
 }

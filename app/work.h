@@ -25,8 +25,8 @@ struct gm_work_table {
     struct gm_request request; /* its first lane has the parameters that all share */
     const char *measure;       /* "solution_error" or an observable's key */
     const char *measure_title;
-    char reference[96];        /* what the error is measured against, in words */
-    double *steps;             /* the ladder, falling */
+    char reference[96]; /* what the error is measured against, in words */
+    double *steps;      /* the ladder, falling */
     size_t step_count;
     const struct gm_scheme **schemes;
     size_t scheme_count;

@@ -8,7 +8,8 @@
 
 enum { NAMED = GM_LANE_COLOURS };
 
-static bool holds(const struct gm_work_line *const *chosen, size_t count, const struct gm_work_line *line) {
+static bool holds(const struct gm_work_line *const *chosen, size_t count, const struct gm_work_line *line)
+{
     for (size_t i = 0; i < count; i++) {
         if (chosen[i] == line) {
             return true;
@@ -18,7 +19,8 @@ static bool holds(const struct gm_work_line *const *chosen, size_t count, const 
 }
 
 /* The cheapest at each error by either cost, then the scene's preferred ones. */
-static size_t choose(const struct gm_work_table *table, const struct gm_work_line *chosen[NAMED]) {
+static size_t choose(const struct gm_work_table *table, const struct gm_work_line *chosen[NAMED])
+{
     size_t count = 0;
     for (size_t i = 0; table->line_count <= NAMED && i < table->line_count; i++) {
         chosen[count++] = &table->lines[i];
@@ -44,7 +46,8 @@ static size_t choose(const struct gm_work_table *table, const struct gm_work_lin
     return count;
 }
 
-static size_t points_of(const struct gm_work_line *line, enum gm_work_cost cost, double *points) {
+static size_t points_of(const struct gm_work_line *line, enum gm_work_cost cost, double *points)
+{
     size_t count = 0;
     for (size_t k = 0; k < line->count; k++) {
         const double price = gm_work_cost(&line->points[k], cost), error = line->points[k].error;
@@ -59,7 +62,8 @@ static size_t points_of(const struct gm_work_line *line, enum gm_work_cost cost,
 
 /* Where a name stands: beside the point of its line that is farthest from the names that stand already. */
 static size_t free_point(const struct gm_panel *panel, const double *points, size_t count,
-                         const double *taken, size_t taken_count) {
+                         const double *taken, size_t taken_count)
+{
     const double wide = log(panel->x.high / panel->x.low), tall = log(panel->y.high / panel->y.low);
     size_t best = count - 1;
     double most = -1;
@@ -85,7 +89,8 @@ static size_t free_point(const struct gm_panel *panel, const double *points, siz
 }
 
 static void draw_cost(const struct gm_work_table *table, struct gm_picture *picture, enum gm_work_cost cost,
-                      const struct gm_work_line *const *chosen, size_t chosen_count) {
+                      const struct gm_work_line *const *chosen, size_t chosen_count)
+{
     double *points = gm_picture_memory(picture, 2 * table->step_count * sizeof *points);
     if (!points) {
         return;
@@ -141,7 +146,8 @@ static void draw_cost(const struct gm_work_table *table, struct gm_picture *pict
     }
 }
 
-void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture) {
+void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture)
+{
     const struct gm_work_line *chosen[NAMED] = {NULL};
     const size_t count = choose(table, chosen);
     const struct gm_scene *scene = table->request.scene;

@@ -4,7 +4,8 @@
    g = *(const double *)parameters. Every pair is taken once. */
 #define GM_COMPONENTS 8
 
-GM_INLINE void K(field)(const real *state, real *f, const void *parameters) {
+GM_INLINE void K(field)(const real *state, real *f, const void *parameters)
+{
     const double factor = *(const double *)parameters / (2 * 3.14159265358979323846);
     const real *x = state, *y = state + 4;
     real sum_x[4], sum_y[4];
@@ -30,7 +31,8 @@ GM_INLINE void K(field)(const real *state, real *f, const void *parameters) {
 }
 
 #ifdef GM_PASS_SCALAR
-static void K(jacobian)(const double *state, double jacobian[][GM_COMPONENTS], const void *parameters) {
+static void K(jacobian)(const double *state, double jacobian[][GM_COMPONENTS], const void *parameters)
+{
     const double factor = *(const double *)parameters / (2 * 3.14159265358979323846);
     memset(jacobian, 0, sizeof(double[GM_COMPONENTS][GM_COMPONENTS]));
     for (int i = 0; i < 4; i++) {
