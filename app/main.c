@@ -23,6 +23,8 @@ static const struct {
     {"figures", "[NAME ...]", "published figures, made again", GM_FIGURES, gm_command_figures},
     {"work-precision", "SCENE [key=value ...]", "error against run time and evaluations, of every scheme that fits",
      GM_WORK_PRECISION, gm_command_work_precision},
+    {"stability", "SCENE [key=value ...]", "which time step keeps which scheme bounded, and how it fails beyond",
+     GM_STABILITY, gm_command_stability},
     {"certify", "SCHEME|all", "measured order and properties against the claims", GM_CERTIFY, gm_command_certify},
     {"again", "FILE.png", "make a picture once more from what it tells of itself", GM_AGAIN, gm_command_again},
     {"terminal", "", "what was found out about this terminal, and why", GM_TERMINAL, gm_command_terminal},

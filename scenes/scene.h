@@ -90,6 +90,8 @@ struct gm_stability {
     const double *steps;   /* step_count of them, in that unit */
     size_t step_count;
     const char *kept;      /* key of the observable that is lost below half of its start, gained above twice */
+    long settle; /* where that swings by itself: the largest value of so many first steps is compared to that of so many
+                    last ones; 0: the end to the start */
     const char *error;     /* key of the observable that is wrong above 0.1; NULL: none */
     const char *const *schemes; /* NULL-terminated; NULL: the scene's */
 };
