@@ -19,7 +19,7 @@ struct row {
 };
 
 #define AT(member) offsetof(struct gm_options, member)
-#define PAINTS (GM_RENDER | GM_FIGURES)
+#define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY)
 
 static const struct row rows[] = {
     {"--json", FLAG, GM_RUN | GM_LIST | GM_CERTIFY, AT(json), "", "one JSON object a line"},
@@ -39,6 +39,7 @@ static const struct row rows[] = {
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", TEXT, GM_RENDER, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--strict", FLAG, GM_RENDER, AT(strict), "", "exit 2 if a lane ends in a numerical failure"},
+    {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
     {"--quick", FLAG, GM_FIGURES, AT(quick), "", "few steps and small pictures"},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };

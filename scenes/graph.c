@@ -174,7 +174,12 @@ static size_t history_points(const struct gm_lane *lane, size_t series, double d
     return count;
 }
 
-static void time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size_t count)
+size_t gm_history_points(const struct gm_lane *lane, size_t series, double *points)
+{
+    return history_points(lane, series, 1, &(const struct gm_graph){.scale = GM_LINEAR}, points);
+}
+
+void gm_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size_t count)
 {
     const struct gm_timing *timing = lanes[0]->parameters;
     double low = lanes[0]->t0, high = lanes[0]->t0;
@@ -226,7 +231,7 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
         gm_panel_add(picture, GM_PLACE_GRAPH, graph->title ? graph->title : scene->observables[series].title);
     panel->axes = true;
     panel->title_role = GM_INK;
-    time_axis(&panel->x, lanes, count);
+    gm_time_axis(&panel->x, lanes, count);
     panel->y = (struct gm_axis){.label = "", .scale = graph->scale, .low = 1, .high = 0};
 
     double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);

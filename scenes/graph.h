@@ -32,6 +32,13 @@ struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double w
 /* One past the highest panel number of the lanes. */
 size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count);
 
+/* The history of observable number `series` as points (t, value): at most 4 * GM_HISTORY_BINS doubles.
+   Returns their number. */
+size_t gm_history_points(const struct gm_lane *lane, size_t series, double *points);
+
+/* A time axis for the histories of these lanes. */
+void gm_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size_t count);
+
 /* How an observable is drawn over time. */
 struct gm_graph {
     const char *observable;     /* its key */

@@ -76,6 +76,8 @@ struct gm_work {
     int halvings;          /* halved so many times */
     const char *reference; /* the scheme of the reference run, where the problem has no exact solution; NULL:
                               the highest order that fits */
+    const char *is_exact;  /* name of a scheme that solves the scene exactly where it has an exact solution,
+                              and is no  entrant then; NULL: none */
 };
 
 /* What `geomint stability` does with a scene: a grid of time steps and of one parameter. */
@@ -88,8 +90,10 @@ struct gm_stability {
     double (*unit)(const void *parameters); /* of the time step: the shortest time there is */
     const double *steps;                    /* step_count of them, in that unit */
     size_t step_count;
-    const char *kept;  /* key of the observable that is lost below half of its start, gained above twice */
-    const char *error; /* key of the observable that is wrong above 0.1; NULL: none */
+    const char *kept; /* key of the observable that is lost below half of its start, gained above twice */
+    long settle; /* where that swings by itself: the largest value of so many first steps is compared to that
+                    of so many last ones; 0: the end to the start */
+    const char *error;          /* key of the observable that is wrong above 0.1; NULL: none */
     const char *const *schemes; /* NULL-terminated; NULL: the scene's */
 };
 

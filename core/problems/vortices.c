@@ -34,13 +34,22 @@ static void energy(const struct gm_problem *problem, const double *state, double
     const double factor = strength(problem) * strength(problem) / (4 * M_PI);
     for (size_t k = 0; k < m; k++) {
         const double *x = state + k, *y = state + count * m + k;
-        double sum = 0;
+        /* one logarithm for many pairs: the product of their squared distances, while it is a number of note
+         */
+        double sum = 0, product = 1;
         for (size_t i = 0; i < count; i++) {
             for (size_t j = i + 1; j < count; j++) {
                 const double dx = x[i * m] - x[j * m], dy = y[i * m] - y[j * m];
-                sum += log(dx * dx + dy * dy);
+                const double longer = product * (dx * dx + dy * dy);
+                if (longer > 1e-150 && longer < 1e150) {
+                    product = longer;
+                } else {
+                    sum += log(product) + log(dx * dx + dy * dy);
+                    product = 1;
+                }
             }
         }
+        sum += log(product);
         value[k] = -factor * sum;
     }
 }
