@@ -23,7 +23,7 @@ void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm
 /* A number as 2.4·10⁻⁴. */
 const char *gm_power_text(struct gm_picture *picture, double value);
 
-/* "one scheme", "two schemes" ... */
+/* "two schemes": how many different ones the lanes have. */
 const char *gm_counted_schemes(const struct gm_lane *const *lanes, size_t count);
 
 /* The colour and dash of a lane. */
