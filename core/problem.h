@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/field.h"
 #include "core/status.h"
 
 struct gm_loops;
@@ -79,6 +80,8 @@ struct gm_exact {
 enum gm_facet {
     GM_NEEDS_ODE = 1u << 0,
     GM_NEEDS_SPLIT = 1u << 1,
+    GM_NEEDS_FIELD = 1u << 16,   /* the multisymplectic form */
+    GM_NEEDS_WAVE = 1u << 17,    /* u_tt - u_xx + V'(u) = 0 */
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain
@@ -91,6 +94,10 @@ struct gm_problem {
     const struct gm_split *split;
     const struct gm_hamiltonian *hamiltonian;
     const struct gm_exact *exact;
+    double bound;        /* a component above this is a blow-up; 0: the default of core/run.c */
+    struct gm_line line; /* the grid of a field */
+    const struct gm_field *field;
+    const struct gm_wave *wave;
     const struct gm_loops *loops[GM_ISA_COUNT]; /* made of the problem's kernels by core/kernel/loops.c */
 };
 

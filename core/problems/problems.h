@@ -25,4 +25,8 @@ extern const struct gm_problem gm_problem_product;
    invariants |y|^2/2 and y1^2/4 + y2^2/2 + 3 y3^2/4, both quadratic. */
 extern const struct gm_problem gm_problem_rigid_body;
 
+/* u_tt - u_xx + V'(u) = 0, V = -cos u or V = 0: the caller sets line and n = gm_wave_size(line.points). */
+extern const struct gm_problem gm_problem_sine_gordon;
+extern const struct gm_problem gm_problem_wave;
+
 #endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FIELD_H
+#define GM_CORE_FIELD_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Fields on a line: Hamiltonian partial differential equations in one space dimension on a periodic grid, in their
+   multisymplectic form
+       M s_t + K s_x = grad S(s),     M, K skew,
+   (Bridges & Reich, Phys. Lett. A 284 (2001) 184), and what elimination makes of them. */
+
+/* A grid of equal spacing; node i lies at first + i dx. A periodic field obeys u(x + points dx) = u(x) + jump. */
+struct gm_line {
+    size_t points;
+    double dx, first, jump;
+};
+
+enum { GM_FIELD_MOST = 4 /* components of s */ };
+
+struct gm_field {
+    size_t dimension;        /* of s; s[0] is the field itself */
+    const double *m, *k;     /* dimension * dimension, row by row */
+    void (*gradient)(const void *parameters, const double *s, double *gradient); /* at one point */
+};
+
+/* u_tt - u_xx + V'(u) = 0. All arrays have `count` entries. */
+struct gm_wave {
+    double (*potential)(double u);                                /* V */
+    double (*slope)(double u);                                    /* V' */
+    double (*curvature)(double u);                                /* V'' */
+    void (*slopes)(const double *u, double *slope, size_t count); /* V' of many */
+    /* [V(a) - V(b)] / (a - b), without cancellation, and its derivative in a */
+    double (*quotient)(double a, double b);
+    double (*quotient_slope)(double a, double b);
+};
+
+/* State of a wave problem, 2 points + 1 numbers: u at the present time t, u at another time, and the second time
+   minus t. A scheme of two steps needs nothing else: after a step of length dt the other time is t - dt, at a start
+   from two exact levels it is t + dt. */
+static inline size_t gm_wave_size(size_t points) { return 2 * points + 1; }
+
+#endif
