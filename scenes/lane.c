@@ -15,6 +15,7 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
     return (struct gm_view){
         .parameters = lane->parameters,
         .problem = &lane->problem,
+        .scheme = lane->scheme,
         .start = lane->start,
         .state = gm_run_state(lane->run),
         .t0 = lane->t0,

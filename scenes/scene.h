@@ -31,6 +31,7 @@ struct gm_timing {
 struct gm_view {
     const void *parameters; /* the scene's own struct */
     const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
     const double *start; /* the state at t0, [component * m + member] */
     const double *state; /* the present state */
     double t0, t, dt;

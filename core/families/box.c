@@ -110,6 +110,8 @@ enum gm_status gm_box_step(struct gm_two_step_work *work, const struct gm_proble
     return GM_NO_CONVERGENCE;
 }
 
+static const struct gm_two_step_row row = {gm_box_step, GM_LAW_CELLS, false};
+
 static struct gm_progress advance(const struct gm_task *task) { return gm_two_step_advance(task, gm_box_step); }
 
 static const struct gm_scheme schemes[] = {
@@ -120,6 +122,7 @@ static const struct gm_scheme schemes[] = {
         .reference = "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; "
                      "Razafindralandy et al. (2018)",
         .family = &gm_family_box,
+        .coefficients = &row,
         .order = 2,
         .needs = GM_NEEDS_FIELD,
         .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,

@@ -171,7 +171,10 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task, gm_two_step *
     return progress;
 }
 
-static const struct gm_two_step_row rows[] = {{leapfrog}, {energy_conserving}};
+static const struct gm_two_step_row rows[] = {
+    {leapfrog, GM_LAW_NODES, false},
+    {energy_conserving, GM_LAW_NODES, true},
+};
 
 static struct gm_progress advance(const struct gm_task *task)
 {

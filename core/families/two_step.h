@@ -20,9 +20,14 @@ typedef enum gm_status gm_two_step(struct gm_two_step_work *work, const struct g
                                    const double *past, const double *now, double *next,
                                    struct gm_progress *progress);
 
+/* Whose discrete conservation laws a scheme has: those of nodes or those of cells. */
+enum gm_wave_law { GM_LAW_NODES, GM_LAW_CELLS };
+
 /* What a row of such a scheme points to. */
 struct gm_two_step_row {
     gm_two_step *step;
+    enum gm_wave_law law;
+    bool average; /* the force is the quotient of V, not V' at the present level */
 };
 
 /* Advances a wave problem by a scheme of two steps. */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "core/problems/problems.h"
+#include "core/problems/sine_gordon.h"
 #include "core/sine.h"
 
 static const double m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
@@ -77,6 +78,12 @@ static const struct gm_wave linear = {
 static const struct gm_field linear_field = {3, m, k, gradient_linear};
 
 const struct gm_problem gm_problem_sine_gordon = {
-    .name = "sine-Gordon", .m = 1, .bound = 1e3, .field = &sine_gordon_field, .wave = &sine_gordon};
+    .name = "sine-Gordon",
+    .m = 1,
+    .bound = 1e3,
+    .field = &sine_gordon_field,
+    .wave = &sine_gordon,
+    .exact = &gm_sine_gordon_solution,
+};
 const struct gm_problem gm_problem_wave = {
     .name = "wave equation", .m = 1, .bound = 1e3, .field = &linear_field, .wave = &linear};
