@@ -300,14 +300,18 @@ static bool count_lanes(const struct lists *lists, size_t *lanes, char *message)
 }
 
 /* dt and until, or steps, to whole steps; with `steps` until follows. */
-static bool settle_time(struct gm_lane_spec *spec, bool steps_given, char *message)
+static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec, bool steps_given, char *message)
 {
     struct gm_timing *timing = spec->parameters;
+    const double t0 = gm_scene_t0(scene, spec->parameters);
     if (steps_given) {
-        timing->until = (double)spec->steps * timing->dt;
+        timing->until = t0 + (double)spec->steps * timing->dt;
         return true;
     }
-    const double steps = round(timing->until / timing->dt);
+    const double steps = round((timing->until - t0) / timing->dt);
+    if (steps < 0) {
+        return refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
+    }
     if (!(steps <= 1e15)) {
         return refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
     }
@@ -345,6 +349,10 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
     if (steps_given && find_list(lists, "until")) {
         return refuse(message, "steps= and until= are both given; one of them follows from the other");
     }
+    const char *keys[MOST_LISTS];
+    for (size_t i = 0; i < lists->count; i++) {
+        keys[i] = lists->list[i].key;
+    }
     for (size_t k = 0; k < count; k++) {
         struct gm_lane_spec *spec = &request->lanes[k];
         spec->parameters = calloc(1, scene->size);
@@ -360,7 +368,10 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
             }
         }
         show(lists, k, spec);
-        if (!settle_time(spec, steps_given, message)) {
+        if (scene->settle && !scene->settle(spec->parameters, keys, lists->count, message)) {
+            return false;
+        }
+        if (!settle_time(scene, spec, steps_given, message)) {
             return false;
         }
         struct gm_problem problem = {0};

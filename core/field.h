@@ -16,7 +16,12 @@ struct gm_line {
     double dx, first, jump;
 };
 
-enum { GM_FIELD_MOST = 4 /* components of s */ };
+/* Node i; nodes on both sides of x = 0 are exact opposites where the grid is symmetric. */
+static inline double gm_line_node(const struct gm_line *line, size_t i)
+{
+    return ((double)i + line->first / line->dx) * line->dx;
+}
+
 
 struct gm_field {
     size_t dimension;        /* of s; s[0] is the field itself */

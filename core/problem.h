@@ -12,6 +12,7 @@ struct gm_loops;
 struct gm_scheme;
 struct gm_settings;
 struct gm_problem;
+struct gm_burgers;
 
 /* Instruction sets that loops are compiled for. */
 enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
@@ -39,7 +40,9 @@ struct gm_task {
     double *carry_out;
     const double *memory; /* the scheme's own, as its family says; NULL if it has none */
     double *memory_out;
-    double t;                            /* the present time */
+    double t;                            /* the present time, t0 + n dt of this segment */
+    double t0;
+    long n;
     void *workspace;                     /* what the family opened for this run */
     const struct gm_settings *settings;
 };
@@ -82,6 +85,7 @@ enum gm_facet {
     GM_NEEDS_SPLIT = 1u << 1,
     GM_NEEDS_FIELD = 1u << 16,   /* the multisymplectic form */
     GM_NEEDS_WAVE = 1u << 17,    /* u_tt - u_xx + V'(u) = 0 */
+    GM_NEEDS_BURGERS = 1u << 18, /* u_t + u u_x = nu u_xx in moving frames */
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain
@@ -98,6 +102,7 @@ struct gm_problem {
     struct gm_line line; /* the grid of a field */
     const struct gm_field *field;
     const struct gm_wave *wave;
+    const struct gm_burgers *burgers;
     const struct gm_loops *loops[GM_ISA_COUNT]; /* made of the problem's kernels by core/kernel/loops.c */
 };
 

@@ -58,6 +58,8 @@ static struct gm_task task_of(const struct gm_run *run, int from, int to, long s
         .memory = remembers ? y + count + carried : NULL,
         .memory_out = remembers ? out + count + carried : NULL,
         .t = run->t,
+        .t0 = run->t0,
+        .n = run->n,
         .workspace = run->workspace,
         .settings = &run->settings,
     };

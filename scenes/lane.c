@@ -174,6 +174,7 @@ static bool prepare(struct gm_lane *lane, char *sentence)
         !check_fit(scene, &lane->problem, lane->scheme, sentence)) {
         return false;
     }
+    lane->t0 = gm_scene_t0(scene, lane->parameters);
     lane->start = malloc(lane->problem.n * lane->problem.m * sizeof *lane->start);
     if (!lane->start) {
         return refuse(sentence, "not enough memory");

@@ -81,6 +81,11 @@ struct gm_scene {
     const struct gm_figure *figures;
     size_t figure_count;
 
+    /* The time at the start; NULL: 0. */
+    double (*t0)(const void *parameters);
+    /* Makes parameters agree that follow from others, after those of these keys were set; false with a sentence if
+       they contradict. NULL: none do. */
+    bool (*settle)(void *parameters, const char *const *keys, size_t count, char *sentence);
     /* Fills the problem (n, m, facets) for these parameters; false with a sentence if they contradict. */
     bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);
     /* Writes the canonical state at t0 (n * m). */
@@ -92,6 +97,7 @@ struct gm_scene {
 size_t gm_scene_count(void);
 const struct gm_scene *gm_scene_at(size_t index);
 const struct gm_scene *gm_scene_find(const char *name);
+double gm_scene_t0(const struct gm_scene *scene, const void *parameters);
 /* NULL if there is none of that key */
 const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key);
 
