@@ -81,7 +81,8 @@ bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *pro
 {
     const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0) |
                          (problem->field ? GM_NEEDS_FIELD : 0) | (problem->wave ? GM_NEEDS_WAVE : 0) |
-                         (problem->burgers ? GM_NEEDS_BURGERS : 0);
+                         (problem->burgers ? GM_NEEDS_BURGERS : 0) | (problem->kdv ? GM_NEEDS_KDV : 0) |
+                         (problem->nls ? GM_NEEDS_NLS : 0);
     const struct gm_loops *loops = problem->loops[GM_ISA_BASELINE];
     return (scheme->needs & ~has) == 0 && (scheme->family->loop || (loops && loops->family[scheme->family->id]));
 }

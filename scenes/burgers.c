@@ -337,8 +337,9 @@ static void draw_panel(struct gm_picture *picture, const struct gm_lane *const *
         const bool of_lambda = strncmp(typed, "lambda", 6) == 0;
         const char *name = of_lambda ? gm_picture_text(picture, "λ%s", typed + 6) : typed;
         if (frozen) {
-            panel->note = gm_picture_text(picture, "%s%s%s%s%s", panel->note, panel->note[0] ? ",  " : "", name,
-                                          name[0] ? ": " : "", gm_lane_failure(picture, lanes[i]));
+            panel->note = gm_picture_text(picture, "%s%s%s%s%s at %s", panel->note, panel->note[0] ? ", " : "", name,
+                                          name[0] ? " " : "", gm_status_name(lanes[i]->run->status),
+                                          gm_time_text(picture, lanes[i]->run->t, lanes[i]->run->dt));
         }
         if (name[0] && number == 0) {
             /* in the empty corner above the front, one below the other */

@@ -11,6 +11,7 @@
 #include <math.h>
 
 #include "core/clones.h"
+#include "core/families/dispersive_box.h"
 #include "core/families/families.h"
 #include "core/families/two_step.h"
 
@@ -110,9 +111,19 @@ enum gm_status gm_box_step(struct gm_two_step_work *work, const struct gm_proble
     return GM_NO_CONVERGENCE;
 }
 
-static const struct gm_two_step_row row = {gm_box_step, GM_LAW_CELLS, false};
+static const struct gm_two_step_row row = {gm_box_step, gm_wave_start, GM_LAW_CELLS, false};
 
-static struct gm_progress advance(const struct gm_task *task) { return gm_two_step_advance(task, gm_box_step); }
+static bool is_wave(const struct gm_problem *problem) { return problem->wave != NULL; }
+
+static struct gm_progress advance(const struct gm_task *task)
+{
+    return is_wave(task->problem) ? gm_two_step_advance(task) : gm_dispersive_advance(task);
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    return is_wave(problem) ? gm_two_step_open(problem, scheme) : gm_dispersive_open(problem);
+}
 
 static const struct gm_scheme schemes[] = {
     {
@@ -135,6 +146,6 @@ const struct gm_family gm_family_box = {
     .schemes = schemes,
     .count = sizeof schemes / sizeof schemes[0],
     .loop = advance,
-    .workspace_open = gm_two_step_open,
-    .workspace_close = gm_two_step_close,
+    .workspace_open = workspace_open,
+    .workspace_close = gm_two_step_close, /* both kinds of work are closed alike */
 };

@@ -114,8 +114,8 @@ static enum gm_status energy_conserving(struct gm_two_step_work *work, const str
 
 /* The other level of the state lies at neither t + dt nor t - dt: the level at t + dt by the velocity at t, to second
    order from both sides, so that a change of dt costs no order. */
-static void start_level(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
-                        const double *now, const double *other, double *next)
+void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
+                   const double *now, const double *other, double *next)
 {
     const double over = 1 / (problem->line.dx * problem->line.dx);
     problem->wave->slopes(now, work->force, work->points);
@@ -134,8 +134,9 @@ static double *rotate(double *level[3])
     return level[2] = past;
 }
 
-struct gm_progress gm_two_step_advance(const struct gm_task *task, gm_two_step *step)
+struct gm_progress gm_two_step_advance(const struct gm_task *task)
 {
+    const struct gm_two_step_row *row = task->scheme->coefficients;
     struct gm_two_step_work *work = task->workspace;
     const size_t points = work->points, size = points * sizeof(double);
     const double jump = task->problem->line.jump, gap = task->y[2 * points];
@@ -149,11 +150,11 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task, gm_two_step *
     for (long k = 0; k < task->steps; k++) {
         if (k > 0 || regular) {
             progress.status =
-                step(work, task->problem, task->dt, work->level[0], work->level[1], next, &progress);
+                row->step(work, task->problem, task->dt, work->level[0], work->level[1], next, &progress);
         } else if (gap == task->dt) {
             memcpy(next, work->level[0], size);
         } else {
-            start_level(work, task->problem, task->dt, gap, work->level[1], work->level[0], next);
+            row->start(work, task->problem, task->dt, gap, work->level[1], work->level[0], next);
         }
         if (progress.status == GM_OK && !within(next, points, task->limit)) {
             progress.status = GM_BLOW_UP;
@@ -172,15 +173,9 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task, gm_two_step *
 }
 
 static const struct gm_two_step_row rows[] = {
-    {leapfrog, GM_LAW_NODES, false},
-    {energy_conserving, GM_LAW_NODES, true},
+    {leapfrog, gm_wave_start, GM_LAW_NODES, false},
+    {energy_conserving, gm_wave_start, GM_LAW_NODES, true},
 };
-
-static struct gm_progress advance(const struct gm_task *task)
-{
-    const struct gm_two_step_row *row = task->scheme->coefficients;
-    return gm_two_step_advance(task, row->step);
-}
 
 static const struct gm_scheme schemes[] = {
     {
@@ -213,7 +208,7 @@ const struct gm_family gm_family_two_step = {
     .title = "two-step wave schemes",
     .schemes = schemes,
     .count = sizeof schemes / sizeof schemes[0],
-    .loop = advance,
+    .loop = gm_two_step_advance,
     .workspace_open = gm_two_step_open,
     .workspace_close = gm_two_step_close,
 };

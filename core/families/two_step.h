@@ -20,18 +20,24 @@ typedef enum gm_status gm_two_step(struct gm_two_step_work *work, const struct g
                                    const double *past, const double *now, double *next,
                                    struct gm_progress *progress);
 
+/* The level at t + dt from the present one and another at t + gap, gap neither dt nor -dt. */
+typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                               double gap, const double *now, const double *other, double *next);
+gm_two_step_start gm_wave_start;
+
 /* Whose discrete conservation laws a scheme has: those of nodes or those of cells. */
 enum gm_wave_law { GM_LAW_NODES, GM_LAW_CELLS };
 
 /* What a row of such a scheme points to. */
 struct gm_two_step_row {
     gm_two_step *step;
+    gm_two_step_start *start;
     enum gm_wave_law law;
     bool average; /* the force is the quotient of V, not V' at the present level */
 };
 
 /* Advances a wave problem by a scheme of two steps. */
-struct gm_progress gm_two_step_advance(const struct gm_task *task, gm_two_step *step);
+struct gm_progress gm_two_step_advance(const struct gm_task *task);
 void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
 void gm_two_step_close(void *workspace);
 
