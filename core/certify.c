@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/certify.h"
 
+#include "core/certify_field.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -320,6 +322,7 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
                  drift(subject, scheme, dt / 24, subject->quadratic, 2), name);
         }
     }
+    gm_certify_field(&certificate, &farthest);
     certificate.order_holds = farthest >= 0 && farthest < 0.15;
     certificate.holds = certificate.order_holds;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {

@@ -306,8 +306,54 @@ static double form_of_cells(const struct gm_problem *problem, const double *earl
     return largest;
 }
 
-double gm_wave_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                             const double *y)
+/* The next level of a tangent by central differences of the scheme's step at four distances, extrapolated. */
+static bool tangent_by_differences(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                                   const struct levels *levels, const struct tangent *a)
+{
+    enum { DISTANCES = 4 };
+    const size_t points = problem->line.points, size = gm_wave_size(points);
+    double *memory = malloc((2 * size + DISTANCES * points) * sizeof *memory);
+    void *work = gm_two_step_open(problem, scheme);
+    bool good = memory && work;
+    double *y = memory, *out = memory + size, *table = out + size;
+    struct gm_task task = {.problem = problem, .scheme = scheme, .dt = dt, .steps = 1, .limit = INFINITY,
+                           .y = y, .out = out, .workspace = work};
+    for (int k = 0; good && k < DISTANCES; k++) {
+        const double distance = ldexp(0.05, -k);
+        double *slope = table + (size_t)k * points;
+        for (int side = 1; good && side >= -1; side -= 2) {
+            for (size_t i = 0; i < points; i++) {
+                y[i] = levels->now[i] + side * distance * a->now[i];
+                y[points + i] = levels->past[i] + side * distance * a->past[i];
+            }
+            y[2 * points] = -dt;
+            good = scheme->family->loop(&task).status == GM_OK;
+            for (size_t i = 0; i < points; i++) {
+                slope[i] = (side > 0 ? 0 : slope[i]) + side * out[i] / (2 * distance);
+            }
+        }
+    }
+    double power = 4;
+    for (int done = 1; good && done < DISTANCES; done++, power *= 4) {
+        for (int k = DISTANCES - 1; k >= done; k--) {
+            for (size_t i = 0; i < points; i++) {
+                double *fine = &table[(size_t)k * points + i];
+                *fine += (*fine - table[(size_t)(k - 1) * points + i]) / (power - 1);
+            }
+        }
+    }
+    if (good) {
+        memcpy(a->next, table + (DISTANCES - 1) * points, points * sizeof *a->next);
+    }
+    if (work) {
+        gm_two_step_close(work);
+    }
+    free(memory);
+    return good;
+}
+
+static double form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                            const double *y, bool by_differences)
 {
     const size_t points = problem->line.points;
     const struct gm_two_step_row *row = row_of(scheme);
@@ -323,19 +369,36 @@ double gm_wave_form_residual(const struct gm_problem *problem, const struct gm_s
     tangent_start(&a, points, 2, 0.3);
     tangent_start(&b, points, 3, 0.7);
     double residual = NAN;
-    if (row->law == GM_LAW_NODES) {
+    const bool nodes = row->law == GM_LAW_NODES;
+    cell_curvatures(problem, levels.past, levels.now, earlier);
+    cell_curvatures(problem, levels.now, levels.next, later);
+    bool good = true;
+    if (by_differences) {
+        good = tangent_by_differences(problem, scheme, dt, &levels, &a) &&
+               tangent_by_differences(problem, scheme, dt, &levels, &b);
+    } else if (nodes) {
         tangent_nodes(problem, &levels, row->average, dt, &a);
         tangent_nodes(problem, &levels, row->average, dt, &b);
-        residual = form_of_nodes(problem, dt, &a, &b);
     } else {
-        cell_curvatures(problem, levels.past, levels.now, earlier);
-        cell_curvatures(problem, levels.now, levels.next, later);
-        if (tangent_cells(problem, earlier, later, dt, &a, scratch) &&
-            tangent_cells(problem, earlier, later, dt, &b, scratch)) {
-            residual = form_of_cells(problem, earlier, later, dt, &a, &b);
-        }
+        good = tangent_cells(problem, earlier, later, dt, &a, scratch) &&
+               tangent_cells(problem, earlier, later, dt, &b, scratch);
+    }
+    if (good) {
+        residual = nodes ? form_of_nodes(problem, dt, &a, &b) : form_of_cells(problem, earlier, later, dt, &a, &b);
     }
     levels_close(&levels);
     free(memory);
     return residual;
+}
+
+double gm_wave_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                             const double *y)
+{
+    return form_residual(problem, scheme, dt, y, false);
+}
+
+double gm_wave_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                           const double *y)
+{
+    return form_residual(problem, scheme, dt, y, true);
 }

@@ -28,5 +28,9 @@ double gm_wave_momentum_residual(const struct gm_problem *problem, const struct 
                                  const double *y);
 double gm_wave_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                              const double *y);
+/* The same with tangents that are extrapolated differences of the scheme's own steps, so that nothing but the step
+   itself is held to the law; accurate to about 1e-9. */
+double gm_wave_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                           const double *y);
 
 #endif

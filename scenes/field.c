@@ -120,7 +120,10 @@ void gm_draw_profiles(struct gm_picture *picture, const struct gm_lane *const *l
     panel->x = (struct gm_axis){.label = "x", .low = line->first, .high = end_of(line)};
     panel->y = (struct gm_axis){.label = "", .low = look->low, .high = look->high};
     for (size_t i = 0; i < count; i++) {
-        hold(&panel->y, points, profile(lanes[i], look, points));
+        /* what blew up does not flatten the others */
+        if (lanes[i]->run->status == GM_OK || count == 1) {
+            hold(&panel->y, points, profile(lanes[i], look, points));
+        }
     }
     gm_range_round(&panel->y.low, &panel->y.high, GM_LINEAR);
     if (look->exact) {

@@ -11,6 +11,7 @@
 #include "core/certify.h"
 #include "core/families/implicit_runge_kutta.h"
 #include "core/families/splitting.h"
+#include "core/families/two_step.h"
 
 static void every_row_holds(void **unused) {
     (void)unused;
@@ -71,6 +72,13 @@ static void properties_that_are_false(void **unused) {
         {"symplectic-euler", GM_SYMMETRIC},  {"rk4", GM_SYMMETRIC},       {"rk4", GM_REVERSIBLE},
         {"midpoint", GM_KEEPS_ENERGY},       {"verlet", GM_KEEPS_ENERGY}, {"rk4", GM_KEEPS_QUADRATIC},
         {"trapezoidal", GM_KEEPS_QUADRATIC},
+        {"energy-conserving", GM_MULTISYMPLECTIC},
+        {"leapfrog", GM_KEEPS_ENERGY},
+        {"box", GM_KEEPS_ENERGY},
+        {"box", GM_KEEPS_QUADRATIC},
+        {"ftcs", GM_EQUIVARIANT},
+        {"lax-wendroff", GM_EQUIVARIANT},
+        {"crank-nicolson", GM_EQUIVARIANT},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct gm_scheme scheme = changed(wrong[i].scheme);
@@ -115,8 +123,42 @@ static void a_wrong_digit_of_gauss4(void **unused) {
     assert_false(gm_certify(&wrong).holds);
 }
 
+/* Leapfrog with a little friction, which no law survives. */
+static enum gm_status rubbed(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                             const double *past, const double *now, double *next, struct gm_progress *progress) {
+    const struct gm_two_step_row *leapfrog = gm_scheme_find("leapfrog")->coefficients;
+    const enum gm_status status = leapfrog->step(work, problem, dt, past, now, next, progress);
+    for (size_t i = 0; i < work->points; i++) {
+        next[i] -= 1e-4 * (now[i] - past[i]);
+    }
+    return status;
+}
+
+static void a_wave_with_friction(void **unused) {
+    (void)unused;
+    struct gm_two_step_row row = *(const struct gm_two_step_row *)gm_scheme_find("leapfrog")->coefficients;
+    row.step = rubbed;
+    struct gm_scheme wrong = changed("leapfrog");
+    wrong.coefficients = &row;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_false(certificate.holds);
+    assert_false(certificate.claims[7].holds); /* multisymplectic */
+    assert_false(certificate.claims[1].holds); /* symmetric */
+}
+
+/* Leapfrog has a law of nodes, not the box's law of cells. */
+static void the_law_of_another_scheme(void **unused) {
+    (void)unused;
+    struct gm_two_step_row row = *(const struct gm_two_step_row *)gm_scheme_find("leapfrog")->coefficients;
+    row.law = GM_LAW_CELLS;
+    struct gm_scheme wrong = changed("leapfrog");
+    wrong.coefficients = &row;
+    assert_false(gm_certify(&wrong).claims[7].holds);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_wave_with_friction),      cmocka_unit_test(the_law_of_another_scheme),
         cmocka_unit_test(every_row_holds),           cmocka_unit_test(verlet_with_halves_exchanged),
         cmocka_unit_test(order_that_is_not_reached), cmocka_unit_test(symplecticity_that_is_false),
         cmocka_unit_test(properties_that_are_false), cmocka_unit_test(what_cannot_be_measured),

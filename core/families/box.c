@@ -136,7 +136,7 @@ static const struct gm_scheme schemes[] = {
         .coefficients = &row,
         .order = 2,
         .needs = GM_NEEDS_FIELD,
-        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
     },
 };
 

@@ -423,7 +423,7 @@ static const struct gm_scheme schemes[] = {
         .formula = "m(mv + σa₄ − u)/k + (mv + σa₄ − σ/k) m(mD₀v + a₄)/2 = ν/2 (D₂u + m³D₂v)",
         .reference = "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
         .coefficients = &rows[5],
-        .order = 1,
+        .order = 2,
         .claims = GM_EQUIVARIANT,
         BURGERS,
     },
