@@ -349,7 +349,7 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
     if (steps_given && find_list(lists, "until")) {
         return refuse(message, "steps= and until= are both given; one of them follows from the other");
     }
-    const char *keys[MOST_LISTS];
+    const char *keys[MOST_LISTS] = {NULL};
     for (size_t i = 0; i < lists->count; i++) {
         keys[i] = lists->list[i].key;
     }

@@ -243,17 +243,17 @@ static const struct gm_observable observables[] = {
      .scale = 1e-3,
      .logarithmic = true},
     {.key = "energy_law_residual",
-     .title = "what (67b) misses, cell by cell",
+     .title = "energy law (67b) in a cell: residual",
      .unit = "",
      .evaluate = energy_law,
      .logarithmic = true},
     {.key = "energy_sum_residual",
-     .title = "what the sum of (67b) misses",
+     .title = "energy law, summed over the cells",
      .unit = "",
      .evaluate = energy_sum,
      .logarithmic = true},
     {.key = "momentum_law_residual",
-     .title = "what (67c) misses",
+     .title = "momentum law (67c): residual",
      .unit = "",
      .evaluate = momentum_law,
      .logarithmic = true},
@@ -276,7 +276,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 {
     const struct scene *scene = lanes[0]->parameters;
     const struct gm_field_look look = {
-        .value = value, .exact = exact, .name = "u", .low = -1, .high = 1, .map = GM_MAP_DIVERGING};
+        .value = value, .exact = exact, .name = "u", .low = -0.5, .high = 1, .map = GM_MAP_SEQUENTIAL};
     const struct gm_view view = gm_lane_view(lanes[0]);
     picture->title = "The wave equation on a mesh that cannot move";
     picture->subtitle = gm_picture_text(picture, "%ld points,  Courant number %.4g;  mesh and time varied too: %.0f "

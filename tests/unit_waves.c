@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "core/problems/dispersive.h"
 #include "core/problems/problems.h"
 #include "core/problems/sine_gordon.h"
 #include "core/ring.h"
@@ -235,6 +236,73 @@ static void the_form_is_kept_or_not(void **unused) {
     }
 }
 
+/* The box for Korteweg-de Vries and nonlinear Schroedinger, and leapfrog for the former. */
+static void dispersive_levels_agree(void **unused) {
+    (void)unused;
+    const struct gm_kdv kdv = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1, .position = -5};
+    struct gm_problem problem = gm_problem_kdv;
+    problem.kdv = &kdv;
+    problem.line = (struct gm_line){REFERENCE_POINTS, 40.0 / REFERENCE_POINTS, -20, 0};
+    problem.n = gm_wave_size(REFERENCE_POINTS);
+    double y[2 * REFERENCE_POINTS + 1] = {0};
+    memcpy(y, kdv_one_soliton_level_0, sizeof kdv_one_soliton_level_0);
+    y[2 * REFERENCE_POINTS] = 0.05;
+    expect_number(gm_kdv_mass(&problem, y), kdv_box_invariants[0], 1e-13);
+    expect_number(gm_kdv_square(&problem, y), kdv_box_invariants[1], 1e-13);
+    struct gm_run *run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.05, y);
+    assert_int_equal(gm_run_advance(run, 20), GM_OK);
+    expect_level(gm_run_state(run), kdv_box_level_20, 1e-12 + 100 * 4.6e-15, "kdv box");
+    expect_number(gm_kdv_mass(&problem, gm_run_state(run)), kdv_box_invariants[2], 1e-12);
+    expect_number(gm_kdv_square(&problem, gm_run_state(run)), kdv_box_invariants[3], 1e-11);
+    gm_run_close(run);
+
+    const struct gm_kdv cosine = {.initial = GM_KDV_COSINE, .eta = 1, .mu = 0.022 * 0.022};
+    problem.kdv = &cosine;
+    problem.line = (struct gm_line){REFERENCE_POINTS, 2.0 / REFERENCE_POINTS, 0, 0};
+    gm_kdv_levels(&problem, 1e-3, y);
+    expect_level(y + REFERENCE_POINTS, kdv_cosine_level_1, 1e-15, "second level of the cosine");
+    memcpy(y, kdv_cosine_level_0, sizeof kdv_cosine_level_0);
+    memcpy(y + REFERENCE_POINTS, kdv_cosine_level_1, sizeof kdv_cosine_level_1);
+    run = gm_run_open(&problem, gm_scheme_find("zabusky-kruskal"), &no_settings, 0, 1e-3, y);
+    assert_int_equal(gm_run_advance(run, 20), GM_OK);
+    expect_level(gm_run_state(run), kdv_zabusky_kruskal_level_20, 1e-12 + 100 * 2.5e-15, "zabusky-kruskal");
+    assert_true(fabs(gm_kdv_mass(&problem, gm_run_state(run))) < 1e-13);
+    gm_run_close(run);
+
+    const struct gm_nls nls = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1, .position = -5};
+    problem = gm_problem_nls;
+    problem.nls = &nls;
+    problem.line = (struct gm_line){REFERENCE_POINTS, 40.0 / REFERENCE_POINTS, -20, 0};
+    problem.n = 2 * REFERENCE_POINTS;
+    memcpy(y, nls_one_soliton_level_0_re, sizeof nls_one_soliton_level_0_re);
+    memcpy(y + REFERENCE_POINTS, nls_one_soliton_level_0_im, sizeof nls_one_soliton_level_0_im);
+    expect_number(gm_nls_charge(&problem, y), nls_box_invariants[0], 1e-13);
+    expect_number(gm_nls_energy(&problem, y), nls_box_invariants[1], 1e-13);
+    run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.05, y);
+    assert_int_equal(gm_run_advance(run, 20), GM_OK);
+    expect_level(gm_run_state(run), nls_box_level_20_re, 1e-12 + 100 * 1.1e-14, "nls box");
+    expect_level(gm_run_state(run) + REFERENCE_POINTS, nls_box_level_20_im, 1e-12 + 100 * 1.1e-14, "nls box");
+    expect_number(gm_nls_charge(&problem, gm_run_state(run)), nls_box_invariants[2], 1e-12);
+    expect_number(gm_nls_energy(&problem, gm_run_state(run)), nls_box_invariants[3], 1e-11);
+    gm_run_close(run);
+}
+
+/* The matrices of every equation are skew. */
+static void matrices_are_skew(void **unused) {
+    (void)unused;
+    const struct gm_problem *const problems[] = {&gm_problem_sine_gordon, &gm_problem_wave, &gm_problem_kdv,
+                                                 &gm_problem_nls};
+    for (size_t p = 0; p < 4; p++) {
+        const struct gm_field *field = problems[p]->field;
+        for (size_t i = 0; i < field->dimension; i++) {
+            for (size_t k = 0; k < field->dimension; k++) {
+                assert_true(field->m[i * field->dimension + k] == -field->m[k * field->dimension + i]);
+                assert_true(field->k[i * field->dimension + k] == -field->k[k * field->dimension + i]);
+            }
+        }
+    }
+}
+
 static void sines_are_sines(void **unused) {
     (void)unused;
     for (int k = -40000; k <= 40000; k++) {
@@ -300,6 +368,8 @@ int main(void) {
         cmocka_unit_test(the_step_may_change),
         cmocka_unit_test(the_box_solves_the_whole_system),
         cmocka_unit_test(the_form_is_kept_or_not),
+        cmocka_unit_test(dispersive_levels_agree),
+        cmocka_unit_test(matrices_are_skew),
         cmocka_unit_test(sines_are_sines),
         cmocka_unit_test(rings_are_solved),
     };
