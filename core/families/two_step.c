@@ -112,6 +112,25 @@ static enum gm_status energy_conserving(struct gm_two_step_work *work, const str
     return GM_OK;
 }
 
+/* M = M+ - M+', K = K+ - K+' with the upper triangles M+, K+, and M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s =
+   grad S(s): here v = D_t^- u, w = D_x^- u, -D_t^+ v + D_x^+ w = V'(u). */
+static enum gm_status euler_box(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                                const double *past, const double *now, double *next, struct gm_progress *progress)
+{
+    const double dx = problem->line.dx;
+    double *v = work->right, *w = work->guess;
+    problem->wave->slopes(now, work->force, work->points);
+    for (size_t i = 0; i <= work->points; i++) {
+        w[i] = (now[i] - (now + i)[-1]) / dx;
+    }
+    for (size_t i = 0; i < work->points; i++) {
+        v[i] = (now[i] - past[i]) / dt;
+        next[i] = now[i] + dt * (v[i] + dt * ((w[i + 1] - w[i]) / dx - work->force[i]));
+    }
+    progress->evaluations++;
+    return GM_OK;
+}
+
 /* The other level of the state lies at neither t + dt nor t - dt: the level at t + dt by the velocity at t, to second
    order from both sides, so that a change of dt costs no order. */
 void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
@@ -175,6 +194,7 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
 static const struct gm_two_step_row rows[] = {
     {leapfrog, gm_wave_start, GM_LAW_NODES, false},
     {energy_conserving, gm_wave_start, GM_LAW_NODES, true},
+    {euler_box, gm_wave_start, GM_LAW_NODES, false},
 };
 
 static const struct gm_scheme schemes[] = {
@@ -200,6 +220,17 @@ static const struct gm_scheme schemes[] = {
         .order = 2,
         .needs = GM_NEEDS_WAVE,
         .claims = GM_KEEPS_ENERGY | GM_SYMMETRIC,
+    },
+    {
+        .name = "euler-box",
+        .title = "Euler box",
+        .formula = "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
+        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
+        .family = &gm_family_two_step,
+        .coefficients = &rows[2],
+        .order = 2,
+        .needs = GM_NEEDS_WAVE,
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
     },
 };
 

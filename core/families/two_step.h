@@ -25,8 +25,8 @@ typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_pr
                                double gap, const double *now, const double *other, double *next);
 gm_two_step_start gm_wave_start;
 
-/* Whose discrete conservation laws a scheme has: those of nodes or those of cells. */
-enum gm_wave_law { GM_LAW_NODES, GM_LAW_CELLS };
+/* Whose discrete conservation laws a scheme has: those of nodes, those of cells, or others. */
+enum gm_wave_law { GM_LAW_NODES, GM_LAW_CELLS, GM_LAW_NONE };
 
 /* What a row of such a scheme points to. */
 struct gm_two_step_row {
