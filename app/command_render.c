@@ -35,10 +35,11 @@ struct work {
 
 static double end_of(const struct gm_request *request)
 {
-    double end = 0;
+    double end = -INFINITY;
     for (size_t i = 0; i < request->count; i++) {
         const struct gm_timing *timing = request->lanes[i].parameters;
-        end = fmax(end, (double)request->lanes[i].steps * timing->dt);
+        const double t0 = gm_scene_t0(request->scene, timing);
+        end = fmax(end, t0 + (double)request->lanes[i].steps * timing->dt);
     }
     return end;
 }
@@ -48,7 +49,7 @@ static bool make_schedule(struct schedule *schedule, bool *still, const struct g
 {
     const struct gm_timing *timing = request->lanes[0].parameters;
     const double end = end_of(request);
-    const double first = isnan(options->from) ? 0 : options->from;
+    const double first = isnan(options->from) ? gm_scene_t0(request->scene, timing) : options->from;
     *still = false;
     if (!isnan(options->at)) {
         *schedule = (struct schedule){1, options->at, options->at};

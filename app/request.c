@@ -307,19 +307,24 @@ static bool count_lanes(const struct lists *lists, size_t *lanes, char *message)
 }
 
 /* dt and until, or steps, to whole steps; with `steps` until follows. */
-static bool settle_time(struct gm_lane_spec *spec, bool steps_given, char *message)
+static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec, bool steps_given,
+                        char *message)
 {
     struct gm_timing *timing = spec->parameters;
     const bool own_time = spec->scheme && spec->scheme->family->own_time;
+    const double t0 = gm_scene_t0(scene, spec->parameters);
     if (steps_given) {
-        timing->until = own_time ? GM_NEVER : (double)spec->steps * timing->dt;
+        timing->until = own_time ? GM_NEVER : t0 + (double)spec->steps * timing->dt;
         return true;
     }
     if (own_time) {
         spec->steps = (long)1e15; /* it ends at the first t >= until, after steps that it chooses */
         return true;
     }
-    const double steps = round(timing->until / timing->dt);
+    const double steps = round((timing->until - t0) / timing->dt);
+    if (steps < 0) {
+        return refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
+    }
     if (!(steps <= 1e15)) {
         return refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
     }
@@ -357,6 +362,10 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
     if (steps_given && find_list(lists, "until")) {
         return refuse(message, "steps= and until= are both given; one of them follows from the other");
     }
+    const char *keys[MOST_LISTS] = {NULL};
+    for (size_t i = 0; i < lists->count; i++) {
+        keys[i] = lists->list[i].key;
+    }
     for (size_t k = 0; k < count; k++) {
         struct gm_lane_spec *spec = &request->lanes[k];
         spec->parameters = calloc(1, scene->size);
@@ -372,7 +381,10 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
             }
         }
         show(lists, k, spec);
-        if (!settle_time(spec, steps_given, message)) {
+        if (scene->settle && !scene->settle(spec->parameters, keys, lists->count, message)) {
+            return false;
+        }
+        if (!settle_time(scene, spec, steps_given, message)) {
             return false;
         }
         struct gm_problem problem = {0};
@@ -440,7 +452,8 @@ bool gm_request_parse(struct gm_request *request, int count, char *const words[]
         return refuse(message, "there is no scene \"%.40s\"%s%s", words[0],
                       near ? "; did you mean " : "; see geomint list", near ? near : "");
     }
-    struct lists lists = {.count = 0};
+    struct lists lists;
+    memset(&lists, 0, sizeof lists);
     bool good = true;
     for (int i = 1; i < count && good; i++) {
         good = read_word(&lists, request->scene, words[i], message);

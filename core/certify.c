@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "core/certify_field.h"
 #include "core/certify_parts.h"
 
 /* keeps the worst */
@@ -74,8 +75,11 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
             measure(&certificate, &subject);
         }
     }
+    double farthest = -1;
+    gm_certify_field(&certificate, &farthest);
     /* a scheme that chooses its order has to follow its tolerance */
-    certificate.order_holds = scheme->order == 0
+    certificate.order_holds = farthest >= 0 ? farthest < 0.15
+                              : scheme->order == 0
                                   ? certificate.order > 0.5
                                   : fabs(certificate.order - scheme->order) < 0.05 * scheme->order;
     certificate.holds = certificate.order_holds;

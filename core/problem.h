@@ -5,12 +5,17 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/field.h"
 #include "core/status.h"
 
 struct gm_loops;
 struct gm_scheme;
 struct gm_settings;
 struct gm_problem;
+struct gm_burgers;
+struct gm_dispersive;
+struct gm_kdv;
+struct gm_nls;
 
 /* Instruction sets that loops are compiled for. */
 enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
@@ -38,7 +43,9 @@ struct gm_task {
     double *carry_out;
     const double *memory; /* the scheme's own, as its family says; NULL if it has none */
     double *memory_out;
-    double t;        /* the present time */
+    double t; /* the present time, t0 + n dt of this segment */
+    double t0;
+    long n;
     void *workspace; /* what the family opened for this run */
     const struct gm_settings *settings;
 };
@@ -121,6 +128,11 @@ enum gm_facet {
     GM_NEEDS_NYSTROM = 1u << 8,     /* a split whose kinetic energy is quadratic */
     GM_NEEDS_INSEPARABLE = 1u << 9, /* a hamiltonian without a split */
     GM_NEEDS_ENERGY = 1u << 10,     /* a hamiltonian whose energy generates the whole field */
+    GM_NEEDS_FIELD = 1u << 16,      /* the multisymplectic form */
+    GM_NEEDS_WAVE = 1u << 17,       /* u_tt - u_xx + V'(u) = 0 */
+    GM_NEEDS_BURGERS = 1u << 18,    /* u_t + u u_x = nu u_xx in moving frames */
+    GM_NEEDS_KDV = 1u << 19,        /* u_t + eta u u_x + mu u_xxx = 0 */
+    GM_NEEDS_NLS = 1u << 20,        /* i psi_t + psi_xx + |psi|^2 psi = 0 */
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain
@@ -146,6 +158,14 @@ struct gm_problem {
     const struct gm_kepler_split *kepler_split;
     const struct gm_volume *volume;
     const struct gm_exact *exact;
+    double bound;        /* a component above this is a blow-up; 0: the default of core/run.c */
+    struct gm_line line; /* the grid of a field */
+    const struct gm_field *field;
+    const struct gm_wave *wave;
+    const struct gm_dispersive *dispersive;
+    const struct gm_kdv *kdv;
+    const struct gm_nls *nls;
+    const struct gm_burgers *burgers;
     const struct gm_loops *loops[GM_ISA_COUNT]; /* made of the problem's kernels by core/kernel/loops.c */
 };
 

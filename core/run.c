@@ -75,6 +75,8 @@ static struct gm_task task_of(const struct gm_run *run, int from, int to, long s
         .memory = remembers ? y + count + carried : NULL,
         .memory_out = remembers ? out + count + carried : NULL,
         .t = run->t,
+        .t0 = run->t0,
+        .n = run->n,
         .workspace = run->workspace,
         .settings = &run->settings,
     };
@@ -110,7 +112,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     for (size_t i = 0; i < state_count(&head); i++) {
         largest = fabs(y0[i]) > largest ? fabs(y0[i]) : largest;
     }
-    head.limit = 1e10 * largest;
+    head.limit = problem->bound > 0 ? problem->bound : 1e10 * largest;
     *run = head;
     memset(half(run, 0), 0, 2 * run->half_size);
     memcpy(half(run, 0), y0, state_count(run) * sizeof(double));

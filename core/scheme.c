@@ -142,7 +142,9 @@ static unsigned facets_of(const struct gm_problem *problem)
            (hamiltonian && !split ? GM_NEEDS_INSEPARABLE : 0) |
            (hamiltonian && !hamiltonian->partial ? GM_NEEDS_ENERGY : 0) |
            (ode && ode->quadratic ? GM_NEEDS_QUADRATIC : 0) |
-           (split && split->nystrom ? GM_NEEDS_NYSTROM : 0);
+           (split && split->nystrom ? GM_NEEDS_NYSTROM : 0) | (problem->field ? GM_NEEDS_FIELD : 0) |
+           (problem->wave ? GM_NEEDS_WAVE : 0) | (problem->burgers ? GM_NEEDS_BURGERS : 0) |
+           (problem->kdv ? GM_NEEDS_KDV : 0) | (problem->nls ? GM_NEEDS_NLS : 0);
 }
 
 gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem)

@@ -20,6 +20,7 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
     return (struct gm_view){
         .parameters = lane->parameters,
         .problem = &lane->problem,
+        .scheme = lane->scheme,
         .start = lane->start,
         .state = gm_run_state(lane->run),
         .t0 = lane->t0,
@@ -309,6 +310,7 @@ static bool prepare(struct gm_lane *lane, char *sentence)
         !check_fit(scene, &lane->problem, lane->scheme, sentence)) {
         return false;
     }
+    lane->t0 = gm_scene_t0(scene, lane->parameters);
     lane->start = malloc(lane->problem.n * lane->problem.m * sizeof *lane->start);
     if (!lane->start) {
         return refuse(sentence, "not enough memory");

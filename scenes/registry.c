@@ -33,6 +33,11 @@ const struct gm_scene *gm_scene_find(const char *name)
     return NULL;
 }
 
+double gm_scene_t0(const struct gm_scene *scene, const void *parameters)
+{
+    return scene->t0 ? scene->t0(parameters) : 0;
+}
+
 const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key)
 {
     for (size_t i = 0; i < scene->parameter_count; i++) {

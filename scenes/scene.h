@@ -35,6 +35,7 @@ struct gm_timing {
 struct gm_view {
     const void *parameters; /* the scene's own struct */
     const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
     const double *start; /* the state at t0, [component * m + member] */
     const double *state; /* the present state */
     double t0, t, dt;
@@ -124,6 +125,11 @@ struct gm_scene {
     long
         follow; /* 0, or: between two looks there are at most so many steps, for what an observable recalls */
 
+    /* The time at the start; NULL: 0. */
+    double (*t0)(const void *parameters);
+    /* Makes parameters agree that follow from others, after those of these keys were set; false with a
+       sentence if they contradict. NULL: none do. */
+    bool (*settle)(void *parameters, const char *const *keys, size_t count, char *sentence);
     /* Fills the problem (n, m, facets) for these parameters; false with a sentence if they contradict. */
     bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);
     /* Writes the canonical state at t0 (n * m). */
@@ -135,6 +141,7 @@ struct gm_scene {
 size_t gm_scene_count(void);
 const struct gm_scene *gm_scene_at(size_t index);
 const struct gm_scene *gm_scene_find(const char *name);
+double gm_scene_t0(const struct gm_scene *scene, const void *parameters);
 /* NULL if there is none of that key */
 const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key);
 

@@ -11,6 +11,7 @@
 #include "core/certify.h"
 #include "core/families/implicit_runge_kutta.h"
 #include "core/families/splitting.h"
+#include "core/families/two_step.h"
 #include "core/problems/problems.h"
 
 static void every_row_holds(void **unused)
@@ -111,6 +112,13 @@ static void properties_that_are_false(void **unused)
         {"logh2", GM_KEEPS_ENERGY},
         {"variational-midpoint", GM_KEEPS_ENERGY},
         {"tao2", GM_KEEPS_QUADRATIC},
+        {"energy-conserving", GM_MULTISYMPLECTIC},
+        {"leapfrog", GM_KEEPS_ENERGY},
+        {"box", GM_KEEPS_ENERGY},
+        {"box", GM_KEEPS_QUADRATIC},
+        {"ftcs", GM_EQUIVARIANT},
+        {"lax-wendroff", GM_EQUIVARIANT},
+        {"crank-nicolson", GM_EQUIVARIANT},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct gm_scheme scheme = changed(wrong[i].scheme);
@@ -256,6 +264,43 @@ static void names_find_the_row_that_fits(void **unused)
     assert_false(gm_scheme_fits(gm_scheme_find("lobatto2"), &gm_problem_pendulum));
 }
 
+/* Leapfrog with a little friction, which no law survives. */
+static enum gm_status rubbed(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                             const double *past, const double *now, double *next,
+                             struct gm_progress *progress)
+{
+    const struct gm_two_step_row *leapfrog = gm_scheme_find("leapfrog")->coefficients;
+    const enum gm_status status = leapfrog->step(work, problem, dt, past, now, next, progress);
+    for (size_t i = 0; i < work->points; i++) {
+        next[i] -= 1e-4 * (now[i] - past[i]);
+    }
+    return status;
+}
+
+static void a_wave_with_friction(void **unused)
+{
+    (void)unused;
+    struct gm_two_step_row row = *(const struct gm_two_step_row *)gm_scheme_find("leapfrog")->coefficients;
+    row.step = rubbed;
+    struct gm_scheme wrong = changed("leapfrog");
+    wrong.coefficients = &row;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_false(certificate.holds);
+    assert_false(certificate.claims[7].holds); /* multisymplectic */
+    assert_false(certificate.claims[1].holds); /* symmetric */
+}
+
+/* Leapfrog has a law of nodes, not the box's law of cells. */
+static void the_law_of_another_scheme(void **unused)
+{
+    (void)unused;
+    struct gm_two_step_row row = *(const struct gm_two_step_row *)gm_scheme_find("leapfrog")->coefficients;
+    row.law = GM_LAW_CELLS;
+    struct gm_scheme wrong = changed("leapfrog");
+    wrong.coefficients = &row;
+    assert_false(gm_certify(&wrong).claims[7].holds);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -272,6 +317,8 @@ int main(void)
         cmocka_unit_test(a_wrong_digit_of_a_tableau),
         cmocka_unit_test(nystrom_needs_a_quadratic_kinetic_energy),
         cmocka_unit_test(names_find_the_row_that_fits),
+        cmocka_unit_test(a_wave_with_friction),
+        cmocka_unit_test(the_law_of_another_scheme),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

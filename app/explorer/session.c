@@ -362,7 +362,11 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
     }
     void *owner = of_scheme ? (void *)&wanted->settings : wanted->parameters;
     if (gm_parameter_set(row, owner, text) == GM_PARSED) {
-        return true;
+        char sentence[GM_SENTENCE];
+        if (of_scheme || !session->scene->settle ||
+            session->scene->settle(wanted->parameters, &row->key, 1, sentence)) {
+            return true;
+        }
     }
     snprintf(message, GM_MESSAGE, "%s cannot be %s.", row->key, text);
     return false;

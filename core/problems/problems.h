@@ -57,4 +57,8 @@ extern const struct gm_problem gm_problem_vortices_four;
 extern const struct gm_problem gm_problem_vortices_reduced;
 extern const struct gm_problem gm_problem_vortices_reduced_carrying;
 
+/* u_tt - u_xx + V'(u) = 0, V = -cos u or V = 0: the caller sets line and n = gm_wave_size(line.points). */
+extern const struct gm_problem gm_problem_sine_gordon; /* parameters: struct gm_sine_gordon */
+extern const struct gm_problem gm_problem_wave;
+
 #endif

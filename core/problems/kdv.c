@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* s = (phi, u, v, w):  u_t/2 + w_x = 0,  -phi_t/2 - v_x = -w + eta u^2/2,  u_x = v/mu,  -phi_x = -u,
+   S = v^2/(2 mu) - u w + eta u^3/6.   Ascher & McLachlan, Appl. Numer. Math. 48 (2004) 255. The field u comes
+   second. */
+#include <math.h>
+
+#include "core/problems/dispersive.h"
+
+static const double m[16] = {0, 0.5, 0, 0, -0.5, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+static const double k[16] = {0, 0, 0, 1, 0, 0, -1, 0, 0, 1, 0, 0, -1, 0, 0, 0};
+
+static void gradient(const void *parameters, const double *s, double *gradient)
+{
+    const struct gm_kdv *kdv = parameters;
+    gradient[0] = 0;
+    gradient[1] = -s[3] + kdv->eta * s[1] * s[1] / 2;
+    gradient[2] = s[2] / kdv->mu;
+    gradient[3] = -s[1];
+}
+
+static double dispersion(const struct gm_problem *problem)
+{
+    return problem->kdv->mu;
+}
+
+static void nonlinear(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
+                      double *g_im, size_t count)
+{
+    (void)im;
+    const double half = problem->kdv->eta / 2;
+    for (size_t i = 0; i < count; i++) {
+        g_re[i] = half * re[i] * re[i];
+        g_im[i] = 0;
+    }
+}
+
+/* The distance from a place on the ring. */
+static double around(const struct gm_line *line, double distance)
+{
+    const double period = line->dx * (double)line->points;
+    return distance - period * floor(distance / period + 0.5);
+}
+
+/* (ln F)_xx, everything divided by the largest exponential */
+static double two_solitons(const struct gm_kdv *kdv, double x, double t)
+{
+    const double k1 = 1.2, k2 = 0.8, x1 = -30, x2 = -15, share = (k1 - k2) / (k1 + k2);
+    const double a1 = k1 * (x - x1) - kdv->mu * k1 * k1 * k1 * t,
+                 a2 = k2 * (x - x2) - kdv->mu * k2 * k2 * k2 * t;
+    const double exponents[4] = {0, a1, a2, a1 + a2 + 2 * log(share)}, rates[4] = {0, k1, k2, k1 + k2};
+    double largest = 0, sum = 0, first = 0, second = 0;
+    for (int i = 0; i < 4; i++) {
+        largest = fmax(largest, exponents[i]);
+    }
+    for (int i = 0; i < 4; i++) {
+        const double e = exp(exponents[i] - largest);
+        sum += e;
+        first += rates[i] * e;
+        second += rates[i] * rates[i] * e;
+    }
+    return second / sum - first / sum * (first / sum);
+}
+
+double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
+{
+    if (kdv->initial == GM_KDV_COSINE) {
+        return t == 0 ? cos(M_PI * x) : NAN;
+    }
+    if (kdv->initial == GM_KDV_TWO) {
+        return 12 * kdv->mu / kdv->eta * two_solitons(kdv, x, t);
+    }
+    const double c = kdv->velocity, away = around(line, x - kdv->position - c * t);
+    const double sech = 1 / cosh(sqrt(c / kdv->mu) / 2 * away);
+    return 3 * c / kdv->eta * sech * sech;
+}
+
+void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y)
+{
+    const struct gm_kdv *kdv = problem->kdv;
+    const struct gm_line *line = &problem->line;
+    for (size_t i = 0; i < line->points; i++) {
+        const double x = gm_line_node(line, i);
+        y[i] = gm_kdv_exact(kdv, line, x, 0);
+        if (kdv->initial == GM_KDV_COSINE) {
+            const double slope = -M_PI * sin(M_PI * x), third = M_PI * M_PI * M_PI * sin(M_PI * x);
+            y[line->points + i] = y[i] - dt * (kdv->eta * y[i] * slope + kdv->mu * third);
+        } else {
+            y[line->points + i] = gm_kdv_exact(kdv, line, x, dt);
+        }
+    }
+    y[2 * line->points] = dt;
+}
+
+double gm_kdv_mass(const struct gm_problem *problem, const double *y)
+{
+    double sum = 0;
+    for (size_t i = 0; i < problem->line.points; i++) {
+        sum += y[i];
+    }
+    return problem->line.dx * sum;
+}
+
+double gm_kdv_square(const struct gm_problem *problem, const double *y)
+{
+    const size_t points = problem->line.points;
+    double sum = 0;
+    for (size_t i = 0; i < points; i++) {
+        const double mean = (y[i] + y[i + 1 < points ? i + 1 : 0]) / 2;
+        sum += mean * mean;
+    }
+    return problem->line.dx * sum;
+}
+
+double gm_kdv_energy(const struct gm_problem *problem, const double *y)
+{
+    const size_t points = problem->line.points;
+    double sum = 0;
+    for (size_t i = 0; i < points; i++) {
+        const double right = y[i + 1 < points ? i + 1 : 0];
+        const double mean = (y[i] + right) / 2, slope = (right - y[i]) / problem->line.dx;
+        sum += problem->kdv->mu * slope * slope / 2 - problem->kdv->eta * mean * mean * mean / 6;
+    }
+    return problem->line.dx * sum;
+}
+
+static const struct gm_field field = {4, m, k, gradient};
+static const struct gm_dispersive dispersive = {
+    .power = 3, .factor = {1, 0}, .dispersion = dispersion, .derivative = true, .nonlinear = nonlinear};
+
+const struct gm_problem gm_problem_kdv = {
+    .name = "Korteweg-de Vries", .m = 1, .bound = 1e3, .field = &field, .dispersive = &dispersive};

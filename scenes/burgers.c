@@ -1,0 +1,455 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Burgers' equation u_t + u u_x = nu u_xx, seen from frames that move with lambda: schemes that commute with
+   its symmetries and schemes that do not. Razafindralandy, Hamdouni & Chhay (2018), section
+   "Invariantisation", figures 24 to 26. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/families/burgers.h"
+#include "scenes/graph.h"
+
+enum { DRAWN = 1600 /* most points of a profile */ };
+
+struct scene {
+    struct gm_timing timing;
+    struct gm_burgers burgers;
+    double dx, courant, offset;
+};
+
+static const char *const tests[] = {"front", "shock", NULL};
+static const char *const frames[] = {"each", "fixed", "moving", NULL};
+static const char *const forms[] = {"conservative", "printed", NULL};
+
+static const struct gm_parameter parameters[] = {
+    GM_DT("0.005", 1e-9, 10),
+    GM_UNTIL("1"),
+    {
+        .key = "test",
+        .unit = "",
+        .help = "a front from t = 0, or a self-similar shock from t = 1",
+        .type = GM_CHOICE,
+        .offset = offsetof(struct scene, burgers.test),
+        .standard = "front",
+        .choices = tests,
+    },
+    {
+        .key = "viscosity",
+        .unit = "",
+        .help = "ν",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, burgers.viscosity),
+        .standard = "5e-3",
+        .lowest = 0,
+        .highest = 10,
+    },
+    {
+        .key = "dx",
+        .unit = "",
+        .help = "distance of the nodes; made to divide the interval",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, dx),
+        .standard = "0.01",
+        .lowest = 1e-6,
+        .highest = 0.5,
+        .logarithmic = true,
+    },
+    {
+        .key = "courant",
+        .unit = "",
+        .help = "dt / dx: either this or dt is given",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, courant),
+        .standard = "0.5",
+        .lowest = 1e-6,
+        .highest = 1e3,
+        .logarithmic = true,
+    },
+    {
+        .key = "lambda",
+        .unit = "",
+        .help = "velocity of the frame",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, burgers.lambda),
+        .standard = "0",
+        .lowest = -1e4,
+        .highest = 1e4,
+    },
+    {
+        .key = "frame",
+        .unit = "",
+        .help =
+            "nodes at rest in the frame, or moving by lambda dt a step, which only invariant schemes know of; each: "
+            "moving for the invariant schemes, fixed for the others",
+        .type = GM_CHOICE,
+        .offset = offsetof(struct scene, burgers.frame),
+        .standard = "each",
+        .choices = frames,
+    },
+    {
+        .key = "form",
+        .unit = "",
+        .help = "of the convection in ftcs and crank-nicolson: D(u²/2), or u Du as printed",
+        .type = GM_CHOICE,
+        .offset = offsetof(struct scene, burgers.printed),
+        .standard = "conservative",
+        .choices = forms,
+    },
+    {
+        .key = "offset",
+        .unit = "",
+        .help = "shift of the nodes, in dx",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, offset),
+        .standard = "0",
+        .lowest = 0,
+        .highest = 1,
+    },
+};
+
+static double half_length(const struct scene *scene)
+{
+    return scene->burgers.test == GM_BURGERS_SHOCK ? 1 : 2;
+}
+
+static double t0(const void *own)
+{
+    return gm_burgers_t0(&((const struct scene *)own)->burgers);
+}
+
+static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+{
+    struct scene *scene = own;
+    bool dt = false, courant = false;
+    for (size_t i = 0; i < count; i++) {
+        dt |= strcmp(keys[i], "dt") == 0;
+        courant |= strcmp(keys[i], "courant") == 0;
+    }
+    const double length = 2 * half_length(scene);
+    scene->dx = length / fmax(2, round(length / scene->dx));
+    const double follows = scene->courant * scene->dx;
+    if (dt && courant && fabs(follows - scene->timing.dt) > 1e-9 * follows) {
+        snprintf(sentence, GM_SENTENCE,
+                 "dt= and courant= are both given; one of them follows from the other");
+        return false;
+    }
+    if (dt) {
+        scene->courant = scene->timing.dt / scene->dx;
+    } else {
+        scene->timing.dt = follows;
+    }
+    return true;
+}
+
+static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+{
+    const struct scene *scene = own;
+    const double most = 1e7, lambda = scene->burgers.lambda;
+    *problem = gm_problem_burgers;
+    problem->burgers = &scene->burgers;
+    /* a grid at rest grows to where the front travels */
+    const double travel =
+        scene->burgers.frame == GM_FRAME_MOVING ? 0 : lambda * (scene->timing.until - t0(own));
+    const double more = round(fabs(travel) / scene->dx);
+    const double pieces = round(2 * half_length(scene) / scene->dx) + more;
+    if (!(pieces < most)) {
+        snprintf(sentence, GM_SENTENCE,
+                 "the grid would need %.3g nodes to hold the front until the end; 1e7 is the most", pieces);
+        return false;
+    }
+    problem->line = (struct gm_line){
+        .points = (size_t)pieces + 1,
+        .dx = scene->dx,
+        .first = -half_length(scene) + scene->offset * scene->dx - (travel < 0 ? more * scene->dx : 0),
+    };
+    problem->n = gm_burgers_size(&scene->burgers, problem->line.points);
+    return true;
+}
+
+static double node(const struct gm_problem *problem, size_t j)
+{
+    return gm_line_node(&problem->line, j);
+}
+
+static void start(const void *own, const struct gm_problem *problem, double *y)
+{
+    struct gm_burgers burgers = ((const struct scene *)own)->burgers;
+    const size_t points = problem->line.points;
+    for (size_t j = 0; j < points; j++) {
+        y[j] = gm_burgers_exact(&burgers, true, node(problem, j), t0(own));
+    }
+    if (burgers.lambda != 0) {
+        burgers.lambda = 0;
+        for (size_t j = 0; j < points; j++) {
+            y[points + j] = gm_burgers_exact(&burgers, true, node(problem, j), t0(own));
+        }
+        y[2 * points] = 1;
+    }
+}
+
+static double exact(const struct gm_view *view, size_t j)
+{
+    const struct gm_burgers *burgers = view->problem->burgers;
+    return gm_burgers_exact(burgers, gm_burgers_fixed(burgers, view->scheme), node(view->problem, j),
+                            view->t);
+}
+
+static double sup_error(const struct gm_view *view)
+{
+    double largest = 0;
+    for (size_t j = 0; j < view->problem->line.points; j++) {
+        largest = fmax(largest, fabs(view->state[j] - exact(view, j)));
+    }
+    return largest;
+}
+
+static double l1_error(const struct gm_view *view)
+{
+    double sum = 0;
+    for (size_t j = 0; j < view->problem->line.points; j++) {
+        sum += fabs(view->state[j] - exact(view, j));
+    }
+    return view->problem->line.dx * sum;
+}
+
+static double overshoot(const struct gm_view *view)
+{
+    const double lambda = view->problem->burgers->lambda;
+    double largest = 0;
+    for (size_t j = 0; j < view->problem->line.points; j++) {
+        largest = fmax(largest, fabs(view->state[j] - lambda) - 1);
+    }
+    return largest;
+}
+
+/* The companion's value as many nodes back as the frame has moved: between nodes, by a line. */
+static double galilean_defect(const struct gm_view *view)
+{
+    const struct gm_burgers *burgers = view->problem->burgers;
+    const size_t points = view->problem->line.points;
+    if (burgers->lambda == 0) {
+        return 0;
+    }
+    const double *companion = view->state + points;
+    if (companion[points] == 0) {
+        return NAN;
+    }
+    const bool fixed = gm_burgers_fixed(burgers, view->scheme);
+    const double back = fixed ? burgers->lambda * (view->t - view->t0) / view->problem->line.dx : 0;
+    double largest = 0;
+    for (size_t j = 0; j < points; j++) {
+        const double place = (double)j - back, nearest = round(place);
+        const double below = fabs(place - nearest) < 1e-6 ? nearest : floor(place), part = place - below;
+        if (!(below >= 0 && below + 1 < (double)points)) {
+            continue;
+        }
+        const size_t at = (size_t)below;
+        const double there =
+            fabs(part) < 1e-6 ? companion[at] : (1 - part) * companion[at] + part * companion[at + 1];
+        largest = fmax(largest, fabs(view->state[j] - burgers->lambda - there));
+    }
+    return largest;
+}
+
+/* On the three nodes 0.3 - h, 0.3, 0.3 + h with the values 0.4, 0.3, 0.15, and the projection with a4 = 0.5.
+ */
+static double projection_defect(const struct gm_view *view)
+{
+    static const double u[3] = {0.4, 0.3, 0.15};
+    return gm_burgers_projection_defect(view->scheme, view->problem->burgers->viscosity,
+                                        view->problem->line.dx, view->dt, 0.5, 0.3, u);
+}
+
+static const struct gm_observable observables[] = {
+    {.key = "sup_error", .title = "largest error", .unit = "", .evaluate = sup_error, .logarithmic = true},
+    {.key = "l1_error", .title = "mean error, h Σ|e|", .unit = "", .evaluate = l1_error, .logarithmic = true},
+    {.key = "overshoot", .title = "overshoot", .unit = "", .evaluate = overshoot},
+    {.key = "galilean_defect",
+     .title = "difference from the run at λ = 0",
+     .unit = "",
+     .evaluate = galilean_defect,
+     .logarithmic = true},
+    {.key = "projection_defect",
+     .title = "defect of a step under projection",
+     .unit = "",
+     .evaluate = projection_defect,
+     .logarithmic = true},
+};
+
+/* Where node j stands in the original frame. */
+static double original(const struct gm_view *view, size_t j)
+{
+    const struct gm_burgers *burgers = view->problem->burgers;
+    const bool fixed = gm_burgers_fixed(burgers, view->scheme);
+    return node(view->problem, j) - (fixed ? burgers->lambda * (view->t - view->t0) : 0);
+}
+
+static size_t profile(const struct gm_view *view, double *points)
+{
+    const size_t nodes = view->problem->line.points, stride = (nodes + DRAWN - 1) / DRAWN;
+    size_t count = 0;
+    for (size_t j = 0; j < nodes; j += stride, count++) {
+        points[2 * count] = original(view, j);
+        points[2 * count + 1] = view->state[j] - view->problem->burgers->lambda;
+    }
+    return count;
+}
+
+/* The exact profile at the view's time in the original frame. */
+static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const struct gm_view *view,
+                       struct gm_style style, double *points)
+{
+    struct gm_burgers burgers = *view->problem->burgers;
+    burgers.lambda = 0;
+    for (size_t i = 0; i < DRAWN; i++) {
+        points[2 * i] = panel->x.low + (panel->x.high - panel->x.low) * (double)i / (DRAWN - 1);
+        points[2 * i + 1] = gm_burgers_exact(&burgers, true, points[2 * i], view->t);
+    }
+    gm_mark_line(picture, panel, style, points, DRAWN, false);
+}
+
+static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_lane *lane, bool alone)
+{
+    const struct scene *scene = lane->parameters;
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
+    const double reach = scene->burgers.test == GM_BURGERS_SHOCK ? 1 : 0.25;
+    panel->axes = true;
+    panel->title_role = alone ? gm_lane_role(lane->shown.colour) : GM_INK;
+    panel->x = (struct gm_axis){.label = "x", .low = -reach, .high = reach};
+    panel->y = (struct gm_axis){.label = "", .low = -1.6, .high = 1.6};
+    panel->note = "";
+    return panel;
+}
+
+static void draw_panel(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                       size_t number, double *points)
+{
+    struct gm_panel *panel = NULL;
+    size_t sharing = 0, named = 0;
+    for (size_t i = 0; i < count; i++) {
+        sharing += lanes[i]->shown.panel == number;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (lanes[i]->shown.panel != number) {
+            continue;
+        }
+        struct gm_view view = gm_lane_view(lanes[i]);
+        if (!panel) {
+            panel = add_panel(picture, lanes[i], sharing == 1);
+            struct gm_view before = view;
+            before.t = view.t0;
+            before.state = view.start;
+            draw_exact(picture, panel, &before, (struct gm_style){GM_INITIAL, 0.5, 1.2, GM_SOLID}, points);
+            draw_exact(picture, panel, &view, (struct gm_style){GM_EXACT, 0.8, 4, GM_SOLID}, points);
+        }
+        const bool frozen = lanes[i]->run->status != GM_OK;
+        const size_t made = profile(&view, points);
+        gm_mark_line(picture, panel, gm_lane_style(lanes[i], frozen ? 0.55 : 1, 2.2), points, made, false);
+        const char *typed = lanes[i]->shown.colour_name;
+        const bool of_lambda = strncmp(typed, "lambda", 6) == 0;
+        const char *name = of_lambda ? gm_picture_text(picture, "λ%s", typed + 6) : typed;
+        if (frozen) {
+            panel->note =
+                gm_picture_text(picture, "%s%s%s%s%s at %s", panel->note, panel->note[0] ? ", " : "", name,
+                                name[0] ? " " : "", gm_status_name(lanes[i]->run->status),
+                                gm_time_text(picture, lanes[i]->run->t, lanes[i]->run->dt));
+        }
+        if (name[0] && number == 0) {
+            /* in the empty corner above the front, one below the other */
+            gm_mark_text(
+                picture, panel,
+                (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 1, .width = 1},
+                panel->x.high, 1.3 - 0.46 * (double)named++, GM_ANCHOR_RIGHT, name);
+        }
+    }
+}
+
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct scene *scene = lanes[0]->parameters;
+    const bool shock = scene->burgers.test == GM_BURGERS_SHOCK;
+    double *points = gm_picture_memory(picture, 2 * (DRAWN + 1) * sizeof *points);
+    if (!points) {
+        return;
+    }
+    bool boosted = false;
+    for (size_t i = 0; i < count; i++) {
+        boosted |= lanes[i]->problem.burgers->lambda != 0;
+    }
+    picture->title = shock     ? "A viscous shock of Burgers' equation"
+                     : boosted ? "Burgers' front from moving frames, drawn at rest"
+                               : "A front of Burgers' equation";
+    picture->subtitle = gm_picture_text(
+        picture, "ν = %g,  Δx = %g,  Courant number %.4g,  exact solution in grey, start in red",
+        scene->burgers.viscosity, scene->dx, lanes[0]->run->dt / scene->dx);
+    gm_draw_clock(picture, lanes, count);
+    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
+        draw_panel(picture, lanes, count, p, points);
+    }
+    const struct gm_graph error = {
+        .observable = "sup_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1};
+    const struct gm_graph defect = {
+        .observable = "galilean_defect", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1};
+    gm_draw_graph(picture, lanes, count, &error, -1, false);
+    if (boosted) {
+        gm_draw_graph(picture, lanes, count, &defect, -1, false);
+    }
+}
+
+static const char *const schemes[] = {"ftcs",
+                                      "lax-wendroff",
+                                      "ftcs-invariant",
+                                      "crank-nicolson",
+                                      "lax-wendroff-invariant",
+                                      "crank-nicolson-invariant",
+                                      NULL};
+
+static const struct gm_figure figures[] = {
+    {
+        .name = "razafindralandy-24",
+        .statement = "seen from a moving frame, the standard schemes make errors that grow with its velocity",
+        .arguments = "scheme=ftcs,lax-wendroff,crank-nicolson lambda=0,0.5,1 frame=fixed dx=0.02 courant=0.4",
+    },
+    {
+        .name = "razafindralandy-25",
+        .statement =
+            "the invariantised schemes give the same profile from every frame and do not oscillate (so "
+            "here; at Δx = 0.02 that is true of Lax-Wendroff only)",
+        .arguments = "scheme=ftcs-invariant,lax-wendroff-invariant,crank-nicolson-invariant lambda=0,1,2,3 "
+                     "frame=moving dx=0.01",
+    },
+    {
+        .name = "razafindralandy-26",
+        .statement =
+            "on a self-similar shock the invariantised FTCS scheme stays close to the exact solution where "
+            "FTCS does not",
+        .arguments =
+            "scheme=ftcs,ftcs-invariant test=shock viscosity=0.01 dx=0.05 courant=1 form=printed until=2",
+    },
+};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+const struct gm_scene gm_scene_burgers = {
+    .name = "burgers",
+    .title = "Burgers' equation from moving frames",
+    .blurb =
+        "A steep front or a viscous shock, and the same seen from a frame that moves with lambda. The equation "
+        "does not care; a standard scheme does, an invariantised one does not.",
+    .watch =
+        "Watch the profiles part as lambda grows: invariantised schemes on moving nodes give one and the same "
+        "(confirmed to round-off); that they never oscillate holds for Lax-Wendroff only, and for all at dx = 0.01.",
+    .size = sizeof(struct scene),
+    .parameters = parameters,
+    .parameter_count = COUNT(parameters),
+    .schemes = schemes,
+    .observables = observables,
+    .observable_count = COUNT(observables),
+    .figures = figures,
+    .figure_count = COUNT(figures),
+    .t0 = t0,
+    .settle = settle,
+    .setup = setup,
+    .start = start,
+    .draw = draw,
+};

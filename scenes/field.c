@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scenes/field.h"
+
+#include <math.h>
+
+enum { DRAWN = 1600 /* most points of a profile */ };
+
+static size_t columns_of(const struct gm_problem *problem)
+{
+    return problem->line.points < GM_SURFACE_COLUMNS ? problem->line.points : GM_SURFACE_COLUMNS;
+}
+
+size_t gm_surface_width(const struct gm_view *view)
+{
+    return columns_of(view->problem);
+}
+
+double gm_surface_interval(const void *parameters)
+{
+    const struct gm_timing *timing = parameters;
+    return fmax(timing->until / 200, fabs(timing->dt));
+}
+
+void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
+                       double *entry)
+{
+    const size_t points = view->problem->line.points, columns = columns_of(view->problem);
+    for (size_t k = 0; k < columns; k++) {
+        entry[k] = value(view, k * points / columns);
+    }
+}
+
+static double end_of(const struct gm_line *line)
+{
+    return line->first + line->dx * (double)line->points;
+}
+
+void gm_draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                      size_t track, const struct gm_field_look *look)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_lane *lane = lanes[i];
+        const struct gm_entries *rows = &lane->entries[track];
+        const struct gm_timing *timing = lane->parameters;
+        const struct gm_line *line = &lane->problem.line;
+        const char *name =
+            lane->shown.colour_name[0]
+                ? gm_picture_text(picture, "%s, %s", gm_lane_title(lane), lane->shown.colour_name)
+                : gm_lane_title(lane);
+        struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, name);
+        panel->axes = true;
+        panel->title_role = gm_lane_role(lane->shown.colour);
+        panel->x = (struct gm_axis){.label = "x", .low = line->first, .high = end_of(line)};
+        panel->y = (struct gm_axis){.label = "t", .low = lane->t0, .high = fmax(timing->until, lane->run->t)};
+        if (!(panel->y.high > panel->y.low)) {
+            panel->y.high = panel->y.low + 1;
+        }
+        panel->note = gm_lane_failure(picture, lane);
+        if (rows->count < 2) {
+            continue;
+        }
+        panel->colour_bar = i + 1 == count;
+        panel->colour_bar_label = look->name;
+        const double corners[] = {line->first, lane->t0, end_of(line), rows->times[rows->count - 1]};
+        gm_mark_image(picture, panel, look->map, look->low, look->high, corners, rows->values, rows->count,
+                      rows->width);
+    }
+}
+
+static void hold(struct gm_axis *axis, const double *points, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        gm_range_add(&axis->low, &axis->high, points[2 * i + 1]);
+    }
+}
+
+/* The profile of a lane, closed by its first point a period later. */
+static size_t profile(const struct gm_lane *lane, const struct gm_field_look *look, double *points)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_line *line = &lane->problem.line;
+    const size_t stride = (line->points + DRAWN - 1) / DRAWN;
+    size_t count = 0;
+    for (size_t i = 0; i < line->points; i += stride, count++) {
+        points[2 * count] = line->first + line->dx * (double)i;
+        points[2 * count + 1] = look->value(&view, i);
+    }
+    return count;
+}
+
+static size_t exact_profile(const struct gm_lane *lane, const struct gm_field_look *look, double *points)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_line *line = &lane->problem.line;
+    const size_t count = 800;
+    for (size_t i = 0; i < count; i++) {
+        points[2 * i] = line->first + (end_of(line) - line->first) * (double)i / (double)count;
+        points[2 * i + 1] = look->exact(&view, points[2 * i]);
+    }
+    return count;
+}
+
+/* The lane whose time the clock shows. */
+static const struct gm_lane *farthest(const struct gm_lane *const *lanes, size_t count)
+{
+    const struct gm_lane *ahead = lanes[0];
+    for (size_t i = 1; i < count; i++) {
+        ahead = lanes[i]->run->t > ahead->run->t ? lanes[i] : ahead;
+    }
+    return ahead;
+}
+
+void gm_draw_profiles(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                      const struct gm_field_look *look)
+{
+    const struct gm_lane *ahead = farthest(lanes, count);
+    const struct gm_line *line = &ahead->problem.line;
+    double *points = gm_picture_memory(picture, 2 * (DRAWN + 1) * sizeof *points);
+    if (!points) {
+        return;
+    }
+    struct gm_panel *panel =
+        gm_panel_add(picture, GM_PLACE_GRAPH,
+                     gm_picture_text(picture, "%s at t = %s%s", look->name,
+                                     gm_time_text(picture, ahead->run->t, ahead->run->dt),
+                                     look->exact ? ", over the exact one in grey" : ""));
+    panel->axes = true;
+    panel->title_role = GM_INK;
+    panel->x = (struct gm_axis){.label = "x", .low = line->first, .high = end_of(line)};
+    panel->y = (struct gm_axis){.label = "", .low = look->low, .high = look->high};
+    for (size_t i = 0; i < count; i++) {
+        /* what blew up does not flatten the others */
+        if (lanes[i]->run->status == GM_OK || count == 1) {
+            hold(&panel->y, points, profile(lanes[i], look, points));
+        }
+    }
+    gm_range_round(&panel->y.low, &panel->y.high, GM_LINEAR);
+    if (look->exact) {
+        const size_t made = exact_profile(ahead, look, points);
+        gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 0.9, 4, GM_SOLID}, points, made, false);
+    }
+    for (size_t i = 0; i < count; i++) {
+        const size_t made = profile(lanes[i], look, points);
+        const bool frozen = lanes[i]->run->status != GM_OK;
+        gm_mark_line(picture, panel, gm_lane_style(lanes[i], frozen ? 0.5 : 1, 2), points, made, false);
+    }
+}
+
+const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    const double dt = lanes[0]->run->dt;
+    for (size_t i = 1; i < count; i++) {
+        if (lanes[i]->run->dt != dt) {
+            return "";
+        }
+    }
+    return gm_picture_text(picture, ",  Δt = %s", gm_time_text(picture, dt, dt));
+}

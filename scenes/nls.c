@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solitons of the nonlinear Schroedinger equation i psi_t + psi_xx + |psi|^2 psi = 0 on a ring.
+   Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic integrators". */
+#include <math.h>
+
+#include "core/problems/dispersive.h"
+#include "scenes/field.h"
+
+struct scene {
+    struct gm_timing timing;
+    struct gm_nls nls;
+    double half_length;
+    long points;
+};
+
+static const char *const initials[] = {"soliton", "collision", NULL};
+
+static const struct gm_parameter parameters[] = {
+    GM_DT("0.01", 1e-9, 10),
+    GM_UNTIL("10"),
+    {
+        .key = "initial",
+        .unit = "",
+        .help = "one soliton, or two that meet",
+        .type = GM_CHOICE,
+        .offset = offsetof(struct scene, nls.initial),
+        .standard = "collision",
+        .choices = initials,
+    },
+    {
+        .key = "amplitude",
+        .unit = "",
+        .help = "a: |ψ| rises to √2 a",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, nls.amplitude),
+        .standard = "1",
+        .lowest = 1e-3,
+        .highest = 50,
+        .logarithmic = true,
+    },
+    {
+        .key = "velocity",
+        .unit = "",
+        .help = "c",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, nls.velocity),
+        .standard = "1",
+        .lowest = -100,
+        .highest = 100,
+    },
+    {
+        .key = "position",
+        .unit = "",
+        .help = "at t = 0; the second starts at its mirror image",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, nls.position),
+        .standard = "-5",
+        .lowest = -1e4,
+        .highest = 1e4,
+    },
+    {
+        .key = "half_length",
+        .unit = "",
+        .help = "the ring is −half_length ≤ x < half_length",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, half_length),
+        .standard = "20",
+        .lowest = 0.1,
+        .highest = 1e5,
+        .logarithmic = true,
+    },
+    {
+        .key = "points",
+        .unit = "",
+        .help = "of the grid",
+        .type = GM_INTEGER,
+        .offset = offsetof(struct scene, points),
+        .standard = "400",
+        .lowest = 3,
+        .highest = 1e7,
+        .logarithmic = true,
+    },
+};
+
+static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+{
+    (void)sentence;
+    const struct scene *scene = own;
+    *problem = gm_problem_nls;
+    problem->nls = &scene->nls;
+    problem->parameters = &scene->nls;
+    problem->line = (struct gm_line){
+        .points = (size_t)scene->points,
+        .dx = 2 * scene->half_length / (double)scene->points,
+        .first = -scene->half_length,
+    };
+    problem->n = 2 * problem->line.points;
+    return true;
+}
+
+static void start(const void *own, const struct gm_problem *problem, double *y)
+{
+    const struct scene *scene = own;
+    const size_t points = problem->line.points;
+    for (size_t i = 0; i < points; i++) {
+        gm_nls_exact(&scene->nls, &problem->line, gm_line_node(&problem->line, i), 0, &y[i], &y[points + i]);
+    }
+}
+
+static double value(const struct gm_view *view, size_t node)
+{
+    return hypot(view->state[node], view->state[view->problem->line.points + node]);
+}
+
+static double exact(const struct gm_view *view, double x)
+{
+    double re = 0, im = 0;
+    gm_nls_exact(view->problem->nls, &view->problem->line, x, view->t, &re, &im);
+    return hypot(re, im);
+}
+
+static double charge(const struct gm_view *view)
+{
+    return gm_nls_charge(view->problem, view->state);
+}
+
+static double node_charge(const struct gm_view *view)
+{
+    return gm_nls_node_charge(view->problem, view->state);
+}
+
+static double energy(const struct gm_view *view)
+{
+    return gm_nls_energy(view->problem, view->state);
+}
+
+/* NaN where there is no exact solution. */
+static double solution_error(const struct gm_view *view)
+{
+    const struct gm_line *line = &view->problem->line;
+    double largest = 0;
+    for (size_t i = 0; i < line->points; i++) {
+        double re = 0, im = 0;
+        gm_nls_exact(view->problem->nls, line, gm_line_node(line, i), view->t, &re, &im);
+        const double error = hypot(view->state[i] - re, view->state[line->points + i] - im);
+        largest = error > largest || isnan(error) ? error : largest;
+    }
+    return largest;
+}
+
+static double modulus_error(const struct gm_view *view)
+{
+    const struct gm_line *line = &view->problem->line;
+    double largest = 0;
+    for (size_t i = 0; i < line->points; i++) {
+        const double error = fabs(value(view, i) - exact(view, gm_line_node(line, i)));
+        largest = error > largest || isnan(error) ? error : largest;
+    }
+    return largest;
+}
+
+static const struct gm_observable observables[] = {
+    {.key = "charge_error",
+     .title = "error of the charge ∫|Aψ|²",
+     .unit = "",
+     .evaluate = charge,
+     .error = true,
+     .scale = 1e-3,
+     .logarithmic = true},
+    {.key = "node_charge_error",
+     .title = "error of the charge at the nodes",
+     .unit = "",
+     .evaluate = node_charge,
+     .error = true,
+     .scale = 1e-3,
+     .logarithmic = true},
+    {.key = "energy_error",
+     .title = "energy error",
+     .unit = "",
+     .evaluate = energy,
+     .error = true,
+     .scale = 1e-3,
+     .logarithmic = true},
+    {.key = "solution_error",
+     .title = "largest error of ψ",
+     .unit = "",
+     .evaluate = solution_error,
+     .logarithmic = true},
+    {.key = "modulus_error",
+     .title = "largest error of |ψ|",
+     .unit = "",
+     .evaluate = modulus_error,
+     .logarithmic = true},
+};
+
+static void record(const struct gm_view *view, double *entry)
+{
+    gm_surface_record(view, value, entry);
+}
+
+static const struct gm_track tracks[] = {
+    {.key = "surface",
+     .width = gm_surface_width,
+     .interval = gm_surface_interval,
+     .bound = GM_SURFACE_ROWS,
+     .record = record},
+};
+
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct scene *scene = lanes[0]->parameters;
+    const bool alone = scene->nls.initial == GM_NLS_SOLITON;
+    const double top = sqrt(2) * scene->nls.amplitude;
+    const struct gm_field_look look = {.value = value,
+                                       .exact = alone ? exact : NULL,
+                                       .name = "|ψ|",
+                                       .low = 0,
+                                       .high = alone ? top : 2 * top,
+                                       .map = GM_MAP_SEQUENTIAL};
+    picture->title = alone ? "A soliton of the nonlinear Schrödinger equation"
+                           : "Two nonlinear Schrödinger solitons pass each other";
+    picture->subtitle = gm_picture_text(picture, "amplitude %g,  velocity %s%g,  %ld points%s",
+                                        scene->nls.amplitude, alone ? "" : "±", scene->nls.velocity,
+                                        scene->points, gm_shared_step(picture, lanes, count));
+    gm_draw_clock(picture, lanes, count);
+    gm_draw_surfaces(picture, lanes, count, 0, &look);
+    gm_draw_profiles(picture, lanes, count, &look);
+    const struct gm_graph charge_graph = {
+        .observable = "charge_error", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2};
+    gm_draw_graph(picture, lanes, count, &charge_graph, -1, false);
+    const struct gm_graph energy_graph = {
+        .observable = "energy_error", .scale = GM_LOG, .calm_low = 1e-8, .calm_high = 1e-2};
+    gm_draw_graph(picture, lanes, count, &energy_graph, -1, false);
+}
+
+static const char *const schemes[] = {"box", "split-step2", NULL};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+const struct gm_scene gm_scene_nls = {
+    .name = "nls",
+    .title = "Solitons of the nonlinear Schrödinger equation",
+    .blurb = "One soliton or a collision, by the multisymplectic box and by the split-step Fourier method.",
+    .watch =
+        "Watch the charge: each scheme keeps its own, of cell means or of nodes, to round-off; the energy only "
+        "nearly, and it dips while the solitons meet.",
+    .size = sizeof(struct scene),
+    .parameters = parameters,
+    .parameter_count = COUNT(parameters),
+    .schemes = schemes,
+    .observables = observables,
+    .observable_count = COUNT(observables),
+    .tracks = tracks,
+    .track_count = COUNT(tracks),
+    .setup = setup,
+    .start = start,
+    .draw = draw,
+};

@@ -1,0 +1,394 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Schemes for waves against levels computed elsewhere, and their laws against the formulas. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/problems/dispersive.h"
+#include "core/problems/problems.h"
+#include "core/problems/sine_gordon.h"
+#include "core/ring.h"
+#include "core/run.h"
+#include "core/sine.h"
+#include "core/wave_laws.h"
+#include "tests/reference_waves.h"
+
+enum { CASES = sizeof reference_waves / sizeof reference_waves[0] };
+
+static const struct gm_settings no_settings;
+
+static void expect_level(const double *u, const double *reference, double tolerance, const char *what)
+{
+    double error = 0, scale = 0;
+    for (size_t i = 0; i < REFERENCE_POINTS; i++) {
+        error = fmax(error, fabs(u[i] - reference[i]));
+        scale = fmax(scale, fabs(reference[i]));
+    }
+    if (!(error <= tolerance * scale)) {
+        fail_msg("%s: error %.2e, tolerance %.2e", what, error / scale, tolerance);
+    }
+}
+
+static struct gm_problem wave_problem(size_t points, double half_length, double jump)
+{
+    struct gm_problem problem = gm_problem_sine_gordon;
+    problem.line = (struct gm_line){points, 2 * half_length / (double)points, -half_length, jump};
+    problem.n = gm_wave_size(points);
+    return problem;
+}
+
+static void expect_number(double value, double reference, double tolerance)
+{
+    if (!(fabs(value - reference) <= tolerance * fmax(1, fabs(reference)))) {
+        fail_msg("%.17g is not %.17g", value, reference);
+    }
+}
+
+static void levels_agree(void **unused)
+{
+    (void)unused;
+    for (size_t c = 0; c < CASES; c++) {
+        const struct reference_wave *reference = &reference_waves[c];
+        const double jump = strcmp(reference->initial, "kink") == 0       ? 2 * M_PI
+                            : strcmp(reference->initial, "antikink") == 0 ? -2 * M_PI
+                                                                          : 0;
+        const struct gm_problem problem = wave_problem(REFERENCE_POINTS, 20, jump);
+        double y[2 * REFERENCE_POINTS + 1];
+        memcpy(y, reference->start[0], REFERENCE_POINTS * sizeof *y);
+        memcpy(y + REFERENCE_POINTS, reference->start[1], REFERENCE_POINTS * sizeof *y);
+        y[2 * REFERENCE_POINTS] = reference->dt;
+        const double tolerance = 1e-12 + 100 * (reference->conditioning + reference->agreement);
+        expect_number(gm_wave_energy(&problem, y), reference->energy[0], 1e-13);
+        expect_number(gm_wave_cell_energy(&problem, y), reference->cell_energy[0], 1e-13);
+        struct gm_run *run =
+            gm_run_open(&problem, gm_scheme_find(reference->scheme), &no_settings, 0, reference->dt, y);
+        assert_non_null(run);
+        assert_int_equal(gm_run_advance(run, 20), GM_OK);
+        expect_level(gm_run_state(run), reference->level_20, tolerance, reference->scheme);
+        expect_number(gm_wave_energy(&problem, gm_run_state(run)), reference->energy[1], 10 * tolerance);
+        expect_number(gm_wave_cell_energy(&problem, gm_run_state(run)), reference->cell_energy[1],
+                      10 * tolerance);
+        assert_int_equal(gm_run_advance(run, 80), GM_OK);
+        expect_level(gm_run_state(run), reference->level_100, tolerance, reference->scheme);
+        expect_number(gm_wave_energy(&problem, gm_run_state(run)), reference->energy[2], 10 * tolerance);
+        expect_number(gm_wave_cell_energy(&problem, gm_run_state(run)), reference->cell_energy[2],
+                      10 * tolerance);
+        gm_run_close(run);
+    }
+}
+
+static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.5, .velocity = 0.5};
+
+/* A run of the breather; *problem is filled. */
+static struct gm_run *breather_run(struct gm_problem *problem, const char *scheme, size_t points, double dt)
+{
+    *problem = wave_problem(points, 20, 0);
+    problem->parameters = &breather;
+    double *y = malloc(problem->n * sizeof *y);
+    gm_sine_gordon_levels(problem, 0, dt, y);
+    struct gm_run *run = gm_run_open(problem, gm_scheme_find(scheme), &no_settings, 0, dt, y);
+    free(y);
+    assert_non_null(run);
+    return run;
+}
+
+static double breather_error(const struct gm_run *run)
+{
+    double largest = 0;
+    for (size_t i = 0; i < run->problem->line.points; i++) {
+        const double x = run->problem->line.first + (double)i * run->problem->line.dx;
+        largest = fmax(largest, fabs(gm_run_state(run)[i] - gm_sine_gordon_exact(&breather, 20, x, run->t)));
+    }
+    return largest;
+}
+
+static void all_have_order_two(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"leapfrog", "energy-conserving", "box"};
+    for (size_t s = 0; s < 3; s++) {
+        double error[2];
+        for (size_t k = 0; k < 2; k++) {
+            struct gm_problem problem;
+            struct gm_run *run = breather_run(&problem, names[s], 400u << k, 0.05 / (double)(1u << k));
+            assert_int_equal(gm_run_advance(run, 200l << k), GM_OK);
+            error[k] = breather_error(run);
+            gm_run_close(run);
+        }
+        const double order = log2(error[0] / error[1]);
+        if (!(fabs(order - 2) < 0.1)) {
+            fail_msg("%s has order %.3f", names[s], order);
+        }
+    }
+}
+
+/* A change of dt or of its sign in flight: leapfrog goes back the way it came; a doubled step keeps the
+ * order. */
+static void the_step_may_change(void **unused)
+{
+    (void)unused;
+    struct gm_problem problem;
+    struct gm_run *run = breather_run(&problem, "leapfrog", 201, 0.05);
+    assert_int_equal(gm_run_advance(run, 60), GM_OK);
+    gm_run_set_step(run, -0.05);
+    assert_int_equal(gm_run_advance(run, 59), GM_OK);
+    for (size_t i = 0; i < 201; i++) {
+        const double x = problem.line.first + (double)i * problem.line.dx;
+        assert_true(fabs(gm_run_state(run)[i] - gm_sine_gordon_exact(&breather, 20, x, 0.05)) < 1e-12);
+    }
+    gm_run_close(run);
+    double error[2];
+    for (size_t k = 0; k < 2; k++) {
+        run = breather_run(&problem, "box", 400u << k, 0.05 / (double)(1u << k));
+        assert_int_equal(gm_run_advance(run, 100l << k), GM_OK);
+        gm_run_set_step(run, 0.1 / (double)(1u << k));
+        assert_int_equal(gm_run_advance(run, 50l << k), GM_OK);
+        error[k] = breather_error(run);
+        gm_run_close(run);
+    }
+    assert_true(fabs(log2(error[0] / error[1]) - 2) < 0.2);
+}
+
+/* The box in all its variables, through the matrices and the gradient of the facet: from the levels of a run
+   the mean velocity V = A_x v of every cell and the mean slope W = A_t w of every node follow up to a
+   constant, and with them every equation of the box; so does the local law of energy, whose residual is known
+   in closed form. */
+static void the_box_solves_the_whole_system(void **unused)
+{
+    (void)unused;
+    enum { POINTS = 201, STEPS = 40 };
+    const double dt = 0.1;
+    struct gm_problem problem;
+    struct gm_run *run = breather_run(&problem, "box", POINTS, dt);
+    const double dx = problem.line.dx;
+    double before[POINTS], now[POINTS], v[POINTS], v_next[POINTS], w[POINTS], worst = 0, worst_law = 0;
+    memcpy(now, gm_run_state(run), sizeof now);
+    for (long n = 0; n < STEPS; n++) {
+        memcpy(before, now, sizeof now);
+        assert_int_equal(gm_run_advance(run, 1), GM_OK);
+        memcpy(now, gm_run_state(run), sizeof now);
+        /* A_t D_x u = A_x W: around a ring of odd length W_0 = sum (-1)^i D_x A_t u_i */
+        double sum = 0;
+        for (size_t i = 0; i < POINTS; i++) {
+            const size_t r = (i + 1) % POINTS;
+            const double slope = (before[r] + now[r] - before[i] - now[i]) / (2 * dx);
+            sum += i % 2 ? -slope : slope;
+        }
+        w[0] = sum;
+        for (size_t i = 0; i + 1 < POINTS; i++) {
+            const double slope = (before[i + 1] + now[i + 1] - before[i] - now[i]) / (2 * dx);
+            w[i + 1] = 2 * slope - w[i];
+        }
+        double largest = 0, law_largest = 0;
+        for (size_t i = 0; i < POINTS; i++) {
+            const size_t r = (i + 1) % POINTS;
+            const double a = (before[i] + before[r]) / 2, b = (now[i] + now[r]) / 2, rate = (b - a) / dt;
+            const double slope = (before[r] + now[r] - before[i] - now[i]) / (2 * dx);
+            const double turn = (w[r] - w[i]) / dx;
+            if (n == 0) {
+                /* the first equation gives V at the start; the second is its definition */
+                const double change = turn - sin((a + b) / 2);
+                v[i] = rate - dt / 2 * change;
+            }
+            v_next[i] = 2 * rate - v[i];
+            /* M s_t + K s_x - grad S(mean) */
+            const double s_t[3] = {rate, (v_next[i] - v[i]) / dt, 0}, s_x[3] = {slope, 0, turn};
+            const double mean[3] = {(a + b) / 2, (v[i] + v_next[i]) / 2, (w[i] + w[r]) / 2};
+            double gradient[3];
+            problem.field->gradient(problem.parameters, mean, gradient);
+            for (size_t row = 0; row < 3; row++) {
+                double residual = -gradient[row];
+                for (size_t k = 0; k < 3; k++) {
+                    residual +=
+                        problem.field->m[3 * row + k] * s_t[k] + problem.field->k[3 * row + k] * s_x[k];
+                }
+                largest = fmax(largest, fabs(residual));
+            }
+            /* D_t [V^2/2 + (D_x u)^2/2 + V(U)] - D_x [D_t u W] */
+            const double past_slope = (before[r] - before[i]) / dx, now_slope = (now[r] - now[i]) / dx;
+            const double energy_change =
+                (v_next[i] * v_next[i] - v[i] * v[i] + now_slope * now_slope - past_slope * past_slope) / 2 -
+                cos(b) + cos(a);
+            const double flux = ((now[r] - before[r]) * w[r] - (now[i] - before[i]) * w[i]) / dt;
+            const double law = energy_change / dt - flux / dx;
+            const double closed = (cos(a) - cos(b)) / dt - rate * sin((a + b) / 2);
+            worst_law = fmax(worst_law, fabs(law - closed));
+            law_largest = fmax(law_largest, fabs(closed));
+        }
+        worst = fmax(worst, largest);
+        const double told = gm_wave_energy_residual(&problem, run->scheme, dt, gm_run_state(run));
+        assert_true(fabs(told - law_largest) < 1e-12);
+        memcpy(v, v_next, sizeof v);
+    }
+    if (!(worst < 1e-9 && worst_law < 1e-9)) {
+        fail_msg("the box leaves %.2e, its energy law %.2e", worst, worst_law);
+    }
+    gm_run_close(run);
+}
+
+static void the_form_is_kept_or_not(void **unused)
+{
+    (void)unused;
+    struct gm_problem problem;
+    static const char *const names[] = {"leapfrog", "box", "energy-conserving"};
+    for (size_t s = 0; s < 3; s++) {
+        struct gm_run *run = breather_run(&problem, names[s], 801, 0.04);
+        assert_int_equal(gm_run_advance(run, 20), GM_OK);
+        const double residual = gm_wave_form_residual(&problem, run->scheme, 0.04, gm_run_state(run));
+        if (s < 2 ? !(residual < 2e-12) : !(residual > 1e-4)) {
+            fail_msg("%s: residual %.2e", names[s], residual);
+        }
+        gm_run_close(run);
+    }
+}
+
+/* The box for Korteweg-de Vries and nonlinear Schroedinger, and leapfrog for the former. */
+static void dispersive_levels_agree(void **unused)
+{
+    (void)unused;
+    const struct gm_kdv kdv = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1, .position = -5};
+    struct gm_problem problem = gm_problem_kdv;
+    problem.kdv = &kdv;
+    problem.line = (struct gm_line){REFERENCE_POINTS, 40.0 / REFERENCE_POINTS, -20, 0};
+    problem.n = gm_wave_size(REFERENCE_POINTS);
+    double y[2 * REFERENCE_POINTS + 1] = {0};
+    memcpy(y, kdv_one_soliton_level_0, sizeof kdv_one_soliton_level_0);
+    y[2 * REFERENCE_POINTS] = 0.05;
+    expect_number(gm_kdv_mass(&problem, y), kdv_box_invariants[0], 1e-13);
+    expect_number(gm_kdv_square(&problem, y), kdv_box_invariants[1], 1e-13);
+    struct gm_run *run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.05, y);
+    assert_int_equal(gm_run_advance(run, 20), GM_OK);
+    expect_level(gm_run_state(run), kdv_box_level_20, 1e-12 + 100 * 4.6e-15, "kdv box");
+    expect_number(gm_kdv_mass(&problem, gm_run_state(run)), kdv_box_invariants[2], 1e-12);
+    expect_number(gm_kdv_square(&problem, gm_run_state(run)), kdv_box_invariants[3], 1e-11);
+    gm_run_close(run);
+
+    const struct gm_kdv cosine = {.initial = GM_KDV_COSINE, .eta = 1, .mu = 0.022 * 0.022};
+    problem.kdv = &cosine;
+    problem.line = (struct gm_line){REFERENCE_POINTS, 2.0 / REFERENCE_POINTS, 0, 0};
+    gm_kdv_levels(&problem, 1e-3, y);
+    expect_level(y + REFERENCE_POINTS, kdv_cosine_level_1, 1e-15, "second level of the cosine");
+    memcpy(y, kdv_cosine_level_0, sizeof kdv_cosine_level_0);
+    memcpy(y + REFERENCE_POINTS, kdv_cosine_level_1, sizeof kdv_cosine_level_1);
+    run = gm_run_open(&problem, gm_scheme_find("zabusky-kruskal"), &no_settings, 0, 1e-3, y);
+    assert_int_equal(gm_run_advance(run, 20), GM_OK);
+    expect_level(gm_run_state(run), kdv_zabusky_kruskal_level_20, 1e-12 + 100 * 2.5e-15, "zabusky-kruskal");
+    assert_true(fabs(gm_kdv_mass(&problem, gm_run_state(run))) < 1e-13);
+    gm_run_close(run);
+
+    const struct gm_nls nls = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1, .position = -5};
+    problem = gm_problem_nls;
+    problem.nls = &nls;
+    problem.line = (struct gm_line){REFERENCE_POINTS, 40.0 / REFERENCE_POINTS, -20, 0};
+    problem.n = 2 * REFERENCE_POINTS;
+    memcpy(y, nls_one_soliton_level_0_re, sizeof nls_one_soliton_level_0_re);
+    memcpy(y + REFERENCE_POINTS, nls_one_soliton_level_0_im, sizeof nls_one_soliton_level_0_im);
+    expect_number(gm_nls_charge(&problem, y), nls_box_invariants[0], 1e-13);
+    expect_number(gm_nls_energy(&problem, y), nls_box_invariants[1], 1e-13);
+    run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.05, y);
+    assert_int_equal(gm_run_advance(run, 20), GM_OK);
+    expect_level(gm_run_state(run), nls_box_level_20_re, 1e-12 + 100 * 1.1e-14, "nls box");
+    expect_level(gm_run_state(run) + REFERENCE_POINTS, nls_box_level_20_im, 1e-12 + 100 * 1.1e-14, "nls box");
+    expect_number(gm_nls_charge(&problem, gm_run_state(run)), nls_box_invariants[2], 1e-12);
+    expect_number(gm_nls_energy(&problem, gm_run_state(run)), nls_box_invariants[3], 1e-11);
+    gm_run_close(run);
+}
+
+/* The matrices of every equation are skew. */
+static void matrices_are_skew(void **unused)
+{
+    (void)unused;
+    const struct gm_problem *const problems[] = {&gm_problem_sine_gordon, &gm_problem_wave, &gm_problem_kdv,
+                                                 &gm_problem_nls};
+    for (size_t p = 0; p < 4; p++) {
+        const struct gm_field *field = problems[p]->field;
+        for (size_t i = 0; i < field->dimension; i++) {
+            for (size_t k = 0; k < field->dimension; k++) {
+                assert_true(field->m[i * field->dimension + k] == -field->m[k * field->dimension + i]);
+                assert_true(field->k[i * field->dimension + k] == -field->k[k * field->dimension + i]);
+            }
+        }
+    }
+}
+
+static void sines_are_sines(void **unused)
+{
+    (void)unused;
+    for (int k = -40000; k <= 40000; k++) {
+        const double x = 0.0123456789 * k * (k % 5 ? 1 : 200);
+        double sine = 0;
+        gm_sines(&x, &sine, 1);
+        assert_true(fabs(sine - sin(x)) <= 2.3e-16);
+    }
+    const double none = NAN, infinite = INFINITY;
+    double sine = 0;
+    gm_sines(&none, &sine, 1);
+    assert_true(isnan(sine));
+    gm_sines(&infinite, &sine, 1);
+    assert_true(isnan(sine));
+}
+
+/* Both ring solvers against the matrix. */
+static void rings_are_solved(void **unused)
+{
+    (void)unused;
+    static const size_t sizes[] = {2, 3, 8, 101};
+    for (size_t s = 0; s < 4; s++) {
+        const size_t n = sizes[s];
+        double b[101], x[101];
+        for (size_t i = 0; i < n; i++) {
+            x[i] = b[i] = sin(1 + 3.7 * (double)i);
+        }
+        const struct gm_ring ring = gm_ring_make(n, 2.5, -1.1);
+        gm_ring_solve(&ring, x);
+        for (size_t i = 0; i < n; i++) {
+            assert_true(fabs(2.5 * x[i] - 1.1 * (x[(i + 1) % n] + x[(i + n - 1) % n]) - b[i]) < 1e-13);
+        }
+        for (int power = 1; power <= 3; power++) {
+            const double complex mean = power == 2 ? 3 * I : 3, difference = 0.2;
+            const double h = 0.3;
+            struct gm_ring_roots roots;
+            assert_true(gm_ring_roots_make(&roots, n, power, mean, difference, h));
+            double complex f[101];
+            double re[101], im[101], scratch[202];
+            for (size_t i = 0; i < n; i++) {
+                re[i] = b[i];
+                im[i] = cos((double)i);
+                f[i] = 0;
+            }
+            gm_ring_roots_solve(&roots, re, im, scratch);
+            static const int binomial[4][4] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
+            for (size_t i = 0; i < n; i++) {
+                for (int k = 0; k <= power; k++) {
+                    const double sign = (power - k) % 2 ? -1 : 1;
+                    const double complex entry =
+                        binomial[power][k] * (mean / pow(2, power) + sign * difference / pow(h, power));
+                    f[i] += entry * (re[(i + (size_t)k) % n] + I * im[(i + (size_t)k) % n]);
+                }
+                assert_true(cabs(f[i] - (b[i] + I * cos((double)i))) < 1e-11);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(levels_agree),
+        cmocka_unit_test(all_have_order_two),
+        cmocka_unit_test(the_step_may_change),
+        cmocka_unit_test(the_box_solves_the_whole_system),
+        cmocka_unit_test(the_form_is_kept_or_not),
+        cmocka_unit_test(dispersive_levels_agree),
+        cmocka_unit_test(matrices_are_skew),
+        cmocka_unit_test(sines_are_sines),
+        cmocka_unit_test(rings_are_solved),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
