@@ -37,6 +37,11 @@ static double *half(const struct gm_run *run, int which)
 
 const double *gm_run_state(const struct gm_run *run) { return half(run, run->current); }
 
+const double *gm_run_memory(const struct gm_run *run)
+{
+    return run->scheme->family->memory ? gm_run_state(run) + state_count(run) + carry_count(run) : NULL;
+}
+
 /* The task that reads half `from` and writes half `to`. */
 static struct gm_task task_of(const struct gm_run *run, int from, int to, long steps)
 {

@@ -31,6 +31,9 @@ void gm_run_close(struct gm_run *run);
 /* The present state, [component * m + member]; valid until the next step. */
 const double *gm_run_state(const struct gm_run *run);
 
+/* The scheme's memory, as its family says; NULL if it has none. Valid until the next step. */
+const double *gm_run_memory(const struct gm_run *run);
+
 /* A count of the run for one member: the mean over the ensemble. */
 double gm_run_per_member(const struct gm_run *run, unsigned long count);
 

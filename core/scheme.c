@@ -79,7 +79,8 @@ const struct gm_scheme *gm_scheme_find(const char *name)
 
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
-    const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0);
+    const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0) |
+                         (problem->moving_mesh ? GM_NEEDS_MOVING_MESH : 0);
     const struct gm_loops *loops = problem->loops[GM_ISA_BASELINE];
     return (scheme->needs & ~has) == 0 && (scheme->family->loop || (loops && loops->family[scheme->family->id]));
 }
