@@ -23,12 +23,11 @@ struct workspace {
     struct gm_solver solver;
     struct gm_elements before, after; /* at q_j and q_{j+1}, both with the velocity v */
     struct gm_banded projection;
+    double weights[PER_NODE];
     double *momenta; /* 2 N, by node */
     double *share;   /* N + 1, of the multipliers */
     double *motion;  /* 3 N */
 };
-
-static const double weights[PER_NODE] = {1, 1, 1};
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
@@ -200,12 +199,15 @@ static struct gm_progress loop(const struct gm_task *task)
 {
     struct workspace *work = task->workspace;
     const size_t points = work->mesh.points;
+    /* places are solved for as well as the velocities of other schemes are */
+    work->weights[0] = work->weights[1] = 1 / fabs(task->dt);
+    work->weights[2] = 1;
     const struct gm_equations equations = {
         .self = work,
         .nodes = points,
         .per_node = PER_NODE,
         .state = 4 * points,
-        .weights = weights,
+        .weights = work->weights,
         .place = place,
         .guess = guess,
         .residual = residual,

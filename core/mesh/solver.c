@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PAST = 4, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
+enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 
 static const double tolerance = 1e-11;  /* of a change of the unknowns */
 static const double stagnation = 1e-9;  /* of a change that no longer shrinks: multipliers carry noise */
@@ -49,7 +49,7 @@ static double *past(double *memory, size_t n, size_t back) { return memory + GM_
 static void extrapolate(const struct gm_equations *equations, double *memory, size_t n, size_t order, double *out)
 {
     const double *p1 = past(memory, n, 0), *p2 = past(memory, n, 1), *p3 = past(memory, n, 2);
-    const double *p4 = past(memory, n, 3);
+    const double *p4 = past(memory, n, 3), *p5 = past(memory, n, 4), *p6 = past(memory, n, 5);
     switch (order) {
     case 0:
         equations->guess(equations->self, out);
@@ -67,9 +67,19 @@ static void extrapolate(const struct gm_equations *equations, double *memory, si
             out[i] = 3 * (p1[i] - p2[i]) + p3[i];
         }
         break;
-    default:
+    case 4:
         for (size_t i = 0; i < n; i++) {
             out[i] = 4 * (p1[i] + p3[i]) - 6 * p2[i] - p4[i];
+        }
+        break;
+    case 5:
+        for (size_t i = 0; i < n; i++) {
+            out[i] = 5 * (p1[i] - p4[i]) + 10 * (p3[i] - p2[i]) + p5[i];
+        }
+        break;
+    default:
+        for (size_t i = 0; i < n; i++) {
+            out[i] = 6 * (p1[i] + p5[i]) - 15 * (p2[i] + p4[i]) + 20 * p3[i] - p6[i];
         }
     }
 }
@@ -132,7 +142,7 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_equations 
                             const double *state, struct gm_progress *progress)
 {
     bool fresh = memory[GM_MEMORY_STAMP] == 0 || memory[GM_MEMORY_SLOW] != 0, refreshed = false;
-    double before = INFINITY, slowest = 0;
+    double before = INFINITY;
     for (int iteration = 1; iteration <= SIMPLIFIED; iteration++) {
         progress->evaluations++;
         if (!equations->residual(equations->self, solver->unknowns, solver->residual)) {
@@ -144,7 +154,6 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_equations 
             }
             fresh = false;
             refreshed = true;
-            slowest = 0;
             before = INFINITY;
         }
         gm_banded_solve(&solver->matrix, solver->residual);
@@ -152,17 +161,16 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_equations 
         progress->iterations++;
         const double change = move(equations, solver->residual, 1, solver->unknowns);
         const double ratio = change / before;
-        slowest = ratio > slowest && change > tolerance ? ratio : slowest;
         /* what is left after this change is about ratio / (1 - ratio) of it */
-        if (change < tolerance || (ratio > 0.5 && change < stagnation) ||
+        if (change < tolerance || (iteration > 3 && ratio > 0.5 && change < stagnation) ||
             (ratio > 0 && ratio < too_slow && change * ratio < 0.1 * tolerance)) {
-            memory[GM_MEMORY_SLOW] = slowest > too_slow || iteration > 5;
+            memory[GM_MEMORY_SLOW] = iteration > MANY;
             return SOLVED;
         }
         if (!(change < INFINITY)) {
             return DIVERGED;
         }
-        if (ratio > 0.5 || iteration == 7) {
+        if (ratio > (iteration == 2 ? 2 : 0.5) || iteration == 7) {
             if (refreshed && ratio > 1) {
                 return DIVERGED;
             }
