@@ -85,11 +85,12 @@ static double data_size(const struct gm_label_list *list, const struct group *gr
 }
 
 /* Chooses the grid that makes the panels largest, and how much they show besides their data. */
-static void choose_grid(const struct gm_label_list *list, struct group *group, size_t most_columns) {
+static void choose_grid(const struct gm_label_list *list, struct group *group, size_t least_columns,
+                        size_t most_columns) {
     const double least = 4.5 * list->metrics->line[GM_TEXT_TICK];
     double best = -INFINITY;
     struct group chosen = *group;
-    for (size_t columns = 1; columns <= most_columns; columns++) {
+    for (size_t columns = least_columns; columns <= most_columns; columns++) {
         struct group trial = *group;
         trial.columns = columns;
         trial.rows = (group->count + columns - 1) / columns;
@@ -269,11 +270,13 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
         states.area.width = fmax(0.0, area.width - graphs.area.width - gap);
     }
     if (states.count > 0) {
-        choose_grid(&list, &states, states.count);
+        const size_t wanted = picture->state_columns;
+        const bool given = wanted > 0 && wanted <= states.count;
+        choose_grid(&list, &states, given ? wanted : 1, given ? wanted : states.count);
         place_group(&list, &states, graphs.count > 0 ? 0.0 : margin);
     }
     if (graphs.count > 0) {
-        choose_grid(&list, &graphs, graph_columns(&states, &graphs));
+        choose_grid(&list, &graphs, 1, graph_columns(&states, &graphs));
         if (states.rows == 1 && graphs.count == 1)
             align_graph(&list, &states, &graphs);
         place_group(&list, &graphs, margin);

@@ -34,6 +34,7 @@ struct gm_view {
     const double *start; /* the state at t0, [component * m + member] */
     const double *state; /* the present state */
     double t0, t, dt;
+    const struct gm_run *run; /* for what a scheme says of itself */
 };
 
 /* A number per step. With `error` the number printed is |x - x0| / max(|x0|, scale), x = evaluate. */
@@ -80,10 +81,15 @@ struct gm_scene {
     const struct gm_figure *figures;
     size_t figure_count;
 
+    /* Settles, in the lane's own copy, the parameters that were left to it ("auto"); NULL: there are none. */
+    void (*resolve)(void *parameters);
     /* Fills the problem (n, m, facets) for these parameters; false with a sentence if they contradict. */
     bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);
     /* Writes the canonical state at t0 (n * m). */
     void (*start)(const void *parameters, const struct gm_problem *problem, double *y);
+    /* Instead of start, where the state depends on the scheme, or may not exist: false with a sentence then. */
+    bool (*start_with)(const void *parameters, const struct gm_problem *problem, const struct gm_scheme *scheme,
+                       double *y, char *sentence);
     /* Draws the lanes, count >= 1, into an empty picture; looks only. */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 };
