@@ -489,17 +489,26 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     if (both) {
         picture->state_columns = panels;
     }
-    if (soliton->show == SHOW_ALL || soliton->show == SHOW_ENERGY) {
-        const double energy_of_solitons = gm_soliton_energy(&soliton->own);
+    if (soliton->show == SHOW_ENERGY) {
+        for (size_t i = 0; i < count; i++) {
+            /* each in its own graph, all on one scale */
+            const struct gm_graph graph = {.observable = "energy", .title = gm_lane_title(lanes[i])};
+            if (i == 0 || lanes[i]->shown.panel != lanes[i - 1]->shown.panel) {
+                gm_draw_graph(picture, lanes, count, &graph, (long)lanes[i]->shown.panel, false);
+            }
+        }
+    }
+    if (soliton->show == SHOW_ALL) {
         const struct gm_graph kept = {.observable = "energy",
-                                      .scale = GM_LINEAR,
-                                      .calm_low = 0.96 * energy_of_solitons,
-                                      .calm_high = 1.04 * energy_of_solitons};
-        gm_draw_graph(picture, lanes, count, &kept, -1, soliton->show == SHOW_ENERGY);
+                                      .title = "energy / initial energy",
+                                      .relative = true,
+                                      .calm_low = 0.99,
+                                      .calm_high = 1.01};
+        gm_draw_graph(picture, lanes, count, &kept, -1, false);
     }
     if (soliton->show == SHOW_ALL) {
         const struct gm_graph error = {
-            .observable = "solution_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 10};
+            .observable = "solution_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 10, .floor = 1e-4};
         gm_draw_graph(picture, lanes, count, &error, -1, false);
     }
 }

@@ -382,7 +382,7 @@ static struct gm_progress loop(const struct gm_task *task)
 static const struct gm_scheme schemes[] = {
     {
         .name = "uniform-gauss2",
-        .title = "uniform mesh, Gauss 2",
+        .title = "uniform Gauss 2",
         .formula = FIXED,
         .reference = "Tyranowski & Desbrun (2019), section 5.3",
         UNIFORM(gauss2),
@@ -392,7 +392,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "uniform-gauss4",
-        .title = "uniform mesh, Gauss 4",
+        .title = "uniform Gauss 4",
         .formula = FIXED,
         .reference = "Tyranowski & Desbrun (2019), section 5.3",
         UNIFORM(gauss4),
@@ -402,7 +402,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "uniform-lobatto2",
-        .title = "uniform mesh, Lobatto IIIA–IIIB 2",
+        .title = "uniform Lobatto 2",
         .formula = FIXED,
         .reference = "Tyranowski & Desbrun (2019), section 5.3",
         UNIFORM(lobatto2),
@@ -412,7 +412,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "uniform-lobatto4",
-        .title = "uniform mesh, Lobatto IIIA–IIIB 4",
+        .title = "uniform Lobatto 4",
         .formula = FIXED,
         .reference = "Tyranowski & Desbrun (2019), section 5.3",
         UNIFORM(lobatto4),
@@ -422,7 +422,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "control-gauss2",
-        .title = "control, Gauss 2",
+        .title = "control Gauss 2",
         .formula = EQUATIONS,
         .reference = "Tyranowski & Desbrun (2019), eq. 21",
         CONTROL(gauss2),
@@ -432,7 +432,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "control-gauss4",
-        .title = "control, Gauss 4",
+        .title = "control Gauss 4",
         .formula = EQUATIONS,
         .reference = "Tyranowski & Desbrun (2019), eq. 21",
         CONTROL(gauss4),
@@ -442,7 +442,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "control-lobatto2",
-        .title = "control, Lobatto IIIA–IIIB 2",
+        .title = "control Lobatto 2",
         .formula = EQUATIONS,
         .reference = "Tyranowski & Desbrun (2019), eq. 21",
         CONTROL(lobatto2),
@@ -452,7 +452,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "control-lobatto4",
-        .title = "control, Lobatto IIIA–IIIB 4",
+        .title = "control Lobatto 4",
         .formula = EQUATIONS,
         .reference = "Tyranowski & Desbrun (2019), eq. 21",
         CONTROL(lobatto4),
@@ -462,7 +462,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "control-radau3",
-        .title = "control, Radau IIA 3",
+        .title = "control Radau 3",
         .formula = EQUATIONS,
         .reference = "Tyranowski & Desbrun (2019), eq. 21; B. L. Ehle (1969)",
         CONTROL(radau3),
@@ -471,7 +471,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "control-radau5",
-        .title = "control, Radau IIA 5",
+        .title = "control Radau 5",
         .formula = EQUATIONS,
         .reference = "Tyranowski & Desbrun (2019), section 5.4; B. L. Ehle (1969)",
         CONTROL(radau5),

@@ -362,7 +362,7 @@ static const struct multiplier lobatto4 = {&gm_tableau_lobatto4, {1, -0.5, 1}, {
 static const struct gm_scheme schemes[] = {
     {
         .name = "multiplier-lobatto2",
-        .title = "multiplier, Lobatto IIIA–IIIB 2",
+        .title = "multiplier 2",
         .formula = EQUATIONS,
         .reference = "Tyranowski & Desbrun (2019), eqs. 95–98; L. O. Jay (1996)",
         .coefficients = &lobatto2,
@@ -371,7 +371,7 @@ static const struct gm_scheme schemes[] = {
     },
     {
         .name = "multiplier-lobatto4",
-        .title = "multiplier, Lobatto IIIA–IIIB 4",
+        .title = "multiplier 4",
         .formula = EQUATIONS,
         .reference = "Tyranowski & Desbrun (2019), eqs. 95–98; L. O. Jay (1996)",
         .coefficients = &lobatto4,

@@ -220,14 +220,14 @@ static struct gm_progress loop(const struct gm_task *task)
 static const struct gm_scheme schemes[] = {
     {
         .name = "multiplier-trapezoidal",
-        .title = "multiplier, trapezoidal",
+        .title = "multiplier trap.",
         .formula = "pⱼ + D₁L(qⱼ, qⱼ₊₁) − Dg(qⱼ)ᵀ λⱼ = 0,  g(qⱼ₊₁) = 0\n"
                    "L = h/2 [L(qⱼ, v) + L(qⱼ₊₁, v)],  v = (qⱼ₊₁ − qⱼ)/h",
         .reference = "Tyranowski & Desbrun (2019), eqs. 154–155",
         .family = &gm_family_mesh_trapezoidal,
         .order = 2,
         .needs = GM_NEEDS_MOVING_MESH,
-        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_MULTISYMPLECTIC,
+        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE,
     },
 };
 
