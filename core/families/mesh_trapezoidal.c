@@ -199,9 +199,10 @@ static struct gm_progress loop(const struct gm_task *task)
 {
     struct workspace *work = task->workspace;
     const size_t points = work->mesh.points;
-    /* places are solved for as well as the velocities of other schemes are */
-    work->weights[0] = work->weights[1] = 1 / fabs(task->dt);
-    work->weights[2] = 1;
+    /* places to as many digits as make velocities, places over dt, ten times better than those of other schemes: it
+       takes that for 200 steps to be undone to 1e-11 */
+    work->weights[0] = work->weights[1] = 10 / fabs(task->dt);
+    work->weights[2] = 10;
     const struct gm_equations equations = {
         .self = work,
         .nodes = points,
