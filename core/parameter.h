@@ -24,9 +24,9 @@ struct gm_parameter {
     const char *standard;     /* the default, as it would be typed ("pi/12") */
     double lowest, highest;   /* inclusive range of a real or an integer */
     bool logarithmic;         /* a slider moves by factors */
-    bool automatic;           /* a real that may also be "auto": NaN, until its owner settles it */
     bool live;                /* a change acts on the present state; otherwise the run starts again */
     const char *const *choices; /* NULL-terminated, for GM_CHOICE */
+    bool automatic;             /* a real that may also be "auto": NaN, until its owner settles it */
 };
 
 enum gm_parse {

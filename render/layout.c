@@ -23,6 +23,7 @@ struct group {
     size_t count;
     enum gm_place place;
     struct gm_box area;
+    size_t wanted; /* columns; 0: any number */
     size_t columns, rows;
     enum gm_detail detail;
 };
@@ -85,12 +86,14 @@ static double data_size(const struct gm_label_list *list, const struct group *gr
 }
 
 /* Chooses the grid that makes the panels largest, and how much they show besides their data. */
-static void choose_grid(const struct gm_label_list *list, struct group *group, size_t least_columns,
-                        size_t most_columns) {
+static void choose_grid(const struct gm_label_list *list, struct group *group, size_t most_columns) {
     const double least = 4.5 * list->metrics->line[GM_TEXT_TICK];
     double best = -INFINITY;
     struct group chosen = *group;
-    for (size_t columns = least_columns; columns <= most_columns; columns++) {
+    for (size_t columns = 1; columns <= most_columns; columns++) {
+        if (group->wanted > 0 && group->wanted <= most_columns && columns != group->wanted) {
+            continue;
+        }
         struct group trial = *group;
         trial.columns = columns;
         trial.rows = (group->count + columns - 1) / columns;
@@ -255,7 +258,7 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     const double top = place_header(&list, picture, margin);
     const double bottom = place_caption(&list, picture, margin);
 
-    struct group states = {.frames = frames, .place = GM_PLACE_STATE};
+    struct group states = {.frames = frames, .place = GM_PLACE_STATE, .wanted = picture->state_columns};
     states.count = collect(picture, GM_PLACE_STATE, panel_count, frames);
     struct group graphs = {.frames = frames + states.count, .place = GM_PLACE_GRAPH};
     graphs.count = collect(picture, GM_PLACE_GRAPH, metrics->terse ? 1 : panel_count, graphs.frames);
@@ -270,13 +273,11 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
         states.area.width = fmax(0.0, area.width - graphs.area.width - gap);
     }
     if (states.count > 0) {
-        const size_t wanted = picture->state_columns;
-        const bool given = wanted > 0 && wanted <= states.count;
-        choose_grid(&list, &states, given ? wanted : 1, given ? wanted : states.count);
+        choose_grid(&list, &states, states.count);
         place_group(&list, &states, graphs.count > 0 ? 0.0 : margin);
     }
     if (graphs.count > 0) {
-        choose_grid(&list, &graphs, 1, graph_columns(&states, &graphs));
+        choose_grid(&list, &graphs, graph_columns(&states, &graphs));
         if (states.rows == 1 && graphs.count == 1)
             align_graph(&list, &states, &graphs);
         place_group(&list, &graphs, margin);
