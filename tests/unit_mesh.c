@@ -18,8 +18,8 @@
 
 static const struct gm_settings settings = {0};
 
-static struct gm_run *open_soliton(const struct gm_soliton *soliton, struct gm_problem *problem, const char *name,
-                                   double dt)
+static struct gm_run *open_soliton(const struct gm_soliton *soliton, struct gm_problem *problem,
+                                   const char *name, double dt)
 {
     gm_soliton_problem(soliton, problem);
     const struct gm_scheme *scheme = gm_scheme_find(name);
@@ -36,7 +36,8 @@ static struct gm_run *open_soliton(const struct gm_soliton *soliton, struct gm_p
     return run;
 }
 
-static const struct gm_soliton reference = {.solitons = 1, .points = 15, .velocity = 0.9, .length = 25, .alpha = 2.5};
+static const struct gm_soliton reference = {
+    .solitons = 1, .points = 15, .velocity = 0.9, .length = 25, .alpha = 2.5};
 
 static void every_node_of_the_reference(void **unused)
 {
@@ -54,24 +55,25 @@ static void every_node_of_the_reference(void **unused)
             double farthest = 0;
             for (size_t k = 0; k < 15; k++) {
                 farthest = fmax(farthest, fabs(gm_run_state(run)[k] - reference_soliton[i].snap[s].y[k + 1]));
-                farthest = fmax(farthest, fabs(gm_run_state(run)[15 + k] - reference_soliton[i].snap[s].x[k + 1]));
+                farthest =
+                    fmax(farthest, fabs(gm_run_state(run)[15 + k] - reference_soliton[i].snap[s].x[k + 1]));
             }
             if (!(farthest < fmax(1e-9, 10 * reference_soliton[i].snap[s].spread))) {
-                fail_msg("%s at t = %g: %.3g", reference_soliton[i].scheme, reference_soliton[i].snap[s].t, farthest);
+                fail_msg("%s at t = %g: %.3g", reference_soliton[i].scheme, reference_soliton[i].snap[s].t,
+                         farthest);
             }
         }
         gm_run_close(run);
     }
 }
 
-
 /* 200 steps there and 200 back, over a stretch where every scheme holds. */
 static void symmetric_schemes_come_back(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"uniform-gauss2",      "uniform-gauss4",      "uniform-lobatto2",
-                                        "uniform-lobatto4",    "control-gauss2",      "control-gauss4",
-                                        "control-lobatto2",    "control-lobatto4",    "multiplier-lobatto2",
+    static const char *const names[] = {"uniform-gauss2",      "uniform-gauss4",        "uniform-lobatto2",
+                                        "uniform-lobatto4",    "control-gauss2",        "control-gauss4",
+                                        "control-lobatto2",    "control-lobatto4",      "multiplier-lobatto2",
                                         "multiplier-lobatto4", "multiplier-trapezoidal"};
     double start[60];
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
@@ -96,7 +98,8 @@ static void symmetric_schemes_come_back(void **unused)
 static void resumed_runs_keep_their_bits(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"uniform-gauss4", "control-gauss4", "control-radau5", "multiplier-lobatto4",
+    static const char *const names[] = {"uniform-gauss4",      "control-gauss4",
+                                        "control-radau5",      "multiplier-lobatto4",
                                         "multiplier-lobatto2", "multiplier-trapezoidal"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         struct gm_problem problem;
@@ -142,7 +145,8 @@ static double error_of(const struct gm_soliton *soliton, const struct gm_run *ru
     return largest;
 }
 
-/* In flight from any strategy to any other: the new one starts on its own kind of mesh, near the old field. */
+/* In flight from any strategy to any other: the new one starts on its own kind of mesh, near the old field.
+ */
 static void strategies_take_over(void **unused)
 {
     (void)unused;
@@ -204,13 +208,14 @@ static void without_density_the_mesh_is_uniform(void **unused)
     }
 }
 
-/* Gradients and matrices of an element against differences of the Lagrangian written down a second time, by Gauss
-   quadrature of the fields, for every potential and density. */
+/* Gradients and matrices of an element against differences of the Lagrangian written down a second time, by
+   Gauss quadrature of the fields, for every potential and density. */
 static double lagrangian(const struct gm_mesh *mesh, const double z[4], const double rate[4])
 {
-    static const double at[] = {0.9061798459386640, 0.5384693101056831, 0, -0.5384693101056831, -0.9061798459386640};
-    static const double weight[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
-                                    0.2369268850561891};
+    static const double at[] = {0.9061798459386640, 0.5384693101056831, 0, -0.5384693101056831,
+                                -0.9061798459386640};
+    static const double weight[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
+                                    0.4786286704993665, 0.2369268850561891};
     enum { PIECES = 8 };
     const double d = z[3] - z[1], slope = (z[2] - z[0]) / d;
     double sum = 0;
@@ -219,8 +224,8 @@ static double lagrangian(const struct gm_mesh *mesh, const double z[4], const do
             const double s = (piece + (1 + at[i]) / 2) / PIECES;
             const double phi = (1 - s) * z[0] + s * z[2];
             const double phi_t = (1 - s) * (rate[0] - slope * rate[1]) + s * (rate[2] - slope * rate[3]);
-            const double w = mesh->potential == &gm_potential_phi4 ? (phi * phi - 1) * (phi * phi - 1) / 4
-                                                                   : 1 - cos(phi);
+            const double w =
+                mesh->potential == &gm_potential_phi4 ? (phi * phi - 1) * (phi * phi - 1) / 4 : 1 - cos(phi);
             sum += weight[i] / 2 / PIECES * d * (phi_t * phi_t / 2 - slope * slope / 2 - w);
         }
     }
@@ -229,10 +234,12 @@ static double lagrangian(const struct gm_mesh *mesh, const double z[4], const do
 
 static double density(const struct gm_mesh *mesh, const double z[4])
 {
-    const double d = z[3] - z[1], r = z[2] - z[0], m = (z[0] + z[2]) / 2;
-    const double force = mesh->potential == &gm_potential_phi4 ? m * m * m - m : sin(m);
-    const double bend = mesh->curvature * force;
-    return mesh->alpha * mesh->alpha * r * r + d * d * sqrt(1 + bend * bend);
+    const bool phi4 = mesh->potential == &gm_potential_phi4;
+    const double d = z[3] - z[1], r = z[2] - z[0];
+    const double left = phi4 ? pow(z[0], 3) - z[0] : sin(z[0]),
+                 right = phi4 ? pow(z[2], 3) - z[2] : sin(z[2]);
+    const double bend = mesh->curvature * mesh->curvature * (left * left + right * right) / 2;
+    return mesh->alpha * mesh->alpha * r * r + d * d * sqrt(1 + bend);
 }
 
 static void expect_near(const char *what, double got, double wanted)
@@ -245,11 +252,15 @@ static void expect_near(const char *what, double got, double wanted)
 static void derivatives_of_an_element(void **unused)
 {
     (void)unused;
-    static const double places[][4] = {{0.3, 1, 1.1, 1.7}, {1, 2, 1 + 1e-9, 2.5}, {-1, 0.5, 3.5, 1.2}, {6, 1, 6.2, 9}};
+    static const double places[][4] = {
+        {0.3, 1, 1.1, 1.7}, {1, 2, 1 + 1e-9, 2.5}, {-1, 0.5, 3.5, 1.2}, {6, 1, 6.2, 9}};
     static const double rate[4] = {0.4, -0.3, 0.7, 0.9};
     const struct gm_potential *const potentials[] = {&gm_potential_sine_gordon, &gm_potential_phi4};
     for (size_t which = 0; which < 8; which++) {
-        const struct gm_mesh mesh = {.points = 1, .length = 12, .alpha = 1.3, .curvature = which % 2 ? 0.7 : 0,
+        const struct gm_mesh mesh = {.points = 1,
+                                     .length = 12,
+                                     .alpha = 1.3,
+                                     .curvature = which % 2 ? 0.7 : 0,
                                      .potential = potentials[which / 4]};
         const double *z0 = places[which % 4];
         struct gm_elements stage;
@@ -292,7 +303,8 @@ static void derivatives_of_an_element(void **unused)
                 expect_near("mixed", matrices.mixed[a][b], (momentum[1][a] - momentum[0][a]) / (2 * h));
                 expect_near("density's Hessian", matrices.hessian[a][b], (ell[1][a] - ell[0][a]) / (2 * h));
                 if (a == b) {
-                    const double force[4] = {stage.force_y0[0], -stage.force_d[0], stage.force_y1[0], stage.force_d[0]};
+                    const double force[4] = {stage.force_y0[0], -stage.force_d[0], stage.force_y1[0],
+                                             stage.force_d[0]};
                     expect_near("force", force[b],
                                 (lagrangian(&mesh, z[1], rate) - lagrangian(&mesh, z[0], rate)) / (2 * h));
                     expect_near("density's gradient", matrices.gradient[b],
@@ -300,8 +312,8 @@ static void derivatives_of_an_element(void **unused)
                     v[1][b] += h;
                     v[0][b] -= h;
                     const double g = stage.slope[0];
-                    const double p[4] = {stage.momentum_u0[0], -g * stage.momentum_u0[0], stage.momentum_u1[0],
-                                         -g * stage.momentum_u1[0]};
+                    const double p[4] = {stage.momentum_u0[0], -g * stage.momentum_u0[0],
+                                         stage.momentum_u1[0], -g * stage.momentum_u1[0]};
                     expect_near("momentum", p[b],
                                 (lagrangian(&mesh, z0, v[1]) - lagrangian(&mesh, z0, v[0])) / (2 * h));
                 }
@@ -351,14 +363,17 @@ static void extremes_end_well(void **unused)
         long points;
         double velocity, alpha, dt;
         long steps;
-    } cases[] = {{1, 0.9, 2.5, 0.01, 200},   {2, 0.9, 2.5, 0.01, 200},      {31, 0.9, 2.5, 1, 50},
-                 {31, 0.999999, 2.5, 0.01, 20}, {31, 0.9, 100, 0.01, 50},   {20000, 0.9, 2.5, 1e-6, 2},
+    } cases[] = {{1, 0.9, 2.5, 0.01, 200},      {2, 0.9, 2.5, 0.01, 200}, {31, 0.9, 2.5, 1, 50},
+                 {31, 0.999999, 2.5, 0.01, 20}, {31, 0.9, 100, 0.01, 50}, {20000, 0.9, 2.5, 1e-6, 2},
                  {31, 0.01, 2.5, 0.1, 50}};
-    static const char *const names[] = {"uniform-gauss4", "control-gauss4", "control-radau5", "multiplier-lobatto4",
-                                        "multiplier-trapezoidal"};
+    static const char *const names[] = {"uniform-gauss4", "control-gauss4", "control-radau5",
+                                        "multiplier-lobatto4", "multiplier-trapezoidal"};
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
-        const struct gm_soliton soliton = {.solitons = 1, .points = cases[c].points, .velocity = cases[c].velocity,
-                                           .length = 25, .alpha = cases[c].alpha};
+        const struct gm_soliton soliton = {.solitons = 1,
+                                           .points = cases[c].points,
+                                           .velocity = cases[c].velocity,
+                                           .length = 25,
+                                           .alpha = cases[c].alpha};
         for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
             struct gm_problem problem;
             gm_soliton_problem(&soliton, &problem);
@@ -388,8 +403,13 @@ static void other_fields_and_densities(void **unused)
     (void)unused;
     for (int field = 0; field < 2; field++) {
         for (int which = 0; which < 3; which++) {
-            const struct gm_soliton soliton = {.field = field, .density = which, .solitons = 1, .points = 31,
-                                               .velocity = 0.5, .length = 25, .alpha = NAN};
+            const struct gm_soliton soliton = {.field = field,
+                                               .density = which,
+                                               .solitons = 1,
+                                               .points = 31,
+                                               .velocity = 0.5,
+                                               .length = 25,
+                                               .alpha = NAN};
             struct gm_problem problem;
             struct gm_run *run = open_soliton(&soliton, &problem, "multiplier-lobatto4", 0.01);
             struct gm_mesh mesh;
@@ -408,14 +428,10 @@ static void other_fields_and_densities(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_node_of_the_reference),
-        cmocka_unit_test(symmetric_schemes_come_back),
-        cmocka_unit_test(resumed_runs_keep_their_bits),
-        cmocka_unit_test(strategies_take_over),
-        cmocka_unit_test(without_density_the_mesh_is_uniform),
-        cmocka_unit_test(derivatives_of_an_element),
-        cmocka_unit_test(banded_systems_are_solved),
-        cmocka_unit_test(extremes_end_well),
+        cmocka_unit_test(every_node_of_the_reference),         cmocka_unit_test(symmetric_schemes_come_back),
+        cmocka_unit_test(resumed_runs_keep_their_bits),        cmocka_unit_test(strategies_take_over),
+        cmocka_unit_test(without_density_the_mesh_is_uniform), cmocka_unit_test(derivatives_of_an_element),
+        cmocka_unit_test(banded_systems_are_solved),           cmocka_unit_test(extremes_end_well),
         cmocka_unit_test(other_fields_and_densities),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

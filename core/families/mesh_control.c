@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Partitioned Runge-Kutta methods for the field on a mesh that follows it (the control-theoretic strategy), and on a
-   uniform mesh. At the stages i, with X(y) given by the constraint g(y, X) = 0,
-       P_i = dL/dydot (Y_i, Q_i, Ydot_i, Qdot_i) = p_n + h sum_j abar_ij F_j,   F_j = dL/dy at stage j,
-       Y_i = y_n + h sum_j a_ij Ydot_j,   g(Y_i, Q_i) = 0,   d/dt g = 0,
-   unknowns (Ydot_i, Q_i, Qdot_i); on the uniform mesh Q is fixed and only Ydot_i and P_i are left.
-   The mesh is an explicit function of time for the Lagrangian, so symplecticity in (y, p) does not keep its energy.
-   Tyranowski & Desbrun (2019), eq. 21 and section 2.6. */
+/* Partitioned Runge-Kutta methods for the field on a mesh that follows it (the control-theoretic strategy),
+   and on a uniform mesh. At the stages i, with X(y) given by the constraint g(y, X) = 0, P_i = dL/dydot (Y_i,
+   Q_i, Ydot_i, Qdot_i) = p_n + h sum_j abar_ij F_j,   F_j = dL/dy at stage j, Y_i = y_n + h sum_j a_ij
+   Ydot_j,   g(Y_i, Q_i) = 0,   d/dt g = 0, unknowns (Ydot_i, Q_i, Qdot_i); on the uniform mesh Q is fixed and
+   only Ydot_i and P_i are left. The mesh is an explicit function of time for the Lagrangian, so symplecticity
+   in (y, p) does not keep its energy. Tyranowski & Desbrun (2019), eq. 21 and section 2.6. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,12 +35,21 @@ struct workspace {
 
 static const double weights[3 * GM_STAGES] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
 
-static bool moving(const struct workspace *work) { return work->row->kind == GM_MESH_MOVING; }
+static bool moving(const struct workspace *work)
+{
+    return work->row->kind == GM_MESH_MOVING;
+}
 
 /* unknowns at a node for one stage */
-static size_t width(const struct control *row) { return row->kind == GM_MESH_MOVING ? 3 : 1; }
+static size_t width(const struct control *row)
+{
+    return row->kind == GM_MESH_MOVING ? 3 : 1;
+}
 
-static size_t unknowns_per_node(const struct control *row) { return width(row) * row->tableau->stages; }
+static size_t unknowns_per_node(const struct control *row)
+{
+    return width(row) * row->tableau->stages;
+}
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
@@ -88,7 +97,10 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return work;
 }
 
-static void workspace_reset(void *workspace) { ((struct workspace *)workspace)->solver.stamp = 0; }
+static void workspace_reset(void *workspace)
+{
+    ((struct workspace *)workspace)->solver.stamp = 0;
+}
 
 static void place(void *self, const double *state)
 {
@@ -108,7 +120,8 @@ static void place(void *self, const double *state)
 static void guess(void *self, double *unknowns)
 {
     struct workspace *work = self;
-    const size_t points = work->mesh.points, stages = work->row->tableau->stages, per_stage = width(work->row);
+    const size_t points = work->mesh.points, stages = work->row->tableau->stages,
+                 per_stage = width(work->row);
     for (size_t k = 0; k < points; k++) {
         for (size_t i = 0; i < stages; i++) {
             double *at = unknowns + (k * stages + i) * per_stage;
@@ -169,8 +182,8 @@ static bool residual(void *self, const double *unknowns, double *out)
 }
 
 /* Rows and columns that do not exist are left out of a 4 x 4 block by the places (y, y) of a 2 x 2 one. */
-static void add(struct gm_banded *matrix, const struct workspace *work, size_t element, size_t row, size_t column,
-                double factor, double block[4][4], size_t from, size_t by)
+static void add(struct gm_banded *matrix, const struct workspace *work, size_t element, size_t row,
+                size_t column, double factor, double block[4][4], size_t from, size_t by)
 {
     const size_t points = work->mesh.points, per_node = unknowns_per_node(work->row);
     for (size_t a = 0; a < 2; a++) {
@@ -239,8 +252,8 @@ static void jacobian(void *self, const double *unknowns, struct gm_banded *matri
                 add(matrix, work, e, row, column, h * a, at[i].mixed, Y, Y);
                 add(matrix, work, e, row, column, -h * abar, turned[m], Y, Y);
                 for (size_t j = 0; j < stages; j++) {
-                    add(matrix, work, e, row, column, -h * h * tableau->abar[i][j] * tableau->a[j][m], at[j].stiff,
-                        Y, Y);
+                    add(matrix, work, e, row, column, -h * h * tableau->abar[i][j] * tableau->a[j][m],
+                        at[j].stiff, Y, Y);
                 }
                 if (mesh_moves) {
                     add(matrix, work, e, row, column + 1, -h * abar, at[m].stiff, Y, X);
@@ -359,6 +372,7 @@ static struct gm_progress loop(const struct gm_task *task)
         .nodes = points,
         .per_node = per_node,
         .state = 4 * points,
+        .noise = DBL_EPSILON * work->mesh.length / fabs(task->dt),
         .weights = weights,
         .place = place,
         .guess = guess,
@@ -369,12 +383,20 @@ static struct gm_progress loop(const struct gm_task *task)
     return gm_mesh_advance(task, &work->solver, &equations, finish);
 }
 
-#define CONTROL(which) .coefficients = &(const struct control){GM_MESH_MOVING, &gm_tableau_##which}
-#define UNIFORM(which) .coefficients = &(const struct control){GM_MESH_UNIFORM, &gm_tableau_##which}
+#define CONTROL(which)                                                                                       \
+    .coefficients = &(const struct control)                                                                  \
+    {                                                                                                        \
+        GM_MESH_MOVING, &gm_tableau_##which                                                                  \
+    }
+#define UNIFORM(which)                                                                                       \
+    .coefficients = &(const struct control)                                                                  \
+    {                                                                                                        \
+        GM_MESH_UNIFORM, &gm_tableau_##which                                                                 \
+    }
 #define COMMON .family = &gm_family_mesh_control, .needs = GM_NEEDS_MOVING_MESH
 
 #define EQUATIONS                                                                                            \
-    "∂L/∂ẏ(Yᵢ, Qᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ\n"                                            \
+    "∂L/∂ẏ(Yᵢ, Qᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ\n"         \
     "g(Yᵢ, Qᵢ) = 0"
 #define FIXED "∂L/∂ẏ(Yᵢ) = pₙ + h Σ āᵢⱼ ∂L/∂y,  Yᵢ = yₙ + h Σ aᵢⱼ Ẏⱼ,  X fixed"
 #define SYMPLECTIC_PAIR (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE)

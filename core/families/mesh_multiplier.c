@@ -1,16 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lobatto IIIA-IIIB for the field and the mesh together, the mesh constraint g(q) = 0, q = (y, X), enforced by Lagrange
-   multipliers. The mass matrix is singular where the field is straight; so slack variables r with the Lagrangian
-   L + rdot^T Dg(q) qdot and the constraint r = 0 are added:
-       Q_i = q_n + h sum_j a_ij Qdot_j,   R_i = h sum_j a_ij Rdot_j,
-       P_i = M(Q_i) Qdot_i + Dg(Q_i)^T Rdot_i = p_n + h sum_j abar_ij (G_j - Dg(Q_j)^T Lambda_j),
-       B_i = Dg(Q_i) Qdot_i = B_n - h sum_j abar_ij mu_j,   g(Q_i) = 0,   R_i = 0,
-       G_j = d/dq [L + Rdot_j^T Dg(q) qdot].
-   R_i = 0 leaves Rdot_j = kappa_j W, kappa in the kernel of a; eliminating mu with the left kernel l of abar leaves
-       sum_i l_i Dg(Q_i) Qdot_i = 0.
-   So a node has the unknowns Qdot_1 ... Qdot_s, W, Lambda_1 ... Lambda_{s-1}. The last multiplier follows from the
-   hidden constraint Dg qdot = 0 at the end of the step.
-   Tyranowski & Desbrun (2019), eqs. 95-98; L. O. Jay, SIAM J. Numer. Anal. 33 (1996) 368. */
+/* Lobatto IIIA-IIIB for the field and the mesh together, the mesh constraint g(q) = 0, q = (y, X), enforced
+   by Lagrange multipliers. The mass matrix is singular where the field is straight; so slack variables r with
+   the Lagrangian L + rdot^T Dg(q) qdot and the constraint r = 0 are added: Q_i = q_n + h sum_j a_ij Qdot_j,
+   R_i = h sum_j a_ij Rdot_j, P_i = M(Q_i) Qdot_i + Dg(Q_i)^T Rdot_i = p_n + h sum_j abar_ij (G_j - Dg(Q_j)^T
+   Lambda_j), B_i = Dg(Q_i) Qdot_i = B_n - h sum_j abar_ij mu_j,   g(Q_i) = 0,   R_i = 0, G_j = d/dq [L +
+   Rdot_j^T Dg(q) qdot]. R_i = 0 leaves Rdot_j = kappa_j W, kappa in the kernel of a; eliminating mu with the
+   left kernel l of abar leaves sum_i l_i Dg(Q_i) Qdot_i = 0. So a node has the unknowns Qdot_1 ... Qdot_s, W,
+   Lambda_1 ... Lambda_{s-1}. The last multiplier follows from the hidden constraint Dg qdot = 0 at the end of
+   the step. Tyranowski & Desbrun (2019), eqs. 95-98; L. O. Jay, SIAM J. Numer. Anal. 33 (1996) 368. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +41,10 @@ struct workspace {
     double *motion;            /* 3 N */
 };
 
-static size_t stages_of(const struct workspace *work) { return work->row->tableau->stages; }
+static size_t stages_of(const struct workspace *work)
+{
+    return work->row->tableau->stages;
+}
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
@@ -96,7 +97,10 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return work;
 }
 
-static void workspace_reset(void *workspace) { ((struct workspace *)workspace)->solver.stamp = 0; }
+static void workspace_reset(void *workspace)
+{
+    ((struct workspace *)workspace)->solver.stamp = 0;
+}
 
 static void place(void *self, const double *state)
 {
@@ -125,7 +129,8 @@ static void guess(void *self, double *unknowns)
     }
 }
 
-/* The share of every element in a multiplier given at the nodes: lambda_e - lambda_{e+1}, none at the ends. */
+/* The share of every element in a multiplier given at the nodes: lambda_e - lambda_{e+1}, none at the ends.
+ */
 static void spread(const double *unknowns, size_t points, size_t per_node, size_t offset, double *share)
 {
     double left = 0;
@@ -231,7 +236,8 @@ static void jacobian(void *self, const double *unknowns, struct gm_banded *matri
         double pull[GM_STAGES][4][4]; /* d force / dq */
         for (size_t i = 0; i < stages; i++) {
             gm_elements_matrices(&work->stages[i], &work->mesh, e, true, &at[i]);
-            const double omega = row->kappa[i] * work->slack[e], lambda = i + 1 < stages ? work->share[i][e] : 0;
+            const double omega = row->kappa[i] * work->slack[e],
+                         lambda = i + 1 < stages ? work->share[i][e] : 0;
             for (size_t a = 0; a < 4; a++) {
                 for (size_t b = 0; b < 4; b++) {
                     sway[i][a][b] = at[i].mixed[a][b] + omega * at[i].hessian[a][b];
@@ -274,8 +280,8 @@ static void jacobian(void *self, const double *unknowns, struct gm_banded *matri
                 }
                 gm_nodes_add_row(matrix, points, per_node, e, 2 * stages, columns, 1, hidden);
                 if (i > 0) {
-                    gm_nodes_add_row(matrix, points, per_node, e, 2 * stages + i, columns, h * tableau->a[i][m],
-                                     at[i].gradient);
+                    gm_nodes_add_row(matrix, points, per_node, e, 2 * stages + i, columns,
+                                     h * tableau->a[i][m], at[i].gradient);
                 }
             }
         }
@@ -339,6 +345,7 @@ static struct gm_progress loop(const struct gm_task *task)
         .nodes = points,
         .per_node = per_node,
         .state = 4 * points,
+        .noise = DBL_EPSILON * work->mesh.length / fabs(task->dt),
         .weights = work->weights,
         .place = place,
         .guess = guess,
@@ -349,8 +356,8 @@ static struct gm_progress loop(const struct gm_task *task)
     return gm_mesh_advance(task, &work->solver, &equations, finish);
 }
 
-#define EQUATIONS                                                                                            \
-    "Pᵢ = ∂L/∂q̇(Qᵢ, Q̇ᵢ) + Dg(Qᵢ)ᵀ Ṙᵢ = pₙ + h Σ āᵢⱼ (Gⱼ − Dg(Qⱼ)ᵀ Λⱼ)\n"                                    \
+#define EQUATIONS                                                                                                 \
+    "Pᵢ = ∂L/∂q̇(Qᵢ, Q̇ᵢ) + Dg(Qᵢ)ᵀ Ṙᵢ = pₙ + h Σ āᵢⱼ (Gⱼ − Dg(Qⱼ)ᵀ Λⱼ)\n" \
     "Qᵢ = qₙ + h Σ aᵢⱼ Q̇ⱼ,  g(Qᵢ) = 0"
 #define COMMON                                                                                               \
     .family = &gm_family_mesh_multiplier, .needs = GM_NEEDS_MOVING_MESH,                                     \

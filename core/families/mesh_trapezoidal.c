@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The multisymplectic trapezoidal rule for the field and the mesh together, like SHAKE: with the discrete Lagrangian
-       Ld(q0, q1) = h/2 [L(q0, v) + L(q1, v)],   v = (q1 - q0) / h,
-   places q_{j+1} and impulses lambda_j (a multiplier times h) from
-       p_j + D1 Ld(q_j, q_{j+1}) - Dg(q_j)^T lambda_j = 0,   g(q_{j+1}) = 0,
-   then p_{j+1} = D2 Ld(q_j, q_{j+1}), projected onto the velocities that the constraint allows; the projection
-   does not change any later q.
-   Tyranowski & Desbrun (2019), eqs. 154-155. */
+/* The multisymplectic trapezoidal rule for the field and the mesh together, like SHAKE: with the discrete
+   Lagrangian Ld(q0, q1) = h/2 [L(q0, v) + L(q1, v)],   v = (q1 - q0) / h, places q_{j+1} and impulses
+   lambda_j (a multiplier times h) from p_j + D1 Ld(q_j, q_{j+1}) - Dg(q_j)^T lambda_j = 0,   g(q_{j+1}) = 0,
+   then p_{j+1} = D2 Ld(q_j, q_{j+1}), projected onto the velocities that the constraint allows; the
+   projection does not change any later q. Tyranowski & Desbrun (2019), eqs. 154-155. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,7 +68,10 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return work;
 }
 
-static void workspace_reset(void *workspace) { ((struct workspace *)workspace)->solver.stamp = 0; }
+static void workspace_reset(void *workspace)
+{
+    ((struct workspace *)workspace)->solver.stamp = 0;
+}
 
 static void place(void *self, const double *state)
 {
@@ -99,7 +101,10 @@ static double force_y(const struct gm_elements *stage, size_t k)
     return stage->force_y1[k - 1] + stage->force_y0[k];
 }
 
-static double force_x(const struct gm_elements *stage, size_t k) { return stage->force_d[k - 1] - stage->force_d[k]; }
+static double force_x(const struct gm_elements *stage, size_t k)
+{
+    return stage->force_d[k - 1] - stage->force_d[k];
+}
 
 static bool residual(void *self, const double *unknowns, double *out)
 {
@@ -127,11 +132,11 @@ static bool residual(void *self, const double *unknowns, double *out)
     for (size_t k = 1; k <= points; k++) {
         double *at = out + 3 * (k - 1);
         at[0] = work->momenta[2 * k - 2] + h / 2 * force_y(before, k) -
-                (gm_momentum_u(before, k) + gm_momentum_u(after, k)) / 2 - share[k - 1] * before->ell_y1[k - 1] -
-                share[k] * before->ell_y0[k];
+                (gm_momentum_u(before, k) + gm_momentum_u(after, k)) / 2 -
+                share[k - 1] * before->ell_y1[k - 1] - share[k] * before->ell_y0[k];
         at[1] = work->momenta[2 * k - 1] + h / 2 * force_x(before, k) -
-                (gm_momentum_v(before, k) + gm_momentum_v(after, k)) / 2 - share[k - 1] * before->ell_d[k - 1] +
-                share[k] * before->ell_d[k];
+                (gm_momentum_v(before, k) + gm_momentum_v(after, k)) / 2 -
+                share[k - 1] * before->ell_d[k - 1] + share[k] * before->ell_d[k];
         at[2] = gm_jump(after->ell, k);
     }
     return true;
@@ -199,8 +204,8 @@ static struct gm_progress loop(const struct gm_task *task)
 {
     struct workspace *work = task->workspace;
     const size_t points = work->mesh.points;
-    /* places to as many digits as make velocities, places over dt, ten times better than those of other schemes: it
-       takes that for 200 steps to be undone to 1e-11 */
+    /* places to as many digits as make velocities, places over dt, ten times better than those of other
+       schemes: it takes that for 200 steps to be undone to 1e-11 */
     work->weights[0] = work->weights[1] = 10 / fabs(task->dt);
     work->weights[2] = 10;
     const struct gm_equations equations = {
@@ -208,6 +213,7 @@ static struct gm_progress loop(const struct gm_task *task)
         .nodes = points,
         .per_node = PER_NODE,
         .state = 4 * points,
+        .noise = DBL_EPSILON * work->mesh.length / fabs(task->dt),
         .weights = work->weights,
         .place = place,
         .guess = guess,

@@ -8,11 +8,11 @@
 bool gm_elements_open(struct gm_elements *stage, const struct gm_mesh *mesh)
 {
     double **const arrays[] = {
-        &stage->y,           &stage->x,           &stage->u,        &stage->v,        &stage->middle,
-        &stage->rise,        &stage->width,       &stage->slope,    &stage->w,        &stage->w_m,
-        &stage->w_r,         &stage->force_y0,    &stage->force_y1, &stage->force_d,  &stage->momentum_u0,
-        &stage->momentum_u1, &stage->ell,         &stage->ell_y0,   &stage->ell_y1,   &stage->ell_d,
-        &stage->rate,        &stage->bend_y0,     &stage->bend_y1,  &stage->bend_d,
+        &stage->y,           &stage->x,        &stage->u,        &stage->v,       &stage->middle,
+        &stage->rise,        &stage->width,    &stage->slope,    &stage->w,       &stage->w_m,
+        &stage->w_r,         &stage->force_y0, &stage->force_y1, &stage->force_d, &stage->momentum_u0,
+        &stage->momentum_u1, &stage->ell,      &stage->ell_y0,   &stage->ell_y1,  &stage->ell_d,
+        &stage->rate,        &stage->bend_y0,  &stage->bend_y1,  &stage->bend_d,
     };
     const size_t count = sizeof arrays / sizeof arrays[0], length = mesh->points + 2;
     *stage = (struct gm_elements){.count = mesh->points + 1};
@@ -79,7 +79,8 @@ bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh)
     double *restrict momentum_u0 = stage->momentum_u0, *restrict momentum_u1 = stage->momentum_u1;
     double sum = 0;
     for (size_t e = 0; e < count; e++) {
-        const double u0 = u[e], u1 = u[e + 1], v0 = v[e], v1 = v[e + 1], d = width[e], r = rise[e], g = slope[e];
+        const double u0 = u[e], u1 = u[e + 1], v0 = v[e], v1 = v[e + 1], d = width[e], r = rise[e],
+                     g = slope[e];
         const double a0 = 2 * u0 + u1, a1 = u0 + 2 * u1, b0 = 2 * v0 + v1, b1 = v0 + 2 * v1;
         const double kuu = (u0 * a0 + u1 * a1) / 2, kuv = u0 * b0 + u1 * b1, kvv = (v0 * b0 + v1 * b1) / 2;
         const double l_m = -d * w_m[e];
@@ -94,22 +95,39 @@ bool gm_elements_evaluate(struct gm_elements *stage, const struct gm_mesh *mesh)
     return isfinite(sum);
 }
 
-/* q = sqrt(1 + curvature^2 W'(m)^2) and its two derivatives. */
-static void bending(const struct gm_mesh *mesh, double middle, double q[3])
+/* q = sqrt(1 + curvature^2 (W'(y0)^2 + W'(y1)^2) / 2) with its derivatives by y0 and y1. */
+struct bending {
+    double q, by[2], twice[2][2];
+};
+
+static struct bending bending(const struct gm_mesh *mesh, const double y[2])
 {
-    double f[3];
-    mesh->potential->force(middle, f);
     const double square = mesh->curvature * mesh->curvature;
-    q[0] = sqrt(1 + square * f[0] * f[0]);
-    q[1] = square * f[0] * f[1] / q[0];
-    q[2] = (square * (f[1] * f[1] + f[0] * f[2]) - q[1] * q[1]) / q[0];
+    double sum = 1, slope[2], bend[2];
+    for (size_t i = 0; i < 2; i++) {
+        double f[3];
+        mesh->potential->force(y[i], f);
+        sum += square * f[0] * f[0] / 2;
+        slope[i] = square * f[0] * f[1];
+        bend[i] = square * (f[1] * f[1] + f[0] * f[2]);
+    }
+    struct bending made = {.q = sqrt(sum)};
+    for (size_t i = 0; i < 2; i++) {
+        made.by[i] = slope[i] / (2 * made.q);
+    }
+    for (size_t i = 0; i < 2; i++) {
+        for (size_t k = 0; k < 2; k++) {
+            made.twice[i][k] = (i == k ? bend[i] / (2 * made.q) : 0) - made.by[i] * made.by[k] / made.q;
+        }
+    }
+    return made;
 }
 
 void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh)
 {
     const size_t count = stage->count;
     const double *restrict u = stage->u, *restrict v = stage->v, *restrict width = stage->width;
-    const double *restrict rise = stage->rise, *restrict middle = stage->middle;
+    const double *restrict rise = stage->rise;
     double *restrict ell = stage->ell, *restrict ell_y0 = stage->ell_y0, *restrict ell_y1 = stage->ell_y1;
     double *restrict ell_d = stage->ell_d, *restrict rate = stage->rate, *restrict bend_y0 = stage->bend_y0;
     double *restrict bend_y1 = stage->bend_y1, *restrict bend_d = stage->bend_d;
@@ -129,18 +147,17 @@ void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh
         return;
     }
     for (size_t e = 0; e < count; e++) {
-        double q[3];
-        bending(mesh, middle[e], q);
-        const double d = width[e], m_rate = (u[e + 1] + u[e]) / 2, d_rate = v[e + 1] - v[e];
-        const double ell_m = d * d * q[1], bend_m = d * d * q[2] * m_rate + 2 * d * q[1] * d_rate;
-        ell[e] += d * d * (q[0] - 1);
-        ell_y0[e] += ell_m / 2;
-        ell_y1[e] += ell_m / 2;
-        ell_d[e] += 2 * d * (q[0] - 1);
-        rate[e] += ell_m * m_rate + 2 * d * (q[0] - 1) * d_rate;
-        bend_y0[e] += bend_m / 2;
-        bend_y1[e] += bend_m / 2;
-        bend_d[e] += 2 * d * q[1] * m_rate + 2 * (q[0] - 1) * d_rate;
+        const struct bending bent = bending(mesh, &stage->y[e]);
+        const double d = width[e], d_rate = v[e + 1] - v[e], u0 = u[e], u1 = u[e + 1];
+        const double q_rate = bent.by[0] * u0 + bent.by[1] * u1;
+        ell[e] += d * d * (bent.q - 1);
+        ell_y0[e] += d * d * bent.by[0];
+        ell_y1[e] += d * d * bent.by[1];
+        ell_d[e] += 2 * d * (bent.q - 1);
+        rate[e] += d * d * q_rate + 2 * d * (bent.q - 1) * d_rate;
+        bend_y0[e] += d * d * (bent.twice[0][0] * u0 + bent.twice[0][1] * u1) + 2 * d * bent.by[0] * d_rate;
+        bend_y1[e] += d * d * (bent.twice[1][0] * u0 + bent.twice[1][1] * u1) + 2 * d * bent.by[1] * d_rate;
+        bend_d[e] += 2 * d * q_rate + 2 * (bent.q - 1) * d_rate;
     }
 }
 
@@ -179,7 +196,8 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
     const double kvv = v[0] * v[0] + v[0] * v[1] + v[1] * v[1], k = (kvv / 3 - 1) / d;
     double w_mm, w_mr, w_rr;
     mesh->potential->second(stage->middle[e], r, &w_mm, &w_mr, &w_rr);
-    spread(-d * w_mm, -d * w_mr, -stage->w_m[e], k - d * w_rr, -stage->w_r[e] - g * k, g * g * k, matrices->stiff);
+    spread(-d * w_mm, -d * w_mr, -stage->w_m[e], k - d * w_rr, -stage->w_r[e] - g * k, g * g * k,
+           matrices->stiff);
     for (size_t i = 0; i < 2; i++) {
         const double a = (u[0] + u[1] + u[i]) / 6, b = (v[0] + v[1] + v[i]) / 6;
         const double by_r[2] = {-b, 2 * g * b - a}, by_d[2] = {a, -g * g * b};
@@ -201,11 +219,19 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
     if (!constrained) {
         return;
     }
-    double q[3] = {1, 0, 0};
+    spread(0, 0, 0, 2 * mesh->alpha * mesh->alpha, 0, 2, matrices->hessian);
     if (mesh->curvature != 0) {
-        bending(mesh, stage->middle[e], q);
+        const struct bending bent = bending(mesh, &stage->y[e]);
+        static const double sign[2] = {-1, 1};
+        for (size_t i = 0; i < 2; i++) {
+            for (size_t k = 0; k < 2; k++) {
+                matrices->hessian[2 * i][2 * k] += d * d * bent.twice[i][k];
+                matrices->hessian[2 * i][2 * k + 1] += 2 * d * bent.by[i] * sign[k];
+                matrices->hessian[2 * i + 1][2 * k] += 2 * d * bent.by[k] * sign[i];
+                matrices->hessian[2 * i + 1][2 * k + 1] += 2 * (bent.q - 1) * sign[i] * sign[k];
+            }
+        }
     }
-    spread(d * d * q[2], 0, 2 * d * q[1], 2 * mesh->alpha * mesh->alpha, 0, 2 * q[0], matrices->hessian);
     const double gradient[4] = {stage->ell_y0[e], -stage->ell_d[e], stage->ell_y1[e], stage->ell_d[e]};
     const double bend[4] = {stage->bend_y0[e], -stage->bend_d[e], stage->bend_y1[e], stage->bend_d[e]};
     memcpy(matrices->gradient, gradient, sizeof gradient);

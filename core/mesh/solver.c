@@ -7,9 +7,14 @@
 
 enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 
-static const double tolerance = 1e-11;  /* of a change of the unknowns */
-static const double stagnation = 1e-9;  /* of a change that no longer shrinks: multipliers carry noise */
-static const double too_slow = 0.2;     /* contraction at which new factors pay */
+static const double tolerance = 1e-11; /* of a change of the unknowns */
+static const double contracts = 0.2;   /* a ratio of changes at which the rest may be told from them */
+
+/* Of a change that no longer shrinks: multipliers carry noise, velocities the round-off of places over dt. */
+static double stagnation(const struct gm_equations *equations)
+{
+    return fmax(1e-9, 10 * equations->noise);
+}
 
 size_t gm_solver_memory(size_t nodes, size_t per_node, size_t state)
 {
@@ -43,10 +48,14 @@ void gm_solver_start(struct gm_solver *solver, double *memory)
     solver->stamp = 0;
 }
 
-static double *past(double *memory, size_t n, size_t back) { return memory + GM_MEMORY_HEAD + back * n; }
+static double *past(double *memory, size_t n, size_t back)
+{
+    return memory + GM_MEMORY_HEAD + back * n;
+}
 
 /* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic. */
-static void extrapolate(const struct gm_equations *equations, double *memory, size_t n, size_t order, double *out)
+static void extrapolate(const struct gm_equations *equations, double *memory, size_t n, size_t order,
+                        double *out)
 {
     const double *p1 = past(memory, n, 0), *p2 = past(memory, n, 1), *p3 = past(memory, n, 2);
     const double *p4 = past(memory, n, 3), *p5 = past(memory, n, 4), *p6 = past(memory, n, 5);
@@ -162,8 +171,8 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_equations 
         const double change = move(equations, solver->residual, 1, solver->unknowns);
         const double ratio = change / before;
         /* what is left after this change is about ratio / (1 - ratio) of it */
-        if (change < tolerance || (iteration > 3 && ratio > 0.5 && change < stagnation) ||
-            (ratio > 0 && ratio < too_slow && change * ratio < 0.1 * tolerance)) {
+        if (change < tolerance || (iteration > 3 && ratio > 0.5 && change < stagnation(equations)) ||
+            (ratio > 0 && ratio < contracts && change * ratio < 0.1 * tolerance)) {
             memory[GM_MEMORY_SLOW] = iteration > MANY;
             return SOLVED;
         }
@@ -182,8 +191,8 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_equations 
 }
 
 /* Newton's iteration with a new matrix every time; a step is shortened until every cell is positive. */
-static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_equations *equations, double *memory,
-                                  const double *state, struct gm_progress *progress)
+static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_equations *equations,
+                                  double *memory, const double *state, struct gm_progress *progress)
 {
     const size_t n = solver->matrix.n;
     enum outcome failure = DIVERGED;
@@ -208,7 +217,8 @@ static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_equa
             }
             progress->evaluations++;
             if (equations->residual(equations->self, solver->unknowns, solver->residual)) {
-                if (share == 1 && (change < tolerance || (change > before / 2 && change < stagnation))) {
+                if (share == 1 &&
+                    (change < tolerance || (change > before / 2 && change < stagnation(equations)))) {
                     memory[GM_MEMORY_SLOW] = 0;
                     return SOLVED;
                 }
@@ -258,5 +268,6 @@ enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_equatio
     }
     remember(solver, memory);
     progress->evaluations++;
-    return equations->residual(equations->self, solver->unknowns, solver->residual) ? GM_OK : GM_MESH_CROSSING;
+    return equations->residual(equations->self, solver->unknowns, solver->residual) ? GM_OK
+                                                                                    : GM_MESH_CROSSING;
 }

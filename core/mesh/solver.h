@@ -8,14 +8,16 @@
 /* The non-linear equations of one step, shared by the families on meshes: `per_node` unknowns at every node,
    node by node, so that matrices are banded.
 
-   The LU factors are kept over iterations and steps until they converge too slowly. They are derived data: what
-   they were made from (a state and unknowns) is part of the scheme's memory, so a run that is resumed makes the
-   same factors again and goes on with the same bits. First guesses are extrapolated from the last four steps. */
+   The LU factors are kept over iterations and steps until they converge too slowly. They are derived data:
+   what they were made from (a state and unknowns) is part of the scheme's memory, so a run that is resumed
+   makes the same factors again and goes on with the same bits. First guesses are extrapolated from the last
+   four steps. */
 
 struct gm_equations {
     void *self;
     size_t nodes, per_node, state; /* state: numbers of the canonical state */
-    const double *weights; /* per_node, of a change of an unknown in the test of convergence */
+    double noise;                  /* change of the unknowns that round-off alone makes */
+    const double *weights;         /* per_node, of a change of an unknown in the test of convergence */
     /* takes the state that the step starts from */
     void (*place)(void *self, const double *state);
     /* the unknowns of a scheme that has no past */
@@ -48,8 +50,8 @@ void gm_solver_close(struct gm_solver *solver);
 /* A memory without a past. */
 void gm_solver_start(struct gm_solver *solver, double *memory);
 
-/* Solves for the step from `state`; leaves the unknowns in solver->unknowns, the residual's by-products there, and
-   remembers. Counts into progress. */
+/* Solves for the step from `state`; leaves the unknowns in solver->unknowns, the residual's by-products
+   there, and remembers. Counts into progress. */
 enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_equations *equations, double *memory,
                                const double *state, struct gm_progress *progress);
 

@@ -9,10 +9,16 @@ static double lorentz(const struct gm_soliton *soliton)
 }
 
 /* When two solitons meet; at 5 in the document's box of 25. */
-static double encounter(const struct gm_soliton *soliton) { return soliton->length / 5; }
+static double encounter(const struct gm_soliton *soliton)
+{
+    return soliton->length / 5;
+}
 
 /* Where the right one of two phi^4 kinks is at the start. */
-static double kink_place(const struct gm_soliton *soliton) { return soliton->velocity * encounter(soliton); }
+static double kink_place(const struct gm_soliton *soliton)
+{
+    return soliton->velocity * encounter(soliton);
+}
 
 double gm_soliton_alpha(const struct gm_soliton *soliton)
 {
@@ -33,7 +39,9 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
         .points = (size_t)soliton->points,
         .length = soliton->length,
         .left = sine_gordon ? (two ? -2 * M_PI : 0) : -1,
-        .right = sine_gordon ? 2 * M_PI : two ? -1 : 1,
+        .right = sine_gordon ? 2 * M_PI
+                 : two       ? -1
+                             : 1,
         .potential = sine_gordon ? &gm_potential_sine_gordon : &gm_potential_phi4,
     };
     const double share = soliton->density == GM_MIX ? sqrt(0.5) : 1;
@@ -41,9 +49,9 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
         mesh->alpha = share * alpha;
     }
     if (soliton->density != GM_ARCLENGTH) {
-        /* alpha^2 phi_X^2 and curvature phi_XX are of one size at a soliton of this speed */
+        /* both densities have the same greatest value at a soliton of this speed */
         const double steep = lorentz(soliton);
-        mesh->curvature = share * 2 * alpha * alpha * steep * steep;
+        mesh->curvature = share * share * 4 * alpha * alpha * steep * steep;
     }
 }
 
@@ -61,7 +69,8 @@ void gm_soliton_problem(const struct gm_soliton *soliton, struct gm_problem *pro
 }
 
 /* 4 arctan(v sinh(gamma x) / cosh(v gamma t)), two solitons that meet at x = 0, t = 0 (eq. 164). */
-static void pair(double velocity, double gamma, double x, double t, double *value, double *slope, double *rate)
+static void pair(double velocity, double gamma, double x, double t, double *value, double *slope,
+                 double *rate)
 {
     const double a = fabs(gamma * x), b = fabs(velocity * gamma * t);
     const double scale = velocity * exp(fmin(a - b, 300)) / (1 + exp(-2 * b));
@@ -82,7 +91,8 @@ static void kink(double gamma, double x, double velocity, double *value, double 
 void gm_soliton_profile(const void *context, double x, double *value, double *slope, double *rate)
 {
     const struct gm_soliton *soliton = context;
-    const double gamma = lorentz(soliton), velocity = soliton->velocity, from_middle = x - soliton->length / 2;
+    const double gamma = lorentz(soliton), velocity = soliton->velocity,
+                 from_middle = x - soliton->length / 2;
     if (soliton->field == GM_PHI4) {
         *slope = *rate = 0;
         if (soliton->solitons == 1) {
