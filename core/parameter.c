@@ -213,6 +213,10 @@ enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, cons
         }
         return GM_NOT_UNDERSTOOD;
     }
+    if (row->automatic && strcmp(text, "auto") == 0) {
+        store_double(row, owner, NAN);
+        return GM_PARSED;
+    }
     double value = 0;
     if (!gm_number_parse(text, &value)) {
         return GM_NOT_UNDERSTOOD;
@@ -257,6 +261,10 @@ char *gm_parameter_format(const struct gm_parameter *row, const void *owner, cha
     double value = gm_parameter_get(row, owner);
     if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
         snprintf(text, size, "%s", words_of(row)[(int)value]);
+        return text;
+    }
+    if (row->automatic && isnan(value)) {
+        snprintf(text, size, "auto");
         return text;
     }
     if (row->type == GM_INTEGER) {

@@ -26,6 +26,7 @@ struct gm_parameter {
     bool logarithmic;           /* a slider moves by factors */
     bool live;                  /* a change acts on the present state; otherwise the run starts again */
     const char *const *choices; /* NULL-terminated, for GM_CHOICE */
+    bool automatic;             /* a real that may also be "auto": NaN, until its owner settles it */
 };
 
 enum gm_parse {

@@ -16,6 +16,7 @@ struct gm_burgers;
 struct gm_dispersive;
 struct gm_kdv;
 struct gm_nls;
+struct gm_moving_mesh; /* core/moving_mesh.h */
 
 /* Instruction sets that loops are compiled for. */
 enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
@@ -133,6 +134,7 @@ enum gm_facet {
     GM_NEEDS_BURGERS = 1u << 18,    /* u_t + u u_x = nu u_xx in moving frames */
     GM_NEEDS_KDV = 1u << 19,        /* u_t + eta u u_x + mu u_xxx = 0 */
     GM_NEEDS_NLS = 1u << 20,        /* i psi_t + psi_xx + |psi|^2 psi = 0 */
+    GM_NEEDS_MOVING_MESH = 1u << 11,
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain
@@ -166,6 +168,7 @@ struct gm_problem {
     const struct gm_kdv *kdv;
     const struct gm_nls *nls;
     const struct gm_burgers *burgers;
+    const struct gm_moving_mesh *moving_mesh;
     const struct gm_loops *loops[GM_ISA_COUNT]; /* made of the problem's kernels by core/kernel/loops.c */
 };
 

@@ -144,7 +144,8 @@ static unsigned facets_of(const struct gm_problem *problem)
            (ode && ode->quadratic ? GM_NEEDS_QUADRATIC : 0) |
            (split && split->nystrom ? GM_NEEDS_NYSTROM : 0) | (problem->field ? GM_NEEDS_FIELD : 0) |
            (problem->wave ? GM_NEEDS_WAVE : 0) | (problem->burgers ? GM_NEEDS_BURGERS : 0) |
-           (problem->kdv ? GM_NEEDS_KDV : 0) | (problem->nls ? GM_NEEDS_NLS : 0);
+           (problem->kdv ? GM_NEEDS_KDV : 0) | (problem->nls ? GM_NEEDS_NLS : 0) |
+           (problem->moving_mesh ? GM_NEEDS_MOVING_MESH : 0);
 }
 
 gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem)

@@ -23,6 +23,7 @@ struct group {
     size_t count;
     enum gm_place place;
     struct gm_box area;
+    size_t wanted; /* columns; 0: any number */
     size_t columns, rows;
     enum gm_detail detail;
 };
@@ -99,6 +100,9 @@ static void choose_grid(const struct gm_label_list *list, struct group *group, s
     double best = -INFINITY;
     struct group chosen = *group;
     for (size_t columns = 1; columns <= most_columns; columns++) {
+        if (group->wanted > 0 && group->wanted <= most_columns && columns != group->wanted) {
+            continue;
+        }
         struct group trial = *group;
         trial.columns = columns;
         trial.rows = (group->count + columns - 1) / columns;
@@ -307,7 +311,7 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     const double top = place_header(&list, picture, margin);
     const double bottom = place_caption(&list, picture, margin);
 
-    struct group states = {.frames = frames, .place = GM_PLACE_STATE};
+    struct group states = {.frames = frames, .place = GM_PLACE_STATE, .wanted = picture->state_columns};
     states.count = collect(picture, GM_PLACE_STATE, panel_count, frames);
     struct group graphs = {.frames = frames + states.count, .place = GM_PLACE_GRAPH};
     graphs.count = collect(picture, GM_PLACE_GRAPH, metrics->terse ? 1 : panel_count, graphs.frames);

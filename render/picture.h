@@ -109,8 +109,9 @@ struct gm_panel {
 
 struct gm_picture {
     const char *title, *subtitle;
-    const char *clock;   /* top right */
-    const char *caption; /* a sentence along the bottom; "" for none */
+    const char *clock;    /* top right */
+    const char *caption;  /* a sentence along the bottom; "" for none */
+    size_t state_columns; /* of the grid of states; 0: as many as make them largest */
     struct gm_panel *first, *last;
     struct gm_arena *arena;
 };

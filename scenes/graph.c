@@ -127,6 +127,14 @@ size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count)
     return panels;
 }
 
+/* What lies below a graph's floor is a gap. */
+static void cut(double *points, size_t count, double floor)
+{
+    for (size_t i = 0; i < count; i++) {
+        points[2 * i + 1] = points[2 * i + 1] < floor ? NAN : points[2 * i + 1];
+    }
+}
+
 /* The history of one observable as points: one per bin while a bin is a step, then its low and high. */
 static size_t history_points(const struct gm_lane *lane, size_t series, double divisor,
                              const struct gm_graph *graph, double *points)
@@ -246,6 +254,9 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
     for (size_t i = 0; i < count; i++) {
         const double divisor = divisor_of(lanes[i], series, graph->relative);
         const size_t made = history_points(lanes[i], series, divisor, graph, points);
+        if (graph->floor > 0) {
+            cut(points, made, graph->floor);
+        }
         for (size_t k = 0; k < made; k++) {
             if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
                 gm_range_add(&low, &high, points[2 * k + 1]);
@@ -270,6 +281,9 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
         }
         const double divisor = divisor_of(lanes[i], series, graph->relative);
         const size_t made = history_points(lanes[i], series, divisor, graph, points);
+        if (graph->floor > 0) {
+            cut(points, made, graph->floor);
+        }
         gm_mark_line(picture, panel, gm_lane_style(lanes[i], 1, 2.4), points, made, false);
         if (named) {
             const char *name =

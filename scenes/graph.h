@@ -48,6 +48,7 @@ struct gm_graph {
     bool highest;               /* the greatest values only, where there are too many to tell apart */
     enum gm_scale scale;        /* GM_LOG: zeros are gaps; a round-off line where the range comes near it */
     double calm_low, calm_high; /* the range shown at least; equal: none */
+    double floor; /* log: values below are left out, such as those of the first steps; 0: none */
 };
 
 /* Adds a graph of the lanes' histories; of all lanes, or of those of one panel (only >= 0). Where no

@@ -27,6 +27,7 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .t = lane->run->t,
         .dt = lane->run->dt,
         .tracks = lane->entries,
+        .run = lane->run,
     };
 }
 
@@ -306,6 +307,9 @@ static bool prepare(struct gm_lane *lane, char *sentence)
     if (!lane->parameters) {
         return refuse(sentence, "not enough memory");
     }
+    if (scene->resolve) {
+        scene->resolve(lane->parameters);
+    }
     if (!scene->setup(lane->parameters, &lane->problem, sentence) ||
         !check_fit(scene, &lane->problem, lane->scheme, sentence)) {
         return false;
@@ -315,7 +319,11 @@ static bool prepare(struct gm_lane *lane, char *sentence)
     if (!lane->start) {
         return refuse(sentence, "not enough memory");
     }
-    scene->start(lane->parameters, &lane->problem, lane->start);
+    if (!scene->start_with) {
+        scene->start(lane->parameters, &lane->problem, lane->start);
+    } else if (!scene->start_with(lane->parameters, &lane->problem, lane->scheme, lane->start, sentence)) {
+        return false;
+    }
     lane->run =
         gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
     if (!lane->run || !gm_history_open(&lane->history, scene->observable_count) || !open_tracks(lane)) {

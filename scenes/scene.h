@@ -40,6 +40,7 @@ struct gm_view {
     const double *state; /* the present state */
     double t0, t, dt;
     const struct gm_entries *tracks; /* the scene's, as recorded so far; NULL while a lane is opened */
+    const struct gm_run *run;        /* for what a scheme says of itself */
 };
 
 /* A number per step. With `error` the number printed is |x - x0| / max(|x0|, scale), x = evaluate. */
@@ -130,10 +131,16 @@ struct gm_scene {
     /* Makes parameters agree that follow from others, after those of these keys were set; false with a
        sentence if they contradict. NULL: none do. */
     bool (*settle)(void *parameters, const char *const *keys, size_t count, char *sentence);
+    /* Settles, in the lane's own copy, the parameters that were left to it ("auto"); NULL: there are none. */
+    void (*resolve)(void *parameters);
     /* Fills the problem (n, m, facets) for these parameters; false with a sentence if they contradict. */
     bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);
     /* Writes the canonical state at t0 (n * m). */
     void (*start)(const void *parameters, const struct gm_problem *problem, double *y);
+    /* Instead of start, where the state depends on the scheme, or may not exist: false with a sentence then.
+     */
+    bool (*start_with)(const void *parameters, const struct gm_problem *problem,
+                       const struct gm_scheme *scheme, double *y, char *sentence);
     /* Draws the lanes, count >= 1, into an empty picture; looks only. */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 };

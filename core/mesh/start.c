@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* States on a mesh: of a given field, of another mesh's state, and what is measured of them. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/mesh/nodes.h"
+
+/* Continuation: the density's parameters grow from 0, the uniform mesh, to their values in this many steps
+   (Tyranowski & Desbrun 2019, section 5.2), which are halved where they are too long. */
+enum { CONTINUATION = 50, SHORTEST = CONTINUATION * 64, DIRECT = 255 };
+
+struct bench {
+    struct gm_elements stage;
+    struct gm_banded matrix;
+    double *change;
+};
+
+static void bench_close(struct bench *bench)
+{
+    gm_elements_close(&bench->stage);
+    gm_banded_close(&bench->matrix);
+    free(bench->change);
+}
+
+static bool bench_open(struct bench *bench, const struct gm_mesh *mesh)
+{
+    *bench = (struct bench){.change = calloc(mesh->points, sizeof(double))};
+    if (!gm_elements_open(&bench->stage, mesh) || !gm_banded_open(&bench->matrix, mesh->points, 1) ||
+        !bench->change) {
+        bench_close(bench);
+        return false;
+    }
+    return true;
+}
+
+static void even(const struct gm_mesh *mesh, double *x)
+{
+    for (size_t k = 0; k <= mesh->points + 1; k++) {
+        x[k] = mesh->length * (double)k / (double)(mesh->points + 1);
+    }
+}
+
+static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_profile *profile,
+                        const void *context)
+{
+    double *x = bench->stage.x;
+    const size_t size = (mesh->points + 2) * sizeof *x;
+    double *good = malloc(size);
+    if (!good) {
+        return false;
+    }
+    even(mesh, x);
+    memcpy(good, x, size);
+    double reached = 0, step = 1. / CONTINUATION;
+    while (reached < 1 && step > 1. / SHORTEST) {
+        const double next = reached + step < 1 - 1e-9 ? reached + step : 1;
+        struct gm_mesh part = *mesh;
+        part.alpha *= next;
+        part.curvature *= next;
+        if (gm_nodes_equidistribute(&bench->stage, &part, profile, context, &bench->matrix, bench->change)) {
+            reached = next;
+            memcpy(good, x, size);
+        } else {
+            step /= 2;
+            memcpy(x, good, size);
+        }
+    }
+    free(good);
+    return reached >= 1;
+}
+
+/* Many nodes: start from the mesh with half as many. */
+static bool refine(struct bench *bench, const struct gm_mesh *mesh, gm_profile *profile, const void *context)
+{
+    if (mesh->points <= DIRECT) {
+        return continue_to(bench, mesh, profile, context);
+    }
+    struct gm_mesh coarse = *mesh;
+    coarse.points = mesh->points / 2;
+    struct bench under;
+    if (!bench_open(&under, &coarse)) {
+        return false;
+    }
+    const bool good = refine(&under, &coarse, profile, context);
+    for (size_t k = 1; good && k <= mesh->points; k++) {
+        const double at = (double)k * (double)(coarse.points + 1) / (double)(mesh->points + 1);
+        const size_t node = (size_t)at;
+        const double *x = under.stage.x;
+        bench->stage.x[k] = x[node] + (at - (double)node) * (x[node + 1] - x[node]);
+    }
+    bench_close(&under);
+    return good &&
+           gm_nodes_equidistribute(&bench->stage, mesh, profile, context, &bench->matrix, bench->change);
+}
+
+bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_profile *profile,
+                   const void *context, double *state)
+{
+    const size_t points = mesh->points;
+    struct bench bench;
+    if (!bench_open(&bench, mesh)) {
+        return false;
+    }
+    bool good = true;
+    if (kind == GM_MESH_UNIFORM || (mesh->alpha == 0 && mesh->curvature == 0)) {
+        even(mesh, bench.stage.x);
+        for (size_t k = 1; k <= points; k++) {
+            profile(context, bench.stage.x[k], &bench.stage.y[k], &bench.stage.u[k], &bench.stage.v[k]);
+        }
+    } else {
+        good = refine(&bench, mesh, profile, context) &&
+               gm_nodes_set_in_motion(&bench.stage, &bench.matrix, bench.change);
+    }
+    for (size_t k = 0; k < points; k++) {
+        state[k] = bench.stage.y[k + 1];
+        state[points + k] = bench.stage.x[k + 1];
+        state[2 * points + k] = bench.stage.u[k + 1] * bench.change[k] + bench.stage.v[k + 1];
+        state[3 * points + k] = bench.change[k];
+    }
+    bench_close(&bench);
+    return good;
+}
+
+/* The field of a state: monotone cubics between the nodes (Fritsch & Carlson 1980), its rate linear. */
+struct field {
+    size_t count; /* nodes, ends included */
+    double *x, *y, *slope, *rate;
+};
+
+static void field_at(const void *context, double x, double *value, double *slope, double *rate)
+{
+    const struct field *field = context;
+    size_t low = 0, high = field->count - 1;
+    while (high - low > 1) {
+        const size_t middle = (low + high) / 2;
+        if (field->x[middle] <= x) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    const double d = field->x[high] - field->x[low], s = (x - field->x[low]) / d, r = 1 - s;
+    const double leave = d * field->slope[low], arrive = d * field->slope[high];
+    const double rise = field->y[high] - field->y[low];
+    *value = field->y[low] + s * s * (3 - 2 * s) * rise + s * r * (r * leave - s * arrive);
+    *slope = (6 * s * r * rise + r * (1 - 3 * s) * leave + s * (3 * s - 2) * arrive) / d;
+    *rate = r * field->rate[low] + s * field->rate[high];
+}
+
+static void slopes(const struct gm_elements *stage, double *slope)
+{
+    const size_t last = stage->count;
+    for (size_t k = 0; k <= last; k++) {
+        if (k == 0 || k == last) {
+            slope[k] = stage->slope[k == 0 ? 0 : last - 1];
+            continue;
+        }
+        const double before = stage->slope[k - 1], after = stage->slope[k];
+        const double d0 = stage->width[k - 1], d1 = stage->width[k];
+        slope[k] = before * after > 0 ? 3 * (d0 + d1) / ((2 * d1 + d0) / before + (d1 + 2 * d0) / after) : 0;
+    }
+}
+
+static bool is_uniform(const struct gm_mesh *mesh, const double *state)
+{
+    const size_t points = mesh->points;
+    for (size_t k = 0; k < points; k++) {
+        const double x = mesh->length * (double)(k + 1) / (double)(points + 1);
+        if (!(fabs(state[points + k] - x) <= 1e-12 * mesh->length) || state[3 * points + k] != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool gm_mesh_carry(const struct gm_mesh *mesh, enum gm_mesh_kind kind, const double *state, double *out)
+{
+    const size_t points = mesh->points;
+    const double enough = 1e-7;
+    if (kind == GM_MESH_UNIFORM ? is_uniform(mesh, state) : gm_mesh_constraint_defect(mesh, state) < enough) {
+        memmove(out, state, 4 * points * sizeof *out);
+        return true;
+    }
+    struct gm_elements stage;
+    if (!gm_elements_open(&stage, mesh)) {
+        return false;
+    }
+    gm_elements_place(&stage, state);
+    double *memory = malloc(2 * (points + 2) * sizeof *memory);
+    bool good = gm_elements_evaluate(&stage, mesh) && memory;
+    if (good) {
+        const struct field field = {points + 2, stage.x, stage.y, memory, memory + points + 2};
+        slopes(&stage, field.slope);
+        for (size_t k = 0; k < points + 2; k++) {
+            field.rate[k] = stage.u[k] - field.slope[k] * stage.v[k];
+        }
+        good = gm_mesh_start(mesh, kind, field_at, &field, out);
+    }
+    free(memory);
+    gm_elements_close(&stage);
+    return good;
+}
+
+double gm_mesh_energy(const struct gm_mesh *mesh, const double *state)
+{
+    struct gm_elements stage;
+    double sum = NAN;
+    if (!gm_elements_open(&stage, mesh)) {
+        return sum;
+    }
+    gm_elements_place(&stage, state);
+    if (gm_elements_evaluate(&stage, mesh)) {
+        sum = 0;
+        for (size_t e = 0; e < stage.count; e++) {
+            const double g = stage.slope[e];
+            const double kinetic = ((stage.u[e] - g * stage.v[e]) * stage.momentum_u0[e] +
+                                    (stage.u[e + 1] - g * stage.v[e + 1]) * stage.momentum_u1[e]) /
+                                   2;
+            sum += kinetic + stage.rise[e] * g / 2 + stage.width[e] * stage.w[e];
+        }
+    }
+    gm_elements_close(&stage);
+    return sum;
+}
+
+double gm_mesh_constraint_defect(const struct gm_mesh *mesh, const double *state)
+{
+    struct gm_elements stage;
+    if (!gm_elements_open(&stage, mesh)) {
+        return NAN;
+    }
+    gm_elements_place(&stage, state);
+    double jump = 0, size = 0;
+    gm_elements_measure(&stage, mesh);
+    for (size_t k = 1; k <= mesh->points; k++) {
+        jump = fmax(jump, fabs(gm_jump(stage.ell, k)));
+        size = fmax(size, fmax(stage.ell[k], stage.ell[k - 1]));
+    }
+    gm_elements_close(&stage);
+    return jump / size;
+}
+
+double gm_mesh_smallest_cell(const struct gm_mesh *mesh, const double *state)
+{
+    const double *x = state + mesh->points;
+    double least = fmin(x[0], mesh->length - x[mesh->points - 1]);
+    for (size_t k = 1; k < mesh->points; k++) {
+        least = fmin(least, x[k] - x[k - 1]);
+    }
+    return least;
+}

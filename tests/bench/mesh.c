@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Processor time of a step of the r-adaptive schemes: one soliton, dt = 0.01, medians of several runs; and
+   how the cost grows with the number of points. Usage: bench_mesh [runs] */
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "core/problems/soliton.h"
+#include "core/run.h"
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Microseconds a step, the median over the runs; negative if the run failed. */
+static double measure(const char *name, long points, long steps, int runs)
+{
+    enum { MOST = 99 };
+    /* the same Courant number on every mesh: Lobatto IIIA-IIIB is explicit in what it knows of waves */
+    const double dt = points <= 31 ? 0.01 : 0.01 * 32 / (double)(points + 1);
+    const struct gm_soliton soliton = {
+        .solitons = 1, .points = points, .velocity = 0.9, .length = 25, .alpha = 2.5};
+    const struct gm_settings settings = {0};
+    const struct gm_scheme *scheme = gm_scheme_find(name);
+    struct gm_problem problem;
+    struct gm_mesh mesh;
+    double times[MOST];
+    gm_soliton_problem(&soliton, &problem);
+    problem.moving_mesh->describe(&problem, &mesh);
+    double *state = malloc(problem.n * sizeof *state);
+    if (!state || !scheme ||
+        !gm_mesh_start(&mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &soliton, state)) {
+        free(state);
+        return -1;
+    }
+    bool good = true;
+    for (int i = 0; i < runs && i < MOST && good; i++) {
+        struct gm_run *run = gm_run_open(&problem, scheme, &settings, 0, dt, state);
+        if (!run) {
+            good = false;
+            break;
+        }
+        const double before = now();
+        good = gm_run_advance(run, steps) == GM_OK;
+        times[i] = 1e6 * (now() - before) / (double)steps;
+        if (i == 0 && points == 31) {
+            printf("  %-24s %5.2f residuals, %5.3f factorisations a step\n", name,
+                   (double)run->evaluations / (double)run->steps,
+                   gm_mesh_factorisations(run) / (double)run->steps);
+        }
+        gm_run_close(run);
+    }
+    free(state);
+    const int count = runs < MOST ? runs : MOST;
+    qsort(times, (size_t)count, sizeof times[0], ascending);
+    return good ? times[count / 2] : -1;
+}
+
+int main(int count, char **words)
+{
+    const int runs = count > 1 && atoi(words[1]) > 0 ? atoi(words[1]) : 5;
+    static const char *const names[] = {"uniform-gauss4",         "control-gauss4",
+                                        "control-radau5",         "multiplier-lobatto2",
+                                        "multiplier-trapezoidal", "multiplier-lobatto4"};
+    printf("31 points, 1000 steps of 0.01\n");
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        printf("  %-24s %8.2f us a step\n", names[i], measure(names[i], 31, 1000, runs));
+    }
+    printf("multiplier-lobatto4, 40 steps of 0.32 / (points + 1)\n  %8s %12s %14s\n", "points", "us a step",
+           "ns a point");
+    for (long points = 63; points <= 4095; points = 2 * points + 1) {
+        const double time = measure("multiplier-lobatto4", points, 40, runs);
+        printf("  %8ld %12.1f %14.1f\n", points, time, 1e3 * time / (double)points);
+    }
+    return 0;
+}
