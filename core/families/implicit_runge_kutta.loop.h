@@ -3,8 +3,8 @@
 
 enum { K(IMPLICIT_ITERATIONS) = 150 };
 
-/* Components [from, to) of the increments, from the slopes: z := h a f in the lanes that are active. Returns the sum of
-   the changes: a sum, because it hands a NaN on where a maximum may lose it. */
+/* Components [from, to) of the increments, from the slopes: z := h a f in the lanes that are active. Returns
+   the sum of the changes: a sum, because it hands a NaN on where a maximum may lose it. */
 GM_INLINE real K(implicit_update)(const struct gm_implicit_row *row, int stages, int from, int to, double h,
                                   mask active, real f[][GM_COMPONENTS], real z[][GM_COMPONENTS])
 {
@@ -30,8 +30,8 @@ GM_INLINE void K(implicit_take)(int from, int to, mask active, const real *slope
     }
 }
 
-/* One iteration: new slopes at y + z, and new z from them. Where q' depends on p alone and p' on q alone, p' is taken at
-   the new q, which doubles the order in h that an iteration gains. */
+/* One iteration: new slopes at y + z, and new z from them. Where q' depends on p alone and p' on q alone, p'
+   is taken at the new q, which doubles the order in h that an iteration gains. */
 GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages, const real *y, double h,
                                    const void *parameters, mask active, real f[][GM_COMPONENTS],
                                    real z[][GM_COMPONENTS])
@@ -69,13 +69,13 @@ GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages
 #endif
 }
 
-/* Solves for the slopes f_i = f(y + z_i) of the lanes by fixed-point iteration, from z = 0, until the change of z
-   is zero or, at the level of round-off, no longer decreases, or the next one, changes being in geometric progression,
-   would be far below round-off. A lane that is done is frozen, so its bits do not depend on the others. Returns the
-   lanes that were solved. */
+/* Solves for the slopes f_i = f(y + z_i) of the lanes by fixed-point iteration, from z = 0, until the change
+   of z is zero or, at the level of round-off, no longer decreases, or the next one, changes being in
+   geometric progression, would be far below round-off. A lane that is done is frozen, so its bits do not
+   depend on the others. Returns the lanes that were solved. */
 GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int stages, const real *y, double h,
                                        const void *parameters, real f[][GM_COMPONENTS],
-                                       struct K(counts) *counts)
+                                       struct K(counts) * counts)
 {
     real z[GM_IMPLICIT_STAGES][GM_COMPONENTS];
     real norm = K(constant)(0);
@@ -87,13 +87,13 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
         }
     }
     const real roundoff = (8 * stages * 2.220446049250313e-16) * norm;
-    real negligible = K(constant)(0); /* 2^-56 of the first change: a small part of the increments' last place */
+    real negligible = K(constant)(0); /* 2^-60 of the first change: with more, invariants drift */
     real previous = K(constant)(1e300);
-    mask active = K(all)(), solved = K(not)(active);
+    mask active = K(all)(), solved = K(not )(active);
     for (int iteration = 0; iteration < K(IMPLICIT_ITERATIONS); iteration++) {
         const real change = K(implicit_iterate)(row, stages, y, h, parameters, active, f, z);
         if (iteration == 0) {
-            negligible = 1.3877787807814457e-17 * change;
+            negligible = 8.673617379884035e-19 * change;
         }
         for (int l = 0; l < counts->lanes; l++) {
             counts->evaluations += K(mask_lane)(active, l) ? (unsigned long)stages : 0;
@@ -103,7 +103,7 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
         mask stagnant = ((change >= previous) | last) & (change <= roundoff);
         mask done = active & ((change == K(constant)(0)) | stagnant);
         solved |= done;
-        active &= K(not)(done) & (change < K(constant)(1e100));
+        active &= K(not )(done) & (change < K(constant)(1e100));
         if (!K(somewhere)(active)) {
             break;
         }
@@ -216,9 +216,10 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
 /* Lane by lane, for those in `which`. */
 static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_implicit_row *row, mask which,
                                                             const real *y, double h, const void *parameters,
-                                                            real f[][GM_COMPONENTS], struct K(counts) *counts)
+                                                            real f[][GM_COMPONENTS],
+                                                            struct K(counts) * counts)
 {
-    mask solved = K(not)(K(all)());
+    mask solved = K(not )(K(all)());
     for (int l = 0; l < GM_LANES; l++) {
         if (!K(mask_lane)(which, l)) {
             continue;
@@ -243,20 +244,20 @@ static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_impl
     return solved;
 }
 
-GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int stages,
-                                       struct K(block) *block, double dt, const void *parameters,
-                                       bool compensated, bool stiff, struct K(counts) *counts)
+GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int stages, struct K(block) * block,
+                                       double dt, const void *parameters, bool compensated, bool stiff,
+                                       struct K(counts) * counts)
 {
     mask good = K(all)();
     for (int substep = 0; substep < row->substeps; substep++) {
         const double h = dt * row->fractions[substep];
         real f[GM_IMPLICIT_STAGES][GM_COMPONENTS];
-        mask solved = K(not)(K(all)());
+        mask solved = K(not )(K(all)());
         if (!stiff) {
             solved = K(implicit_fixed_point)(row, stages, block->y, h, parameters, f, counts);
         }
         if (!K(everywhere)(solved)) {
-            solved |= K(implicit_by_newton)(row, K(not)(solved), block->y, h, parameters, f, counts);
+            solved |= K(implicit_by_newton)(row, K(not )(solved), block->y, h, parameters, f, counts);
         }
         good &= solved;
         for (int c = 0; c < GM_COMPONENTS; c++) {
@@ -272,9 +273,9 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
 
 /* The number of stages as a constant, so that the small loops unroll. */
 #define GM_IMPLICIT_STEP(count)                                                                              \
-    GM_INLINE mask K(implicit_step_##count)(                                                                 \
-        const struct gm_implicit_row *row, struct K(block) *block, double dt, const void *parameters,        \
-        bool compensated, bool stiff, struct K(counts) *counts)                                              \
+    GM_INLINE mask K(implicit_step_##count)(const struct gm_implicit_row *row, struct K(block) * block,      \
+                                            double dt, const void *parameters, bool compensated, bool stiff, \
+                                            struct K(counts) * counts)                                       \
     {                                                                                                        \
         return K(implicit_step_stages)(row, count, block, dt, parameters, compensated, stiff, counts);       \
     }

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Splitting of the perturbed Kepler problem, H = (|p|^2/2 - 1/|q|) + W(q): half a kick by W, the exact Kepler flow,
-   half a kick. J. Wisdom & M. Holman, Astron. J. 102 (1991) 1528.
-   The Kepler flow in universal variables: with s the root of
-       r0 G1 + (q . p) G2 + G3 = h,   G_k(s) = s^k c_k(alpha s^2),   alpha = 2/r0 - |p|^2,
-   q1 = f q + g p, p1 = f' q + g' p, where f = 1 - G2/r0, g = h - G3, f' = -G1/(r r0), g' = 1 - G2/r and
-   r = r0 G0 + (q . p) G1 + G2 is the derivative of the left side, so that it grows. K. Stumpff (1956);
+/* Splitting of the perturbed Kepler problem, H = (|p|^2/2 - 1/|q|) + W(q): half a kick by W, the exact Kepler
+   flow, half a kick. J. Wisdom & M. Holman, Astron. J. 102 (1991) 1528. The Kepler flow in universal
+   variables: with s the root of r0 G1 + (q . p) G2 + G3 = h,   G_k(s) = s^k c_k(alpha s^2),   alpha = 2/r0 -
+   |p|^2, q1 = f q + g p, p1 = f' q + g' p, where f = 1 - G2/r0, g = h - G3, f' = -G1/(r r0), g' = 1 - G2/r
+   and r = r0 G0 + (q . p) G1 + G2 is the derivative of the left side, so that it grows. K. Stumpff (1956);
    J.M.A. Danby, Fundamentals of Celestial Mechanics, section 6.9.
    The memory is the perturbing force at the end of the step, which the next one begins with. */
 #include <math.h>
@@ -55,7 +54,9 @@ static bool solve_universal(double h, double r0, double slope, double alpha, dou
         }
         double next = s - excess / r;
         if (!(next >= low && next <= high)) {
-            next = isfinite(low) && isfinite(high) ? (low + high) / 2 : excess > 0 ? s - 1 - fabs(s) : s + 1 + fabs(s);
+            next = isfinite(low) && isfinite(high) ? (low + high) / 2
+                   : excess > 0                    ? s - 1 - fabs(s)
+                                                   : s + 1 + fabs(s);
         }
         const double size = fabs(r0 * G[1]) + fabs(slope * G[2]) + fabs(G[3]) + fabs(h);
         const double roundoff = 4 * 2.220446049250313e-16 * (size / r + fabs(s));
@@ -91,7 +92,8 @@ static bool kepler_flow(double h, double y[4])
     return true;
 }
 
-static enum gm_status step(const struct gm_task *task, struct gm_members *members, struct gm_progress *progress)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     double *y = members->y, *force = members->memory;
     for (int c = 0; c < 2; c++) {

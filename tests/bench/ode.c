@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The speed of the generic core beside loops written by hand, Boost's odeint and GSL, as nanoseconds for a step (of one
-   member) and as ratios of one run: the median of rounds in which all take turns. No test: nothing fails here. */
+/* The speed of the generic core beside loops written by hand, Boost's odeint and GSL, as nanoseconds for a
+   step (of one member) and as ratios of one run: the median of rounds in which all take turns. No test:
+   nothing fails here. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,18 +18,21 @@
 
 enum { ROUNDS = 15, MEMBERS = 10000 };
 
-static double seconds(void) {
+static double seconds(void)
+{
     struct timespec now;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static int compare(const void *a, const void *b) {
+static int compare(const void *a, const void *b)
+{
     const double difference = *(const double *)a - *(const double *)b;
     return (difference > 0) - (difference < 0);
 }
 
-static double median(double *values) {
+static double median(double *values)
+{
     qsort(values, ROUNDS, sizeof *values, compare);
     return values[ROUNDS / 2];
 }
@@ -48,7 +52,8 @@ struct line {
     double wanted_ratio, wanted; /* 0: none */
 };
 
-static struct gm_run *open_run(const struct gm_problem *problem, const struct line *line, double *y) {
+static struct gm_run *open_run(const struct gm_problem *problem, const struct line *line, double *y)
+{
     for (size_t c = 0; c < problem->n; c++) {
         for (size_t i = 0; i < problem->m; i++) {
             y[c * problem->m + i] = line->start[c] * (1 + 1e-3 * (double)i / (double)problem->m);
@@ -58,7 +63,8 @@ static struct gm_run *open_run(const struct gm_problem *problem, const struct li
     return gm_run_open(problem, gm_scheme_find_for(line->scheme, problem), &settings, 0, line->h, y);
 }
 
-static void measure(const struct line *line) {
+static void measure(const struct line *line)
+{
     struct gm_problem problem = *line->problem;
     problem.m = line->m;
     problem.parameters = line->parameters;
@@ -110,13 +116,15 @@ static void measure(const struct line *line) {
     free(y);
 }
 
-static int field(double t, const double y[], double f[], void *problem) {
+static int field(double t, const double y[], double f[], void *problem)
+{
     (void)t;
     gm_field(problem, y, f, 1);
     return GSL_SUCCESS;
 }
 
-static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *parameters) {
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *parameters)
+{
     (void)t;
     const struct gm_problem *problem = parameters;
     problem->loops[GM_ISA_BASELINE]->jacobian(problem, y, dfdy);
@@ -125,7 +133,8 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[], voi
 }
 
 /* GSL's implicit midpoint rule on Kepler, at a tolerance near round-off. */
-static void gsl_midpoint(const double *start, double h) {
+static void gsl_midpoint(const double *start, double h)
+{
     struct gm_problem problem = gm_problem_kepler;
     gsl_odeiv2_system system = {field, jacobian, 4, &problem};
     gsl_odeiv2_driver *driver =
@@ -141,7 +150,8 @@ static void gsl_midpoint(const double *start, double h) {
     gsl_odeiv2_driver_free(driver);
 }
 
-int main(void) {
+int main(void)
+{
     static const double strength = GM_HAND_STRENGTH;
 #define KEPLER .problem = &gm_problem_kepler, .start = {0.5, 0, 0, 1.7320508075688772}, .h = 2 * M_PI / 100
 #define SQUARE                                                                                               \
