@@ -10,6 +10,8 @@ int gm_command_list(const struct gm_options *options);
 int gm_command_run(const struct gm_options *options);
 int gm_command_render(const struct gm_options *options);
 int gm_command_figures(const struct gm_options *options);
+int gm_command_work_precision(const struct gm_options *options);
+int gm_command_stability(const struct gm_options *options);
 int gm_command_certify(const struct gm_options *options);
 int gm_command_again(const struct gm_options *options);
 int gm_command_terminal(const struct gm_options *options);

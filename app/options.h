@@ -15,18 +15,20 @@ enum gm_command {
     GM_CERTIFY = 1 << 5,
     GM_AGAIN = 1 << 6,
     GM_TERMINAL = 1 << 7,
+    GM_WORK_PRECISION = 1 << 8,
+    GM_STABILITY = 1 << 9,
 };
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
     int json, state, maximum, strict, longer, quick;
-    const char *csv, *out, *movie;
+    const char *csv, *out, *movie, *measure, *region;
     long every, frames;
-    double fps, rate;      /* NAN: not given */
-    double from, at;       /* NAN: not given */
-    int width, height;     /* 1280 x 720 */
-    enum gm_theme theme;   /* light */
-    char **words;          /* what is left: scene, key=value, names */
+    double fps, rate;    /* NAN: not given */
+    double from, at;     /* NAN: not given */
+    int width, height;   /* 1280 x 720 */
+    enum gm_theme theme; /* light */
+    char **words;        /* what is left: scene, key=value, names */
     int word_count;
 };
 

@@ -40,7 +40,8 @@ static const struct gm_parameter parameters[] = {
     },
 };
 
-static bool setup(const void *own, struct gm_problem *problem, char *sentence) {
+static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+{
     (void)sentence;
     const struct kepler *kepler = own;
     *problem = kepler->perturbation == 0 ? gm_problem_kepler : gm_problem_kepler_perturbed;
@@ -48,7 +49,8 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence) {
     return true;
 }
 
-static void start(const void *own, const struct gm_problem *problem, double *y) {
+static void start(const void *own, const struct gm_problem *problem, double *y)
+{
     (void)problem;
     const double e = ((const struct kepler *)own)->eccentricity;
     y[Q1] = 1 - e;
@@ -57,19 +59,22 @@ static void start(const void *own, const struct gm_problem *problem, double *y) 
     y[P2] = sqrt((1 + e) / (1 - e));
 }
 
-static double energy(const struct gm_view *view) {
+static double energy(const struct gm_view *view)
+{
     double value = 0;
     view->problem->hamiltonian->energy(view->problem, view->state, &value, 1);
     return value;
 }
 
-static double angular_momentum(const struct gm_view *view) {
+static double angular_momentum(const struct gm_view *view)
+{
     const double *y = view->state;
     return y[Q1] * y[P2] - y[Q2] * y[P1];
 }
 
 /* The direction of p x L - q/r, which points to the pericentre. Of a circle it has none. */
-static double lrl_angle(const struct gm_view *view) {
+static double lrl_angle(const struct gm_view *view)
+{
     const struct kepler *kepler = view->parameters;
     const double *y = view->state;
     const double r = hypot(y[Q1], y[Q2]), momentum = angular_momentum(view);
@@ -77,7 +82,8 @@ static double lrl_angle(const struct gm_view *view) {
     return kepler->eccentricity < 1e-8 ? NAN : atan2(z, x);
 }
 
-static double position_error(const struct gm_view *view) {
+static double position_error(const struct gm_view *view)
+{
     if (!view->problem->exact) {
         return NAN;
     }
@@ -113,15 +119,18 @@ static const struct gm_observable observables[] = {
      .logarithmic = true},
 };
 
-static size_t two(const struct gm_view *view) {
+static size_t two(const struct gm_view *view)
+{
     return (void)view, 2;
 }
 
-static double every_moment(const void *own) {
+static double every_moment(const void *own)
+{
     return (void)own, 2 * M_PI / 160;
 }
 
-static void remember(const struct gm_view *view, double *entry) {
+static void remember(const struct gm_view *view, double *entry)
+{
     entry[0] = view->state[Q1];
     entry[1] = view->state[Q2];
 }
@@ -140,7 +149,8 @@ static const double farthest = 1.5;
 
 /* The orbits that are compared share a range: the exact orbit's, more where one has left it, but no more than
    lets the exact one be seen. */
-static void range_of(const struct gm_lane *const *lanes, size_t count, struct gm_axis *x, struct gm_axis *y) {
+static void range_of(const struct gm_lane *const *lanes, size_t count, struct gm_axis *x, struct gm_axis *y)
+{
     double reach = 0;
     *x = *y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = 1, .high = 0};
     for (size_t i = 0; i < count; i++) {
@@ -170,7 +180,8 @@ static void range_of(const struct gm_lane *const *lanes, size_t count, struct gm
     y->high = step * ceil(y->high / step + 0.3);
 }
 
-static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, double e) {
+static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, double e)
+{
     enum { POINTS = 240 };
     double points[2 * POINTS];
     for (size_t i = 0; i < POINTS; i++) {
@@ -181,7 +192,8 @@ static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, doubl
     gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, points, POINTS, true);
 }
 
-static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane) {
+static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane)
+{
     const struct kepler *kepler = lane->parameters;
     const double *state = gm_run_state(lane->run), r = hypot(state[Q1], state[Q2]);
     const char *failure = gm_lane_failure(picture, lane);
@@ -194,7 +206,8 @@ static const char *note_of(struct gm_picture *picture, const struct gm_lane *lan
     return gm_picture_text(picture, "energy error %s", gm_power_text(picture, gm_lane_observe(lane, 0)));
 }
 
-static void draw_orbits(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count) {
+static void draw_orbits(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
     struct gm_axis x, y;
     range_of(lanes, count, &x, &y);
     for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
@@ -233,7 +246,8 @@ static void draw_orbits(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture) {
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
     const struct kepler *kepler = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
     bool one_step = true, one_orbit = true;
@@ -300,17 +314,20 @@ static const struct gm_figure figures[] = {
     },
 };
 
-static const struct gm_work work = {
-    .arguments = "until=40*pi", .measure = "position_error", .coarsest = 2 * M_PI / 30, .halvings = 10};
+static const struct gm_work work = {.arguments = "until=40*pi",
+                                    .measure = "position_error",
+                                    .coarsest = 2 * M_PI / 30,
+                                    .halvings = 10,
+                                    .is_exact = "wisdom-holman2"};
 
-/* the time in which the pericentre is passed */
-static double passage(const void *own) {
-    const double e = ((const struct kepler *)own)->eccentricity;
-    return sqrt((1 - e) * (1 - e) * (1 - e) / (1 + e));
+static double period(const void *own)
+{
+    (void)own;
+    return 2 * M_PI;
 }
 
-static const double eccentricities[] = {0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.99};
-static const double steps[] = {0.02, 0.05, 0.1, 0.2, 0.5, 1, 1.5, 1.95, 2.05, 3, 5};
+static const double eccentricities[] = {0, 0.17, 0.33, 0.5, 0.66, 0.83, 0.99};
+static const double steps[] = {1. / 2000, 1. / 1000, 1. / 500, 1. / 200, 1. / 100, 1. / 60, 1. / 40, 1. / 20};
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 static const char *const mapped[] = {"verlet", "rk4", "rk4sym", "gauss4", "yoshida4", "logh2", NULL};
@@ -320,11 +337,11 @@ static const struct gm_stability stability = {
     .parameter = "eccentricity",
     .values = eccentricities,
     .value_count = COUNT(eccentricities),
-    .label = "h / time of the pericentre passage",
-    .unit = passage,
+    .label = "h / T",
+    .unit = period,
     .steps = steps,
     .step_count = COUNT(steps),
-    .kept = "energy",
+    .kept = "energy_error",
     .error = "position_error",
     .schemes = mapped,
 };

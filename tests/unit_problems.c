@@ -35,20 +35,23 @@ static const struct {
 };
 enum { CASES = sizeof cases / sizeof cases[0] };
 
-static void near_at(double value, double expected, double tolerance, int line) {
+static void near_at(double value, double expected, double tolerance, int line)
+{
     if (!(fabs(value - expected) <= tolerance)) {
         fail_msg("line %d: %.17g is not %.17g to %g", line, value, expected, tolerance);
     }
 }
 #define expect_near(value, expected, tolerance) near_at(value, expected, tolerance, __LINE__)
 
-static struct gm_problem problem_of(size_t i) {
+static struct gm_problem problem_of(size_t i)
+{
     struct gm_problem problem = *cases[i].problem;
     problem.parameters = cases[i].parameters;
     return problem;
 }
 
-static void jacobians_are_derivatives(void **unused) {
+static void jacobians_are_derivatives(void **unused)
+{
     (void)unused;
     for (size_t i = 0; i < CASES; i++) {
         const struct gm_problem problem = problem_of(i);
@@ -73,7 +76,8 @@ static void jacobians_are_derivatives(void **unused) {
     }
 }
 
-static void fields_are_hamiltonian(void **unused) {
+static void fields_are_hamiltonian(void **unused)
+{
     (void)unused;
     size_t found = 0;
     for (size_t i = 0; i < CASES; i++) {
@@ -105,7 +109,8 @@ static void fields_are_hamiltonian(void **unused) {
 }
 
 /* What the facets take apart makes the field again. */
-static void parts_make_the_whole(void **unused) {
+static void parts_make_the_whole(void **unused)
+{
     (void)unused;
     double f[MOST], part[MOST];
     struct gm_problem problem = problem_of(3);
@@ -152,7 +157,8 @@ static void parts_make_the_whole(void **unused) {
 }
 
 /* The sum over pairs, for any number of vortices, against the plain double sum. */
-static void pair_sums(void **unused) {
+static void pair_sums(void **unused)
+{
     (void)unused;
     enum { COUNT = 37 };
     double y[2 * COUNT + 2], f[2 * COUNT];
@@ -183,7 +189,8 @@ static void pair_sums(void **unused) {
     }
 }
 
-static void four_ways_to_four_vortices(void **unused) {
+static void four_ways_to_four_vortices(void **unused)
+{
     (void)unused;
     const double two[] = {1, -0.6, 0.1, 0.8}, four[] = {1, -0.6, -1, 0.6, 0.1, 0.8, -0.1, -0.8};
     double reduced[4], carrying[4], kernels[8], any[8];
@@ -210,7 +217,8 @@ static void four_ways_to_four_vortices(void **unused) {
 }
 
 /* A passive particle's velocity is that of a vortex that the others do not feel. */
-static void passive_particles(void **unused) {
+static void passive_particles(void **unused)
+{
     (void)unused;
     enum { COUNT = 11 };
     double x[COUNT], y[COUNT], u[COUNT], v[COUNT], strain[2 * COUNT], two_u[COUNT], two_v[COUNT];
@@ -247,7 +255,8 @@ static void passive_particles(void **unused) {
 }
 
 /* The exact Kepler motion: a closed orbit, Kepler's second law through a quarter of it, and the reverse. */
-static void kepler_motion(void **unused) {
+static void kepler_motion(void **unused)
+{
     (void)unused;
     for (int k = 0; k < 4; k++) {
         const double e = (const double[]){0, 0.5, 0.9, 0.99}[k];
@@ -270,7 +279,8 @@ static void kepler_motion(void **unused) {
     }
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(jacobians_are_derivatives),
         cmocka_unit_test(fields_are_hamiltonian),

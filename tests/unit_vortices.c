@@ -20,7 +20,8 @@ static const char *const names[] = {"explicit-euler", "rk2",    "rk4",   "implic
 enum { NAMES = sizeof names / sizeof names[0], TRACERS = 150 };
 
 static struct gm_run *open_run(const struct gm_problem *problem, const char *scheme, int compensated,
-                               double dt, const double *y) {
+                               double dt, const double *y)
+{
     const struct gm_settings settings = {.compensated = compensated};
     assert_true(gm_scheme_fits(gm_scheme_find(scheme), problem));
     struct gm_run *run = gm_run_open(problem, gm_scheme_find(scheme), &settings, 0, dt, y);
@@ -28,14 +29,16 @@ static struct gm_run *open_run(const struct gm_problem *problem, const char *sch
     return run;
 }
 
-static struct gm_problem with(const struct gm_problem *problem) {
+static struct gm_problem with(const struct gm_problem *problem)
+{
     struct gm_problem copy = *problem;
     copy.parameters = &strength;
     return copy;
 }
 
 /* The loop for any n takes the same steps as the loop over kernels. */
-static void any_number_is_four(void **unused) {
+static void any_number_is_four(void **unused)
+{
     (void)unused;
     const struct gm_problem any = with(&gm_problem_vortices), kernels = with(&gm_problem_vortices_four);
     for (size_t i = 0; i < NAMES; i++) {
@@ -56,7 +59,8 @@ static void any_number_is_four(void **unused) {
     }
 }
 
-static void place(double *y, size_t tracers) {
+static void place(double *y, size_t tracers)
+{
     for (size_t k = 0; k < tracers; k++) {
         /* some close to a vortex, where fixed-point iteration does not contract */
         const double turn = 2.399963 * (double)k, radius = 0.02 + 1.9 * sqrt((double)k / (double)tracers);
@@ -66,7 +70,8 @@ static void place(double *y, size_t tracers) {
 }
 
 /* Tracers change no vortex, and do not depend on their neighbours or on how many steps a call makes. */
-static void tracers_are_passive(void **unused) {
+static void tracers_are_passive(void **unused)
+{
     (void)unused;
     const struct gm_problem alone = with(&gm_problem_vortices);
     struct gm_problem carrying = alone, few = alone;
@@ -109,7 +114,8 @@ static void tracers_are_passive(void **unused) {
 
 /* A tracer moves as a fifth vortex of no strength would: it is put where a vortex of the reduced system is
  * missing. */
-static void a_tracer_is_a_vortex_without_strength(void **unused) {
+static void a_tracer_is_a_vortex_without_strength(void **unused)
+{
     (void)unused;
     /* two vortices carry a third particle; by Kirchhoff's equations it moves in their field alone */
     struct gm_problem problem = with(&gm_problem_vortices);
@@ -133,7 +139,8 @@ static void a_tracer_is_a_vortex_without_strength(void **unused) {
 }
 
 /* Midpoint steps keep the area of a small triangle of tracers, to the square of its size. */
-static void tracers_keep_area(void **unused) {
+static void tracers_keep_area(void **unused)
+{
     (void)unused;
     struct gm_problem problem = with(&gm_problem_vortices);
     problem.passive = 3;
@@ -155,7 +162,8 @@ static void tracers_keep_area(void **unused) {
 }
 
 /* What has no split and no kernels is refused by the families that need them. */
-static void what_does_not_fit(void **unused) {
+static void what_does_not_fit(void **unused)
+{
     (void)unused;
     struct gm_problem problem = with(&gm_problem_vortices);
     assert_false(gm_scheme_fits(gm_scheme_find("verlet"), &problem));
@@ -167,7 +175,8 @@ static void what_does_not_fit(void **unused) {
     }
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_is_four),
         cmocka_unit_test(tracers_are_passive),

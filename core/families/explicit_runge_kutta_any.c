@@ -21,7 +21,8 @@ struct workspace {
     double room[];
 };
 
-void *gm_explicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme) {
+void *gm_explicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
     (void)scheme;
     const size_t active = gm_active_count(problem);
     struct workspace *workspace = malloc(sizeof *workspace + (2 * STAGES + 1) * active * sizeof(double));
@@ -35,7 +36,8 @@ void *gm_explicit_any_open(const struct gm_problem *problem, const struct gm_sch
 
 /* stage = y + h sum_(j<i) a_ij k_j, for `count` components whose slopes lie `stride` apart */
 static void stage_of(const struct gm_explicit_tableau *tableau, int i, double h, const double *y,
-                     const double *slopes, size_t stride, double *stage, size_t count) {
+                     const double *slopes, size_t stride, double *stage, size_t count)
+{
     for (size_t c = 0; c < count; c++) {
         stage[c] = y[c];
     }
@@ -50,7 +52,8 @@ static void stage_of(const struct gm_explicit_tableau *tableau, int i, double h,
 }
 
 static void increment_of(const struct gm_explicit_tableau *tableau, double h, const double *slopes,
-                         size_t stride, double *increment, size_t count) {
+                         size_t stride, double *increment, size_t count)
+{
     for (size_t c = 0; c < count; c++) {
         increment[c] = h * tableau->b[0] * slopes[c];
     }
@@ -64,7 +67,8 @@ static void increment_of(const struct gm_explicit_tableau *tableau, double h, co
 
 /* The passive particles, a block at a time, through the stages that the active components have gone. */
 static void carry_along(const struct gm_task *task, const struct gm_explicit_tableau *tableau,
-                        const double *from, const double *carry) {
+                        const double *from, const double *carry)
+{
     const struct gm_problem *problem = task->problem;
     const struct workspace *workspace = task->workspace;
     const struct gm_loops *loops = problem->loops[gm_isa_best()];
@@ -88,7 +92,8 @@ static void carry_along(const struct gm_task *task, const struct gm_explicit_tab
     }
 }
 
-struct gm_progress gm_explicit_any_loop(const struct gm_task *task) {
+struct gm_progress gm_explicit_any_loop(const struct gm_task *task)
+{
     const struct gm_problem *problem = task->problem;
     const enum gm_explicit_row *row = task->scheme->coefficients;
     const struct gm_explicit_tableau *tableau = tableaus[*row];

@@ -22,7 +22,8 @@ struct workspace {
     double room[];
 };
 
-void *gm_implicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme) {
+void *gm_implicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
     (void)scheme;
     const size_t active = gm_active_count(problem);
     struct workspace *workspace = malloc(sizeof *workspace + (3 * STAGES + 1) * active * sizeof(double));
@@ -37,7 +38,8 @@ void *gm_implicit_any_open(const struct gm_problem *problem, const struct gm_sch
 
 /* Solves for the stages of the active components; false if the iteration does not contract. */
 static bool solve(const struct gm_task *task, const struct gm_implicit_row *row, double h, const double *y,
-                  struct gm_progress *progress) {
+                  struct gm_progress *progress)
+{
     const struct gm_problem *problem = task->problem;
     const struct workspace *workspace = task->workspace;
     const struct gm_loops *loops = problem->loops[gm_isa_best()];
@@ -89,7 +91,8 @@ struct block {
     double z[STAGES][2][BLOCK], slopes[STAGES][2][BLOCK];
 };
 
-static void block_slopes(const struct gm_task *task, size_t stages, struct block *block) {
+static void block_slopes(const struct gm_task *task, size_t stages, struct block *block)
+{
     const struct gm_problem *problem = task->problem;
     const struct workspace *workspace = task->workspace;
     for (size_t i = 0; i < stages; i++) {
@@ -107,7 +110,8 @@ static void block_slopes(const struct gm_task *task, size_t stages, struct block
 
 /* One particle by Newton's method, from z = 0; leaves its slopes in the block. */
 static bool solve_one(const struct gm_task *task, const struct gm_implicit_row *row, double h,
-                      struct block *block, size_t k) {
+                      struct block *block, size_t k)
+{
     const struct gm_problem *problem = task->problem;
     const struct workspace *workspace = task->workspace;
     const size_t stages = (size_t)row->stages, size = 2 * stages;
@@ -158,7 +162,8 @@ static bool solve_one(const struct gm_task *task, const struct gm_implicit_row *
 /* The particles of a block, each frozen where it is solved, so that its bits do not depend on its neighbours.
    Those without a solution get NaN for slopes. */
 static void solve_block(const struct gm_task *task, const struct gm_implicit_row *row, double h,
-                        struct block *block) {
+                        struct block *block)
+{
     const size_t stages = (size_t)row->stages;
     double previous[BLOCK];
     double kept[STAGES][2][BLOCK];
@@ -210,7 +215,8 @@ static void solve_block(const struct gm_task *task, const struct gm_implicit_row
 }
 
 static void carry_along(const struct gm_task *task, const struct gm_implicit_row *row, double h,
-                        const double *from, const double *carry) {
+                        const double *from, const double *carry)
+{
     const struct gm_problem *problem = task->problem;
     const size_t active = gm_active_count(problem), passive = problem->passive;
     for (size_t first = 0; first < passive; first += BLOCK) {
@@ -234,7 +240,8 @@ static void carry_along(const struct gm_task *task, const struct gm_implicit_row
     }
 }
 
-struct gm_progress gm_implicit_any_loop(const struct gm_task *task) {
+struct gm_progress gm_implicit_any_loop(const struct gm_task *task)
+{
     const struct gm_problem *problem = task->problem;
     const struct gm_implicit_row *row = task->scheme->coefficients;
     const struct workspace *workspace = task->workspace;

@@ -21,14 +21,16 @@ gm_loop gm_implicit_any_loop;
 /* Both workspaces are closed by free. */
 
 /* The active components: n * m less the passive block. */
-static inline size_t gm_active_count(const struct gm_problem *problem) {
+static inline size_t gm_active_count(const struct gm_problem *problem)
+{
     return (problem->n - 2 * problem->passive) * problem->m;
 }
 
 /* to[i] = from[i] + increment[i]; where carry is not NULL with compensation (Kahan). carry_out may be carry,
    and to may be from. */
 static inline void gm_add_increments(const double *from, const double *increment, const double *carry,
-                                     double *to, double *carry_out, size_t count) {
+                                     double *to, double *carry_out, size_t count)
+{
     if (!carry) {
         for (size_t i = 0; i < count; i++) {
             to[i] = from[i] + increment[i];
@@ -43,7 +45,8 @@ static inline void gm_add_increments(const double *from, const double *increment
 }
 
 /* Whether all are finite and at most limit (a NaN compares false). */
-static inline bool gm_all_within(const double *y, size_t count, double limit) {
+static inline bool gm_all_within(const double *y, size_t count, double limit)
+{
     bool good = true;
     for (size_t i = 0; i < count; i++) {
         good &= y[i] <= limit && y[i] >= -limit;

@@ -7,7 +7,8 @@
 
 GM_LOOPS_DECLARE(abc)
 
-static void flow(const struct gm_problem *problem, size_t piece, double h, double *state, size_t m) {
+static void flow(const struct gm_problem *problem, size_t piece, double h, double *state, size_t m)
+{
     const double *abc = problem->parameters;
     double *x = state, *y = state + m, *z = state + 2 * m;
     for (size_t i = 0; i < m; i++) {

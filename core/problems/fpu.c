@@ -7,12 +7,14 @@ GM_LOOPS_DECLARE(fpu)
 
 enum { SPRINGS = 3 };
 
-static double frequency(const struct gm_problem *problem, size_t i) {
+static double frequency(const struct gm_problem *problem, size_t i)
+{
     return i < SPRINGS ? 0 : *(const double *)problem->parameters;
 }
 
 /* The four lengths whose fourth powers make the slow potential, of member i. */
-static void lengths(const double *q, size_t i, size_t m, double d[SPRINGS + 1]) {
+static void lengths(const double *q, size_t i, size_t m, double d[SPRINGS + 1])
+{
     const double *x = q + i, *y = q + SPRINGS * m + i;
     d[0] = x[0] - y[0];
     for (size_t k = 1; k < SPRINGS; k++) {
@@ -21,7 +23,8 @@ static void lengths(const double *q, size_t i, size_t m, double d[SPRINGS + 1]) 
     d[SPRINGS] = x[(SPRINGS - 1) * m] + y[(SPRINGS - 1) * m];
 }
 
-static void slow_force(const struct gm_problem *problem, const double *q, double *force, size_t m) {
+static void slow_force(const struct gm_problem *problem, const double *q, double *force, size_t m)
+{
     (void)problem;
     for (size_t i = 0; i < m; i++) {
         double d[SPRINGS + 1];
@@ -37,7 +40,8 @@ static void slow_force(const struct gm_problem *problem, const double *q, double
     }
 }
 
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m) {
+static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
+{
     for (size_t i = 0; i < m; i++) {
         double d[SPRINGS + 1], sum = 0;
         for (size_t c = 0; c < 2 * SPRINGS; c++) {

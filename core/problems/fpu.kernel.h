@@ -6,14 +6,16 @@
 #define GM_COMPONENTS 12
 #define GM_SEPARABLE
 
-GM_INLINE void K(velocity)(const real *p, real *dq, const void *parameters) {
+GM_INLINE void K(velocity)(const real *p, real *dq, const void *parameters)
+{
     (void)parameters;
     for (int c = 0; c < 6; c++) {
         dq[c] = p[c];
     }
 }
 
-GM_INLINE void K(force)(const real *q, real *dp, const void *parameters) {
+GM_INLINE void K(force)(const real *q, real *dp, const void *parameters)
+{
     const double omega = *(const double *)parameters;
     const real *x = q, *y = q + 3;
     const real d[4] = {x[0] - y[0], x[1] - y[1] - x[0] - y[0], x[2] - y[2] - x[1] - y[1], x[2] + y[2]};
@@ -27,7 +29,8 @@ GM_INLINE void K(force)(const real *q, real *dp, const void *parameters) {
 }
 
 #ifdef GM_PASS_SCALAR
-static void K(jacobian)(const double *state, double jacobian[][GM_COMPONENTS], const void *parameters) {
+static void K(jacobian)(const double *state, double jacobian[][GM_COMPONENTS], const void *parameters)
+{
     const double omega = *(const double *)parameters;
     /* d_i = sum_c signs[i][c] q_c, V = sum d_i^4 / 4 */
     static const double signs[4][6] = {

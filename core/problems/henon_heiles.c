@@ -5,7 +5,8 @@
 
 GM_LOOPS_DECLARE(henon_heiles)
 
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m) {
+static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
+{
     (void)problem;
     for (size_t i = 0; i < m; i++) {
         const double q1 = y[i], q2 = y[m + i], p1 = y[2 * m + i], p2 = y[3 * m + i];

@@ -11,18 +11,21 @@
 GM_LOOPS_DECLARE(kepler)
 GM_LOOPS_DECLARE(kepler_perturbed)
 
-static double strength(const struct gm_problem *problem) {
+static double strength(const struct gm_problem *problem)
+{
     return problem->parameters ? *(const double *)problem->parameters : 0;
 }
 
-static void potential(const struct gm_problem *problem, const double *q, double *value, size_t m) {
+static void potential(const struct gm_problem *problem, const double *q, double *value, size_t m)
+{
     for (size_t i = 0; i < m; i++) {
         const double square = q[i] * q[i] + q[m + i] * q[m + i];
         value[i] = -1 / sqrt(square) - strength(problem) / square;
     }
 }
 
-static void perturbing_force(const struct gm_problem *problem, const double *q, double *force, size_t m) {
+static void perturbing_force(const struct gm_problem *problem, const double *q, double *force, size_t m)
+{
     for (size_t i = 0; i < m; i++) {
         const double square = q[i] * q[i] + q[m + i] * q[m + i];
         const double pull = 2 * strength(problem) / (square * square);
@@ -31,7 +34,8 @@ static void perturbing_force(const struct gm_problem *problem, const double *q, 
     }
 }
 
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m) {
+static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
+{
     potential(problem, y, value, m);
     for (size_t i = 0; i < m; i++) {
         value[i] += (y[2 * m + i] * y[2 * m + i] + y[3 * m + i] * y[3 * m + i]) / 2;
@@ -40,7 +44,8 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
 
 /* The root E of E - c sin E + s (1 - cos E) = anomaly in [-pi, pi]; its left side grows, for c^2 + s^2 < 1.
  */
-static double solve_kepler(double c, double s, double anomaly) {
+static double solve_kepler(double c, double s, double anomaly)
+{
     double low = anomaly - 3, high = anomaly + 3, E = anomaly;
     for (int i = 0; i < 100; i++) {
         const double value = E - c * sin(E) + s * (1 - cos(E)) - anomaly;
@@ -61,7 +66,8 @@ static double solve_kepler(double c, double s, double anomaly) {
     return E;
 }
 
-static void solution(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m) {
+static void solution(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
+{
     (void)problem;
     for (size_t i = 0; i < m; i++) {
         const double q1 = y0[i], q2 = y0[m + i], p1 = y0[2 * m + i], p2 = y0[3 * m + i];
@@ -89,7 +95,8 @@ static void solution(const struct gm_problem *problem, double t, const double *y
     .n = 4, .m = 1, .ode = &(const struct gm_ode){.stiff = false},                                           \
     .split = &(const struct gm_split){.nystrom = true},                                                      \
     .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},                                         \
-    .kepler_split = &(const struct gm_kepler_split) {                                                        \
+    .kepler_split = &(const struct gm_kepler_split)                                                          \
+    {                                                                                                        \
         .potential = potential, .perturbing_force = perturbing_force                                         \
     }
 

@@ -4,13 +4,15 @@
 #define GM_COMPONENTS 4
 #define GM_SEPARABLE
 
-GM_INLINE void K(velocity)(const real *p, real *dq, const void *parameters) {
+GM_INLINE void K(velocity)(const real *p, real *dq, const void *parameters)
+{
     (void)parameters;
     dq[0] = p[0];
     dq[1] = p[1];
 }
 
-GM_INLINE void K(force)(const real *q, real *dp, const void *parameters) {
+GM_INLINE void K(force)(const real *q, real *dp, const void *parameters)
+{
     const real square = q[0] * q[0] + q[1] * q[1];
     const real inverse = 1 / square; /* beside the root, not after it */
     real pull = K(root)(square) * (inverse * inverse);
@@ -24,7 +26,8 @@ GM_INLINE void K(force)(const real *q, real *dp, const void *parameters) {
 }
 
 #ifdef GM_PASS_SCALAR
-static void K(jacobian)(const double *y, double jacobian[][GM_COMPONENTS], const void *parameters) {
+static void K(jacobian)(const double *y, double jacobian[][GM_COMPONENTS], const void *parameters)
+{
     const double square = y[0] * y[0] + y[1] * y[1], r = sqrt(square);
     double pull = 1 / (square * r), slope = 3 / (square * square * r); /* slope = -pull'(r) / r */
 #ifdef GM_PERTURBED

@@ -10,7 +10,8 @@
 GM_LOOPS_DECLARE(linear)
 
 /* exp(h M) for M = [[a, b], [c, -a]]: cosh(w) 1 + sinh(w)/w h M with w^2 = h^2 (a^2 + b c). */
-static void plane_flow(double a, double b, double c, double h, double flow[2][2]) {
+static void plane_flow(double a, double b, double c, double h, double flow[2][2])
+{
     const double square = h * h * (a * a + b * c), w = sqrt(fabs(square));
     double cosine = square < 0 ? cos(w) : cosh(w), sine = h;
     if (w > 0) {
@@ -22,7 +23,8 @@ static void plane_flow(double a, double b, double c, double h, double flow[2][2]
     flow[1][1] = cosine - sine * a;
 }
 
-static void flow(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m) {
+static void flow(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m)
+{
     const double *a = problem->parameters;
     const size_t j = piece, k = 1 - piece;
     const bool last = piece == 1;

@@ -7,7 +7,8 @@
 
 GM_LOOPS_DECLARE(spring_pendulum)
 
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m) {
+static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
+{
     const double stiffness = *(const double *)problem->parameters;
     for (size_t i = 0; i < m; i++) {
         const double q1 = y[i], q2 = y[m + i], p1 = y[2 * m + i], p2 = y[3 * m + i];

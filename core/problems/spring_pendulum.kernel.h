@@ -4,13 +4,15 @@
 #define GM_COMPONENTS 4
 #define GM_SEPARABLE
 
-GM_INLINE void K(velocity)(const real *p, real *dq, const void *parameters) {
+GM_INLINE void K(velocity)(const real *p, real *dq, const void *parameters)
+{
     (void)parameters;
     dq[0] = p[0];
     dq[1] = p[1];
 }
 
-GM_INLINE void K(force)(const real *q, real *dp, const void *parameters) {
+GM_INLINE void K(force)(const real *q, real *dp, const void *parameters)
+{
     const double stiffness = *(const double *)parameters;
     const real pull = stiffness * (1 - 1 / K(root)(q[0] * q[0] + q[1] * q[1]));
     dp[0] = -(pull * q[0]);
@@ -18,7 +20,8 @@ GM_INLINE void K(force)(const real *q, real *dp, const void *parameters) {
 }
 
 #ifdef GM_PASS_SCALAR
-static void K(jacobian)(const double *y, double jacobian[][GM_COMPONENTS], const void *parameters) {
+static void K(jacobian)(const double *y, double jacobian[][GM_COMPONENTS], const void *parameters)
+{
     const double stiffness = *(const double *)parameters;
     const double square = y[0] * y[0] + y[1] * y[1], r = sqrt(square);
     const double pull = stiffness * (1 - 1 / r), slope = stiffness / (square * r);

@@ -12,36 +12,50 @@ GM_LOOPS_DECLARE(vortices_four)
 GM_LOOPS_DECLARE(vortices_reduced)
 GM_LOOPS_DECLARE(vortices_reduced_carrying)
 
-static double strength(const struct gm_problem *problem) {
+static double strength(const struct gm_problem *problem)
+{
     return *(const double *)problem->parameters;
 }
 
-static double inverse_strength(const struct gm_problem *problem) {
+static double inverse_strength(const struct gm_problem *problem)
+{
     return 1 / strength(problem);
 }
 
 /* A vortex that is carried stands for two. */
-static double inverse_of_two(const struct gm_problem *problem) {
+static double inverse_of_two(const struct gm_problem *problem)
+{
     return 1 / (2 * strength(problem));
 }
 
-static void energy(const struct gm_problem *problem, const double *state, double *value, size_t m) {
+static void energy(const struct gm_problem *problem, const double *state, double *value, size_t m)
+{
     const size_t count = (problem->n - 2 * problem->passive) / 2;
     const double factor = strength(problem) * strength(problem) / (4 * M_PI);
     for (size_t k = 0; k < m; k++) {
         const double *x = state + k, *y = state + count * m + k;
-        double sum = 0;
+        /* one logarithm for many pairs: the product of their squared distances, while it is a number of note
+         */
+        double sum = 0, product = 1;
         for (size_t i = 0; i < count; i++) {
             for (size_t j = i + 1; j < count; j++) {
                 const double dx = x[i * m] - x[j * m], dy = y[i * m] - y[j * m];
-                sum += log(dx * dx + dy * dy);
+                const double longer = product * (dx * dx + dy * dy);
+                if (longer > 1e-150 && longer < 1e150) {
+                    product = longer;
+                } else {
+                    sum += log(product) + log(dx * dx + dy * dy);
+                    product = 1;
+                }
             }
         }
+        sum += log(product);
         value[k] = -factor * sum;
     }
 }
 
-static void reduced_energy(const struct gm_problem *problem, const double *state, double *value, size_t m) {
+static void reduced_energy(const struct gm_problem *problem, const double *state, double *value, size_t m)
+{
     const double factor = strength(problem) * strength(problem) / (4 * M_PI);
     for (size_t k = 0; k < m; k++) {
         const double x1 = state[k], x2 = state[m + k], y1 = state[2 * m + k], y2 = state[3 * m + k];
@@ -52,15 +66,18 @@ static void reduced_energy(const struct gm_problem *problem, const double *state
 }
 
 #define ORDINARY                                                                                             \
-    .m = 1, .ode = &(const struct gm_ode) {                                                                  \
+    .m = 1, .ode = &(const struct gm_ode)                                                                    \
+    {                                                                                                        \
         .stiff = false                                                                                       \
     }
 #define FULL                                                                                                 \
-    .hamiltonian = &(const struct gm_hamiltonian) {                                                          \
+    .hamiltonian = &(const struct gm_hamiltonian)                                                            \
+    {                                                                                                        \
         .energy = energy, .weight = inverse_strength                                                         \
     }
 #define REDUCED                                                                                              \
-    .hamiltonian = &(const struct gm_hamiltonian) {                                                          \
+    .hamiltonian = &(const struct gm_hamiltonian)                                                            \
+    {                                                                                                        \
         .energy = reduced_energy, .weight = inverse_of_two                                                   \
     }
 

@@ -10,26 +10,31 @@
 enum { LANES = 8 };
 typedef double lanes __attribute__((vector_size(LANES * 8)));
 
-static inline lanes load(const double *from) {
+static inline lanes load(const double *from)
+{
     lanes value;
     memcpy(&value, from, sizeof value);
     return value;
 }
 
-static inline void store(double *to, lanes value) {
+static inline void store(double *to, lanes value)
+{
     memcpy(to, &value, sizeof value);
 }
 
-static inline double sum_of(lanes value) {
+static inline double sum_of(lanes value)
+{
     return ((value[0] + value[4]) + (value[2] + value[6])) + ((value[1] + value[5]) + (value[3] + value[7]));
 }
 
-static double factor_of(const struct gm_problem *problem) {
+static double factor_of(const struct gm_problem *problem)
+{
     return *(const double *)problem->parameters / (2 * M_PI);
 }
 
 /* Each pair once: what j gives to i, i gives to j with the opposite sign. */
-static void pair_sum(const struct gm_problem *problem, const double *state, double *f, size_t m) {
+static void pair_sum(const struct gm_problem *problem, const double *state, double *f, size_t m)
+{
     (void)m;
     const size_t count = (problem->n - 2 * problem->passive) / 2;
     const double *x = state, *y = state + count;
@@ -68,7 +73,8 @@ static void pair_sum(const struct gm_problem *problem, const double *state, doub
 }
 
 /* Two vortices and their images under z -> -z. */
-static void reduced(const struct gm_problem *problem, const double *state, double *f, size_t m) {
+static void reduced(const struct gm_problem *problem, const double *state, double *f, size_t m)
+{
     (void)m;
     const double factor = factor_of(problem);
     const double dx = state[0] - state[1], dy = state[2] - state[3];
@@ -86,7 +92,8 @@ static void reduced(const struct gm_problem *problem, const double *state, doubl
 static inline __attribute__((always_inline)) void carry(double factor, const double *at_x, const double *at_y,
                                                         size_t vortices, const double *x, const double *y,
                                                         double *velocity_x, double *velocity_y,
-                                                        double *strain, size_t count, bool images) {
+                                                        double *strain, size_t count, bool images)
+{
     for (size_t i = 0; i < count; i += LANES) {
         const size_t members = count - i < LANES ? count - i : LANES;
         lanes x_i = {0}, y_i = {0}, sum_x = {0}, sum_y = {0}, a = {0}, b = {0};
@@ -118,7 +125,8 @@ static inline __attribute__((always_inline)) void carry(double factor, const dou
 }
 
 static void carried(const struct gm_problem *problem, const double *active, const double *x, const double *y,
-                    double *velocity_x, double *velocity_y, double *strain, size_t count) {
+                    double *velocity_x, double *velocity_y, double *strain, size_t count)
+{
     const size_t vortices = (problem->n - 2 * problem->passive) / 2;
     if (strain) {
         carry(factor_of(problem), active, active + vortices, vortices, x, y, velocity_x, velocity_y, strain,
@@ -131,7 +139,8 @@ static void carried(const struct gm_problem *problem, const double *active, cons
 
 static void carried_by_four(const struct gm_problem *problem, const double *active, const double *x,
                             const double *y, double *velocity_x, double *velocity_y, double *strain,
-                            size_t count) {
+                            size_t count)
+{
     if (strain) {
         carry(factor_of(problem), active, active + 2, 2, x, y, velocity_x, velocity_y, strain, count, true);
     } else {

@@ -4,7 +4,8 @@
    g = *(const double *)parameters. */
 #define GM_COMPONENTS 4
 
-GM_INLINE void K(field)(const real *state, real *f, const void *parameters) {
+GM_INLINE void K(field)(const real *state, real *f, const void *parameters)
+{
     const double factor = *(const double *)parameters / (2 * 3.14159265358979323846);
     const real x1 = state[0], x2 = state[1], y1 = state[2], y2 = state[3];
     const real dx = x1 - x2, dy = y1 - y2, sx = x1 + x2, sy = y1 + y2;
@@ -18,13 +19,15 @@ GM_INLINE void K(field)(const real *state, real *f, const void *parameters) {
 
 #ifdef GM_PASS_SCALAR
 /* dF/dd = [a, b; b, -a] */
-static void K(strain)(double dx, double dy, double factor, double ab[2]) {
+static void K(strain)(double dx, double dy, double factor, double ab[2])
+{
     const double square = dx * dx + dy * dy;
     ab[0] = factor * 2 * dx * dy / (square * square);
     ab[1] = factor * (dy * dy - dx * dx) / (square * square);
 }
 
-static void K(jacobian)(const double *state, double jacobian[][GM_COMPONENTS], const void *parameters) {
+static void K(jacobian)(const double *state, double jacobian[][GM_COMPONENTS], const void *parameters)
+{
     const double factor = *(const double *)parameters / (2 * 3.14159265358979323846);
     double near[2], far[2];
     K(strain)(state[0] - state[1], state[2] - state[3], factor, near);

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/chart.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "render/canvas.h"
+#include "render/png.h"
+
+bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, const char *name, char *message)
+{
+    const char *folder = options->out ? options->out : ".";
+    chart->options = options;
+    const int png = snprintf(chart->png, sizeof chart->png, "%s/%s.png", folder, name);
+    const int csv = snprintf(chart->csv, sizeof chart->csv, "%s/%s.csv", folder, name);
+    if (png >= (int)sizeof chart->png || csv >= (int)sizeof chart->csv) {
+        snprintf(message, GM_MESSAGE, "the name of the folder is too long");
+        return false;
+    }
+    if (options->out && mkdir(options->out, 0777) != 0 && errno != EEXIST) {
+        snprintf(message, GM_MESSAGE, "%.200s could not be made: %s", options->out, strerror(errno));
+        return false;
+    }
+    return true;
+}
+
+bool gm_chart_paint(const struct gm_chart *chart, const void *data,
+                    void (*draw)(const void *data, struct gm_picture *picture), char *message)
+{
+    const int width = chart->options->width, height = chart->options->height;
+    struct gm_canvas *canvas = gm_canvas_open(width, height, chart->options->theme, message);
+    if (!canvas) {
+        return false;
+    }
+    struct gm_picture *picture = gm_picture_open();
+    unsigned char *rgb = malloc((size_t)width * (size_t)height * 3);
+    bool good = picture && rgb;
+    if (good) {
+        draw(data, picture);
+        good = gm_canvas_paint(canvas, picture, rgb);
+    }
+    if (good) {
+        good = gm_png_write(chart->png, width, height, rgb, NULL, 0, message);
+    } else {
+        snprintf(message, GM_MESSAGE, "not enough memory for a picture of %dx%d", width, height);
+    }
+    free(rgb);
+    gm_picture_close(picture);
+    gm_canvas_close(canvas);
+    return good;
+}

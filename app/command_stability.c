@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint stability: which time step keeps which scheme bounded, and how it fails beyond. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/chart.h"
+#include "app/commands.h"
+#include "app/drive.h"
+#include "app/stability.h"
+
+static bool write_csv(const struct gm_stability_table *table, const char *path)
+{
+    const struct gm_stability *plan = table->plan;
+    FILE *csv = fopen(path, "w");
+    if (!csv) {
+        return false;
+    }
+    fprintf(csv, "scene,scheme,%s,step,dt,verdict,status,t,ratio,error\n", plan->parameter);
+    for (size_t i = 0; i < table->count; i++) {
+        for (size_t k = 0; k < plan->step_count * plan->value_count; k++) {
+            const struct gm_cell *cell = &table->maps[i].cells[k];
+            if (cell->verdict == GM_UNTRIED) {
+                continue;
+            }
+            fprintf(csv, "%s,%s,%.17g,%.17g,%.17g,%s,%s,%.17g,", table->request.scene->name,
+                    table->maps[i].scheme->name, plan->values[k % plan->value_count],
+                    plan->steps[k / plan->value_count], cell->dt, gm_cell_word(cell),
+                    gm_status_name(cell->status), cell->t);
+            if (isfinite(cell->ratio)) {
+                fprintf(csv, "%.9g", cell->ratio);
+            }
+            fputc(',', csv);
+            if (isfinite(cell->error)) {
+                fprintf(csv, "%.9g", cell->error);
+            }
+            fputc('\n', csv);
+        }
+    }
+    const bool failed = ferror(csv) != 0;
+    return fclose(csv) == 0 && !failed;
+}
+
+static void print_table(const struct gm_stability_table *table)
+{
+    const struct gm_stability *plan = table->plan;
+    const struct gm_timing *timing = table->request.lanes[0].parameters;
+    printf(
+        "%s after t = %.6g: . bounded, L lost, G gained, W wrong, B blow-up, N no convergence, C step collapse\n",
+        table->request.scene->name, timing->until);
+    for (size_t i = 0; i < table->count; i++) {
+        const struct gm_stability_map *map = &table->maps[i];
+        printf("\n%-20s %s\n%12s", map->scheme->name, plan->parameter, plan->label);
+        for (size_t v = 0; v < plan->value_count; v++) {
+            printf(" %7.4g", plan->values[v]);
+        }
+        printf("\n");
+        for (size_t s = plan->step_count; s-- > 0;) {
+            printf("%12.4g", plan->steps[s]);
+            for (size_t v = 0; v < plan->value_count; v++) {
+                printf(" %7c", gm_cell_letter(&map->cells[s * plan->value_count + v]));
+            }
+            printf("\n");
+        }
+        const double limit = gm_stability_limit(table, map);
+        if (limit > 0) {
+            printf("  bounded for all values up to %.4g\n", limit);
+        } else {
+            printf("  at no step bounded for all values\n");
+        }
+    }
+}
+
+static void draw(const void *table, struct gm_picture *picture)
+{
+    gm_stability_draw(table, picture);
+}
+
+int gm_command_stability(const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    struct gm_stability_table table;
+    if (!gm_stability_open(&table, options, message)) {
+        gm_complain("%s", message);
+        return GM_EXIT_USAGE;
+    }
+    gm_catch_interrupts();
+    int status = GM_EXIT_OK;
+    if (!gm_stability_measure(&table, message)) {
+        gm_complain("%s", message);
+        status = GM_EXIT_USAGE;
+    } else {
+        char name[128];
+        struct gm_chart chart;
+        print_table(&table);
+        snprintf(name, sizeof name, "%s-stability", table.request.scene->name);
+        if (!gm_chart_open(&chart, options, name, message) ||
+            !gm_chart_paint(&chart, &table, draw, message)) {
+            gm_complain("%s", message);
+            status = GM_EXIT_FILE;
+        } else if (!write_csv(&table, chart.csv)) {
+            gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
+            status = GM_EXIT_FILE;
+        }
+    }
+    gm_stability_close(&table);
+    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+}

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint work-precision: error against run time and evaluations. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/chart.h"
+#include "app/commands.h"
+#include "app/drive.h"
+#include "app/work.h"
+
+static bool write_csv(const struct gm_work_table *table, const char *path)
+{
+    FILE *csv = fopen(path, "w");
+    if (!csv) {
+        return false;
+    }
+    fprintf(csv, "scene,scheme,order,dt,steps,t,status,%s,seconds,evaluations,solves\n", table->measure);
+    for (size_t i = 0; i < table->line_count; i++) {
+        const struct gm_work_line *line = &table->lines[i];
+        for (size_t k = 0; k < line->count; k++) {
+            const struct gm_work_point *point = &line->points[k];
+            fprintf(csv, "%s,%s,%d,%.17g,%ld,%.17g,%s,", table->request.scene->name, line->scheme->name,
+                    line->scheme->order, point->dt, point->steps, point->t, gm_status_name(point->status));
+            if (isfinite(point->error)) {
+                fprintf(csv, "%.17g", point->error);
+            }
+            fprintf(csv, ",%.6g,%.0f,%.0f\n", point->seconds, point->evaluations, point->solves);
+        }
+    }
+    const bool failed = ferror(csv) != 0;
+    return fclose(csv) == 0 && !failed;
+}
+
+static void print_cell(double value)
+{
+    if (isfinite(value)) {
+        printf(" %11.3g", value);
+    } else {
+        printf(" %11s", "-");
+    }
+}
+
+static void print_table(const struct gm_work_table *table)
+{
+    const struct gm_timing *timing = table->request.lanes[0].parameters;
+    char sentence[512];
+    printf("%s, %s at t = %.6g", table->request.scene->name, table->measure, timing->until);
+    printf(table->reference[0] ? " against %s\n" : "\n", table->reference);
+    printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", "evaluations for an error of",
+           "least", "scheme");
+    for (int cost = 0; cost < 2; cost++) {
+        for (size_t i = 0; i < 3; i++) {
+            printf(" %11.0e", gm_work_errors[i]);
+        }
+    }
+    printf(" %9s\n", "error");
+    for (size_t i = 0; i < table->line_count; i++) {
+        const struct gm_work_line *line = &table->lines[i];
+        double least = INFINITY;
+        printf("%-26s", line->scheme->name);
+        for (size_t k = 0; k < 3; k++) {
+            print_cell(1e3 * gm_work_price(line, gm_work_errors[k], GM_COST_SECONDS));
+        }
+        for (size_t k = 0; k < 3; k++) {
+            print_cell(gm_work_price(line, gm_work_errors[k], GM_COST_EVALUATIONS));
+        }
+        for (size_t k = 0; k < line->count; k++) {
+            least = fmin(least, line->points[k].error);
+        }
+        if (isfinite(least)) {
+            printf(" %9.1e\n", least);
+        } else {
+            printf(" %9s\n", line->count > 0 ? gm_status_name(line->points[line->count - 1].status) : "-");
+        }
+    }
+    printf("%s\n", gm_work_sentence(table, sentence, sizeof sentence));
+}
+
+static void draw(const void *table, struct gm_picture *picture)
+{
+    gm_work_draw(table, picture);
+}
+
+int gm_command_work_precision(const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    struct gm_work_table table;
+    if (!gm_work_open(&table, options, message)) {
+        gm_complain("%s", message);
+        return GM_EXIT_USAGE;
+    }
+    gm_catch_interrupts();
+    int status = GM_EXIT_OK;
+    if (!gm_work_measure(&table, message) && !gm_interrupted) {
+        gm_complain("%s", message);
+        status = GM_EXIT_NUMERICAL;
+    }
+    if (table.line_count > 0) {
+        char name[128];
+        print_table(&table);
+        snprintf(name, sizeof name, "%s-work-precision", table.request.scene->name);
+        struct gm_chart chart;
+        if (!gm_chart_open(&chart, options, name, message) ||
+            !gm_chart_paint(&chart, &table, draw, message)) {
+            gm_complain("%s", message);
+            status = GM_EXIT_FILE;
+        } else if (!write_csv(&table, chart.csv)) {
+            gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
+            status = GM_EXIT_FILE;
+        }
+    }
+    gm_work_close(&table);
+    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+}

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/stability.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "app/drive.h"
+
+enum { MOST_WORDS = 64 };
+
+/* A run that takes longer than this is judged where it is. */
+static const double most_seconds = 10;
+
+static bool refuse(char *message, const char *text)
+{
+    snprintf(message, GM_MESSAGE, "%s", text);
+    return false;
+}
+
+static bool overridden(const struct gm_options *options, const char *word)
+{
+    const size_t length = strcspn(word, "=") + 1;
+    for (int i = 0; i < options->word_count; i++) {
+        if (strncmp(options->words[i], word, length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The scene, the plan's arguments and schemes unless overridden, and the user's words. */
+static bool parse(struct gm_stability_table *table, const struct gm_options *options, char *message)
+{
+    char *words[MOST_WORDS], arguments[512], schemes[512] = "scheme=", *rest = NULL;
+    const struct gm_scene *scene = gm_scene_find(options->words[0]);
+    const bool chosen =
+        scene && scene->stability && scene->stability->schemes && !overridden(options, "scheme=");
+    int count = 0;
+    words[count++] = options->words[0];
+    if (scene && !scene->stability) {
+        snprintf(message, GM_MESSAGE, "scene %s has no stability map", scene->name);
+        return false;
+    }
+    if (scene) {
+        snprintf(arguments, sizeof arguments, "%s", scene->stability->arguments);
+        for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+            if (!overridden(options, word)) {
+                words[count++] = word;
+            }
+        }
+    }
+    for (size_t i = 0; chosen && scene->stability->schemes[i]; i++) {
+        const size_t used = strlen(schemes);
+        snprintf(schemes + used, sizeof schemes - used, "%s%s", i ? "," : "", scene->stability->schemes[i]);
+    }
+    if (chosen) {
+        words[count++] = schemes;
+    }
+    for (int i = 1; i < options->word_count && count < MOST_WORDS; i++) {
+        words[count++] = options->words[i];
+    }
+    return gm_request_parse(&table->request, count, words, 6, message);
+}
+
+bool gm_stability_open(struct gm_stability_table *table, const struct gm_options *options, char *message)
+{
+    *table = (struct gm_stability_table){0};
+    if (options->word_count == 0) {
+        return refuse(message, "stability of which scene? Or --region SCHEME");
+    }
+    if (!parse(table, options, message)) {
+        return false;
+    }
+    const struct gm_request *request = &table->request;
+    table->plan = request->scene->stability;
+    table->parameter = gm_scene_parameter(request->scene, table->plan->parameter);
+    table->count = request->count;
+    table->maps = calloc(request->count, sizeof *table->maps);
+    bool good = table->maps != NULL;
+    for (size_t i = 0; good && i < request->count; i++) {
+        table->maps[i].scheme = request->lanes[i].scheme;
+        table->maps[i].cells =
+            calloc(table->plan->step_count * table->plan->value_count, sizeof(struct gm_cell));
+        good = table->maps[i].cells != NULL;
+        for (size_t k = 0; k < i; k++) {
+            if (request->lanes[k].scheme == request->lanes[i].scheme) {
+                gm_stability_close(table);
+                snprintf(message, GM_MESSAGE, "stability varies dt and %s itself: only scheme takes a list",
+                         request->scene->stability->parameter);
+                return false;
+            }
+        }
+    }
+    if (!good) {
+        gm_stability_close(table);
+        return refuse(message, "not enough memory");
+    }
+    return true;
+}
+
+void gm_stability_close(struct gm_stability_table *table)
+{
+    for (size_t i = 0; i < table->count && table->maps; i++) {
+        free(table->maps[i].cells);
+    }
+    free(table->maps);
+    gm_request_close(&table->request);
+}
+
+static const struct gm_observable *find(const struct gm_scene *scene, const char *key)
+{
+    for (size_t i = 0; key && i < scene->observable_count; i++) {
+        if (strcmp(scene->observables[i].key, key) == 0) {
+            return &scene->observables[i];
+        }
+    }
+    return NULL;
+}
+
+static double processor_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double evaluate(const struct gm_lane *lane, const struct gm_observable *observable)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    return observable->evaluate(&view);
+}
+
+/* Up to `steps` steps in all, or the end of a scheme that chooses them; one by one where the largest value on
+   the way is asked for. */
+static void run_to(struct gm_lane *lane, long steps, const struct gm_observable *observable, double *largest)
+{
+    const struct gm_timing *timing = lane->parameters;
+    const bool own_time = lane->scheme->family->own_time;
+    const double started = processor_seconds();
+    while (lane->run->status == GM_OK && !gm_interrupted && processor_seconds() - started < most_seconds) {
+        const long left = steps - lane->run->steps;
+        if (left <= 0 || (own_time && lane->run->t >= timing->until)) {
+            return;
+        }
+        gm_lane_advance(lane, own_time || largest ? 1 : left < 1000 ? left : 1000);
+        if (largest) {
+            *largest = fmax(*largest, evaluate(lane, observable));
+        }
+    }
+}
+
+static void judge(struct gm_lane *lane, const struct gm_stability *plan, struct gm_cell *cell)
+{
+    const struct gm_observable *kept = find(lane->scene, plan->kept), *error = find(lane->scene, plan->error);
+    const struct gm_timing *timing = lane->parameters;
+    const long all =
+        lane->scheme->family->own_time ? INT64_MAX : (long)fmax(1, round(timing->until / timing->dt));
+    double before = evaluate(lane, kept), after = -INFINITY;
+    if (plan->settle > 0 && all > 2 * plan->settle && all < INT64_MAX) {
+        run_to(lane, plan->settle, kept, &before);
+        run_to(lane, all - plan->settle, NULL, NULL);
+        run_to(lane, all, kept, &after);
+    } else {
+        run_to(lane, all, NULL, NULL);
+        after = evaluate(lane, kept);
+    }
+    cell->status = lane->run->status;
+    cell->t = lane->run->t;
+    cell->ratio = after / before;
+    cell->error = error ? fabs(gm_lane_observe(lane, (size_t)(error - lane->scene->observables))) : NAN;
+    if (cell->status != GM_OK) {
+        cell->verdict = GM_FAILED;
+    } else if (fabs(cell->ratio) > 2) {
+        cell->verdict = GM_GAINED;
+    } else if (!(cell->ratio >= 0.5)) {
+        cell->verdict = GM_LOST;
+    } else {
+        cell->verdict = error && !(cell->error <= 0.1) ? GM_WRONG : GM_BOUNDED;
+    }
+}
+
+static void set_parameter(const struct gm_parameter *row, void *own, double value)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%.17g", value);
+    gm_parameter_set(row, own, text);
+}
+
+bool gm_stability_measure(struct gm_stability_table *table, char *message)
+{
+    const struct gm_stability *plan = table->plan;
+    const bool bar = isatty(STDERR_FILENO);
+    for (size_t i = 0; i < table->count; i++) {
+        const struct gm_lane_spec *spec = &table->request.lanes[i];
+        struct gm_timing *timing = spec->parameters;
+        for (size_t s = 0; s < plan->step_count && !gm_interrupted; s++) {
+            if (bar) {
+                fprintf(stderr, "\r%zu/%zu %-28s step %zu/%zu ", i + 1, table->count, spec->scheme->name,
+                        s + 1, plan->step_count);
+            }
+            for (size_t v = 0; v < plan->value_count && !gm_interrupted; v++) {
+                struct gm_cell *cell = &table->maps[i].cells[s * plan->value_count + v];
+                set_parameter(table->parameter, spec->parameters, plan->values[v]);
+                timing->dt = cell->dt = plan->steps[s] * plan->unit(spec->parameters);
+                struct gm_lane *lane = gm_request_open_lane(&table->request, i, message);
+                if (!lane) {
+                    return false;
+                }
+                judge(lane, plan, cell);
+                cell->verdict = gm_interrupted ? GM_UNTRIED : cell->verdict;
+                gm_lane_close(lane);
+            }
+        }
+    }
+    if (bar) {
+        fprintf(stderr, "\r%60s\r", "");
+    }
+    return true;
+}
+
+const char *gm_cell_word(const struct gm_cell *cell)
+{
+    static const char *const words[] = {"untried", "bounded", "lost", "gained", "wrong"};
+    return cell->verdict == GM_FAILED ? gm_status_name(cell->status) : words[cell->verdict];
+}
+
+char gm_cell_letter(const struct gm_cell *cell)
+{
+    switch (cell->verdict) {
+    case GM_UNTRIED:
+        return '?';
+    case GM_BOUNDED:
+        return '.';
+    case GM_LOST:
+        return 'L';
+    case GM_GAINED:
+        return 'G';
+    case GM_WRONG:
+        return 'W';
+    case GM_FAILED:
+        break;
+    }
+    return cell->status == GM_BLOW_UP ? 'B' : cell->status == GM_NO_CONVERGENCE ? 'N' : 'C';
+}
+
+double gm_stability_limit(const struct gm_stability_table *table, const struct gm_stability_map *map)
+{
+    const struct gm_stability *plan = table->plan;
+    double limit = 0;
+    for (size_t s = 0; s < plan->step_count; s++) {
+        for (size_t v = 0; v < plan->value_count; v++) {
+            if (map->cells[s * plan->value_count + v].verdict != GM_BOUNDED) {
+                return limit;
+            }
+        }
+        limit = plan->steps[s];
+    }
+    return limit;
+}

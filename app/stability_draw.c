@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Stability maps: one panel a scheme, a cell for every step and value, with a letter, so that colour is not
+ * needed. */
+#include <math.h>
+
+#include "app/stability.h"
+#include "scenes/graph.h"
+
+enum { MOST_EDGES = 64 };
+
+/* Edges of cells around `count` rising values: halfway, on the axis' scale. */
+static void edges_of(const double *values, size_t count, bool logarithmic, double *edges)
+{
+    double at[MOST_EDGES];
+    for (size_t i = 0; i < count; i++) {
+        at[i] = logarithmic ? log(values[i]) : values[i];
+    }
+    for (size_t i = 0; i <= count; i++) {
+        const double before = i > 0 ? at[i - 1] : 2 * at[0] - at[1];
+        const double after = i < count ? at[i] : 2 * at[count - 1] - at[count - 2];
+        const double edge = (before + after) / 2;
+        edges[i] = logarithmic ? exp(edge) : edge;
+    }
+}
+
+static struct gm_style style_of(const struct gm_cell *cell)
+{
+    switch (cell->verdict) {
+    case GM_LOST:
+        return (struct gm_style){.role = gm_lane_role(0), .alpha = 0.55};
+    case GM_GAINED:
+        return (struct gm_style){.role = gm_lane_role(1), .alpha = 0.6};
+    case GM_WRONG:
+        return (struct gm_style){.role = gm_lane_role(3), .alpha = 0.4};
+    case GM_FAILED:
+        return (struct gm_style){.role = GM_SECONDARY, .alpha = cell->status == GM_BLOW_UP ? 0.85 : 0.5};
+    default:
+        return (struct gm_style){.role = gm_lane_role(2), .alpha = cell->verdict == GM_BOUNDED ? 0.22 : 0};
+    }
+}
+
+static void draw_map(const struct gm_stability_table *table, const struct gm_stability_map *map,
+                     struct gm_picture *picture)
+{
+    const struct gm_stability *plan = table->plan;
+    const bool logarithmic = table->parameter->logarithmic;
+    double x[MOST_EDGES + 1], y[MOST_EDGES + 1];
+    edges_of(plan->values, plan->value_count, logarithmic, x);
+    edges_of(plan->steps, plan->step_count, true, y);
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, map->scheme->title);
+    panel->axes = true;
+    panel->title_role = GM_INK;
+    const double limit = gm_stability_limit(table, map);
+    panel->note = limit > 0 ? gm_picture_text(picture, "bounded throughout up to %.3g", limit) : "";
+    panel->x = (struct gm_axis){.label = table->parameter->key,
+                                .scale = logarithmic ? GM_LOG : GM_LINEAR,
+                                .low = x[0],
+                                .high = x[plan->value_count]};
+    panel->y =
+        (struct gm_axis){.label = plan->label, .scale = GM_LOG, .low = y[0], .high = y[plan->step_count]};
+    for (size_t s = 0; s < plan->step_count; s++) {
+        for (size_t v = 0; v < plan->value_count; v++) {
+            const struct gm_cell *cell = &map->cells[s * plan->value_count + v];
+            const double corners[] = {x[v], y[s], x[v + 1], y[s], x[v + 1], y[s + 1], x[v], y[s + 1]};
+            gm_mark_polygon(picture, panel, style_of(cell), corners, 4);
+        }
+    }
+    for (size_t s = 0; s < plan->step_count; s++) {
+        for (size_t v = 0; v < plan->value_count; v++) {
+            const struct gm_cell *cell = &map->cells[s * plan->value_count + v];
+            if (cell->verdict != GM_BOUNDED) {
+                gm_mark_text(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 1},
+                             logarithmic ? sqrt(x[v] * x[v + 1]) : (x[v] + x[v + 1]) / 2,
+                             sqrt(y[s] * y[s + 1]), GM_ANCHOR_CENTRE,
+                             gm_picture_text(picture, "%c", gm_cell_letter(cell)));
+            }
+        }
+    }
+}
+
+void gm_stability_draw(const struct gm_stability_table *table, struct gm_picture *picture)
+{
+    const struct gm_timing *timing = table->request.lanes[0].parameters;
+    picture->title =
+        gm_picture_text(picture, "%s: which time step keeps which scheme", table->request.scene->title);
+    picture->subtitle =
+        gm_picture_text(picture,
+                        "up: %s;  after t = %.6g:  empty bounded,  L lost,  G gained,  W wrong,  B blow-up,  "
+                        "N no convergence",
+                        table->plan->label, timing->until);
+    picture->clock = "";
+    for (size_t i = 0; i < table->count; i++) {
+        draw_map(table, &table->maps[i], picture);
+    }
+}
