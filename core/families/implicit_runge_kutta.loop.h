@@ -87,14 +87,13 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
         }
     }
     const real roundoff = (8 * stages * 2.220446049250313e-16) * norm;
-    real negligible =
-        K(constant)(0); /* 2^-56 of the first change: a small part of the increments' last place */
+    real negligible = K(constant)(0); /* 2^-60 of the first change: with more, invariants drift */
     real previous = K(constant)(1e300);
     mask active = K(all)(), solved = K(not )(active);
     for (int iteration = 0; iteration < K(IMPLICIT_ITERATIONS); iteration++) {
         const real change = K(implicit_iterate)(row, stages, y, h, parameters, active, f, z);
         if (iteration == 0) {
-            negligible = 1.3877787807814457e-17 * change;
+            negligible = 8.673617379884035e-19 * change;
         }
         for (int l = 0; l < counts->lanes; l++) {
             counts->evaluations += K(mask_lane)(active, l) ? (unsigned long)stages : 0;
