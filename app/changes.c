@@ -8,7 +8,8 @@
 
 /* One key of the formatted request: the value of every lane. */
 static void format_key(FILE *stream, const struct gm_request *request, const char *key,
-                       const char *(*value)(const struct gm_request *, size_t lane, const void *row, char *text),
+                       const char *(*value)(const struct gm_request *, size_t lane, const void *row,
+                                            char *text),
                        const void *row, const char *standard, size_t *lists)
 {
     char first[96], text[96];
@@ -139,7 +140,7 @@ bool gm_change_apply(struct gm_lane *lane, const char *text, char *message)
     *equals = '\0';
     const char *value = equals + 1;
     if (strcmp(key, "scheme") == 0) {
-        const struct gm_scheme *scheme = gm_scheme_find(value);
+        const struct gm_scheme *scheme = gm_scheme_find_for(value, &lane->problem);
         if (!scheme) {
             snprintf(message, GM_MESSAGE, "there is no scheme \"%.40s\"", value);
             return false;

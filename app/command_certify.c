@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint certify: measured order and properties against the claims. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,21 +9,30 @@
 #include "app/nearest.h"
 #include "core/certify.h"
 
-static const char *scheme_name(size_t i, const void *data) { return (void)data, gm_scheme_at(i)->name; }
+static const char *scheme_name(size_t i, const void *data)
+{
+    return (void)data, gm_scheme_at(i)->name;
+}
 
 static void print_json(const struct gm_certificate *certificate)
 {
-    printf("{\"scheme\":\"%s\",\"order\":%d,\"measured_order\":%.6g,\"holds\":%s,\"properties\":{",
-           certificate->scheme->name, certificate->scheme->order, certificate->order,
-           certificate->holds ? "true" : "false");
+    printf("{\"scheme\":\"%s\",\"order\":%d,\"measured_order\":", certificate->scheme->name,
+           certificate->scheme->order);
+    if (isfinite(certificate->order)) {
+        printf("%.6g", certificate->order);
+    } else {
+        printf("null");
+    }
+    printf(",\"holds\":%s,\"properties\":{", certificate->holds ? "true" : "false");
     const char *comma = "";
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_measure *measure = &certificate->claims[bit];
         if (measure->claimed || measure->measured) {
-            printf("%s\"%s\":{\"claimed\":%s,\"measured\":%s,\"defect\":%.6g,\"tolerance\":%g,\"problem\":\"%s\"}",
-                   comma, gm_claim_word(bit), measure->claimed ? "true" : "false",
-                   measure->measured ? "true" : "false", measure->measured ? measure->defect : 0,
-                   measure->tolerance, measure->problem);
+            printf(
+                "%s\"%s\":{\"claimed\":%s,\"measured\":%s,\"defect\":%.6g,\"tolerance\":%g,\"problem\":\"%s\"}",
+                comma, gm_claim_word(bit), measure->claimed ? "true" : "false",
+                measure->measured ? "true" : "false", measure->measured ? measure->defect : 0,
+                measure->tolerance, measure->problem);
             comma = ",";
         }
     }
@@ -31,8 +41,14 @@ static void print_json(const struct gm_certificate *certificate)
 
 static void print_text(const struct gm_certificate *certificate)
 {
-    printf("%-26s order %d, measured %.3f (%s)%s\n", certificate->scheme->name, certificate->scheme->order,
-           certificate->order, certificate->order_problem, certificate->order_holds ? "" : "  BROKEN");
+    const char *broken = certificate->order_holds ? "" : "  BROKEN";
+    if (certificate->scheme->order == 0) {
+        printf("%-30s order of its own choice, error ~ tolerance^%.3f (%s)%s\n", certificate->scheme->name,
+               certificate->order, certificate->order_problem, broken);
+    } else {
+        printf("%-30s order %d, measured %.3f (%s)%s\n", certificate->scheme->name,
+               certificate->scheme->order, certificate->order, certificate->order_problem, broken);
+    }
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_measure *measure = &certificate->claims[bit];
         if (!measure->claimed && !measure->measured) {
@@ -58,16 +74,17 @@ int gm_command_certify(const struct gm_options *options)
     }
     const char *name = options->words[0];
     const bool all = strcmp(name, "all") == 0;
-    if (!all && !gm_scheme_find(name)) {
+    const struct gm_scheme *found = gm_scheme_find(name);
+    if (!all && !found) {
         const char *near = gm_nearest(name, gm_scheme_count(), scheme_name, NULL);
-        gm_complain("there is no scheme \"%.40s\"%s%s", name, near ? "; did you mean " : "; see geomint list schemes",
-                    near ? near : "");
+        gm_complain("there is no scheme \"%.40s\"%s%s", name,
+                    near ? "; did you mean " : "; see geomint list schemes", near ? near : "");
         return GM_EXIT_USAGE;
     }
     size_t certified = 0, broken = 0;
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
-        if (!all && strcmp(scheme->name, name) != 0) {
+        if (!all && strcmp(scheme->name, found->name) != 0) {
             continue;
         }
         const struct gm_certificate certificate = gm_certify(scheme);

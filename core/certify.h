@@ -5,8 +5,9 @@
 #include "core/scheme.h"
 
 /* Measures what a scheme's row claims. Order is a log-log slope on non-linear problems, against a solution of
-   GSL's Prince-Dormand stepper at its tightest tolerance; properties are defects of single steps or short runs.
-   Every claim is measured wherever it can be; what is not claimed is told, not judged. */
+   GSL's Prince-Dormand stepper at its tightest tolerance (for a scheme that chooses its order, whose row says
+   0, the slope of log error against the logarithm of its tolerance); properties are defects of single steps
+   or short runs. Every claim is measured wherever it can be; what is not claimed is told, not judged. */
 
 struct gm_measure {
     bool claimed;
@@ -19,11 +20,11 @@ struct gm_measure {
 
 struct gm_certificate {
     const struct gm_scheme *scheme;
-    double order;              /* measured, the lowest over the problems */
+    double order; /* measured, the lowest over the problems */
     bool order_holds;
     const char *order_problem;
     struct gm_measure claims[GM_CLAIM_COUNT]; /* by bit number */
-    bool holds;                /* the order and every claim */
+    bool holds;                               /* the order and every claim */
 };
 
 struct gm_certificate gm_certify(const struct gm_scheme *scheme);

@@ -8,14 +8,14 @@
 /* What a scheme says of itself; certify and the tests hold every row to it. */
 enum gm_claim {
     GM_SYMPLECTIC = 1u << 0,
-    GM_SYMMETRIC = 1u << 1,           /* step(-dt) undoes step(dt) */
-    GM_REVERSIBLE = 1u << 2,          /* under p -> -p */
-    GM_KEEPS_ENERGY = 1u << 3,        /* of every Hamiltonian */
-    GM_KEEPS_QUADRATIC = 1u << 4,     /* every quadratic invariant */
-    GM_KEEPS_LINEAR = 1u << 5,        /* every linear invariant */
+    GM_SYMMETRIC = 1u << 1,       /* step(-dt) undoes step(dt) */
+    GM_REVERSIBLE = 1u << 2,      /* under p -> -p */
+    GM_KEEPS_ENERGY = 1u << 3,    /* of every Hamiltonian */
+    GM_KEEPS_QUADRATIC = 1u << 4, /* every quadratic invariant */
+    GM_KEEPS_LINEAR = 1u << 5,    /* every linear invariant */
     GM_KEEPS_VOLUME = 1u << 6,
     GM_MULTISYMPLECTIC = 1u << 7,
-    GM_EQUIVARIANT = 1u << 8,         /* commutes with the problem's symmetry group */
+    GM_EQUIVARIANT = 1u << 8, /* commutes with the problem's symmetry group */
     GM_CLAIM_COUNT = 9,
 };
 
@@ -42,9 +42,9 @@ struct gm_scheme {
     const char *reference; /* where it comes from */
     const struct gm_family *family;
     const void *coefficients; /* the family knows their type */
-    int order;
-    unsigned needs;  /* facets, GM_NEEDS_*; all of them */
-    unsigned claims; /* GM_SYMPLECTIC | ... */
+    int order;                /* 0: it chooses its order itself */
+    unsigned needs;           /* facets, GM_NEEDS_*; all of them */
+    unsigned claims;          /* GM_SYMPLECTIC | ... */
 };
 
 struct gm_family {
@@ -62,13 +62,16 @@ struct gm_family {
     /* Fills task->memory_out from the canonical state task->y: at the start, after a switch, for a new dt.
        After every step `out` holds the canonical state again. */
     enum gm_status (*start)(const struct gm_task *task);
-    /* Scratch and factors: derived from the state alone, rebuilt wherever a run is resumed. NULL: out of memory. */
+    /* Scratch and factors: derived from the state alone, rebuilt wherever a run is resumed. NULL: out of
+     * memory. */
     void *(*workspace_open)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     void (*workspace_close)(void *workspace);
     void (*workspace_reset)(void *workspace); /* forgets what was derived from an earlier state */
-    /* The scheme chooses its step: the loop returns the time, dt is what its rows say it is. One member only. */
+    /* The scheme chooses its step: the loop returns the time, dt is what its rows say it is. One member only.
+     */
     bool own_time;
-    bool doubled; /* the memory is a second copy of phase space, and the scheme is symplectic on both together */
+    bool doubled; /* the memory is a second copy of phase space, and the scheme is symplectic on both together
+                   */
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 
@@ -79,8 +82,8 @@ const struct gm_scheme *gm_scheme_find(const char *name);
 /* The row of that name that fits the problem, where one name has rows for several facets; a row that does not
    fit if there is none that does; NULL if there is no scheme of that name. */
 const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem);
-/* The loop that advances this problem by this scheme: that over the problem's kernels, else the family's; NULL if
-   there is neither. The family's workspace is opened for its own loop only. */
+/* The loop that advances this problem by this scheme: that over the problem's kernels, else the family's;
+   NULL if there is neither. The family's workspace is opened for its own loop only. */
 gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem);
 /* whether the problem has what the scheme needs */
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem);

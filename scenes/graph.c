@@ -70,8 +70,8 @@ struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double w
                              gm_lane_dash(lane->shown.colour)};
 }
 
-void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style, const double *points,
-                   size_t count)
+void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                   const double *points, size_t count)
 {
     enum { PIECES = 16 };
     const double alpha = style.alpha;
@@ -98,14 +98,15 @@ const char *gm_power_text(struct gm_picture *picture, double value)
         power++;
     }
     const unsigned size = (unsigned)abs(power);
-    return gm_picture_text(picture, "%.1f·10%s%s%s%s", front, power < 0 ? "⁻" : "", size > 99 ? digits[size / 100] : "",
-                           size > 9 ? digits[size / 10 % 10] : "", digits[size % 10]);
+    return gm_picture_text(picture, "%.1f·10%s%s%s%s", front, power < 0 ? "⁻" : "",
+                           size > 99 ? digits[size / 100] : "", size > 9 ? digits[size / 10 % 10] : "",
+                           digits[size % 10]);
 }
 
 const char *gm_counted_schemes(size_t count)
 {
-    static const char *const words[] = {"",             "one scheme",   "two schemes", "three schemes",
-                                        "four schemes", "five schemes", "six schemes"};
+    static const char *const words[] = {
+        "", "one scheme", "two schemes", "three schemes", "four schemes", "five schemes", "six schemes"};
     return count < sizeof words / sizeof words[0] ? words[count] : "many schemes";
 }
 
@@ -183,8 +184,9 @@ void gm_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size
     }
     *axis = (struct gm_axis){.label = "t", .scale = counts_in_pi(lanes[0]->run->dt) ? GM_PI : GM_LINEAR};
     const double until = timing->until;
-    if (low >= lanes[0]->t0 && until < GM_NEVER && high <= until * (1 + 1e-9) && until > lanes[0]->t0) {
-        high = until;
+    if (low >= lanes[0]->t0 && until < GM_NEVER && high <= until + fabs(lanes[0]->run->dt) &&
+        until > lanes[0]->t0) {
+        high = fmax(high, until); /* the last step may end a little later */
     } else {
         gm_range_round(&low, &high, axis->scale);
     }
@@ -218,8 +220,8 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
 {
     const struct gm_scene *scene = lanes[0]->scene;
     const size_t series = series_of(scene, graph->observable);
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH,
-                                          graph->title ? graph->title : scene->observables[series].title);
+    struct gm_panel *panel =
+        gm_panel_add(picture, GM_PLACE_GRAPH, graph->title ? graph->title : scene->observables[series].title);
     panel->axes = true;
     panel->title_role = GM_INK;
     gm_time_axis(&panel->x, lanes, count);
@@ -264,10 +266,12 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
         gm_mark_line(picture, panel, gm_lane_style(lanes[i], 1, 2.4), points, made, false);
         if (named && made > 0) {
             const double end[] = {points[2 * made - 2], points[2 * made - 1]};
-            const char *name = lanes[i]->shown.colour_name[0] ? lanes[i]->shown.colour_name : gm_lane_title(lanes[i]);
-            gm_mark_text(picture, panel,
-                         (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 1, .width = 1},
-                         end[0], end[1], GM_ANCHOR_RIGHT, name);
+            const char *name =
+                lanes[i]->shown.colour_name[0] ? lanes[i]->shown.colour_name : gm_lane_title(lanes[i]);
+            gm_mark_text(
+                picture, panel,
+                (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 1, .width = 1},
+                end[0], end[1], GM_ANCHOR_RIGHT, name);
         }
     }
 }

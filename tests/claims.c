@@ -11,10 +11,12 @@
 #include "core/certify.h"
 #include "core/families/implicit_runge_kutta.h"
 #include "core/families/splitting.h"
+#include "core/problems/problems.h"
 
-static void every_row_holds(void **unused) {
+static void every_row_holds(void **unused)
+{
     (void)unused;
-    assert_true(gm_scheme_count() >= 11);
+    assert_true(gm_scheme_count() >= 57);
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         const struct gm_certificate certificate = gm_certify(gm_scheme_at(i));
         if (!certificate.holds) {
@@ -23,14 +25,16 @@ static void every_row_holds(void **unused) {
     }
 }
 
-static struct gm_scheme changed(const char *name) {
+static struct gm_scheme changed(const char *name)
+{
     const struct gm_scheme *scheme = gm_scheme_find(name);
     assert_non_null(scheme);
     return *scheme;
 }
 
 /* The half and the whole of Verlet exchanged. */
-static void verlet_with_halves_exchanged(void **unused) {
+static void verlet_with_halves_exchanged(void **unused)
+{
     (void)unused;
     static const struct gm_splitting exchanged = {3, {{GM_KICK, 1}, {GM_DRIFT, 0.5}, {GM_KICK, 1}}};
     struct gm_scheme wrong = changed("verlet");
@@ -41,16 +45,30 @@ static void verlet_with_halves_exchanged(void **unused) {
     assert_true(certificate.claims[0].holds); /* any composition of shears is symplectic */
 }
 
-static void order_that_is_not_reached(void **unused) {
+static void order_that_is_not_reached(void **unused)
+{
     (void)unused;
     struct gm_scheme wrong = changed("rk4");
     wrong.order = 5;
     assert_false(gm_certify(&wrong).holds);
 }
 
-static void symplecticity_that_is_false(void **unused) {
+static void symplecticity_that_is_false(void **unused)
+{
     (void)unused;
-    const char *const names[] = {"explicit-euler", "implicit-euler", "trapezoidal", "rk2", "rk4"};
+    const char *const names[] = {"explicit-euler",
+                                 "implicit-euler",
+                                 "trapezoidal",
+                                 "rk2",
+                                 "rk4",
+                                 "radau3",
+                                 "radau5",
+                                 "sdirk2",
+                                 "kahan2",
+                                 "avf2",
+                                 "discrete-gradient2",
+                                 "gautschi2",
+                                 "gsl-rk4"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         struct gm_scheme wrong = changed(names[i]);
         wrong.claims |= GM_SYMPLECTIC;
@@ -62,15 +80,37 @@ static void symplecticity_that_is_false(void **unused) {
 }
 
 /* One claim too many, each on a scheme that has not the property. */
-static void properties_that_are_false(void **unused) {
+static void properties_that_are_false(void **unused)
+{
     (void)unused;
     const struct {
         const char *scheme;
         enum gm_claim claim;
     } wrong[] = {
-        {"symplectic-euler", GM_SYMMETRIC},  {"rk4", GM_SYMMETRIC},       {"rk4", GM_REVERSIBLE},
-        {"midpoint", GM_KEEPS_ENERGY},       {"verlet", GM_KEEPS_ENERGY}, {"rk4", GM_KEEPS_QUADRATIC},
+        {"symplectic-euler", GM_SYMMETRIC},
+        {"rk4", GM_SYMMETRIC},
+        {"rk4", GM_REVERSIBLE},
+        {"midpoint", GM_KEEPS_ENERGY},
+        {"verlet", GM_KEEPS_ENERGY},
+        {"rk4", GM_KEEPS_QUADRATIC},
         {"trapezoidal", GM_KEEPS_QUADRATIC},
+        {"lobatto4", GM_KEEPS_QUADRATIC},
+        {"avf2", GM_KEEPS_QUADRATIC},
+        {"discrete-gradient2", GM_KEEPS_QUADRATIC},
+        {"tao2", GM_KEEPS_ENERGY},
+        {"kahan2", GM_KEEPS_ENERGY},
+        {"midpoint", GM_KEEPS_VOLUME},
+        {"rk4", GM_KEEPS_VOLUME},
+        {"gauss4", GM_KEEPS_VOLUME},
+        {"volume-splitting1", GM_SYMMETRIC},
+        {"radau5", GM_SYMMETRIC},
+        {"ruth3", GM_SYMMETRIC},
+        {"ruth3", GM_REVERSIBLE},
+        {"impulse2", GM_KEEPS_ENERGY},
+        {"wisdom-holman2", GM_KEEPS_ENERGY},
+        {"logh2", GM_KEEPS_ENERGY},
+        {"variational-midpoint", GM_KEEPS_ENERGY},
+        {"tao2", GM_KEEPS_QUADRATIC},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct gm_scheme scheme = changed(wrong[i].scheme);
@@ -80,7 +120,8 @@ static void properties_that_are_false(void **unused) {
 }
 
 /* A claim that no problem here can measure is no claim. */
-static void what_cannot_be_measured(void **unused) {
+static void what_cannot_be_measured(void **unused)
+{
     (void)unused;
     struct gm_scheme wrong = changed("verlet");
     wrong.claims |= GM_MULTISYMPLECTIC;
@@ -90,7 +131,8 @@ static void what_cannot_be_measured(void **unused) {
 }
 
 /* b with 2^(1/2) for 2^(1/3), as printed: symplectic still, but of order 2. */
-static void the_misprint_of_rk4sym(void **unused) {
+static void the_misprint_of_rk4sym(void **unused)
+{
     (void)unused;
     const double root = sqrt(2), b = (2 + root + 1 / root) / 3;
     const struct gm_implicit_row misprint = {
@@ -105,7 +147,8 @@ static void the_misprint_of_rk4sym(void **unused) {
 }
 
 /* A wrong digit in Gauss' tableau costs the order or the symplecticity. */
-static void a_wrong_digit_of_gauss4(void **unused) {
+static void a_wrong_digit_of_gauss4(void **unused)
+{
     (void)unused;
     const struct gm_implicit_row *right = gm_scheme_find("gauss4")->coefficients;
     struct gm_implicit_row digit = *right;
@@ -115,12 +158,120 @@ static void a_wrong_digit_of_gauss4(void **unused) {
     assert_false(gm_certify(&wrong).holds);
 }
 
-int main(void) {
+/* One order more than it has is found out for every scheme, whatever its family measures it by. */
+static void one_order_too_many(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        struct gm_scheme wrong = *gm_scheme_at(i);
+        if (wrong.order > 0 && wrong.order < 5) {
+            wrong.order++;
+            assert_false(gm_certify(&wrong).order_holds);
+        }
+    }
+}
+
+/* A digit of one fraction changed: the composition stays symplectic and symmetric, and drops to order 2. */
+static void a_wrong_digit_of_a_composition(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {
+        "yoshida4", "suzuki4",   "mclachlan4",    "pefrl4",    "blanes-moan4",
+        "yoshida6", "kahan-li6", "suzuki-umeno8", "kahan-li8", "blanes-moan-nystrom6"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const struct gm_splitting *right = gm_scheme_find(names[i])->coefficients;
+        struct gm_splitting digit = *right;
+        const int last = digit.count - 1;
+        /* a drift and its mirror image grow, the two next ones shrink */
+        const int drift = digit.pieces[0].piece == GM_DRIFT ? 0 : 1;
+        const double change = 1e-4;
+        digit.pieces[drift].fraction += change;
+        digit.pieces[drift + 2].fraction -= change;
+        digit.pieces[last - drift].fraction += change;
+        digit.pieces[last - drift - 2].fraction -= change;
+        struct gm_scheme wrong = changed(names[i]);
+        wrong.coefficients = &digit;
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        if (certificate.order_holds || !certificate.claims[0].holds || !certificate.claims[1].holds) {
+            fail_msg("%s with a wrong digit: order %.2f", names[i], certificate.order);
+        }
+    }
+}
+
+/* The rows of implicit Runge-Kutta methods, each with one wrong digit. */
+static void a_wrong_digit_of_a_tableau(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"gauss6",
+                                 "gauss8",
+                                 "radau3",
+                                 "radau5",
+                                 "sdirk2",
+                                 "midpoint-suzuki4",
+                                 "midpoint-kahan-li6",
+                                 "midpoint-kahan-li8"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const struct gm_implicit_row *right = gm_scheme_find(names[i])->coefficients;
+        struct gm_implicit_row digit = *right;
+        if (digit.substeps > 1) {
+            digit.fractions[0] += 1e-4;
+            digit.fractions[1] -= 1e-4;
+        } else {
+            digit.a[digit.stages - 1][0] += 1e-3;
+        }
+        struct gm_scheme wrong = changed(names[i]);
+        wrong.coefficients = &digit;
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        if (certificate.order_holds) {
+            fail_msg("%s with a wrong digit: order %.2f", names[i], certificate.order);
+        }
+    }
+}
+
+/* Runge-Kutta-Nystrom coefficients are of no use where T is not quadratic, and are not offered there. */
+static void nystrom_needs_a_quadratic_kinetic_energy(void **unused)
+{
+    (void)unused;
+    const struct gm_split general = {.nystrom = false};
+    struct gm_problem problem = gm_problem_pendulum;
+    assert_true(gm_scheme_fits(gm_scheme_find("blanes-moan-nystrom4"), &problem));
+    problem.split = &general;
+    assert_false(gm_scheme_fits(gm_scheme_find("blanes-moan-nystrom4"), &problem));
+    assert_true(gm_scheme_fits(gm_scheme_find("blanes-moan4"), &problem));
+}
+
+/* One name, one row for each structure; another name for the same row. */
+static void names_find_the_row_that_fits(void **unused)
+{
+    (void)unused;
+    const struct gm_scheme *separable = gm_scheme_find_for("symplectic-euler", &gm_problem_pendulum);
+    const struct gm_scheme *other = gm_scheme_find_for("symplectic-euler", &gm_problem_product);
+    assert_ptr_not_equal(separable, other);
+    assert_true(gm_scheme_fits(separable, &gm_problem_pendulum) &&
+                gm_scheme_fits(other, &gm_problem_product));
+    assert_null(gm_scheme_find_for("symplectic-oyler", &gm_problem_product));
+    assert_false(gm_scheme_fits(gm_scheme_find_for("verlet", &gm_problem_product), &gm_problem_product));
+    assert_ptr_equal(gm_scheme_find("midpoint-yoshida4"), gm_scheme_find("rk4sym"));
+    assert_true(gm_scheme_fits(gm_scheme_find("lobatto2"), &gm_problem_product));
+    assert_false(gm_scheme_fits(gm_scheme_find("lobatto2"), &gm_problem_pendulum));
+}
+
+int main(void)
+{
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_row_holds),           cmocka_unit_test(verlet_with_halves_exchanged),
-        cmocka_unit_test(order_that_is_not_reached), cmocka_unit_test(symplecticity_that_is_false),
-        cmocka_unit_test(properties_that_are_false), cmocka_unit_test(what_cannot_be_measured),
-        cmocka_unit_test(the_misprint_of_rk4sym),    cmocka_unit_test(a_wrong_digit_of_gauss4),
+        cmocka_unit_test(every_row_holds),
+        cmocka_unit_test(verlet_with_halves_exchanged),
+        cmocka_unit_test(order_that_is_not_reached),
+        cmocka_unit_test(symplecticity_that_is_false),
+        cmocka_unit_test(properties_that_are_false),
+        cmocka_unit_test(what_cannot_be_measured),
+        cmocka_unit_test(the_misprint_of_rk4sym),
+        cmocka_unit_test(a_wrong_digit_of_gauss4),
+        cmocka_unit_test(one_order_too_many),
+        cmocka_unit_test(a_wrong_digit_of_a_composition),
+        cmocka_unit_test(a_wrong_digit_of_a_tableau),
+        cmocka_unit_test(nystrom_needs_a_quadratic_kinetic_energy),
+        cmocka_unit_test(names_find_the_row_that_fits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,7 +17,8 @@
 
 enum { MOST = 12 };
 
-static struct gm_problem problem_of(const char *name) {
+static struct gm_problem problem_of(const char *name)
+{
     static const double omega = 50, stiffness = 1e4, strength = 2, abc[3] = {1, 1, 1}, perturbation = 1e-3;
     const struct {
         const char *name;
@@ -49,7 +50,8 @@ static struct gm_problem problem_of(const char *name) {
 }
 
 /* relative to the reference's maximum norm */
-static double distance(const double *y, const double *reference, int n) {
+static double distance(const double *y, const double *reference, int n)
+{
     double scale = 0, error = 0;
     for (int c = 0; c < n; c++) {
         scale = fmax(scale, fabs(reference[c]));
@@ -59,7 +61,8 @@ static double distance(const double *y, const double *reference, int n) {
 }
 
 static struct gm_run *open_run(const struct gm_problem *problem, const char *scheme,
-                               const struct gm_settings *settings, double dt, const double *start) {
+                               const struct gm_settings *settings, double dt, const double *start)
+{
     const struct gm_scheme *found = gm_scheme_find_for(scheme, problem);
     if (!found || !gm_scheme_fits(found, problem)) {
         fail_msg("no scheme %s for %s", scheme, problem->name);
@@ -69,10 +72,13 @@ static struct gm_run *open_run(const struct gm_problem *problem, const char *sch
     return run;
 }
 
-/* Whether a control's end is a different state at all: schemes of order 8 may come too close to each other. */
-static bool is_telling(size_t control) {
+/* Whether a control's end is a different state at all: schemes of order 8 may come too close to each other.
+ */
+static bool is_telling(size_t control)
+{
     for (size_t i = 0; i < COUNT(reference_ode); i++) {
-        if (!reference_ode[i].control && strcmp(reference_ode[i].scheme, reference_ode[control].scheme) == 0 &&
+        if (!reference_ode[i].control &&
+            strcmp(reference_ode[i].scheme, reference_ode[control].scheme) == 0 &&
             strcmp(reference_ode[i].problem, reference_ode[control].problem) == 0) {
             return distance(reference_ode[i].end, reference_ode[control].end, reference_ode[i].n) >
                    4 * reference_ode[control].tolerance;
@@ -82,7 +88,8 @@ static bool is_telling(size_t control) {
 }
 
 /* The states after one step and at the end agree; those of a control do not. */
-static void states_agree(void **unused) {
+static void states_agree(void **unused)
+{
     (void)unused;
     for (size_t i = 0; i < COUNT(reference_ode); i++) {
         if (reference_ode[i].control && !is_telling(i)) {
@@ -112,13 +119,14 @@ static void states_agree(void **unused) {
     }
 }
 
-static void every_control_tells_somewhere(void **unused) {
+static void every_control_tells_somewhere(void **unused)
+{
     (void)unused;
     for (size_t i = 0; i < COUNT(reference_ode); i++) {
         bool told = !reference_ode[i].control;
         for (size_t j = 0; j < COUNT(reference_ode) && !told; j++) {
-            told = reference_ode[j].control && strcmp(reference_ode[i].scheme, reference_ode[j].scheme) == 0 &&
-                   is_telling(j);
+            told = reference_ode[j].control &&
+                   strcmp(reference_ode[i].scheme, reference_ode[j].scheme) == 0 && is_telling(j);
         }
         if (!told) {
             fail_msg("no control of %s tells it apart", reference_ode[i].scheme);
@@ -126,7 +134,8 @@ static void every_control_tells_somewhere(void **unused) {
     }
 }
 
-static void logarithmic_hamiltonian_agrees(void **unused) {
+static void logarithmic_hamiltonian_agrees(void **unused)
+{
     (void)unused;
     for (size_t i = 0; i < COUNT(reference_logh2); i++) {
         const struct gm_problem problem = problem_of(reference_logh2[i].problem);
@@ -144,13 +153,14 @@ static void logarithmic_hamiltonian_agrees(void **unused) {
     }
 }
 
-static void variational_steps_agree(void **unused) {
+static void variational_steps_agree(void **unused)
+{
     (void)unused;
     for (size_t i = 0; i < COUNT(reference_variational); i++) {
         const struct gm_problem problem = problem_of(reference_variational[i].problem);
         const struct gm_settings settings = {.tau0 = reference_variational[i].tau0};
-        struct gm_run *run = open_run(&problem, reference_variational[i].scheme, &settings, 1,
-                                      reference_variational[i].start);
+        struct gm_run *run =
+            open_run(&problem, reference_variational[i].scheme, &settings, 1, reference_variational[i].start);
         assert_int_equal(gm_run_advance(run, reference_variational[i].steps), GM_OK);
         const double *y = gm_run_state(run), *entry = reference_variational[i].entry;
         const double found[4] = {run->t, y[0], y[1], gm_run_memory(run)[0]};
@@ -166,8 +176,10 @@ static void variational_steps_agree(void **unused) {
     }
 }
 
-/* As printed, it ends before the first turning point: from tau0 = .1 the 13th step, at t = 1.01, has no root. */
-static void the_printed_rectangle_rule_loses_its_root(void **unused) {
+/* As printed, it ends before the first turning point: from tau0 = .1 the 13th step, at t = 1.01, has no root.
+ */
+static void the_printed_rectangle_rule_loses_its_root(void **unused)
+{
     (void)unused;
     const struct gm_problem problem = gm_problem_oscillator;
     const double start[2] = {sin(0.3), cos(0.3)}, tau0[] = {0.1, 0.02, 1e-3, 1e-4};
@@ -187,10 +199,23 @@ static void the_printed_rectangle_rule_loses_its_root(void **unused) {
 }
 
 /* Held to their claims and to a second solver by tests/claims.c alone. */
-static bool is_without_reference(const char *name) {
-    const char *const list[] = {"radau3", "radau5", "sdirk2", "lobatto2", "avf4", "discrete-gradient2",
-                                "tao2", "tao4", "gsl-rk4", "gsl-rk8pd", "gsl-msadams", "gsl-msbdf",
-                                "variational-rectangle", "logh2", "variational-rectangle-restart",
+static bool is_without_reference(const char *name)
+{
+    const char *const list[] = {"radau3",
+                                "radau5",
+                                "sdirk2",
+                                "lobatto2",
+                                "avf4",
+                                "discrete-gradient2",
+                                "tao2",
+                                "tao4",
+                                "gsl-rk4",
+                                "gsl-rk8pd",
+                                "gsl-msadams",
+                                "gsl-msbdf",
+                                "variational-rectangle",
+                                "logh2",
+                                "variational-rectangle-restart",
                                 "variational-midpoint"};
     for (size_t i = 0; i < COUNT(list); i++) {
         if (strcmp(list[i], name) == 0) {
@@ -200,7 +225,8 @@ static bool is_without_reference(const char *name) {
     return false;
 }
 
-static void every_scheme_has_a_reference(void **unused) {
+static void every_scheme_has_a_reference(void **unused)
+{
     (void)unused;
     for (size_t s = 0; s < gm_scheme_count(); s++) {
         const char *name = gm_scheme_at(s)->name;
@@ -214,7 +240,8 @@ static void every_scheme_has_a_reference(void **unused) {
     }
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(states_agree),
         cmocka_unit_test(every_control_tells_somewhere),

@@ -14,26 +14,46 @@
 #include "core/problems/problems.h"
 #include "core/run.h"
 
-static const double well = 0.3;
+static const double constants[3] = {0.3, 0.4, 0.5}; /* the parameters of every problem that has some */
 static const struct gm_settings settings_of[2] = {{.compensated = 0, .binding = 20, .tau0 = 0.01},
-                                                    {.compensated = 1, .binding = 20, .tau0 = 0.01}};
+                                                  {.compensated = 1, .binding = 20, .tau0 = 0.01}};
 
-enum { PROBLEMS = 5, MOST = 6 };
+enum { PROBLEMS = 9, MOST = 12 };
 
-static struct gm_problem problem_at(int i) {
-    const struct gm_problem *const list[PROBLEMS] = {&gm_problem_pendulum, &gm_problem_pendulum_tangent,
-                                                     &gm_problem_particles, &gm_problem_product,
-                                                     &gm_problem_rigid_body};
+static struct gm_problem problem_at(int i)
+{
+    const struct gm_problem *const list[PROBLEMS] = {
+        &gm_problem_pendulum,     &gm_problem_pendulum_tangent, &gm_problem_particles,
+        &gm_problem_product,      &gm_problem_rigid_body,       &gm_problem_kepler,
+        &gm_problem_henon_heiles, &gm_problem_vortices_four,    &gm_problem_fpu,
+    };
     struct gm_problem problem = *list[i];
-    problem.parameters = &well;
+    problem.parameters = constants;
     return problem;
 }
 
 /* A start that differs from member to member; moderate, so that every scheme gets through. */
-static void start_of(const struct gm_problem *problem, double *y) {
+static void start_of(const struct gm_problem *problem, double *y)
+{
     for (size_t c = 0; c < problem->n; c++) {
         for (size_t i = 0; i < problem->m; i++) {
             y[c * problem->m + i] = 0.5 * sin(1.0 + 2.3 * (double)c + 0.7 * (double)i);
+        }
+    }
+    const bool vortices = problem->hamiltonian && problem->hamiltonian->weight;
+    for (size_t c = 0; vortices && c < 4; c++) { /* apart from each other */
+        for (size_t i = 0; i < problem->m; i++) {
+            const double angle = 1.6 * (double)c + 0.7 * (double)i;
+            y[c * problem->m + i] = cos(angle);
+            y[(4 + c) * problem->m + i] = sin(angle);
+        }
+    }
+    for (size_t i = 0; problem->kepler_split && i < problem->m;
+         i++) { /* orbits that stay away from the centre */
+        const double angle = 0.7 * (double)i, speed = 1 + 0.1 * sin(2.3 * (double)i);
+        const double orbit[4] = {cos(angle), sin(angle), -speed * sin(angle), speed * cos(angle)};
+        for (size_t c = 0; c < 4; c++) {
+            y[c * problem->m + i] = orbit[c];
         }
     }
 }
@@ -41,17 +61,22 @@ static void start_of(const struct gm_problem *problem, double *y) {
 typedef void each(const struct gm_problem *problem, const struct gm_scheme *scheme,
                   const struct gm_settings *settings);
 
-/* This one loses its root after a while, from any start; tests/unit_reference.c follows it there. */
-static bool is_tested(const struct gm_scheme *scheme) {
-    return strcmp(scheme->name, "variational-rectangle") != 0;
+/* Not for long: the one loses its root from any start (tests/unit_reference.c follows it there), the other
+   falls into the centre. */
+static bool is_tested(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    return !(problem->fast_linear && !(scheme->needs & GM_NEEDS_FAST_LINEAR)) &&
+           strcmp(scheme->name, "variational-rectangle") != 0 &&
+           !(problem->kepler_split && strcmp(scheme->name, "implicit-euler") == 0);
 }
 
-static void for_all(size_t members, each *function) {
+static void for_all(size_t members, each *function)
+{
     for (int p = 0; p < PROBLEMS; p++) {
         struct gm_problem problem = problem_at(p);
         problem.m = members;
         for (size_t s = 0; s < gm_scheme_count(); s++) {
-            if (gm_scheme_fits(gm_scheme_at(s), &problem) && is_tested(gm_scheme_at(s))) {
+            if (gm_scheme_fits(gm_scheme_at(s), &problem) && is_tested(gm_scheme_at(s), &problem)) {
                 function(&problem, gm_scheme_at(s), &settings_of[0]);
                 function(&problem, gm_scheme_at(s), &settings_of[1]);
             }
@@ -60,7 +85,8 @@ static void for_all(size_t members, each *function) {
 }
 
 static struct gm_run *open_run(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                               const struct gm_settings *settings, double dt) {
+                               const struct gm_settings *settings, double dt)
+{
     double start[MOST * 64];
     assert_true(problem->n * problem->m <= MOST * 64);
     start_of(problem, start);
@@ -69,7 +95,8 @@ static struct gm_run *open_run(const struct gm_problem *problem, const struct gm
     return run;
 }
 
-static void expect_same_state(const struct gm_run *a, const struct gm_run *b) {
+static void expect_same_state(const struct gm_run *a, const struct gm_run *b)
+{
     const size_t size = a->problem->n * a->problem->m * sizeof(double);
     if (memcmp(gm_run_state(a), gm_run_state(b), size) != 0) {
         fail_msg("%s on %s: different bits", a->scheme->name, a->problem->name);
@@ -77,10 +104,13 @@ static void expect_same_state(const struct gm_run *a, const struct gm_run *b) {
 }
 
 static void cut_in_pieces(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                          const struct gm_settings *settings) {
+                          const struct gm_settings *settings)
+{
     struct gm_run *whole = open_run(problem, scheme, settings, 0.05);
     struct gm_run *pieces = open_run(problem, scheme, settings, 0.05);
-    assert_int_equal(gm_run_advance(whole, 100), GM_OK);
+    if (gm_run_advance(whole, 100) != GM_OK) {
+        fail_msg("%s on %s fails", scheme->name, problem->name);
+    }
     for (long done = 0, piece = 1; done < 100;
          done += piece, piece = done + 2 * piece <= 100 ? 2 * piece : 1) {
         assert_int_equal(gm_run_advance(pieces, piece), GM_OK);
@@ -93,14 +123,16 @@ static void cut_in_pieces(const struct gm_problem *problem, const struct gm_sche
     gm_run_close(pieces);
 }
 
-static void pieces_do_not_matter(void **unused) {
+static void pieces_do_not_matter(void **unused)
+{
     (void)unused;
     for_all(1, cut_in_pieces);
     for_all(21, cut_in_pieces);
 }
 
 static void compare_members(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                            const struct gm_settings *settings) {
+                            const struct gm_settings *settings)
+{
     struct gm_run *ensemble = open_run(problem, scheme, settings, 0.05);
     assert_int_equal(gm_run_advance(ensemble, 40), GM_OK);
     double start[MOST * 64];
@@ -128,13 +160,15 @@ static void compare_members(const struct gm_problem *problem, const struct gm_sc
     gm_run_close(ensemble);
 }
 
-static void members_do_not_feel_each_other(void **unused) {
+static void members_do_not_feel_each_other(void **unused)
+{
     (void)unused;
     for_all(21, compare_members);
 }
 
 static void compare_instruction_sets(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                                     const struct gm_settings *settings) {
+                                     const struct gm_settings *settings)
+{
     if (gm_scheme_loop(scheme, problem) == scheme->family->loop) {
         return; /* no kernels in it */
     }
@@ -162,14 +196,16 @@ static void compare_instruction_sets(const struct gm_problem *problem, const str
     }
 }
 
-static void instruction_sets_agree(void **unused) {
+static void instruction_sets_agree(void **unused)
+{
     (void)unused;
     for_all(1, compare_instruction_sets);
     for_all(21, compare_instruction_sets);
 }
 
 static void resume(const struct gm_problem *problem, const struct gm_scheme *scheme,
-                   const struct gm_settings *settings) {
+                   const struct gm_settings *settings)
+{
     if (scheme->family->not_resumable) {
         return;
     }
@@ -190,14 +226,16 @@ static void resume(const struct gm_problem *problem, const struct gm_scheme *sch
     gm_run_close(other);
 }
 
-static void snapshots_resume_bit_for_bit(void **unused) {
+static void snapshots_resume_bit_for_bit(void **unused)
+{
     (void)unused;
     for_all(5, resume);
 }
 
 /* Explicit Euler on the oscillator: |y| = (1 + dt^2)^(n/2) |y_0|, so the step that leaves the bound is known.
  */
-static void blow_up_is_found_to_the_step(void **unused) {
+static void blow_up_is_found_to_the_step(void **unused)
+{
     (void)unused;
     struct gm_problem problem = gm_problem_oscillator;
     problem.m = 3;
@@ -235,7 +273,8 @@ static void blow_up_is_found_to_the_step(void **unused) {
 
 /* Implicit Euler with so large a step that p' = -q (1 + p^2), q' = p (1 + q^2) leaves Newton without a root.
  */
-static void failed_solves_are_told(void **unused) {
+static void failed_solves_are_told(void **unused)
+{
     (void)unused;
     const struct gm_problem problem = gm_problem_product;
     const double start[2] = {3, 3};
@@ -248,7 +287,8 @@ static void failed_solves_are_told(void **unused) {
 
 /* Where fixed-point iteration cannot contract, Newton takes over: the midpoint rule at dt = 50 is the
    rational map with cos = (1 - dt^2/4)/(1 + dt^2/4), and keeps q^2 + p^2. */
-static void newton_takes_over_at_large_steps(void **unused) {
+static void newton_takes_over_at_large_steps(void **unused)
+{
     (void)unused;
     const struct gm_problem problem = gm_problem_oscillator;
     const double start[2] = {0, 1}, dt = 50;
@@ -263,13 +303,17 @@ static void newton_takes_over_at_large_steps(void **unused) {
     gm_run_close(run);
 }
 
-static void newton_agrees_with_fixed_point(void **unused) {
+static void newton_agrees_with_fixed_point(void **unused)
+{
     (void)unused;
     static const struct gm_ode stiff = {.stiff = true};
     const char *const names[] = {"implicit-euler", "midpoint", "trapezoidal", "gauss4", "rk4sym"};
     for (int p = 0; p < PROBLEMS; p++) {
         for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
             struct gm_problem problem = problem_at(p), hard = problem;
+            if (problem.ode->stiff || !is_tested(gm_scheme_find(names[i]), &problem)) {
+                continue;
+            }
             hard.ode = &stiff;
             struct gm_run *easy_run = open_run(&problem, gm_scheme_find(names[i]), &settings_of[0], 0.2);
             struct gm_run *hard_run = open_run(&hard, gm_scheme_find(names[i]), &settings_of[0], 0.2);
@@ -285,7 +329,8 @@ static void newton_agrees_with_fixed_point(void **unused) {
     }
 }
 
-static void evaluations_are_counted(void **unused) {
+static void evaluations_are_counted(void **unused)
+{
     (void)unused;
     const struct {
         const char *scheme;
@@ -304,7 +349,8 @@ static void evaluations_are_counted(void **unused) {
     }
 }
 
-static void segments_continue_time(void **unused) {
+static void segments_continue_time(void **unused)
+{
     (void)unused;
     const struct gm_problem problem = gm_problem_pendulum;
     struct gm_run *run = open_run(&problem, gm_scheme_find("verlet"), &settings_of[0], 0.1);
@@ -325,7 +371,8 @@ static void segments_continue_time(void **unused) {
     gm_run_close(run);
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pieces_do_not_matter),
         cmocka_unit_test(members_do_not_feel_each_other),

@@ -15,7 +15,10 @@ static bool refuse(char *message, const char *sentence)
     return false;
 }
 
-static bool short_of_memory(char *message) { return refuse(message, "There is not enough memory."); }
+static bool short_of_memory(char *message)
+{
+    return refuse(message, "There is not enough memory.");
+}
 
 /* ---- lanes and their starts ---- */
 
@@ -27,7 +30,8 @@ static void *copy_parameters(const struct gm_scene *scene, const void *parameter
     return copy;
 }
 
-/* Room for every lane that may come is there from the beginning, so that only the parameters are allocated. */
+/* Room for every lane that may come is there from the beginning, so that only the parameters are allocated.
+ */
 static bool log_open(struct gm_session *session, const struct gm_request *request)
 {
     session->log = (struct gm_request){.scene = session->scene};
@@ -74,7 +78,8 @@ struct fresh {
 };
 
 static struct fresh open_lane(const struct gm_scene *scene, const void *parameters,
-                              const struct gm_settings *settings, const struct gm_scheme *scheme, char *message)
+                              const struct gm_settings *settings, const struct gm_scheme *scheme,
+                              char *message)
 {
     char sentence[GM_SENTENCE] = "There is not enough memory.";
     struct fresh fresh = {.start = copy_parameters(scene, parameters)};
@@ -93,8 +98,10 @@ static void place_lane(struct gm_session *session, size_t i, struct fresh fresh,
     session->lanes[i] = fresh.lane;
     fresh.lane->shown = *shown;
     session->pasts[i] = (struct gm_past){.every = 1};
-    session->log.lanes[i] = (struct gm_lane_spec){
-        .shown = *shown, .parameters = fresh.start, .settings = fresh.lane->settings, .scheme = fresh.lane->scheme};
+    session->log.lanes[i] = (struct gm_lane_spec){.shown = *shown,
+                                                  .parameters = fresh.start,
+                                                  .settings = fresh.lane->settings,
+                                                  .scheme = fresh.lane->scheme};
 }
 
 /* The lanes no longer start as they were typed. */
@@ -145,7 +152,8 @@ bool gm_session_open(struct gm_session *session, const struct gm_request *reques
 {
     *session = (struct gm_session){.scene = request->scene};
     if (request->count == 0 || request->count > GM_MOST_LANES) {
-        snprintf(message, GM_MESSAGE, "The explorer shows 1 to %d lanes, not %zu.", GM_MOST_LANES, request->count);
+        snprintf(message, GM_MESSAGE, "The explorer shows 1 to %d lanes, not %zu.", GM_MOST_LANES,
+                 request->count);
         return false;
     }
     if (!log_open(session, request)) {
@@ -180,10 +188,13 @@ void gm_session_close(struct gm_session *session)
 
 /* ---- time ---- */
 
-static bool goes(const struct gm_lane *lane) { return lane->run->status == GM_OK; }
+static bool goes(const struct gm_lane *lane)
+{
+    return lane->run->status == GM_OK;
+}
 
-/* Where a lane's next step ends, a little earlier than it is computed to be, so that lanes with the same step stay
-   together whatever their round-off. */
+/* Where a lane's next step ends, a little earlier than it is computed to be, so that lanes with the same step
+   stay together whatever their round-off. */
 static double next_time(const struct gm_lane *lane)
 {
     return lane->run->t + lane->run->dt * (1 - 1e-9);
@@ -263,7 +274,8 @@ bool gm_session_back(struct gm_session *session, char *message)
             continue;
         log_cut(session, i, steps - 1);
         if (!gm_past_return(&session->pasts[i], lane, steps - 1))
-            return refuse(message, "There is no snapshot left to step back to: the ensemble is too large to keep any.");
+            return refuse(
+                message, "There is no snapshot left to step back to: the ensemble is too large to keep any.");
         replay(session, i, steps - 1);
         moved = true;
     }
@@ -356,7 +368,8 @@ static bool change_now(struct gm_session *session, size_t i, const char *text, c
 }
 
 /* Names that tell lanes apart by what has just been changed. */
-static void rename_lane(struct gm_session *session, size_t i, const char *before, const char *after, size_t length)
+static void rename_lane(struct gm_session *session, size_t i, const char *before, const char *after,
+                        size_t length)
 {
     struct gm_shown *shown = &session->lanes[i]->shown;
     char *names[] = {shown->panel_name, shown->colour_name};
@@ -410,7 +423,8 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
 bool gm_session_add(struct gm_session *session, size_t like, const struct gm_scheme *scheme, char *message)
 {
     if (session->count >= GM_LANE_COLOURS)
-        return refuse(message, "Six lanes have a colour of their own; remove one with x before adding another.");
+        return refuse(message,
+                      "Six lanes have a colour of their own; remove one with x before adding another.");
     const struct gm_lane *model = session->lanes[like];
     struct fresh fresh = open_lane(session->scene, model->parameters, &model->settings, scheme, message);
     if (!fresh.lane)
@@ -460,7 +474,7 @@ size_t gm_session_fits(const struct gm_session *session, const struct gm_scheme 
     const struct gm_problem *problem = &session->lanes[0]->problem;
     size_t count = 0;
     for (size_t i = 0; session->scene->schemes && session->scene->schemes[i] && count < bound; i++) {
-        const struct gm_scheme *scheme = gm_scheme_find(session->scene->schemes[i]);
+        const struct gm_scheme *scheme = gm_scheme_find_for(session->scene->schemes[i], problem);
         if (scheme && gm_scheme_fits(scheme, problem) && !is_among(scheme, schemes, count))
             schemes[count++] = scheme;
     }

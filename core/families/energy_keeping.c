@@ -6,8 +6,8 @@
        Discrete gradient:  y1 = y0 + h S G,  G = g + (H(y1) - H(y0) - g . d) / |d|^2 d,
        d = y1 - y0,  g = grad H((y0 + y1)/2)
    O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
-   Both are solved for d to round-off by fixed-point iteration, and where that does not contract by Newton's method
-   with the Jacobian of the midpoint rule, from which they differ by O(h^2 d). */
+   Both are solved for d to round-off by fixed-point iteration, and where that does not contract by Newton's
+   method with the Jacobian of the midpoint rule, from which they differ by O(h^2 d). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,10 +22,14 @@ enum { NODES = 8, PICARD_ITERATIONS = 100, NEWTON_ITERATIONS = 60 };
 static const struct {
     double node, weight;
 } quadrature[NODES] = {
-    {0.01985507175123188415822, 0.05061426814518812957627}, {0.1016667612931866302042, 0.1111905172266872352722},
-    {0.2372337950418355070911, 0.156853322938943643669},    {0.4082826787521750975303, 0.1813418916891809914826},
-    {0.5917173212478249024697, 0.1813418916891809914826},   {0.7627662049581644929089, 0.156853322938943643669},
-    {0.8983332387068133697958, 0.1111905172266872352722},   {0.9801449282487681158418, 0.05061426814518812957627},
+    {0.01985507175123188415822, 0.05061426814518812957627},
+    {0.1016667612931866302042, 0.1111905172266872352722},
+    {0.2372337950418355070911, 0.156853322938943643669},
+    {0.4082826787521750975303, 0.1813418916891809914826},
+    {0.5917173212478249024697, 0.1813418916891809914826},
+    {0.7627662049581644929089, 0.156853322938943643669},
+    {0.8983332387068133697958, 0.1111905172266872352722},
+    {0.9801449282487681158418, 0.05061426814518812957627},
 };
 
 /* Scratch arrays of n doubles, then the matrix. */
@@ -173,7 +177,8 @@ static bool by_fixed_point(const struct gm_task *task, const struct method *meth
     return false;
 }
 
-static enum gm_status step(const struct gm_task *task, struct gm_members *members, struct gm_progress *progress)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     const struct method *method = task->scheme->coefficients;
     const double *d = members->scratch + D * members->n;
@@ -190,7 +195,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task) { return gm_members_advance(task, step); }
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
@@ -217,7 +225,8 @@ static const struct gm_scheme schemes[] = {
     {
         .name = "avf4",
         .title = "average vector field 4",
-        .formula = "three steps of the average vector field method of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2)",
+        .formula =
+            "three steps of the average vector field method of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2)",
         .reference = "Quispel & McLaren, J. Phys. A 41 (2008) 045206; H. Yoshida (1990)",
         .family = &gm_family_energy_keeping,
         .coefficients = &avf4,

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One pass of the explicit Runge-Kutta family; see core/kernel/pass.h. */
 
-GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struct K(block) *block, double h,
+GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struct K(block) * block, double h,
                                 const void *parameters, bool compensated, bool stiff,
-                                struct K(counts) *counts)
+                                struct K(counts) * counts)
 {
     (void)stiff;
     real k[GM_EXPLICIT_STAGES][GM_COMPONENTS];
@@ -36,6 +36,7 @@ GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struc
 #define GM_DRIVE K(explicit_drive)
 #define GM_ROW struct gm_explicit_tableau
 #define GM_STEP K(explicit_step)
+#define GM_ABREAST K(ABREAST)
 #include "core/kernel/drive.h"
 
 static struct gm_progress K(explicit_runge_kutta_run)(const struct gm_task *task)

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Explicit symplectic integration of Hamiltonians that do not separate, on two copies (q, p), (x, y) of phase space:
-       H(q, y) + H(x, p) + omega (|q - x|^2 + |p - y|^2)/2,
-   whose three parts have exact flows:
-       A(h): p -= h H_q(q, y), x += h H_p(q, y);      B(h): q += h H_p(x, p), y -= h H_q(x, p);
-       C(h): the difference (q - x, p - y) turns by the angle 2 omega h, the sum stays.
-   tao2 = A(h/2) B(h/2) C(h) B(h/2) A(h/2); tao4 = three of them. The state is the first copy, the memory the other.
-   M. Tao, Phys. Rev. E 94 (2016) 043303. */
+/* Explicit symplectic integration of Hamiltonians that do not separate, on two copies (q, p), (x, y) of phase
+   space: H(q, y) + H(x, p) + omega (|q - x|^2 + |p - y|^2)/2, whose three parts have exact flows: A(h): p -=
+   h H_q(q, y), x += h H_p(q, y);      B(h): q += h H_p(x, p), y -= h H_q(x, p); C(h): the difference (q - x,
+   p - y) turns by the angle 2 omega h, the sum stays. tao2 = A(h/2) B(h/2) C(h) B(h/2) A(h/2); tao4 = three
+   of them. The state is the first copy, the memory the other. M. Tao, Phys. Rev. E 94 (2016) 043303. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -41,7 +39,8 @@ static void turn(size_t n, double angle, double *first, double *second)
     for (size_t c = 0; c < half; c++) {
         const double q_sum = first[c] + second[c], q_apart = first[c] - second[c];
         const double p_sum = first[half + c] + second[half + c], p_apart = first[half + c] - second[half + c];
-        const double q_turned = cosine * q_apart + sine * p_apart, p_turned = cosine * p_apart - sine * q_apart;
+        const double q_turned = cosine * q_apart + sine * p_apart,
+                     p_turned = cosine * p_apart - sine * q_apart;
         first[c] = 0.5 * (q_sum + q_turned);
         second[c] = 0.5 * (q_sum - q_turned);
         first[half + c] = 0.5 * (p_sum + p_turned);
@@ -49,7 +48,8 @@ static void turn(size_t n, double angle, double *first, double *second)
     }
 }
 
-static enum gm_status step(const struct gm_task *task, struct gm_members *members, struct gm_progress *progress)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     const struct composition *composition = task->scheme->coefficients;
     const struct gm_problem *problem = task->problem;
@@ -66,7 +66,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task) { return gm_members_advance(task, step); }
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {

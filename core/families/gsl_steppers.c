@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steppers of the GNU Scientific Library, to compare with. tolerance = 0: one step of the library's of length dt, its
-   error not asked for; else its adaptive driver over every dt, with that absolute and relative tolerance. The
-   multistep methods choose order and step themselves, so for them 0 means 1e-8; they keep a past of their own, and
-   such a run cannot be resumed bit for bit. GSL manual, chapter "Ordinary differential equations". */
+/* Steppers of the GNU Scientific Library, to compare with. tolerance = 0: one step of the library's of length
+   dt, its error not asked for; else its adaptive driver over every dt, with that absolute and relative
+   tolerance. The multistep methods choose order and step themselves, so for them 0 means 1e-8; they keep a
+   past of their own, and such a run cannot be resumed bit for bit. GSL manual, chapter "Ordinary differential
+   equations". */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,56 +3,107 @@
 
 enum { K(IMPLICIT_ITERATIONS) = 150 };
 
-/* Solves for the slopes f_i = f(y + z_i) of the lanes by fixed-point iteration, from z = 0, until the change of z
-   is zero or, at the level of round-off, no longer decreases. A lane that is done is frozen, so its bits do not
+/* Components [from, to) of the increments, from the slopes: z := h a f in the lanes that are active. Returns
+   the sum of the changes: a sum, because it hands a NaN on where a maximum may lose it. */
+GM_INLINE real K(implicit_update)(const struct gm_implicit_row *row, int stages, int from, int to, double h,
+                                  mask active, real f[][GM_COMPONENTS], real z[][GM_COMPONENTS])
+{
+    real change = K(constant)(0);
+    for (int i = 0; i < stages; i++) {
+        for (int c = from; c < to; c++) {
+            real next = h * row->a[i][0] * f[0][c];
+            for (int j = 1; j < stages; j++) {
+                next += h * row->a[i][j] * f[j][c];
+            }
+            change += K(magnitude)(next - z[i][c]);
+            z[i][c] = K(pick)(active, next, z[i][c]);
+        }
+    }
+    return change;
+}
+
+/* Components [from, to) of slope i, in the lanes that are active. */
+GM_INLINE void K(implicit_take)(int from, int to, mask active, const real *slope, real *f)
+{
+    for (int c = from; c < to; c++) {
+        f[c] = K(pick)(active, slope[c - from], f[c]);
+    }
+}
+
+/* One iteration: new slopes at y + z, and new z from them. Where q' depends on p alone and p' on q alone, p'
+   is taken at the new q, which doubles the order in h that an iteration gains. */
+GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages, const real *y, double h,
+                                   const void *parameters, mask active, real f[][GM_COMPONENTS],
+                                   real z[][GM_COMPONENTS])
+{
+#ifdef GM_SEPARABLE
+    enum { HALF = GM_COMPONENTS / 2 };
+    for (int i = 0; i < stages; i++) {
+        real p[HALF], velocity[HALF];
+        for (int c = 0; c < HALF; c++) {
+            p[c] = y[HALF + c] + z[i][HALF + c];
+        }
+        K(velocity)(p, velocity, parameters);
+        K(implicit_take)(0, HALF, active, velocity, f[i]);
+    }
+    const real change = K(implicit_update)(row, stages, 0, HALF, h, active, f, z);
+    for (int i = 0; i < stages; i++) {
+        real q[HALF], force[HALF];
+        for (int c = 0; c < HALF; c++) {
+            q[c] = y[c] + z[i][c];
+        }
+        K(force)(q, force, parameters);
+        K(implicit_take)(HALF, GM_COMPONENTS, active, force, f[i]);
+    }
+    return change + K(implicit_update)(row, stages, HALF, GM_COMPONENTS, h, active, f, z);
+#else
+    for (int i = 0; i < stages; i++) {
+        real stage[GM_COMPONENTS], slope[GM_COMPONENTS];
+        for (int c = 0; c < GM_COMPONENTS; c++) {
+            stage[c] = y[c] + z[i][c];
+        }
+        K(field)(stage, slope, parameters);
+        K(implicit_take)(0, GM_COMPONENTS, active, slope, f[i]);
+    }
+    return K(implicit_update)(row, stages, 0, GM_COMPONENTS, h, active, f, z);
+#endif
+}
+
+/* Solves for the slopes f_i = f(y + z_i) of the lanes by fixed-point iteration, from z = 0, until the change
+   of z is zero or, at the level of round-off, no longer decreases, or the next one, changes being in
+   geometric progression, would be far below round-off. A lane that is done is frozen, so its bits do not
    depend on the others. Returns the lanes that were solved. */
 GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int stages, const real *y, double h,
                                        const void *parameters, real f[][GM_COMPONENTS],
-                                       struct K(counts) *counts)
+                                       struct K(counts) * counts)
 {
     real z[GM_IMPLICIT_STAGES][GM_COMPONENTS];
-    real size = K(constant)(0);
+    real norm = K(constant)(0);
     for (int c = 0; c < GM_COMPONENTS; c++) {
-        size += K(magnitude)(y[c]);
+        norm += K(magnitude)(y[c]);
         for (int i = 0; i < stages; i++) {
             z[i][c] = K(constant)(0);
             f[i][c] = K(constant)(0);
         }
     }
-    const real roundoff = (8 * stages * 2.220446049250313e-16) * size;
-    real previous = K(constant)(INFINITY);
-    mask active = K(all)(), solved = K(not)(active);
+    const real roundoff = (8 * stages * 2.220446049250313e-16) * norm;
+    real negligible = K(constant)(0); /* 2^-60 of the first change: with more, invariants drift */
+    real previous = K(constant)(1e300);
+    mask active = K(all)(), solved = K(not )(active);
     for (int iteration = 0; iteration < K(IMPLICIT_ITERATIONS); iteration++) {
-        for (int i = 0; i < stages; i++) {
-            real stage[GM_COMPONENTS], slope[GM_COMPONENTS];
-            for (int c = 0; c < GM_COMPONENTS; c++) {
-                stage[c] = y[c] + z[i][c];
-            }
-            K(field)(stage, slope, parameters);
-            for (int c = 0; c < GM_COMPONENTS; c++) {
-                f[i][c] = K(pick)(active, slope[c], f[i][c]);
-            }
-        }
-        /* the 1-norm, because a sum hands a NaN on where a maximum may lose it */
-        real change = K(constant)(0);
-        for (int i = 0; i < stages; i++) {
-            for (int c = 0; c < GM_COMPONENTS; c++) {
-                real next = h * row->a[i][0] * f[0][c];
-                for (int j = 1; j < stages; j++) {
-                    next += h * row->a[i][j] * f[j][c];
-                }
-                change += K(magnitude)(next - z[i][c]);
-                z[i][c] = K(pick)(active, next, z[i][c]);
-            }
+        const real change = K(implicit_iterate)(row, stages, y, h, parameters, active, f, z);
+        if (iteration == 0) {
+            negligible = 8.673617379884035e-19 * change;
         }
         for (int l = 0; l < counts->lanes; l++) {
             counts->evaluations += K(mask_lane)(active, l) ? (unsigned long)stages : 0;
             counts->iterations += K(mask_lane)(active, l) ? 1 : 0;
         }
-        mask stagnant = (change >= previous) & (change <= roundoff);
+        mask last = change * change <= negligible * previous;
+        mask stagnant = ((change >= previous) | last) & (change <= roundoff);
         mask done = active & ((change == K(constant)(0)) | stagnant);
         solved |= done;
-        active &= K(not)(done) & (change < K(constant)(1e100));
+        active &= K(not )(done) & (change < K(constant)(1e100));
         if (!K(somewhere)(active)) {
             break;
         }
@@ -165,9 +216,10 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
 /* Lane by lane, for those in `which`. */
 static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_implicit_row *row, mask which,
                                                             const real *y, double h, const void *parameters,
-                                                            real f[][GM_COMPONENTS], struct K(counts) *counts)
+                                                            real f[][GM_COMPONENTS],
+                                                            struct K(counts) * counts)
 {
-    mask solved = K(not)(K(all)());
+    mask solved = K(not )(K(all)());
     for (int l = 0; l < GM_LANES; l++) {
         if (!K(mask_lane)(which, l)) {
             continue;
@@ -192,20 +244,20 @@ static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_impl
     return solved;
 }
 
-GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int stages,
-                                       struct K(block) *block, double dt, const void *parameters,
-                                       bool compensated, bool stiff, struct K(counts) *counts)
+GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int stages, struct K(block) * block,
+                                       double dt, const void *parameters, bool compensated, bool stiff,
+                                       struct K(counts) * counts)
 {
     mask good = K(all)();
     for (int substep = 0; substep < row->substeps; substep++) {
         const double h = dt * row->fractions[substep];
         real f[GM_IMPLICIT_STAGES][GM_COMPONENTS];
-        mask solved = K(not)(K(all)());
+        mask solved = K(not )(K(all)());
         if (!stiff) {
             solved = K(implicit_fixed_point)(row, stages, block->y, h, parameters, f, counts);
         }
         if (!K(everywhere)(solved)) {
-            solved |= K(implicit_by_newton)(row, K(not)(solved), block->y, h, parameters, f, counts);
+            solved |= K(implicit_by_newton)(row, K(not )(solved), block->y, h, parameters, f, counts);
         }
         good &= solved;
         for (int c = 0; c < GM_COMPONENTS; c++) {
@@ -221,9 +273,9 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
 
 /* The number of stages as a constant, so that the small loops unroll. */
 #define GM_IMPLICIT_STEP(count)                                                                              \
-    GM_INLINE mask K(implicit_step_##count)(                                                                 \
-        const struct gm_implicit_row *row, struct K(block) *block, double dt, const void *parameters,        \
-        bool compensated, bool stiff, struct K(counts) *counts)                                              \
+    GM_INLINE mask K(implicit_step_##count)(const struct gm_implicit_row *row, struct K(block) * block,      \
+                                            double dt, const void *parameters, bool compensated, bool stiff, \
+                                            struct K(counts) * counts)                                       \
     {                                                                                                        \
         return K(implicit_step_stages)(row, count, block, dt, parameters, compensated, stiff, counts);       \
     }
@@ -236,18 +288,22 @@ GM_IMPLICIT_STEP(4)
 #define GM_ROW struct gm_implicit_row
 #define GM_DRIVE K(implicit_drive_1)
 #define GM_STEP K(implicit_step_1)
+#define GM_ABREAST 1
 #include "core/kernel/drive.h"
 #define GM_ROW struct gm_implicit_row
 #define GM_DRIVE K(implicit_drive_2)
 #define GM_STEP K(implicit_step_2)
+#define GM_ABREAST 1
 #include "core/kernel/drive.h"
 #define GM_ROW struct gm_implicit_row
 #define GM_DRIVE K(implicit_drive_3)
 #define GM_STEP K(implicit_step_3)
+#define GM_ABREAST 1
 #include "core/kernel/drive.h"
 #define GM_ROW struct gm_implicit_row
 #define GM_DRIVE K(implicit_drive_4)
 #define GM_STEP K(implicit_step_4)
+#define GM_ABREAST 1
 #include "core/kernel/drive.h"
 
 static struct gm_progress K(implicit_runge_kutta_run)(const struct gm_task *task)

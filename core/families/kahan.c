@@ -9,7 +9,8 @@
 #include "core/families/members.h"
 #include "core/kernel/loops.h"
 
-static enum gm_status step(const struct gm_task *task, struct gm_members *members, struct gm_progress *progress)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     const size_t n = members->n;
     double *f = members->scratch, *matrix = f + n;
@@ -31,7 +32,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task) { return gm_members_advance(task, step); }
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {

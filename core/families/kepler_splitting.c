@@ -42,7 +42,7 @@ static void stumpff(double alpha, double s, double G[4])
 static bool solve_universal(double h, double r0, double slope, double alpha, double G[4])
 {
     enum { ITERATIONS = 200 };
-    double low = -INFINITY, high = INFINITY, s = h / r0;
+    double low = -INFINITY, high = INFINITY, s = h / r0, previous = INFINITY;
     for (int i = 0; i < ITERATIONS; i++) {
         stumpff(alpha, s, G);
         const double excess = r0 * G[1] + slope * G[2] + G[3] - h;
@@ -58,8 +58,10 @@ static bool solve_universal(double h, double r0, double slope, double alpha, dou
                    : excess > 0                    ? s - 1 - fabs(s)
                                                    : s + 1 + fabs(s);
         }
-        if (fabs(next - s) <= 4e-16 * fabs(s)) {
-            return isfinite(excess);
+        const double size = fabs(r0 * G[1]) + fabs(slope * G[2]) + fabs(G[3]) + fabs(h);
+        const double roundoff = 4 * 2.220446049250313e-16 * (size / r + fabs(s));
+        if (gm_is_settled(fabs(next - s), roundoff, &previous)) {
+            return true;
         }
         s = next;
     }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Leapfrog for the logarithmic Hamiltonian ln(|p|^2/2 + B) - ln(-V(q)), B = -H at the start, whose orbits are those
-   of H = |p|^2/2 + V in a fictitious time s with dt = ds / (|p|^2/2 + B): drift, kick, drift with
-       drift  d = (ds/2) / (|p|^2/2 + B),  q += d p,  t += d;      kick  p += ds F(q) / (-V(q)).
-   The step ds is the run's dt. For the Kepler problem every point lies on the exact orbit; only the time errs.
-   S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; M. Preto & S. Tremaine, Astron. J. 118
-   (1999) 2532. The memory is B. */
+/* Leapfrog for the logarithmic Hamiltonian ln(|p|^2/2 + B) - ln(-V(q)), B = -H at the start, whose orbits are
+   those of H = |p|^2/2 + V in a fictitious time s with dt = ds / (|p|^2/2 + B): drift, kick, drift with drift
+   d = (ds/2) / (|p|^2/2 + B),  q += d p,  t += d;      kick  p += ds F(q) / (-V(q)). The step ds is the run's
+   dt. For the Kepler problem every point lies on the exact orbit; only the time errs. S. Mikkola & K.
+   Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; M. Preto & S. Tremaine, Astron. J. 118 (1999) 2532. The
+   memory is B. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,7 +20,8 @@ static void drift(double ds, double binding, double *y, double *t)
     *t += d;
 }
 
-static enum gm_status step(const struct gm_task *task, struct gm_members *members, struct gm_progress *progress)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     const struct gm_problem *problem = task->problem;
     double *y = members->y, *f = members->scratch, potential;
@@ -40,7 +41,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task) { return gm_members_advance(task, step); }
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {

@@ -20,7 +20,8 @@ struct tableau {
     double a[STAGES][STAGES], c[STAGES][STAGES], b[STAGES];
 };
 
-/* The scratch: increments z and slopes f of the stages, one stage, then the right-hand side and the matrix. */
+/* The scratch: increments z and slopes f of the stages, one stage, then the right-hand side and the matrix.
+ */
 struct scratch {
     double *z, *f, *stage, *right, *matrix, *jacobian;
 };
@@ -40,8 +41,8 @@ static struct scratch scratch_of(const struct gm_members *members)
 }
 
 /* Slopes at y + z_i; returns the 1-norm of all that is added. */
-static double slopes(const struct gm_task *task, const struct gm_members *members, const struct scratch *scratch,
-                     size_t stages, struct gm_progress *progress)
+static double slopes(const struct gm_task *task, const struct gm_members *members,
+                     const struct scratch *scratch, size_t stages, struct gm_progress *progress)
 {
     const size_t n = members->n;
     double size = 0;
@@ -79,8 +80,8 @@ static double residual(const struct tableau *tableau, const struct scratch *scra
     return change;
 }
 
-static bool by_fixed_point(const struct gm_task *task, struct gm_members *members, const struct tableau *tableau,
-                           struct gm_progress *progress)
+static bool by_fixed_point(const struct gm_task *task, struct gm_members *members,
+                           const struct tableau *tableau, struct gm_progress *progress)
 {
     const struct scratch scratch = scratch_of(members);
     const size_t size = tableau->stages * members->n;
@@ -148,7 +149,8 @@ static bool by_newton(const struct gm_task *task, struct gm_members *members, co
     return false;
 }
 
-static enum gm_status step(const struct gm_task *task, struct gm_members *members, struct gm_progress *progress)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     const struct tableau *tableau = task->scheme->coefficients;
     if ((task->problem->ode->stiff || !by_fixed_point(task, members, tableau, progress)) &&
@@ -167,7 +169,10 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task) { return gm_members_advance(task, step); }
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {

@@ -16,7 +16,10 @@
 enum filter { IMPULSE, MOLLIFIED, GAUTSCHI };
 static const enum filter impulse = IMPULSE, mollified = MOLLIFIED, gautschi = GAUTSCHI;
 
-static double sinc(double x) { return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x; }
+static double sinc(double x)
+{
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+}
 
 /* phi and a at h omega */
 static void filters(enum filter filter, double x, double *phi, double *a)
@@ -27,8 +30,8 @@ static void filters(enum filter filter, double x, double *phi, double *a)
 }
 
 /* g(phi q) of member `member` of m, into g[component * stride] */
-static void filtered_force(const struct gm_task *task, const double *q, size_t stride, double *at, double *force,
-                           double *g)
+static void filtered_force(const struct gm_task *task, const double *q, size_t stride, double *at,
+                           double *force, double *g)
 {
     const struct gm_problem *problem = task->problem;
     const enum filter filter = *(const enum filter *)task->scheme->coefficients;
@@ -72,7 +75,8 @@ static struct component *components(const struct gm_task *task, struct gm_member
     return list;
 }
 
-static enum gm_status step(const struct gm_task *task, struct gm_members *members, struct gm_progress *progress)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     const size_t half = members->n / 2;
     const struct component *list = components(task, members);
@@ -110,7 +114,8 @@ static enum gm_status start(const struct gm_task *task)
     struct gm_members *members = task->workspace;
     const size_t m = task->problem->m, half = task->problem->n / 2;
     for (size_t i = 0; i < m; i++) {
-        filtered_force(task, task->y + i, m, members->scratch + 1, members->scratch + 1 + half, task->memory_out + i);
+        filtered_force(task, task->y + i, m, members->scratch + 1, members->scratch + 1 + half,
+                       task->memory_out + i);
     }
     return GM_OK;
 }
@@ -129,8 +134,9 @@ static const struct gm_scheme schemes[] = {
         .name = "impulse2",
         .title = "impulse",
         .formula = "p += h/2 g(q);  (q, p) := flow of q″ = −ω²q over h;  p += h/2 g(q)",
-        .reference = "Grubmüller, Heller, Windemuth & Schulten, Mol. Simul. 6 (1991) 121; Tuckerman, Berne & Martyna, "
-                     "J. Chem. Phys. 97 (1992) 1990",
+        .reference =
+            "Grubmüller, Heller, Windemuth & Schulten, Mol. Simul. 6 (1991) 121; Tuckerman, Berne & Martyna, "
+            "J. Chem. Phys. 97 (1992) 1990",
         .coefficients = &impulse,
         .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE,
         TRIGONOMETRIC,

@@ -2,13 +2,14 @@
 /* Variational integrators that vary time as well: the steps tau_n come from the discrete energy balance.
    Rectangle rule, L = v^2/2 - V(q), v_n = (q_{n+1} - q_n)/tau_n:
        v_{n-1} - v_n = tau_n V'(q_n),   v_n^2/2 + V(q_n) = H_0,
-   so v_n = +-sqrt(2 (H_0 - V(q_n))) and tau_n = (v_{n-1} - v_n)/V'(q_n). tau grows without bound at a turning point,
-   and before it is reached there is no real root: step-collapse. The restarting variant turns there.
+   so v_n = +-sqrt(2 (H_0 - V(q_n))) and tau_n = (v_{n-1} - v_n)/V'(q_n). tau grows without bound at a turning
+   point, and before it is reached there is no real root: step-collapse. The restarting variant turns there.
    Midpoint rule:
        v + tau/2 V'(q + tau v/2) = p,   q += tau v,   p = v - tau/2 V'(qbar),   v^2/2 + V(qbar) = E,
    with qbar = q + tau v/2; E is fixed by a first step of length tau0.
-   Razafindralandy et al. (2018), eqs. 55 to 59; C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999) 3353.
-   The run's dt gives the direction of time only; the memory is tau, the energy, and the number of restarts. */
+   Razafindralandy et al. (2018), eqs. 55 to 59; C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999)
+   3353. The run's dt gives the direction of time only; the memory is tau, the energy, and the number of
+   restarts. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -20,11 +21,14 @@ static const enum rule rectangle = RECTANGLE, rectangle_restart = RECTANGLE_REST
 
 enum { TAU, ENERGY, RESTARTS, REMEMBERED };
 
-static double first_step(const struct gm_task *task) { return copysign(task->settings->tau0, task->dt); }
+static double first_step(const struct gm_task *task)
+{
+    return copysign(task->settings->tau0, task->dt);
+}
 
 /* The root tau nearest to `near` in the logarithm, and its velocity; false if there is none. */
-static bool find_root(enum rule rule, double v, double slope, double square, double near, double tau0, double *tau,
-                      double *velocity)
+static bool find_root(enum rule rule, double v, double slope, double square, double near, double tau0,
+                      double *tau, double *velocity)
 {
     if (!(square >= 0) || slope == 0) {
         return false;
@@ -81,8 +85,8 @@ struct middle {
     double potential[3]; /* V, V', V'' at the midpoint */
 };
 
-static bool solve_velocity(const struct gm_problem *problem, const double *y, double tau, struct middle *middle,
-                           struct gm_progress *progress)
+static bool solve_velocity(const struct gm_problem *problem, const double *y, double tau,
+                           struct middle *middle, struct gm_progress *progress)
 {
     enum { ITERATIONS = 50 };
     double previous = INFINITY;
@@ -158,13 +162,18 @@ static enum gm_status midpoint_step(const struct gm_task *task, struct gm_member
     return GM_OK;
 }
 
-static enum gm_status step(const struct gm_task *task, struct gm_members *members, struct gm_progress *progress)
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
 {
     const enum rule rule = *(const enum rule *)task->scheme->coefficients;
-    return rule == MIDPOINT ? midpoint_step(task, members, progress) : rectangle_step(task, members, progress);
+    return rule == MIDPOINT ? midpoint_step(task, members, progress)
+                            : rectangle_step(task, members, progress);
 }
 
-static struct gm_progress loop(const struct gm_task *task) { return gm_members_advance(task, step); }
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
@@ -227,8 +236,9 @@ static const struct gm_scheme schemes[] = {
         .name = "variational-midpoint",
         .title = "variational, midpoint rule",
         .formula = "v + τ/2 V′(q + τv/2) = p,  q += τv,  p = v − τ/2 V′(q̄),  v²/2 + V(q̄) = E",
-        .reference = "Razafindralandy et al. (2018), eq. 56; C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999) "
-                     "3353",
+        .reference =
+            "Razafindralandy et al. (2018), eq. 56; C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999) "
+            "3353",
         .family = &gm_family_variational_time,
         .coefficients = &midpoint,
         .order = 2,

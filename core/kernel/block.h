@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A block: GM_LANES members in registers. Loading and storing, compensated addition, the blow-up test. */
 
+/* Explicit schemes: blocks that advance side by side, as many as the registers hold. */
+#ifdef GM_PASS_SCALAR
+enum { K(ABREAST) = 1 };
+#else
+enum { K(ABREAST) = GM_COMPONENTS <= 2 ? 4 : GM_COMPONENTS <= 4 ? 2 : 1 };
+#endif
+
 struct K(block) {
     real y[GM_COMPONENTS];
     real carry[GM_COMPONENTS]; /* what rounding lost from y, for compensated summation */
@@ -16,12 +23,13 @@ struct K(counts) {
 };
 
 /* Members from `first` on; a block that sticks out repeats the last member, which changes nothing. */
-GM_INLINE void K(block_load)(struct K(block) *block, const struct gm_task *task, size_t first)
+GM_INLINE void K(block_load)(struct K(block) * block, const struct gm_task *task, size_t first)
 {
     size_t m = task->problem->m;
     block->force_known = false;
     for (int c = 0; c < GM_COMPONENTS; c++) {
         block->carry[c] = K(constant)(0);
+        block->force[c] = K(constant)(0);
         if (first + GM_LANES <= m) {
             memcpy(&block->y[c], task->y + (size_t)c * m + first, sizeof(real));
             if (task->carry) {
@@ -39,7 +47,7 @@ GM_INLINE void K(block_load)(struct K(block) *block, const struct gm_task *task,
     }
 }
 
-GM_INLINE void K(block_store)(const struct K(block) *block, const struct gm_task *task, size_t first)
+GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_task *task, size_t first)
 {
     size_t m = task->problem->m;
     size_t lanes = first + GM_LANES <= m ? GM_LANES : m - first;
@@ -65,7 +73,7 @@ GM_INLINE void K(add)(real *y, real *carry, real increment, bool compensated)
 }
 
 /* Which lanes are finite and below the limit (a NaN compares false). */
-GM_INLINE mask K(within)(const struct K(block) *block, double limit)
+GM_INLINE mask K(within)(const struct K(block) * block, double limit)
 {
     mask good = K(magnitude)(block->y[0]) <= K(constant)(limit);
     for (int c = 1; c < GM_COMPONENTS; c++) {

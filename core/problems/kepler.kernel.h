@@ -14,9 +14,10 @@ GM_INLINE void K(velocity)(const real *p, real *dq, const void *parameters)
 GM_INLINE void K(force)(const real *q, real *dp, const void *parameters)
 {
     const real square = q[0] * q[0] + q[1] * q[1];
-    real pull = K(constant)(1) / (square * K(root)(square));
+    const real inverse = 1 / square; /* beside the root, not after it */
+    real pull = K(root)(square) * (inverse * inverse);
 #ifdef GM_PERTURBED
-    pull += 2 * *(const double *)parameters / (square * square);
+    pull += 2 * *(const double *)parameters * (inverse * inverse);
 #else
     (void)parameters;
 #endif

@@ -37,7 +37,7 @@ static void flow(const struct gm_problem *problem, size_t piece, double h, doubl
     const double drive_j = a[3 * j + k], drive_3 = last ? a[6 + k] : 0;
     /* int_0^h exp(s M) ds = (2/w) sinh(w h / 2) exp(h M / 2), for M^2 = w^2 times 1 */
     const double square = own * own + to_j * to_3, w = sqrt(fabs(square)) * h / 2;
-    const double twice = h * (w > 0 ? (square < 0 ? sin(w) : sinh(w)) / w : 1);
+    const double twice = h * (w != 0 ? (square < 0 ? sin(w) : sinh(w)) / w : 1);
     for (size_t i = 0; i < m; i++) {
         const double p = y[j * m + i], q = y[2 * m + i], s = y[k * m + i];
         const double f = drive_j * s, g = drive_3 * s;

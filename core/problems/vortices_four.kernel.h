@@ -6,27 +6,33 @@
 
 GM_INLINE void K(field)(const real *state, real *f, const void *parameters)
 {
-    const double factor = *(const double *)parameters / (2 * 3.14159265358979323846);
+    const double factor = *(const double *)parameters * 0.15915494309189533577; /* 1/(2 pi) */
     const real *x = state, *y = state + 4;
-    real sum_x[4], sum_y[4];
-    for (int i = 0; i < 4; i++) {
-        sum_x[i] = sum_y[i] = K(constant)(0);
-    }
+    real pull_x[4][4], pull_y[4][4]; /* of pair i < j */
 #pragma GCC unroll 4
     for (int i = 0; i < 4; i++) {
 #pragma GCC unroll 4
         for (int j = i + 1; j < 4; j++) {
             const real dx = x[i] - x[j], dy = y[i] - y[j];
             const real inverse = 1 / (dx * dx + dy * dy);
-            sum_x[i] += dx * inverse;
-            sum_y[i] += dy * inverse;
-            sum_x[j] -= dx * inverse;
-            sum_y[j] -= dy * inverse;
+            pull_x[i][j] = dx * inverse;
+            pull_y[i][j] = dy * inverse;
         }
     }
+#pragma GCC unroll 4
     for (int i = 0; i < 4; i++) {
-        f[i] = -(factor * sum_y[i]);
-        f[4 + i] = factor * sum_x[i];
+        const int first = i == 0 ? 1 : 0;
+        real sum_x = i == 0 ? pull_x[0][first] : -pull_x[first][i];
+        real sum_y = i == 0 ? pull_y[0][first] : -pull_y[first][i];
+#pragma GCC unroll 4
+        for (int j = first + 1; j < 4; j++) {
+            if (j != i) {
+                sum_x += i < j ? pull_x[i][j] : -pull_x[j][i];
+                sum_y += i < j ? pull_y[i][j] : -pull_y[j][i];
+            }
+        }
+        f[i] = -(factor * sum_y);
+        f[4 + i] = factor * sum_x;
     }
 }
 

@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The speed of the generic core beside loops written by hand, Boost's odeint and GSL, as nanoseconds for a
+   step (of one member) and as ratios of one run: the median of rounds in which all take turns. No test:
+   nothing fails here. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+#include "core/kernel/loops.h"
+#include "core/problems/problems.h"
+#include "core/run.h"
+#include "tests/bench/ode_by_hand.h"
+
+enum { ROUNDS = 15, MEMBERS = 10000 };
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double difference = *(const double *)a - *(const double *)b;
+    return (difference > 0) - (difference < 0);
+}
+
+static double median(double *values)
+{
+    qsort(values, ROUNDS, sizeof *values, compare);
+    return values[ROUNDS / 2];
+}
+
+typedef void alone(double *y, double h, long steps);
+typedef void together(double *y, size_t m, double h, long steps);
+
+struct line {
+    const char *what, *scheme;
+    const struct gm_problem *problem;
+    const void *parameters;
+    double start[8], h;
+    size_t m;
+    long steps;
+    alone *hand, *boost;
+    together *ensemble;
+    double wanted_ratio, wanted; /* 0: none */
+};
+
+static struct gm_run *open_run(const struct gm_problem *problem, const struct line *line, double *y)
+{
+    for (size_t c = 0; c < problem->n; c++) {
+        for (size_t i = 0; i < problem->m; i++) {
+            y[c * problem->m + i] = line->start[c] * (1 + 1e-3 * (double)i / (double)problem->m);
+        }
+    }
+    const struct gm_settings settings = {0};
+    return gm_run_open(problem, gm_scheme_find_for(line->scheme, problem), &settings, 0, line->h, y);
+}
+
+static void measure(const struct line *line)
+{
+    struct gm_problem problem = *line->problem;
+    problem.m = line->m;
+    problem.parameters = line->parameters;
+    double *y = malloc(problem.n * problem.m * sizeof *y);
+    struct gm_run *run = y ? open_run(&problem, line, y) : NULL;
+    if (!run) {
+        printf("%-34s not enough memory\n", line->what);
+        free(y);
+        return;
+    }
+    double core[ROUNDS], hand[ROUNDS], boost[ROUNDS];
+    const double unit = 1e-9 * (double)line->steps * (double)line->m;
+    for (int round = 0; round < ROUNDS; round++) {
+        double start = seconds();
+        gm_run_advance(run, line->steps);
+        core[round] = (seconds() - start) / unit;
+        start = seconds();
+        if (line->hand) {
+            line->hand(y, line->h, line->steps);
+        } else if (line->ensemble) {
+            line->ensemble(y, line->m, line->h, line->steps);
+        }
+        hand[round] = (seconds() - start) / unit;
+        start = seconds();
+        if (line->boost) {
+            line->boost(y, line->h, line->steps);
+        }
+        boost[round] = (seconds() - start) / unit;
+    }
+    const double ours = median(core);
+    printf("%-34s %8.2f ns", line->what, ours);
+    if (line->wanted > 0) {
+        printf(" (at most %g)", line->wanted);
+    }
+    if (line->hand || line->ensemble) {
+        const double theirs = median(hand);
+        printf(", by hand %.2f: ratio %.2f", theirs, ours / theirs);
+    }
+    if (line->boost) {
+        const double theirs = median(boost);
+        printf(", Boost %.2f: ratio %.2f", theirs, ours / theirs);
+        if (line->wanted_ratio > 0) {
+            printf(" (at most %g)", line->wanted_ratio);
+        }
+    }
+    printf("; %.2f evaluations%s\n", gm_run_per_member(run, run->evaluations) / (double)run->steps,
+           run->status == GM_OK ? "" : "  FAILED");
+    gm_run_close(run);
+    free(y);
+}
+
+static int field(double t, const double y[], double f[], void *problem)
+{
+    (void)t;
+    gm_field(problem, y, f, 1);
+    return GSL_SUCCESS;
+}
+
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *parameters)
+{
+    (void)t;
+    const struct gm_problem *problem = parameters;
+    problem->loops[GM_ISA_BASELINE]->jacobian(problem, y, dfdy);
+    memset(dfdt, 0, problem->n * sizeof *dfdt);
+    return GSL_SUCCESS;
+}
+
+/* GSL's implicit midpoint rule on Kepler, at a tolerance near round-off. */
+static void gsl_midpoint(const double *start, double h)
+{
+    struct gm_problem problem = gm_problem_kepler;
+    gsl_odeiv2_system system = {field, jacobian, 4, &problem};
+    gsl_odeiv2_driver *driver =
+        gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk2imp, h, 1e-14, 1e-14);
+    double y[4], error[4];
+    memcpy(y, start, sizeof y);
+    const long steps = 2000;
+    const double before = seconds();
+    for (long i = 0; i < steps; i++) {
+        gsl_odeiv2_step_apply(driver->s, 0, h, y, error, NULL, NULL, &system);
+    }
+    printf("%-34s %8.2f ns\n", "GSL rk2imp, Kepler", (seconds() - before) / 1e-9 / (double)steps);
+    gsl_odeiv2_driver_free(driver);
+}
+
+int main(void)
+{
+    static const double strength = GM_HAND_STRENGTH;
+#define KEPLER .problem = &gm_problem_kepler, .start = {0.5, 0, 0, 1.7320508075688772}, .h = 2 * M_PI / 100
+#define SQUARE                                                                                               \
+    .problem = &gm_problem_vortices_four, .parameters = &strength, .start = {1, 0.1, -1, 0, 0, 1, 0, -1},    \
+    .h = 0.05
+#define OSCILLATOR .problem = &gm_problem_oscillator, .start = {0, 1}, .h = M_PI / 60, .m = MEMBERS
+#ifdef GM_HAVE_BOOST
+#define BOOST(function) .boost = function
+#else
+#define BOOST(function) .boost = NULL
+#endif
+    const struct line lines[] = {
+        {"Kepler, Verlet", "verlet", KEPLER, .m = 1, .steps = 400000, .hand = gm_hand_kepler_verlet,
+         BOOST(gm_boost_kepler_verlet), .wanted_ratio = 1.15},
+        {"Kepler, RK4", "rk4", KEPLER, .m = 1, .steps = 200000, .hand = gm_hand_kepler_rk4,
+         BOOST(gm_boost_kepler_rk4), .wanted_ratio = 1.15},
+        {"4 vortices, RK4", "rk4", SQUARE, .m = 1, .steps = 100000, .hand = gm_hand_vortices_rk4,
+         BOOST(gm_boost_vortices_rk4), .wanted_ratio = 1.1},
+        {"Kepler, midpoint", "midpoint", KEPLER, .m = 1, .steps = 50000, .wanted = 120},
+        {"4 vortices, midpoint", "midpoint", SQUARE, .m = 1, .steps = 20000, .wanted = 200},
+        {"Kepler, Kahan-Li 8", "kahan-li8", KEPLER, .m = 1, .steps = 20000},
+        {"ensemble, oscillator, Verlet", "verlet", OSCILLATOR, .steps = 200,
+         .ensemble = gm_hand_ensemble_oscillator_verlet, .wanted = 0.4},
+        {"ensemble, oscillator, RK4", "rk4", OSCILLATOR, .steps = 100,
+         .ensemble = gm_hand_ensemble_oscillator_rk4, .wanted = 0.8},
+        {"ensemble, Kepler, Verlet", "verlet", KEPLER, .m = MEMBERS, .steps = 50,
+         .ensemble = gm_hand_ensemble_kepler_verlet, .wanted = 2.2},
+        {"ensemble, Kepler, RK4", "rk4", KEPLER, .m = MEMBERS, .steps = 50},
+    };
+    printf("instruction set: %s\n", gm_isa_name(gm_isa_best()));
+    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+        measure(&lines[i]);
+    }
+    gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100);
+    return 0;
+}

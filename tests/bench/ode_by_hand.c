@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a careful programmer writes for one scheme and one problem. */
+#include "tests/bench/ode_by_hand.h"
+
+#include <math.h>
+
+void gm_hand_kepler_verlet(double *y, double h, long steps)
+{
+    double q1 = y[0], q2 = y[1], p1 = y[2], p2 = y[3];
+    double square = q1 * q1 + q2 * q2, pull = 1 / (square * sqrt(square));
+    for (long i = 0; i < steps; i++) {
+        p1 -= h / 2 * pull * q1;
+        p2 -= h / 2 * pull * q2;
+        q1 += h * p1;
+        q2 += h * p2;
+        square = q1 * q1 + q2 * q2;
+        pull = 1 / (square * sqrt(square));
+        p1 -= h / 2 * pull * q1;
+        p2 -= h / 2 * pull * q2;
+    }
+    y[0] = q1, y[1] = q2, y[2] = p1, y[3] = p2;
+}
+
+static inline void kepler(const double *y, double *f)
+{
+    const double square = y[0] * y[0] + y[1] * y[1], pull = 1 / (square * sqrt(square));
+    f[0] = y[2];
+    f[1] = y[3];
+    f[2] = -pull * y[0];
+    f[3] = -pull * y[1];
+}
+
+static inline void vortices(const double *y, double *f)
+{
+    for (int i = 0; i < 8; i++) {
+        f[i] = 0;
+    }
+    for (int i = 0; i < 4; i++) {
+        for (int j = i + 1; j < 4; j++) {
+            const double dx = y[i] - y[j], dy = y[4 + i] - y[4 + j];
+            const double turn = GM_HAND_STRENGTH / (2 * M_PI) / (dx * dx + dy * dy);
+            f[i] -= turn * dy;
+            f[j] += turn * dy;
+            f[4 + i] += turn * dx;
+            f[4 + j] -= turn * dx;
+        }
+    }
+}
+
+#define RK4(name, n, field)                                                                                  \
+    void name(double *y, double h, long steps)                                                               \
+    {                                                                                                        \
+        for (long s = 0; s < steps; s++) {                                                                   \
+            double k1[n], k2[n], k3[n], k4[n], at[n];                                                        \
+            field(y, k1);                                                                                    \
+            for (int c = 0; c < n; c++) {                                                                    \
+                at[c] = y[c] + h / 2 * k1[c];                                                                \
+            }                                                                                                \
+            field(at, k2);                                                                                   \
+            for (int c = 0; c < n; c++) {                                                                    \
+                at[c] = y[c] + h / 2 * k2[c];                                                                \
+            }                                                                                                \
+            field(at, k3);                                                                                   \
+            for (int c = 0; c < n; c++) {                                                                    \
+                at[c] = y[c] + h * k3[c];                                                                    \
+            }                                                                                                \
+            field(at, k4);                                                                                   \
+            for (int c = 0; c < n; c++) {                                                                    \
+                y[c] += h / 6 * (k1[c] + 2 * k2[c] + 2 * k3[c] + k4[c]);                                     \
+            }                                                                                                \
+        }                                                                                                    \
+    }
+RK4(gm_hand_kepler_rk4, 4, kepler)
+RK4(gm_hand_vortices_rk4, 8, vortices)
+
+/* A plain loop over the ensemble, step by step. */
+void gm_hand_ensemble_kepler_verlet(double *y, size_t m, double h, long steps)
+{
+    double *restrict q1 = y, *restrict q2 = y + m, *restrict p1 = y + 2 * m, *restrict p2 = y + 3 * m;
+    for (long s = 0; s < steps; s++) {
+        for (size_t i = 0; i < m; i++) {
+            double square = q1[i] * q1[i] + q2[i] * q2[i], pull = h / 2 / (square * sqrt(square));
+            const double u = p1[i] - pull * q1[i], v = p2[i] - pull * q2[i];
+            q1[i] += h * u;
+            q2[i] += h * v;
+            square = q1[i] * q1[i] + q2[i] * q2[i], pull = h / 2 / (square * sqrt(square));
+            p1[i] = u - pull * q1[i];
+            p2[i] = v - pull * q2[i];
+        }
+    }
+}
+
+void gm_hand_ensemble_oscillator_verlet(double *y, size_t m, double h, long steps)
+{
+    double *restrict q = y, *restrict p = y + m;
+    for (long s = 0; s < steps; s++) {
+        for (size_t i = 0; i < m; i++) {
+            const double v = p[i] - h / 2 * q[i];
+            q[i] += h * v;
+            p[i] = v - h / 2 * q[i];
+        }
+    }
+}
+
+void gm_hand_ensemble_oscillator_rk4(double *y, size_t m, double h, long steps)
+{
+    double *restrict q = y, *restrict p = y + m;
+    for (long s = 0; s < steps; s++) {
+        for (size_t i = 0; i < m; i++) {
+            const double a1 = p[i], b1 = -q[i], a2 = p[i] + h / 2 * b1, b2 = -(q[i] + h / 2 * a1);
+            const double a3 = p[i] + h / 2 * b2, b3 = -(q[i] + h / 2 * a2), a4 = p[i] + h * b3,
+                         b4 = -(q[i] + h * a3);
+            q[i] += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+            p[i] += h / 6 * (b1 + 2 * b2 + 2 * b3 + b4);
+        }
+    }
+}

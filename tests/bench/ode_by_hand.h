@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_TESTS_BENCH_ODE_BY_HAND_H
+#define GM_TESTS_BENCH_ODE_BY_HAND_H
+
+#include <stddef.h>
+
+/* Yardsticks: one scheme on one problem, written by hand or with Boost's odeint. The state changes in place.
+ */
+
+#define GM_HAND_STRENGTH 2.0
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+void gm_hand_kepler_verlet(double *y, double h, long steps);
+void gm_hand_kepler_rk4(double *y, double h, long steps);
+void gm_hand_vortices_rk4(double *y, double h, long steps);
+void gm_hand_ensemble_kepler_verlet(double *y, size_t m, double h, long steps);
+void gm_hand_ensemble_oscillator_verlet(double *y, size_t m, double h, long steps);
+void gm_hand_ensemble_oscillator_rk4(double *y, size_t m, double h, long steps);
+
+void gm_boost_kepler_verlet(double *y, double h, long steps);
+void gm_boost_kepler_rk4(double *y, double h, long steps);
+void gm_boost_vortices_rk4(double *y, double h, long steps);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
