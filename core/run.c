@@ -7,16 +7,25 @@
 
 #include "core/kernel/loops.h"
 
-/* The block: the struct, then two halves, each the state, its carry (compensated) and the scheme's memory. A step
-   reads one half and writes the other, so the last good step is always whole. */
+/* The block: the struct, then two halves, each the state, its carry (compensated) and the scheme's memory. A
+   step reads one half and writes the other, so the last good step is always whole. */
 
 enum { ALIGNMENT = 128 };
 
-static size_t head_size(void) { return (sizeof(struct gm_run) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
+static size_t head_size(void)
+{
+    return (sizeof(struct gm_run) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+}
 
-static size_t state_count(const struct gm_run *run) { return run->problem->n * run->problem->m; }
+static size_t state_count(const struct gm_run *run)
+{
+    return run->problem->n * run->problem->m;
+}
 
-static size_t carry_count(const struct gm_run *run) { return run->settings.compensated ? state_count(run) : 0; }
+static size_t carry_count(const struct gm_run *run)
+{
+    return run->settings.compensated ? state_count(run) : 0;
+}
 
 static size_t memory_count(const struct gm_run *run)
 {
@@ -35,7 +44,10 @@ static double *half(const struct gm_run *run, int which)
     return (double *)(void *)((char *)run + head_size() + (size_t)which * run->half_size);
 }
 
-const double *gm_run_state(const struct gm_run *run) { return half(run, run->current); }
+const double *gm_run_state(const struct gm_run *run)
+{
+    return half(run, run->current);
+}
 
 const double *gm_run_memory(const struct gm_run *run)
 {
@@ -169,7 +181,10 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
     return next;
 }
 
-size_t gm_run_snapshot_size(const struct gm_run *run) { return head_size() + run->half_size; }
+size_t gm_run_snapshot_size(const struct gm_run *run)
+{
+    return head_size() + run->half_size;
+}
 
 void gm_run_save(const struct gm_run *run, void *snapshot)
 {

@@ -10,11 +10,11 @@ struct gm_run {
     const struct gm_problem *problem;
     const struct gm_scheme *scheme;
     struct gm_settings settings;
-    double t0, dt;    /* the present segment: t = t0 + n dt */
-    long n;           /* steps in this segment */
-    double t;         /* the present time */
-    double limit;     /* blow-up bound on the components */
-    long steps;       /* steps in all */
+    double t0, dt;                                 /* the present segment: t = t0 + n dt */
+    long n;                                        /* steps in this segment */
+    double t;                                      /* the present time */
+    double limit;                                  /* blow-up bound on the components */
+    long steps;                                    /* steps in all */
     unsigned long evaluations, solves, iterations; /* sums over the members */
     enum gm_status status;
     int current;      /* which half of the block holds the state */

@@ -241,7 +241,9 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
         const size_t made = history_points(lanes[i], series, divisor, graph, points);
         for (size_t k = 0; k < made; k++) {
             if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
-                gm_range_add(&low, &high, points[2 * k + 1]);
+                /* of what has blown up, enough to see that it has */
+                const double most = graph->highest ? fmax(graph->calm_high, 100) : INFINITY;
+                gm_range_add(&low, &high, fmin(points[2 * k + 1], most));
             }
         }
     }

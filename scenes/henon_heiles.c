@@ -119,12 +119,9 @@ static const struct gm_track tracks[] = {
      .record = record_crossing},
 };
 
-/* Where p1 = 0 in the section: nothing of this energy lies outside. */
-static void draw_border(struct gm_picture *picture, struct gm_panel *panel, double level)
+/* The ends in q2 of what an energy allows in the section: V(0, q2) rises to it on both sides of 0. */
+static void ends_of(double level, double ends[2])
 {
-    enum { POINTS = 200 };
-    double points[4 * POINTS + 4], ends[2];
-    /* V(0, q2) rises to `level` on both sides of 0 */
     for (int side = 0; side < 2; side++) {
         double inside = 0, outside = side == 0 ? -1 : 1;
         for (int i = 0; i < 60; i++) {
@@ -133,6 +130,14 @@ static void draw_border(struct gm_picture *picture, struct gm_panel *panel, doub
         }
         ends[side] = inside;
     }
+}
+
+/* Where p1 = 0 in the section: nothing of this energy lies outside. */
+static void draw_border(struct gm_picture *picture, struct gm_panel *panel, double level)
+{
+    enum { POINTS = 200 };
+    double points[4 * POINTS + 4], ends[2];
+    ends_of(level, ends);
     for (size_t i = 0; i <= POINTS; i++) {
         const double q2 = (ends[0] + ends[1]) / 2 - (ends[1] - ends[0]) / 2 * cos(M_PI * (double)i / POINTS);
         const double p2 = sqrt(fmax(0, 2 * (level - potential(0, q2))));
@@ -166,6 +171,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         "smears the curve.";
     gm_draw_clock(picture, lanes, count);
     const double tall = 1.08 * sqrt(2 * widest);
+    double ends[2];
+    ends_of(widest, ends);
     for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
         struct gm_panel *panel = NULL;
         for (size_t i = 0; i < count; i++) {
@@ -177,9 +184,10 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
             if (!panel) {
                 panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
                 panel->x = (struct gm_axis){
-                    .label = "q₂", .scale = GM_LINEAR, .low = -0.8 * tall, .high = 1.75 * tall};
+                    .label = "q₂", .scale = GM_LINEAR, .low = 1.1 * ends[0], .high = 1.08 * ends[1]};
                 panel->y = (struct gm_axis){.label = "p₂", .scale = GM_LINEAR, .low = -tall, .high = tall};
                 panel->axes = true;
+                panel->equal = true;
                 panel->title_role = role;
                 panel->note = gm_lane_failure(picture, lane);
                 draw_border(picture, panel, ((const struct henon_heiles *)lane->parameters)->energy);

@@ -10,7 +10,10 @@
 
 enum { MOST_OBSERVABLES = 64 };
 
-static const struct gm_timing *timing(const struct gm_lane *lane) { return lane->parameters; }
+static const struct gm_timing *timing(const struct gm_lane *lane)
+{
+    return lane->parameters;
+}
 
 struct gm_view gm_lane_view(const struct gm_lane *lane)
 {
@@ -22,6 +25,8 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .t0 = lane->t0,
         .t = lane->run->t,
         .dt = lane->run->dt,
+        .scheme = lane->scheme,
+        .memory = gm_run_memory(lane->run),
         .tracks = lane->entries,
     };
 }
@@ -85,8 +90,8 @@ static size_t active_count(const struct gm_lane *lane)
     return (lane->problem.n - 2 * lane->problem.passive) * lane->problem.m;
 }
 
-/* Makes an entry if the section was passed upwards in the step that ended in `view`. Between the two states the
-   cubic is taken that has the field's slopes at both ends; its error is of order 4 in the step. */
+/* Makes an entry if the section was passed upwards in the step that ended in `view`. Between the two states
+   the cubic is taken that has the field's slopes at both ends; its error is of order 4 in the step. */
 static void record_crossing(struct gm_lane *lane, const struct gm_track *track, struct gm_entries *entries,
                             const struct gm_view *view)
 {
@@ -151,8 +156,9 @@ static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
         if (entries->count > 0) {
             const double last = entries->times[entries->count - 1];
             const double interval = track->interval(lane->parameters) * (double)entries->every;
-            const bool due = interval > 0 ? intervals(lane, interval, view->t) != intervals(lane, interval, last)
-                                          : view->t != last;
+            const bool due = interval > 0
+                                 ? intervals(lane, interval, view->t) != intervals(lane, interval, last)
+                                 : view->t != last;
             if (!due) {
                 continue;
             }
@@ -310,8 +316,8 @@ static bool prepare(struct gm_lane *lane, char *sentence)
         return refuse(sentence, "not enough memory");
     }
     scene->start(lane->parameters, &lane->problem, lane->start);
-    lane->run = gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt,
-                            lane->start);
+    lane->run =
+        gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
     if (!lane->run || !gm_history_open(&lane->history, scene->observable_count) || !open_tracks(lane)) {
         return refuse(sentence, "not enough memory");
     }
@@ -399,9 +405,15 @@ void gm_lane_set_step(struct gm_lane *lane, double dt)
     gm_run_set_step(lane->run, dt);
 }
 
-size_t gm_lane_snapshot_size(const struct gm_lane *lane) { return gm_run_snapshot_size(lane->run); }
+size_t gm_lane_snapshot_size(const struct gm_lane *lane)
+{
+    return gm_run_snapshot_size(lane->run);
+}
 
-void gm_lane_save(const struct gm_lane *lane, void *snapshot) { gm_run_save(lane->run, snapshot); }
+void gm_lane_save(const struct gm_lane *lane, void *snapshot)
+{
+    gm_run_save(lane->run, snapshot);
+}
 
 void gm_lane_load(struct gm_lane *lane, const void *snapshot)
 {

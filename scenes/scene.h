@@ -28,7 +28,7 @@ struct gm_timing {
     {                                                                                                        \
         .key = "until", .unit = "", .help = "time at which run and render stop", .type = GM_REAL,            \
         .offset = offsetof(struct gm_timing, until), .standard = standard_text, .lowest = 0,                 \
-        .highest = GM_NEVER, .logarithmic = true, .live = true,                                                  \
+        .highest = GM_NEVER, .logarithmic = true, .live = true,                                              \
     }
 
 /* What may be looked at of one lane. */
@@ -38,6 +38,8 @@ struct gm_view {
     const double *start; /* the state at t0, [component * m + member] */
     const double *state; /* the present state */
     double t0, t, dt;
+    const struct gm_scheme *scheme;
+    const double *memory;            /* the scheme's own; NULL if it has none */
     const struct gm_entries *tracks; /* the scene's, as recorded so far; NULL while a lane is opened */
 };
 
@@ -53,10 +55,10 @@ struct gm_observable {
     bool logarithmic; /* drawn on a log axis */
 };
 
-/* A bounded record of the past: an entry of `width` numbers every `interval` of model time; or, with `section`, one
-   wherever that function of the state passes zero upwards between two steps, at the state interpolated there. When
-   `bound` entries are full every other one is dropped, or, of a `recent` track, the older half. Entry 0 of a track by
-   intervals that is not recent is the start. */
+/* A bounded record of the past: an entry of `width` numbers every `interval` of model time; or, with
+   `section`, one wherever that function of the state passes zero upwards between two steps, at the state
+   interpolated there. When `bound` entries are full every other one is dropped, or, of a `recent` track, the
+   older half. Entry 0 of a track by intervals that is not recent is the start. */
 struct gm_track {
     const char *key;
     size_t (*width)(const struct gm_view *view);
@@ -67,16 +69,17 @@ struct gm_track {
     void (*record)(const struct gm_view *view, double *entry);
 };
 
-/* How `geomint work-precision` measures a scene; without it the scene's defaults and every scheme that fits. */
+/* How `geomint work-precision` measures a scene; without it the scene's defaults and every scheme that fits.
+ */
 struct gm_work {
     const char *arguments; /* key=value that differ from the defaults, separated by blanks; "" */
     const char *measure;   /* key of the observable that is the error; NULL: solution_error */
     double coarsest;       /* the largest step of the ladder, */
     int halvings;          /* halved so many times */
-    const char *reference; /* the scheme of the reference run, where the problem has no exact solution; NULL: the
-                              highest order that fits */
-    const char *is_exact;  /* name of a scheme that solves the scene exactly where it has an exact solution, and is no
-                              entrant then; NULL: none */
+    const char *reference; /* the scheme of the reference run, where the problem has no exact solution; NULL:
+                              the highest order that fits */
+    const char *is_exact;  /* name of a scheme that solves the scene exactly where it has an exact solution,
+                              and is no  entrant then; NULL: none */
 };
 
 /* What `geomint stability` does with a scene: a grid of time steps and of one parameter. */
@@ -85,14 +88,14 @@ struct gm_stability {
     const char *parameter; /* its key */
     const double *values;  /* value_count of them */
     size_t value_count;
-    const char *label;     /* of the time step in units of `unit`: "h ω" */
+    const char *label;                      /* of the time step in units of `unit`: "h ω" */
     double (*unit)(const void *parameters); /* of the time step: the shortest time there is */
-    const double *steps;   /* step_count of them, in that unit */
+    const double *steps;                    /* step_count of them, in that unit */
     size_t step_count;
-    const char *kept;      /* key of the observable that is lost below half of its start, gained above twice */
-    long settle; /* where that swings by itself: the largest value of so many first steps is compared to that of so many
-                    last ones; 0: the end to the start */
-    const char *error;     /* key of the observable that is wrong above 0.1; NULL: none */
+    const char *kept; /* key of the observable that is lost below half of its start, gained above twice */
+    long settle; /* where that swings by itself: the largest value of so many first steps is compared to that
+                    of so many last ones; 0: the end to the start */
+    const char *error;          /* key of the observable that is wrong above 0.1; NULL: none */
     const char *const *schemes; /* NULL-terminated; NULL: the scene's */
 };
 
@@ -120,7 +123,8 @@ struct gm_scene {
     size_t figure_count;
     const struct gm_work *work;
     const struct gm_stability *stability; /* NULL: the scene has no such map */
-    long follow; /* 0, or: between two looks there are at most so many steps, for what an observable recalls */
+    long
+        follow; /* 0, or: between two looks there are at most so many steps, for what an observable recalls */
 
     /* Fills the problem (n, m, facets) for these parameters; false with a sentence if they contradict. */
     bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);

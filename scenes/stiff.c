@@ -219,9 +219,8 @@ static void draw_exchange(struct gm_picture *picture, const struct gm_lane *cons
         panel->x = x;
         panel->y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = 0, .high = 1.5};
         const char *failure = gm_lane_failure(picture, lane);
-        panel->note = failure[0] ? failure
-                                 : gm_picture_text(picture, "stiff energy %.3g of %.3g",
-                                                   gm_lane_observe(lane, SUM), lane->history.bins[SUM].low);
+        panel->note =
+            failure[0] ? failure : gm_picture_text(picture, "stiff energy × %.3g", stiff_ratio(lane));
         double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
         for (size_t k = 0; points && k < SPRINGS + 1; k++) {
             const size_t made =
