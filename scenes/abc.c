@@ -116,7 +116,8 @@ static double wrapped(double angle)
 
 static void record_crossing(const struct gm_view *view, double *entry)
 {
-    entry[0] = wrapped(view->state[X * view->problem->m]);
+    /* x from -pi to pi, so that what lies around 0 is whole */
+    entry[0] = wrapped(view->state[X * view->problem->m] + M_PI) - M_PI;
     entry[1] = wrapped(view->state[Y * view->problem->m]);
 }
 
@@ -197,7 +198,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                 panel->title_role = role;
                 panel->note = gm_lane_failure(picture, lane);
                 panel->equal = flow;
-                panel->x = (struct gm_axis){.label = "x", .scale = GM_PI, .low = 0, .high = 2 * M_PI};
+                panel->x = (struct gm_axis){.label = "x", .scale = GM_PI, .low = -M_PI, .high = M_PI};
                 panel->y = (struct gm_axis){.label = "y", .scale = GM_PI, .low = 0, .high = 2 * M_PI};
                 if (!flow) {
                     trail_range(lanes, count, &panel->x, &panel->y);
