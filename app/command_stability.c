@@ -9,6 +9,7 @@
 #include "app/chart.h"
 #include "app/commands.h"
 #include "app/drive.h"
+#include "app/region.h"
 #include "app/stability.h"
 
 static bool write_csv(const struct gm_stability_table *table, const char *path)
@@ -82,6 +83,13 @@ int gm_command_stability(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_stability_table table;
+    if (options->region && options->word_count > 0) {
+        gm_complain("--region takes a scheme alone, no scene");
+        return GM_EXIT_USAGE;
+    }
+    if (options->region) {
+        return gm_region(options);
+    }
     if (!gm_stability_open(&table, options, message)) {
         gm_complain("%s", message);
         return GM_EXIT_USAGE;

@@ -40,6 +40,8 @@ static const struct row rows[] = {
     {"--movie", TEXT, GM_RENDER, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--strict", FLAG, GM_RENDER, AT(strict), "", "exit 2 if a lane ends in a numerical failure"},
     {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
+    {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
+     "the linear stability region of a scheme, no scene"},
     {"--quick", FLAG, GM_FIGURES, AT(quick), "", "few steps and small pictures"},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };

@@ -65,14 +65,20 @@ static void draw_map(const struct gm_stability_table *table, const struct gm_sta
             gm_mark_polygon(picture, panel, style_of(cell), corners, 4);
         }
     }
-    for (size_t s = 0; s < plan->step_count; s++) {
-        for (size_t v = 0; v < plan->value_count; v++) {
-            const struct gm_cell *cell = &map->cells[s * plan->value_count + v];
-            if (cell->verdict != GM_BOUNDED) {
+    /* one letter for all that end alike, above one another */
+    for (size_t v = 0; v < plan->value_count; v++) {
+        size_t next = 0;
+        for (size_t s = 0; s < plan->step_count; s = next) {
+            const char letter = gm_cell_letter(&map->cells[s * plan->value_count + v]);
+            for (next = s + 1; next < plan->step_count; next++) {
+                if (gm_cell_letter(&map->cells[next * plan->value_count + v]) != letter) {
+                    break;
+                }
+            }
+            if (letter != '.') {
                 gm_mark_text(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 1},
                              logarithmic ? sqrt(x[v] * x[v + 1]) : (x[v] + x[v + 1]) / 2,
-                             sqrt(y[s] * y[s + 1]), GM_ANCHOR_CENTRE,
-                             gm_picture_text(picture, "%c", gm_cell_letter(cell)));
+                             sqrt(y[s] * y[next]), GM_ANCHOR_CENTRE, gm_picture_text(picture, "%c", letter));
             }
         }
     }

@@ -200,8 +200,9 @@ void gm_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size
     }
     *axis = (struct gm_axis){.label = "t", .scale = counts_in_pi(lanes[0]->run->dt) ? GM_PI : GM_LINEAR};
     const double until = timing->until;
-    if (low >= lanes[0]->t0 && until < GM_NEVER && high <= until * (1 + 1e-9) && until > lanes[0]->t0) {
-        high = until;
+    if (low >= lanes[0]->t0 && until < GM_NEVER && high <= until + fabs(lanes[0]->run->dt) &&
+        until > lanes[0]->t0) {
+        high = fmax(high, until); /* the last step may end a little later */
     } else {
         gm_range_round(&low, &high, axis->scale);
     }
@@ -259,7 +260,9 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
         }
         for (size_t k = 0; k < made; k++) {
             if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
-                gm_range_add(&low, &high, points[2 * k + 1]);
+                /* of what has blown up, enough to see that it has */
+                const double most = graph->highest ? fmax(graph->calm_high, 100) : INFINITY;
+                gm_range_add(&low, &high, fmin(points[2 * k + 1], most));
             }
         }
     }

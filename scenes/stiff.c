@@ -175,6 +175,35 @@ static const struct gm_track tracks[] = {
      .record = remember},
 };
 
+/* Of the stiff energy to its start. */
+static double stiff_ratio(const struct gm_lane *lane)
+{
+    const struct gm_view now = gm_lane_view(lane);
+    struct gm_view before = now;
+    before.state = now.start;
+    return stiff_energy(&now) / stiff_energy(&before);
+}
+
+/* The middle of every few bins: what swings fast within them is left out. */
+static size_t middles(const struct gm_lane *lane, size_t series, double *points)
+{
+    enum { SHOWN = 128 };
+    const struct gm_history *history = &lane->history;
+    const size_t group = (history->count + SHOWN - 1) / SHOWN;
+    size_t count = 0;
+    for (size_t b = 0; b < history->count; b += group, count++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t k = b; k < b + group && k < history->count; k++) {
+            const struct gm_bin *bin = &history->bins[k * history->series + series];
+            low = fmin(low, bin->low);
+            high = fmax(high, bin->high);
+            points[2 * count] = bin->t;
+        }
+        points[2 * count + 1] = (low + high) / 2;
+    }
+    return count;
+}
+
 /* The energies of the stiff springs and their sum over time: one panel a lane. */
 static void draw_exchange(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
@@ -190,12 +219,12 @@ static void draw_exchange(struct gm_picture *picture, const struct gm_lane *cons
         panel->x = x;
         panel->y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = 0, .high = 1.5};
         const char *failure = gm_lane_failure(picture, lane);
-        panel->note = failure[0] ? failure
-                                 : gm_picture_text(picture, "stiff energy %.3g of %.3g",
-                                                   gm_lane_observe(lane, SUM), lane->history.bins[SUM].low);
+        panel->note =
+            failure[0] ? failure : gm_picture_text(picture, "stiff energy × %.3g", stiff_ratio(lane));
         double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
         for (size_t k = 0; points && k < SPRINGS + 1; k++) {
-            const size_t made = gm_history_points(lane, FIRST + k, points);
+            const size_t made =
+                k < SPRINGS ? middles(lane, FIRST + k, points) : gm_history_points(lane, SUM, points);
             const struct gm_style style = {role, k < SPRINGS ? 0.75 : 1, k < SPRINGS ? 1.3 : 2.4,
                                            k < SPRINGS ? gm_lane_dash(k) : GM_SOLID};
             for (size_t m = 0; m < made; m++) {
@@ -229,10 +258,8 @@ static void draw_pendulum(struct gm_picture *picture, const struct gm_lane *cons
                 panel->equal = true;
                 panel->title_role = role;
                 const char *failure = gm_lane_failure(picture, lane);
-                panel->note = failure[0]
-                                  ? failure
-                                  : gm_picture_text(picture, "stiff energy × %.3g",
-                                                    gm_lane_observe(lane, SUM) / lane->history.bins[SUM].low);
+                panel->note =
+                    failure[0] ? failure : gm_picture_text(picture, "stiff energy × %.3g", stiff_ratio(lane));
             }
             const double *state = gm_run_state(lane->run);
             const double spring[] = {0, 0, state[0], state[1]};

@@ -10,6 +10,8 @@
    Razafindralandy et al. (2018), eqs. 55 to 59; C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999)
    3353. The run's dt gives the direction of time only; the memory is tau, the energy, and the number of
    restarts. */
+#include "core/families/variational_time.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -19,7 +21,12 @@
 enum rule { RECTANGLE, RECTANGLE_RESTART, MIDPOINT };
 static const enum rule rectangle = RECTANGLE, rectangle_restart = RECTANGLE_RESTART, midpoint = MIDPOINT;
 
-enum { TAU, ENERGY, RESTARTS, REMEMBERED };
+enum {
+    TAU = GM_VARIATIONAL_TAU,
+    ENERGY = GM_VARIATIONAL_ENERGY,
+    RESTARTS = GM_VARIATIONAL_RESTARTS,
+    REMEMBERED = GM_VARIATIONAL_REMEMBERED,
+};
 
 static double first_step(const struct gm_task *task)
 {
