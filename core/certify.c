@@ -8,6 +8,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
+#include "core/certify_complex.h"
 #include "core/kernel/loops.h"
 #include "core/problems/problems.h"
 #include "core/run.h"
@@ -321,6 +322,9 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
         }
     }
     certificate.order_holds = farthest >= 0 && farthest < 0.15;
+    if (scheme->needs & GM_NEEDS_COMPLEX) {
+        gm_certify_complex(scheme, &certificate);
+    }
     certificate.holds = certificate.order_holds;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_measure *measure = &certificate.claims[bit];

@@ -11,6 +11,7 @@ struct gm_loops;
 struct gm_scheme;
 struct gm_settings;
 struct gm_problem;
+struct gm_flow;
 
 /* Instruction sets that loops are compiled for. */
 enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
@@ -79,6 +80,7 @@ struct gm_exact {
 enum gm_facet {
     GM_NEEDS_ODE = 1u << 0,
     GM_NEEDS_SPLIT = 1u << 1,
+    GM_NEEDS_COMPLEX = 1u << 6,
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain
@@ -91,6 +93,7 @@ struct gm_problem {
     const struct gm_split *split;
     const struct gm_hamiltonian *hamiltonian;
     const struct gm_exact *exact;
+    const struct gm_flow *flow; /* a simplicial complex and the flow on it: core/flow/flow.h */
     const struct gm_loops *loops[GM_ISA_COUNT]; /* made of the problem's kernels by core/kernel/loops.c */
 };
 

@@ -24,6 +24,9 @@ static const struct {
     {"V", "keeps volume"},
     {"M", "multisymplectic"},
     {"G", "equivariant"},
+    {"D", "divergence-free"},
+    {"C", "keeps constants"},
+    {"B", "closes budgets"},
 };
 
 const char *gm_claim_letter(unsigned bit) { return claims[bit].letter; }
@@ -79,7 +82,8 @@ const struct gm_scheme *gm_scheme_find(const char *name)
 
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
-    const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0);
+    const unsigned has = (problem->ode ? GM_NEEDS_ODE : 0) | (problem->split ? GM_NEEDS_SPLIT : 0) |
+                         (problem->flow ? GM_NEEDS_COMPLEX : 0);
     const struct gm_loops *loops = problem->loops[GM_ISA_BASELINE];
     return (scheme->needs & ~has) == 0 && (scheme->family->loop || (loops && loops->family[scheme->family->id]));
 }

@@ -51,6 +51,9 @@ static void states_agree(void **unused) {
 static void every_scheme_has_a_reference(void **unused) {
     (void)unused;
     for (size_t s = 0; s < gm_scheme_count(); s++) {
+        if (gm_scheme_at(s)->needs & GM_NEEDS_COMPLEX) {
+            continue; /* unit_flow holds these to theirs */
+        }
         size_t found = 0;
         for (size_t i = 0; i < CASES; i++) {
             found += strcmp(reference_ode[i].scheme, gm_scheme_at(s)->name) == 0;
