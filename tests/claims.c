@@ -70,7 +70,8 @@ static void properties_that_are_false(void **unused) {
     } wrong[] = {
         {"symplectic-euler", GM_SYMMETRIC},  {"rk4", GM_SYMMETRIC},       {"rk4", GM_REVERSIBLE},
         {"midpoint", GM_KEEPS_ENERGY},       {"verlet", GM_KEEPS_ENERGY}, {"rk4", GM_KEEPS_QUADRATIC},
-        {"trapezoidal", GM_KEEPS_QUADRATIC},
+        {"trapezoidal", GM_KEEPS_QUADRATIC}, {"semi-implicit", GM_KEEPS_QUADRATIC},
+        {"steady", GM_KEEPS_LINEAR},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct gm_scheme scheme = changed(wrong[i].scheme);

@@ -76,6 +76,8 @@ static void lay_rectangle(struct pattern *pattern, const struct gm_rectangle *r)
     const long n = r->edges, m = r->strips;
     const double h = strip_height(r), a = base(r), c = wall_distance(h, a), decay = 0.6;
     const double length = a * (double)n, depth = h * (double)m;
+    /* the bend from the other wall takes a little of c, which matters in short rows alone */
+    const double rest = n < 6 ? 1 / (1 - pow(decay, (double)(n - 1))) : 1;
     for (long row = 0; row <= m; row++) {
         const double across = row == m ? depth : h * (double)row;
         for (long k = 0; row % 2 == 0 && k <= n; k++) {
@@ -83,7 +85,7 @@ static void lay_rectangle(struct pattern *pattern, const struct gm_rectangle *r)
         }
         for (long k = 0; row % 2 == 1 && k < n; k++) {
             const double bend = pow(decay, (double)k) - pow(decay, (double)(n - 1 - k));
-            add_point(pattern, r, ((double)k + 0.5) * a + (c - a / 2) * bend, across);
+            add_point(pattern, r, ((double)k + 0.5) * a + (c - a / 2) * rest * bend, across);
         }
     }
     for (long row = 0; row < m; row++) {

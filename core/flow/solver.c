@@ -367,7 +367,7 @@ static bool solve_directly(struct gm_flow_solver *solver, const double *omega)
 
 bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned long *iterations)
 {
-    const double tolerance = 1e-11;
+    const double tolerance = 1e-13;
     const size_t n = solver->unknowns.count + solver->soft;
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(solver->b[i])) {
