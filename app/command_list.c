@@ -133,6 +133,10 @@ static void list_figures(const struct gm_options *options)
 
 static void range_text(const struct gm_parameter *row, char *text, size_t size)
 {
+    if (row->type == GM_TEXT) {
+        snprintf(text, size, "a word");
+        return;
+    }
     if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
         size_t used = 0;
         text[0] = '\0';
@@ -154,8 +158,8 @@ static void list_parameter(const struct gm_parameter *row, bool json, const char
     char range[128];
     range_text(row, range, sizeof range);
     if (!json) {
-        printf("  %-14s %-12s %-24s %s%s%s\n", row->key, row->standard, range, row->help, row->unit[0] ? ", in " : "",
-               row->unit);
+        printf("  %-14s %-12s %-24s %s%s%s\n", row->key, row->standard, range, row->help,
+               row->unit[0] ? ", in " : "", row->unit);
         return;
     }
     printf("%s{", comma);
@@ -196,7 +200,10 @@ static void list_scene(const struct gm_scene *scene, const struct gm_options *op
     }
     printf(options->json ? "],\"observables\":[" : "\nobservables\n");
     for (size_t i = 0; i < scene->observable_count; i++) {
-        printf(options->json ? "%s\"%s\"" : "%s%s", i ? (options->json ? "," : ", ") : options->json ? "" : "  ",
+        printf(options->json ? "%s\"%s\"" : "%s%s",
+               i               ? (options->json ? "," : ", ")
+               : options->json ? ""
+                               : "  ",
                scene->observables[i].key);
     }
     printf(options->json ? "],\"schemes\":[" : "\n\nschemes that fit           order claims\n");

@@ -27,7 +27,9 @@ static const struct row rows[] = {
     {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
     {"--max", FLAG, GM_RUN, AT(maximum), "", "with NAME_max, the maximum over all steps"},
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},
-    {"--every", WHOLE, GM_RUN | GM_RENDER, AT(every), "K", "run: a row of the history, render: a frame, every K steps"},
+    {"--profile", TEXT, GM_RUN, AT(profile), "FILE", "write profiles of the final state to FILE"},
+    {"--every", WHOLE, GM_RUN | GM_RENDER, AT(every), "K",
+     "run: a row of the history, render: a frame, every K steps"},
     {"--frames", WHOLE, GM_RENDER, AT(frames), "N", "N frames, evenly spaced in model time"},
     {"--fps", NUMBER, GM_RENDER, AT(fps), "F", "frames a second of the movie (30)"},
     {"--rate", NUMBER, GM_RENDER, AT(rate), "R", "model time a second of the movie"},
@@ -42,7 +44,10 @@ static const struct row rows[] = {
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
-static const char *name_at(size_t i, const void *data) { return (void)data, rows[i].name; }
+static const char *name_at(size_t i, const void *data)
+{
+    return (void)data, rows[i].name;
+}
 
 static bool refuse(char *message, const char *name, const char *value, const char *what)
 {
@@ -80,8 +85,8 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         return true;
     case SIZE: {
         int width = 0, height = 0, used = 0;
-        if (sscanf(value, "%5dx%5d%n", &width, &height, &used) != 2 || value[used] || width < 64 || height < 64 ||
-            width > 16384 || height > 16384) {
+        if (sscanf(value, "%5dx%5d%n", &width, &height, &used) != 2 || value[used] || width < 64 ||
+            height < 64 || width > 16384 || height > 16384) {
             return refuse(message, row->name, value, "is not WIDTHxHEIGHT, each from 64 to 16384");
         }
         options->width = width;
@@ -109,8 +114,13 @@ static const struct row *find(const char *word, size_t length)
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message)
 {
-    *options = (struct gm_options){
-        .fps = NAN, .rate = NAN, .from = NAN, .at = NAN, .width = 1280, .height = 720, .theme = GM_THEME_LIGHT};
+    *options = (struct gm_options){.fps = NAN,
+                                   .rate = NAN,
+                                   .from = NAN,
+                                   .at = NAN,
+                                   .width = 1280,
+                                   .height = 720,
+                                   .theme = GM_THEME_LIGHT};
     options->words = calloc((size_t)argc + 1, sizeof *options->words);
     if (!options->words) {
         snprintf(message, GM_MESSAGE, "not enough memory");
@@ -126,8 +136,8 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
         const struct row *row = find(word, equals ? (size_t)(equals - word) : strlen(word));
         if (!row || !(row->commands & command)) {
             const char *near = row ? NULL : gm_nearest(word, ROWS, name_at, NULL);
-            snprintf(message, GM_MESSAGE, "%s option %.60s%s%s", row ? "this command has no" : "there is no", word,
-                     near ? "; did you mean " : "", near ? near : "");
+            snprintf(message, GM_MESSAGE, "%s option %.60s%s%s", row ? "this command has no" : "there is no",
+                     word, near ? "; did you mean " : "", near ? near : "");
             return false;
         }
         const char *value = "";

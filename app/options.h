@@ -20,13 +20,13 @@ enum gm_command {
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
     int json, state, maximum, strict, longer, quick;
-    const char *csv, *out, *movie;
+    const char *csv, *profile, *out, *movie;
     long every, frames;
-    double fps, rate;      /* NAN: not given */
-    double from, at;       /* NAN: not given */
-    int width, height;     /* 1280 x 720 */
-    enum gm_theme theme;   /* light */
-    char **words;          /* what is left: scene, key=value, names */
+    double fps, rate;    /* NAN: not given */
+    double from, at;     /* NAN: not given */
+    int width, height;   /* 1280 x 720 */
+    enum gm_theme theme; /* light */
+    char **words;        /* what is left: scene, key=value, names */
     int word_count;
 };
 

@@ -44,7 +44,7 @@ static char *scheme_names(const struct gm_request *request)
 /* Every parameter of every lane, a line each. */
 static char *all_parameters(const struct gm_request *request)
 {
-    char *text = NULL, value[96];
+    char *text = NULL, value[GM_TEXT_SIZE];
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
     if (!stream) {
@@ -68,21 +68,20 @@ static char *all_parameters(const struct gm_request *request)
     return text;
 }
 
-bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width, int height,
-                        enum gm_theme theme, const char *backend)
+bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width,
+                        int height, enum gm_theme theme, const char *backend)
 {
     *provenance = (struct gm_provenance){0};
-    const bool good =
-        take(provenance, "Title", format("%s", request->scene->title)) &&
-        take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
-        take(provenance, "geomint:scene", format("%s", request->scene->name)) &&
-        take(provenance, "geomint:schemes", scheme_names(request)) &&
-        take(provenance, "geomint:parameters", all_parameters(request)) &&
-        take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request)) &&
-        take(provenance, GM_KEY_CHANGES, gm_changes_format(request)) &&
-        take(provenance, GM_KEY_PICTURE,
-             format("%dx%d %s", width, height, theme == GM_THEME_DARK ? "dark" : "light")) &&
-        take(provenance, "geomint:context", format("%s", backend));
+    const bool good = take(provenance, "Title", format("%s", request->scene->title)) &&
+                      take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
+                      take(provenance, "geomint:scene", format("%s", request->scene->name)) &&
+                      take(provenance, "geomint:schemes", scheme_names(request)) &&
+                      take(provenance, "geomint:parameters", all_parameters(request)) &&
+                      take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request)) &&
+                      take(provenance, GM_KEY_CHANGES, gm_changes_format(request)) &&
+                      take(provenance, GM_KEY_PICTURE,
+                           format("%dx%d %s", width, height, theme == GM_THEME_DARK ? "dark" : "light")) &&
+                      take(provenance, "geomint:context", format("%s", backend));
     if (!good) {
         gm_provenance_close(provenance);
     }

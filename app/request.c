@@ -33,9 +33,15 @@ __attribute__((format(printf, 2, 3))) static bool refuse(char *message, const ch
     return false;
 }
 
-static const char *scene_name(size_t i, const void *data) { return (void)data, gm_scene_at(i)->name; }
+static const char *scene_name(size_t i, const void *data)
+{
+    return (void)data, gm_scene_at(i)->name;
+}
 
-static const char *scheme_name(size_t i, const void *data) { return (void)data, gm_scheme_at(i)->name; }
+static const char *scheme_name(size_t i, const void *data)
+{
+    return (void)data, gm_scheme_at(i)->name;
+}
 
 static const char *const app_keys[] = {"scheme", "steps", "zip"};
 enum { APP_KEYS = 3 };
@@ -173,7 +179,9 @@ static bool set_parameter(const struct gm_parameter *row, void *owner, const cha
             return refuse(message, "%s=%.60s is none of: %s", row->key, text, choices);
         }
         return refuse(message, "%s=%.60s is not %s", row->key, text,
-                      row->type == GM_INTEGER ? "a whole number" : "a number");
+                      row->type == GM_TEXT      ? "a word of at most 255 bytes without blanks"
+                      : row->type == GM_INTEGER ? "a whole number"
+                                                : "a number");
     case GM_OUT_OF_RANGE:
         break;
     }
@@ -189,7 +197,8 @@ static bool set_parameter(const struct gm_parameter *row, void *owner, const cha
                   nearest);
 }
 
-static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, const char *name, char *message)
+static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, const char *name,
+                       char *message)
 {
     spec->scheme = gm_scheme_find(name);
     if (!spec->scheme) {
@@ -268,8 +277,8 @@ static void show(const struct lists *lists, size_t lane, struct gm_lane_spec *sp
                 shown->panel = index;
             }
         } else if (!lists->zip) {
-            shown->colour = shown->colour == lane && !shown->colour_name[0] ? index
-                                                                           : shown->colour * list->count + index;
+            shown->colour =
+                shown->colour == lane && !shown->colour_name[0] ? index : shown->colour * list->count + index;
             if (strcmp(list->key, "scheme") == 0) {
                 snprintf(shown->colour_name, sizeof shown->colour_name, "%s", spec->scheme->title);
             } else {
@@ -367,7 +376,11 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
         if (!scene->setup(spec->parameters, &problem, message)) {
             return false;
         }
-        if (!gm_scheme_fits(spec->scheme, &problem)) {
+        const bool fits = gm_scheme_fits(spec->scheme, &problem);
+        if (scene->close) {
+            scene->close(&problem);
+        }
+        if (!fits) {
             return refuse(message, "scheme %s does not fit scene %s; geomint list %s names those that do",
                           spec->scheme->name, scene->name, scene->name);
         }

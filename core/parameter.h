@@ -13,18 +13,21 @@ enum gm_type {
     GM_INTEGER, /* stored as long */
     GM_CHOICE,  /* stored as int, an index into choices */
     GM_BOOLEAN, /* stored as int, 0 or 1; written no, yes */
+    GM_TEXT,    /* stored as char[GM_TEXT_SIZE]; one word without comma */
 };
+
+enum { GM_TEXT_SIZE = 256 };
 
 struct gm_parameter {
     const char *key;
     const char *unit; /* "" if it has none */
     const char *help;
     enum gm_type type;
-    size_t offset;            /* of the value in the owner's struct */
-    const char *standard;     /* the default, as it would be typed ("pi/12") */
-    double lowest, highest;   /* inclusive range of a real or an integer */
-    bool logarithmic;         /* a slider moves by factors */
-    bool live;                /* a change acts on the present state; otherwise the run starts again */
+    size_t offset;              /* of the value in the owner's struct */
+    const char *standard;       /* the default, as it would be typed ("pi/12") */
+    double lowest, highest;     /* inclusive range of a real or an integer */
+    bool logarithmic;           /* a slider moves by factors */
+    bool live;                  /* a change acts on the present state; otherwise the run starts again */
     const char *const *choices; /* NULL-terminated, for GM_CHOICE */
 };
 
@@ -45,7 +48,8 @@ char *gm_number_format(double value, char *text, size_t size);
 /* Reads text as a value of row and stores it in owner. owner is unchanged unless GM_PARSED is returned. */
 enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, const char *text);
 
-/* The value of row in owner as a double (choices and booleans as their index). */
+/* The value of row in owner as a double (choices and booleans as their index; of a text a
+   number that differs where texts differ). */
 double gm_parameter_get(const struct gm_parameter *row, const void *owner);
 
 /* Writes the value of row in owner as it would be typed. Returns text. */

@@ -18,6 +18,7 @@ enum gm_role {
     GM_GRID,
     GM_INITIAL, /* the initial state: red */
     GM_EXACT,   /* the exact solution: grey */
+    GM_OVER,    /* lines over a field of colours: near white in every theme */
     GM_LANE,    /* GM_LANE + i is the colour of lane i, 0 <= i < GM_LANE_COLOURS */
     GM_ROLE_COUNT = GM_LANE + 6,
 };
@@ -47,7 +48,7 @@ struct gm_style {
 enum gm_map { GM_MAP_SEQUENTIAL, GM_MAP_DIVERGING }; /* perceptually uniform colour maps */
 
 enum gm_mark_kind {
-    GM_MARK_LINE,    /* points joined; closed if style says so */
+    GM_MARK_LINE, /* points joined; closed if style says so */
     GM_MARK_POINTS,
     GM_MARK_POLYGON, /* filled, even-odd */
     GM_MARK_MESH,    /* triangles coloured by a value at each vertex */
@@ -87,13 +88,13 @@ enum gm_place { GM_PLACE_STATE, GM_PLACE_GRAPH };
 
 struct gm_panel {
     enum gm_place place;
-    const char *title;     /* "" for none */
-    const char *note;      /* one line under the title, in secondary ink; "" for none */
+    const char *title; /* "" for none */
+    const char *note;  /* one line under the title, in secondary ink; "" for none */
     enum gm_role title_role;
     struct gm_axis x, y;
-    bool equal;            /* one unit is equally long on both axes */
-    bool axes;             /* axes, ticks and grid are drawn */
-    bool colour_bar;       /* of the first mesh or image */
+    bool equal;      /* one unit is equally long on both axes */
+    bool axes;       /* axes, ticks and grid are drawn */
+    bool colour_bar; /* of the first mesh or image */
     const char *colour_bar_label;
     struct gm_mark *first, *last;
     struct gm_panel *next;
@@ -119,7 +120,8 @@ void *gm_picture_memory(struct gm_picture *picture, size_t size);
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
-const char *gm_picture_text(struct gm_picture *picture, const char *format, ...);
+const char *
+gm_picture_text(struct gm_picture *picture, const char *format, ...);
 
 struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, const char *title);
 

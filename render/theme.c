@@ -15,6 +15,7 @@ static const struct gm_rgb roles[GM_THEME_COUNT][GM_ROLE_COUNT] =
                 [GM_GRID] = {0xe4, 0xe4, 0xdf},
                 [GM_INITIAL] = {0xd0, 0x2f, 0x2f},
                 [GM_EXACT] = {0xa4, 0xa8, 0xb0},
+                [GM_OVER] = {0xf4, 0xf4, 0xf2},
                 [GM_LANE] = {0x03, 0x79, 0xdb},
                 [GM_LANE + 1] = {0xec, 0x51, 0x00},
                 [GM_LANE + 2] = {0x1a, 0xa7, 0x70},
@@ -30,6 +31,7 @@ static const struct gm_rgb roles[GM_THEME_COUNT][GM_ROLE_COUNT] =
                 [GM_GRID] = {0x2a, 0x2e, 0x36},
                 [GM_INITIAL] = {0xff, 0x5f, 0x57},
                 [GM_EXACT] = {0x6c, 0x72, 0x7d},
+                [GM_OVER] = {0xf4, 0xf4, 0xf2},
                 [GM_LANE] = {0x83, 0xd1, 0xff},
                 [GM_LANE + 1] = {0xff, 0xa2, 0x26},
                 [GM_LANE + 2] = {0x72, 0xec, 0xb1},
@@ -39,6 +41,7 @@ static const struct gm_rgb roles[GM_THEME_COUNT][GM_ROLE_COUNT] =
             },
 };
 
-struct gm_rgb gm_theme_colour(enum gm_theme theme, enum gm_role role) {
+struct gm_rgb gm_theme_colour(enum gm_theme theme, enum gm_role role)
+{
     return roles[theme][role];
 }

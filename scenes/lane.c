@@ -8,7 +8,10 @@
 
 enum { MOST_OBSERVABLES = 64 };
 
-static const struct gm_timing *timing(const struct gm_lane *lane) { return lane->parameters; }
+static const struct gm_timing *timing(const struct gm_lane *lane)
+{
+    return lane->parameters;
+}
 
 struct gm_view gm_lane_view(const struct gm_lane *lane)
 {
@@ -72,8 +75,9 @@ static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
         if (entries->count > 0) {
             const double last = entries->times[entries->count - 1];
             const double interval = track->interval(lane->parameters) * (double)entries->every;
-            const bool due = interval > 0 ? intervals(lane, interval, view->t) != intervals(lane, interval, last)
-                                          : view->t != last;
+            const bool due = interval > 0
+                                 ? intervals(lane, interval, view->t) != intervals(lane, interval, last)
+                                 : view->t != last;
             if (!due) {
                 continue;
             }
@@ -110,6 +114,9 @@ void gm_lane_close(struct gm_lane *lane)
     free(lane->entries);
     gm_history_close(&lane->history);
     gm_run_close(lane->run);
+    if (lane->scene->close) {
+        lane->scene->close(&lane->problem);
+    }
     free(lane->start);
     free(lane->parameters);
     free(lane);
@@ -178,8 +185,8 @@ static bool prepare(struct gm_lane *lane, char *sentence)
         return refuse(sentence, "not enough memory");
     }
     scene->start(lane->parameters, &lane->problem, lane->start);
-    lane->run = gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt,
-                            lane->start);
+    lane->run =
+        gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
     if (!lane->run || !gm_history_open(&lane->history, scene->observable_count) || !open_tracks(lane)) {
         return refuse(sentence, "not enough memory");
     }
@@ -260,9 +267,15 @@ void gm_lane_set_step(struct gm_lane *lane, double dt)
     gm_run_set_step(lane->run, dt);
 }
 
-size_t gm_lane_snapshot_size(const struct gm_lane *lane) { return gm_run_snapshot_size(lane->run); }
+size_t gm_lane_snapshot_size(const struct gm_lane *lane)
+{
+    return gm_run_snapshot_size(lane->run);
+}
 
-void gm_lane_save(const struct gm_lane *lane, void *snapshot) { gm_run_save(lane->run, snapshot); }
+void gm_lane_save(const struct gm_lane *lane, void *snapshot)
+{
+    gm_run_save(lane->run, snapshot);
+}
 
 void gm_lane_load(struct gm_lane *lane, const void *snapshot)
 {
@@ -293,5 +306,12 @@ bool gm_scene_fits(const struct gm_scene *scene, const void *parameters, const s
 {
     struct gm_problem problem = {0};
     char sentence[GM_SENTENCE];
-    return scene->setup(parameters, &problem, sentence) && gm_scheme_fits(scheme, &problem);
+    if (!scene->setup(parameters, &problem, sentence)) {
+        return false;
+    }
+    const bool fits = gm_scheme_fits(scheme, &problem);
+    if (scene->close) {
+        scene->close(&problem);
+    }
+    return fits;
 }

@@ -68,8 +68,7 @@ static void good_files(void **unused)
 }
 
 #define HEAD "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
-#define SQUARE                                                                                                \
-    "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1.1 1 0\n0 1.2 0\n$EndNodes\n"
+#define SQUARE "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1.1 1 0\n0 1.2 0\n$EndNodes\n"
 #define ELEMENTS(text) "$Elements\n" text "$EndElements\n"
 
 static void sentences(void **unused)
@@ -97,15 +96,17 @@ static void sentences(void **unused)
         {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2 2\n"), GM_MESH_DEGENERATE, 19},
         {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 2 4\n"), GM_MESH_OVERLAP, 20},
         {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2\n3\n"), GM_MESH_SYNTAX, 20},
-        {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 1\n1 1 2 3\n"), GM_MESH_SYNTAX, 20},
+        {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 1\n1 1 2 3\n"), GM_MESH_SYNTAX, 19},
         {HEAD "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n.5 1 .3\n$EndNodes\n" ELEMENTS(
              "1 1 1 1\n2 1 2 1\n1 1 2 3\n"),
          GM_MESH_THREE_D, 9},
-        {HEAD "$Nodes\n1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n.5 1 0\n-1 0 0\n-.5 -1 0\n$EndNodes\n"
-              ELEMENTS("1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 4 5\n"),
+        {HEAD
+         "$Nodes\n1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n.5 1 0\n-1 0 0\n-.5 -1 0\n$EndNodes\n" ELEMENTS(
+             "1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 4 5\n"),
          GM_MESH_PINCHED, 0},
-        {HEAD "$Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n.5 1 0\n5 0 0\n6 0 0\n5.5 1 0\n$EndNodes\n"
-              ELEMENTS("1 2 1 2\n2 1 2 2\n1 1 2 3\n2 4 5 6\n"),
+        {HEAD
+         "$Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n.5 1 0\n5 0 0\n6 0 0\n5.5 1 0\n$EndNodes\n" ELEMENTS(
+             "1 2 1 2\n2 1 2 2\n1 1 2 3\n2 4 5 6\n"),
          GM_MESH_PIECES, 0},
         {HEAD "$Comments\nnever ends\n", GM_MESH_TRUNCATED, 6},
         {HEAD "Nodes\n", GM_MESH_SYNTAX, 4},

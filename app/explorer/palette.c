@@ -1,21 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app/explorer/palette.h"
 
-static int distance(struct gm_rgb a, struct gm_rgb b) {
+static int distance(struct gm_rgb a, struct gm_rgb b)
+{
     int r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b;
     return 2 * r * r + 4 * g * g + 3 * blue * blue;
 }
 
 /* The levels of the colour cube: 0, 95, 135, 175, 215, 255. */
-static int cube_step(int value) {
+static int cube_step(int value)
+{
     return value < 48 ? 0 : value < 115 ? 1 : (value - 35) / 40;
 }
 
-static uint8_t cube_level(int step) {
+static uint8_t cube_level(int step)
+{
     return (uint8_t)(step == 0 ? 0 : 55 + 40 * step);
 }
 
-int gm_palette_256(struct gm_rgb colour) {
+int gm_palette_256(struct gm_rgb colour)
+{
     int r = cube_step(colour.r), g = cube_step(colour.g), b = cube_step(colour.b);
     struct gm_rgb cube = {cube_level(r), cube_level(g), cube_level(b)};
     int mean = (colour.r + colour.g + colour.b) / 3;
@@ -32,7 +36,8 @@ static const struct gm_rgb sixteen[16] = {
     {92, 92, 255}, {255, 0, 255},   {0, 255, 255},   {255, 255, 255},
 };
 
-static int nearest_16(struct gm_rgb colour) {
+static int nearest_16(struct gm_rgb colour)
+{
     int best = 0;
     for (int i = 1; i < 16; i++) {
         if (distance(colour, sixteen[i]) < distance(colour, sixteen[best]))
@@ -49,6 +54,7 @@ static const uint8_t roles[GM_THEME_COUNT][GM_ROLE_COUNT][2] = {
                        [GM_GRID] = {8, 8},
                        [GM_INITIAL] = {9, 1},
                        [GM_EXACT] = {7, 8},
+                       [GM_OVER] = {15, 7},
                        [GM_LANE + 0] = {14, 6},
                        [GM_LANE + 1] = {11, 3},
                        [GM_LANE + 2] = {10, 2},
@@ -61,6 +67,7 @@ static const uint8_t roles[GM_THEME_COUNT][GM_ROLE_COUNT][2] = {
                         [GM_GRID] = {7, 7},
                         [GM_INITIAL] = {1, 9},
                         [GM_EXACT] = {8, 7},
+                        [GM_OVER] = {15, 7},
                         [GM_LANE + 0] = {4, 12},
                         [GM_LANE + 1] = {3, 11},
                         [GM_LANE + 2] = {2, 10},
@@ -69,21 +76,24 @@ static const uint8_t roles[GM_THEME_COUNT][GM_ROLE_COUNT][2] = {
                         [GM_LANE + 5] = {0, 8}},
 };
 
-int gm_palette_16(enum gm_theme theme, struct gm_rgb colour, enum gm_role role) {
+int gm_palette_16(enum gm_theme theme, struct gm_rgb colour, enum gm_role role)
+{
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
     /* distances are squares: below a third of the square is below .58 of the way */
     bool faded = 3 * distance(colour, paper) < distance(gm_theme_colour(theme, role), paper);
     return roles[theme][role][faded];
 }
 
-int gm_palette_ground(enum gm_theme theme, struct gm_rgb colour) {
+int gm_palette_ground(enum gm_theme theme, struct gm_rgb colour)
+{
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
     if (distance(colour, paper) < 4000)
         return roles[theme][GM_PAPER][0];
     return nearest_16(colour);
 }
 
-bool gm_palette_is_ink(enum gm_theme theme, struct gm_rgb colour) {
+bool gm_palette_is_ink(enum gm_theme theme, struct gm_rgb colour)
+{
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER), ink = gm_theme_colour(theme, GM_INK);
     return 16 * distance(colour, paper) > distance(ink, paper);
 }

@@ -7,11 +7,13 @@
 double gm_slider_position(const struct gm_parameter *row, const void *owner)
 {
     double value = gm_parameter_get(row, owner), low = row->lowest, high = row->highest;
-    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN || !(high > low) || !isfinite(high - low))
+    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN || row->type == GM_TEXT || !(high > low) ||
+        !isfinite(high - low))
         return -1;
     if (row->logarithmic && low <= 0) /* a range from 0 on has no logarithm; ten decades stand for it */
         low = high * 1e-10;
-    double position = row->logarithmic ? log(fmax(value, low) / low) / log(high / low) : (value - low) / (high - low);
+    double position =
+        row->logarithmic ? log(fmax(value, low) / low) / log(high / low) : (value - low) / (high - low);
     return fmin(fmax(position, 0), 1);
 }
 
@@ -34,8 +36,8 @@ static double next_by_ratio(double value, int direction)
     return direction > 0 ? 12 * scale : 0.8 * scale;
 }
 
-/* The distance of the values of a linear slider: 1, 2 or 5 times a power of ten. Ranges are often far wider than what
-   is of use, so it is a tenth of the value or of its default, whichever is larger. */
+/* The distance of the values of a linear slider: 1, 2 or 5 times a power of ten. Ranges are often far wider
+   than what is of use, so it is a tenth of the value or of its default, whichever is larger. */
 static double linear_step(const struct gm_parameter *row, double value)
 {
     double range = row->highest - row->lowest, standard = 0;
@@ -67,10 +69,13 @@ static bool next_choice(const struct gm_parameter *row, const void *owner, int d
     return true;
 }
 
-bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction, char text[GM_VALUE_TEXT])
+bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction,
+                    char text[GM_VALUE_TEXT])
 {
     if (row->type == GM_CHOICE || row->type == GM_BOOLEAN)
         return next_choice(row, owner, direction, text);
+    if (row->type == GM_TEXT)
+        return false;
     double value = gm_parameter_get(row, owner), next;
     if (row->logarithmic && value > 0)
         next = next_by_ratio(value, direction);
