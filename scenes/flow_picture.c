@@ -532,7 +532,7 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     picture->subtitle = look->subtitle(picture, lanes[0]);
     gm_draw_clock(picture, lanes, count);
     if (look->clock_unit[0]) {
-        picture->clock = gm_picture_text(picture, "%s %s", picture->clock, look->clock_unit);
+        picture->clock = gm_picture_text(picture, "t = %.2f %s", lanes[0]->run->t, look->clock_unit);
     }
     if (own->show == GM_SHOW_CONVERGENCE && look->errors) {
         draw_convergence(picture, lanes, count, look);

@@ -93,8 +93,8 @@ static void explain(const char *what, const struct gm_mesh_fault *fault, char *s
     case GM_MESH_NOT_DELAUNAY:
         snprintf(
             sentence, GM_SENTENCE,
-            "%.100s%s: triangle %ld (nodes %ld %ld %ld) has an angle of %.1f degrees and a dual edge that is not "
-            "positive; the mesh must be Delaunay, without obtuse angles at its boundary",
+            "%.80s%s: triangle %ld (nodes %ld %ld %ld) has an angle of %.1f degrees and a dual edge that is not "
+            "positive; the mesh must be Delaunay",
             what, where, fault->triangle, n[0], n[1], n[2], fault->value);
         return;
     case GM_MESH_DUAL_CELL:
