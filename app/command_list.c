@@ -133,6 +133,10 @@ static void list_figures(const struct gm_options *options)
 
 static void range_text(const struct gm_parameter *row, char *text, size_t size)
 {
+    if (row->type == GM_TEXT) {
+        snprintf(text, size, "a word");
+        return;
+    }
     if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
         size_t used = 0;
         text[0] = '\0';

@@ -23,15 +23,33 @@ static void print_json_number(double value)
     }
 }
 
+static void print_json_text(const char *text)
+{
+    putchar('"');
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\') {
+            putchar('\\');
+        }
+        if ((unsigned char)*text < ' ') {
+            printf("\\u%04x", (unsigned)*text);
+        } else {
+            putchar(*text);
+        }
+    }
+    putchar('"');
+}
+
 static void print_json_parameters(const struct gm_lane *lane)
 {
     const struct gm_scene *scene = lane->scene;
-    char text[96];
+    char text[GM_TEXT_SIZE];
     printf("\"parameters\":{");
     for (size_t i = 0; i < scene->parameter_count; i++) {
         const struct gm_parameter *row = &scene->parameters[i];
         printf("%s\"%s\":", i ? "," : "", row->key);
-        if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
+        if (row->type == GM_TEXT) {
+            print_json_text(gm_parameter_format(row, lane->parameters, text, sizeof text));
+        } else if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
             printf("\"%s\"", gm_parameter_format(row, lane->parameters, text, sizeof text));
         } else {
             print_json_number(gm_parameter_get(row, lane->parameters));
@@ -174,6 +192,24 @@ static bool close_csv(FILE *csv)
     return fclose(csv) == 0 && !failed;
 }
 
+/* The profiles of a lane's final state; the first lane writes the columns' names. */
+static bool write_profile(const char *path, const struct gm_lane *lane, size_t index)
+{
+    FILE *stream = strcmp(path, "-") == 0 ? stdout : fopen(path, index == 0 ? "w" : "a");
+    if (!stream) {
+        return false;
+    }
+    char front[256];
+    snprintf(front, sizeof front, "%s,%zu,%s,%.17g", lane->scene->name, index, lane->scheme->name,
+             lane->run->t);
+    if (index == 0) {
+        fputs("scene,lane,scheme,t," GM_PROFILE_COLUMNS "\n", stream);
+    }
+    const struct gm_view view = gm_lane_view(lane);
+    lane->scene->profile(&view, front, stream);
+    return close_csv(stream);
+}
+
 int gm_command_run(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
@@ -184,6 +220,11 @@ int gm_command_run(const struct gm_options *options)
     }
     if (!gm_request_parse(&request, options->word_count, options->words, 1, message)) {
         gm_complain("%s", message);
+        return GM_EXIT_USAGE;
+    }
+    if (options->profile && !request.scene->profile) {
+        gm_complain("scene %s has no profiles", request.scene->name);
+        gm_request_close(&request);
         return GM_EXIT_USAGE;
     }
     gm_catch_interrupts();
@@ -210,6 +251,10 @@ int gm_command_run(const struct gm_options *options)
                 print_json(&outcome, options);
             } else {
                 print_text(&outcome);
+            }
+            if (options->profile && !write_profile(options->profile, outcome.drive.lane, i)) {
+                gm_complain("%s could not be written: %s", options->profile, strerror(errno));
+                status = GM_EXIT_FILE;
             }
             if (outcome.drive.lane->run->status != GM_OK && status == GM_EXIT_OK) {
                 status = GM_EXIT_NUMERICAL;

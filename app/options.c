@@ -27,6 +27,7 @@ static const struct row rows[] = {
     {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
     {"--max", FLAG, GM_RUN, AT(maximum), "", "with NAME_max, the maximum over all steps"},
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},
+    {"--profile", TEXT, GM_RUN, AT(profile), "FILE", "write profiles of the final state to FILE"},
     {"--every", WHOLE, GM_RUN | GM_RENDER, AT(every), "K",
      "run: a row of the history, render: a frame, every K steps"},
     {"--frames", WHOLE, GM_RENDER, AT(frames), "N", "N frames, evenly spaced in model time"},

@@ -22,7 +22,7 @@ enum gm_command {
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
     int json, state, maximum, strict, longer, quick;
-    const char *csv, *out, *movie, *measure, *region;
+    const char *csv, *profile, *out, *movie, *measure, *region;
     long every, frames;
     double fps, rate;    /* NAN: not given */
     double from, at;     /* NAN: not given */

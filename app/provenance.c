@@ -44,7 +44,7 @@ static char *scheme_names(const struct gm_request *request)
 /* Every parameter of every lane, a line each. */
 static char *all_parameters(const struct gm_request *request)
 {
-    char *text = NULL, value[96];
+    char *text = NULL, value[GM_TEXT_SIZE];
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
     if (!stream) {

@@ -179,7 +179,9 @@ static bool set_parameter(const struct gm_parameter *row, void *owner, const cha
             return refuse(message, "%s=%.60s is none of: %s", row->key, text, choices);
         }
         return refuse(message, "%s=%.60s is not %s", row->key, text,
-                      row->type == GM_INTEGER ? "a whole number" : "a number");
+                      row->type == GM_TEXT      ? "a word of at most 255 bytes without blanks"
+                      : row->type == GM_INTEGER ? "a whole number"
+                                                : "a number");
     case GM_OUT_OF_RANGE:
         break;
     }
@@ -392,7 +394,11 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
             return false;
         }
         spec->scheme = gm_scheme_find_for(spec->scheme->name, &problem);
-        if (!gm_scheme_fits(spec->scheme, &problem)) {
+        const bool fits = gm_scheme_fits(spec->scheme, &problem);
+        if (scene->close) {
+            scene->close(&problem);
+        }
+        if (!fits) {
             return refuse(message, "scheme %s does not fit scene %s; geomint list %s names those that do",
                           spec->scheme->name, scene->name, scene->name);
         }

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "core/certify_complex.h"
 #include "core/certify_field.h"
 #include "core/certify_mesh.h"
 #include "core/certify_parts.h"
@@ -111,6 +112,9 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
                               : scheme->order == 0
                                   ? certificate.order > 0.5
                                   : fabs(certificate.order - scheme->order) < 0.05 * scheme->order;
+    if (scheme->needs & GM_NEEDS_COMPLEX) {
+        gm_certify_complex(scheme, &certificate);
+    }
     certificate.holds = certificate.order_holds;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_measure *result = &certificate.claims[bit];

@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -191,7 +192,29 @@ static void store_double(const struct gm_parameter *row, void *owner, double val
         memcpy(place, &index, sizeof index);
         break;
     }
+    case GM_TEXT:
+        break;
     }
+}
+
+static enum gm_parse store_text(const struct gm_parameter *row, void *owner, const char *text)
+{
+    const size_t length = strlen(text);
+    if (length == 0 || length >= GM_TEXT_SIZE || strpbrk(text, " ,\t\n\r")) {
+        return GM_NOT_UNDERSTOOD;
+    }
+    memcpy((char *)owner + row->offset, text, length + 1);
+    return GM_PARSED;
+}
+
+/* FNV-1a, 32 bits */
+static double text_number(const char *text)
+{
+    uint32_t hash = UINT32_C(2166136261);
+    for (; *text; text++) {
+        hash = (hash ^ (unsigned char)*text) * UINT32_C(16777619);
+    }
+    return hash;
 }
 
 static const char *const booleans[] = {"no", "yes", NULL};
@@ -203,6 +226,9 @@ static const char *const *words_of(const struct gm_parameter *row)
 
 enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, const char *text)
 {
+    if (row->type == GM_TEXT) {
+        return store_text(row, owner, text);
+    }
     if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
         const char *const *words = words_of(row);
         for (int i = 0; words[i]; i++) {
@@ -252,6 +278,9 @@ double gm_parameter_get(const struct gm_parameter *row, const void *owner)
         value = index;
         break;
     }
+    case GM_TEXT:
+        value = text_number(place);
+        break;
     }
     return value;
 }
@@ -259,6 +288,10 @@ double gm_parameter_get(const struct gm_parameter *row, const void *owner)
 char *gm_parameter_format(const struct gm_parameter *row, const void *owner, char *text, size_t size)
 {
     double value = gm_parameter_get(row, owner);
+    if (row->type == GM_TEXT) {
+        snprintf(text, size, "%s", (const char *)owner + row->offset);
+        return text;
+    }
     if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
         snprintf(text, size, "%s", words_of(row)[(int)value]);
         return text;

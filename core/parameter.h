@@ -13,7 +13,10 @@ enum gm_type {
     GM_INTEGER, /* stored as long */
     GM_CHOICE,  /* stored as int, an index into choices */
     GM_BOOLEAN, /* stored as int, 0 or 1; written no, yes */
+    GM_TEXT,    /* stored as char[GM_TEXT_SIZE]; one word without comma */
 };
+
+enum { GM_TEXT_SIZE = 256 };
 
 struct gm_parameter {
     const char *key;
@@ -46,7 +49,8 @@ char *gm_number_format(double value, char *text, size_t size);
 /* Reads text as a value of row and stores it in owner. owner is unchanged unless GM_PARSED is returned. */
 enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, const char *text);
 
-/* The value of row in owner as a double (choices and booleans as their index). */
+/* The value of row in owner as a double (choices and booleans as their index; of a text a
+   number that differs where texts differ). */
 double gm_parameter_get(const struct gm_parameter *row, const void *owner);
 
 /* Writes the value of row in owner as it would be typed. Returns text. */

@@ -17,6 +17,7 @@ struct gm_dispersive;
 struct gm_kdv;
 struct gm_nls;
 struct gm_moving_mesh; /* core/moving_mesh.h */
+struct gm_flow;
 
 /* Instruction sets that loops are compiled for. */
 enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
@@ -135,6 +136,7 @@ enum gm_facet {
     GM_NEEDS_KDV = 1u << 19,        /* u_t + eta u u_x + mu u_xxx = 0 */
     GM_NEEDS_NLS = 1u << 20,        /* i psi_t + psi_xx + |psi|^2 psi = 0 */
     GM_NEEDS_MOVING_MESH = 1u << 11,
+    GM_NEEDS_COMPLEX = 1u << 12,
 };
 
 /* A problem: n components for m members (an ensemble; m = 1 is an ordinary run). The struct is plain
@@ -169,6 +171,7 @@ struct gm_problem {
     const struct gm_nls *nls;
     const struct gm_burgers *burgers;
     const struct gm_moving_mesh *moving_mesh;
+    const struct gm_flow *flow; /* a simplicial complex and the flow on it: core/flow/flow.h */
     const struct gm_loops *loops[GM_ISA_COUNT]; /* made of the problem's kernels by core/kernel/loops.c */
 };
 

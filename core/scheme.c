@@ -24,6 +24,9 @@ static const struct {
     {"V", "keeps volume"},
     {"M", "multisymplectic"},
     {"G", "equivariant"},
+    {"D", "divergence-free"},
+    {"C", "keeps constants"},
+    {"B", "closes budgets"},
 };
 
 const char *gm_claim_letter(unsigned bit)
@@ -145,12 +148,13 @@ static unsigned facets_of(const struct gm_problem *problem)
            (split && split->nystrom ? GM_NEEDS_NYSTROM : 0) | (problem->field ? GM_NEEDS_FIELD : 0) |
            (problem->wave ? GM_NEEDS_WAVE : 0) | (problem->burgers ? GM_NEEDS_BURGERS : 0) |
            (problem->kdv ? GM_NEEDS_KDV : 0) | (problem->nls ? GM_NEEDS_NLS : 0) |
-           (problem->moving_mesh ? GM_NEEDS_MOVING_MESH : 0);
+           (problem->moving_mesh ? GM_NEEDS_MOVING_MESH : 0) | (problem->flow ? GM_NEEDS_COMPLEX : 0);
 }
 
 gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
-    const struct gm_loops *loops = problem->loops[gm_isa_best()];
+    /* the loops of wide registers are for ensembles */
+    const struct gm_loops *loops = problem->loops[problem->m == 1 ? GM_ISA_BASELINE : gm_isa_best()];
     gm_loop *by_kernels = loops ? loops->family[scheme->family->id] : NULL;
     return by_kernels ? by_kernels : scheme->family->loop;
 }

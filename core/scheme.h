@@ -15,8 +15,11 @@ enum gm_claim {
     GM_KEEPS_LINEAR = 1u << 5,    /* every linear invariant */
     GM_KEEPS_VOLUME = 1u << 6,
     GM_MULTISYMPLECTIC = 1u << 7,
-    GM_EQUIVARIANT = 1u << 8, /* commutes with the problem's symmetry group */
-    GM_CLAIM_COUNT = 9,
+    GM_EQUIVARIANT = 1u << 8,      /* commutes with the problem's symmetry group */
+    GM_DIVERGENCE_FREE = 1u << 9,  /* d1 d0 psi = 0: no mass is made */
+    GM_KEEPS_CONSTANTS = 1u << 10, /* a constant scalar stays constant */
+    GM_CLOSES_BUDGET = 1u << 11,   /* the scalar changes by what crosses the boundary */
+    GM_CLAIM_COUNT = 12,
 };
 
 /* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */

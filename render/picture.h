@@ -18,6 +18,7 @@ enum gm_role {
     GM_GRID,
     GM_INITIAL, /* the initial state: red */
     GM_EXACT,   /* the exact solution: grey */
+    GM_OVER,    /* lines over a field of colours: near white in every theme */
     GM_LANE,    /* GM_LANE + i is the colour of lane i, 0 <= i < GM_LANE_COLOURS */
     GM_ROLE_COUNT = GM_LANE + 6,
 };

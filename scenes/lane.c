@@ -241,6 +241,9 @@ void gm_lane_close(struct gm_lane *lane)
     free(lane->behind);
     gm_history_close(&lane->history);
     gm_run_close(lane->run);
+    if (lane->scene->close) {
+        lane->scene->close(&lane->problem);
+    }
     free(lane->start);
     free(lane->parameters);
     free(lane);
@@ -463,5 +466,12 @@ bool gm_scene_fits(const struct gm_scene *scene, const void *parameters, const s
 {
     struct gm_problem problem = {0};
     char sentence[GM_SENTENCE];
-    return scene->setup(parameters, &problem, sentence) && gm_scheme_fits(scheme, &problem);
+    if (!scene->setup(parameters, &problem, sentence)) {
+        return false;
+    }
+    const bool fits = gm_scheme_fits(scheme, &problem);
+    if (scene->close) {
+        scene->close(&problem);
+    }
+    return fits;
 }

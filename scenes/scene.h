@@ -137,6 +137,8 @@ struct gm_scene {
     void (*resolve)(void *parameters);
     /* Fills the problem (n, m, facets) for these parameters; false with a sentence if they contradict. */
     bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);
+    /* Frees what setup made for the problem; NULL if it makes nothing. */
+    void (*close)(struct gm_problem *problem);
     /* Writes the canonical state at t0 (n * m). */
     void (*start)(const void *parameters, const struct gm_problem *problem, double *y);
     /* Instead of start, where the state depends on the scheme, or may not exist: false with a sentence then.
@@ -145,7 +147,12 @@ struct gm_scene {
                        const struct gm_scheme *scheme, double *y, char *sentence);
     /* Draws the lanes, count >= 1, into an empty picture; looks only. */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    /* Writes profiles of a state as rows of CSV, each beginning with `front`; NULL if there are none. The
+       columns are GM_PROFILE_COLUMNS. */
+    void (*profile)(const struct gm_view *view, const char *front, FILE *stream);
 };
+
+#define GM_PROFILE_COLUMNS "profile,x,y,psi,u,v,theta,omega,reference"
 
 size_t gm_scene_count(void);
 const struct gm_scene *gm_scene_at(size_t index);

@@ -119,6 +119,8 @@ static void properties_that_are_false(void **unused)
         {"ftcs", GM_EQUIVARIANT},
         {"lax-wendroff", GM_EQUIVARIANT},
         {"crank-nicolson", GM_EQUIVARIANT},
+        {"semi-implicit", GM_KEEPS_QUADRATIC},
+        {"steady", GM_KEEPS_LINEAR},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct gm_scheme scheme = changed(wrong[i].scheme);

@@ -7,7 +7,8 @@
 double gm_slider_position(const struct gm_parameter *row, const void *owner)
 {
     double value = gm_parameter_get(row, owner), low = row->lowest, high = row->highest;
-    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN || !(high > low) || !isfinite(high - low)) {
+    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN || row->type == GM_TEXT || !(high > low) ||
+        !isfinite(high - low)) {
         return -1;
     }
     if (row->logarithmic && low <= 0) { /* a range from 0 on has no logarithm; ten decades stand for it */
@@ -79,6 +80,9 @@ bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direc
 {
     if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
         return next_choice(row, owner, direction, text);
+    }
+    if (row->type == GM_TEXT) {
+        return false;
     }
     double value = gm_parameter_get(row, owner), next;
     if (row->logarithmic && value > 0) {

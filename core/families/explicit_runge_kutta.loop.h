@@ -39,7 +39,7 @@ GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struc
 #define GM_ABREAST K(ABREAST)
 #include "core/kernel/drive.h"
 
-static struct gm_progress K(explicit_runge_kutta_run)(const struct gm_task *task)
+__attribute__((unused)) static struct gm_progress K(explicit_runge_kutta_run)(const struct gm_task *task)
 {
     const enum gm_explicit_row *row = task->scheme->coefficients;
     switch (*row) {

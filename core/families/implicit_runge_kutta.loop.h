@@ -306,7 +306,7 @@ GM_IMPLICIT_STEP(4)
 #define GM_ABREAST 1
 #include "core/kernel/drive.h"
 
-static struct gm_progress K(implicit_runge_kutta_run)(const struct gm_task *task)
+__attribute__((unused)) static struct gm_progress K(implicit_runge_kutta_run)(const struct gm_task *task)
 {
     const struct gm_implicit_row *row = task->scheme->coefficients;
     const bool compensated = task->carry != NULL;

@@ -52,7 +52,7 @@ GM_INLINE struct gm_progress K(splitting_by_three)(const struct gm_task *task,
     return K(splitting_drive)(task, &known, false);
 }
 
-static struct gm_progress K(splitting_run)(const struct gm_task *task)
+__attribute__((unused)) static struct gm_progress K(splitting_run)(const struct gm_task *task)
 {
     const struct gm_splitting *table = task->scheme->coefficients;
     if (table->count == 3 && table->pieces[0].piece == GM_KICK && table->pieces[1].piece == GM_DRIFT &&

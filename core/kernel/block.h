@@ -50,6 +50,9 @@ GM_INLINE void K(block_load)(struct K(block) * block, const struct gm_task *task
 GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_task *task, size_t first)
 {
     size_t m = task->problem->m;
+    if (first >= m) {
+        return;
+    }
     size_t lanes = first + GM_LANES <= m ? GM_LANES : m - first;
     for (int c = 0; c < GM_COMPONENTS; c++) {
         memcpy(task->out + (size_t)c * m + first, &block->y[c], lanes * sizeof(double));

@@ -12,9 +12,10 @@
 #define GM_DRIVE_NAME_(drive, part) GM_DRIVE_NAME__(drive, part)
 #define GM_DRIVE_NAME__(drive, part) drive##_##part
 
-/* `count` blocks, a constant, from member `first` on; shortens progress where one fails. */
+/* A group of blocks from member `first` on; shortens progress where one fails. Blocks beyond the last member
+   repeat it and are not stored. */
 GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *row, bool compensated,
-                                    size_t first, int count, struct gm_progress *progress)
+                                    size_t first, struct gm_progress *progress)
 {
     const void *parameters = task->problem->parameters;
     const bool stiff = task->problem->ode->stiff;
@@ -22,56 +23,51 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
     struct K(counts) counts[GM_ABREAST];
     struct K(block) block[GM_ABREAST];
 #pragma GCC unroll 8
-    for (int b = 0; b < count; b++) {
-        const size_t rest = task->problem->m - first - (size_t)(b * GM_LANES);
-        counts[b] = (struct K(counts)){.lanes = rest < GM_LANES ? (int)rest : GM_LANES,
+    for (int b = 0; b < GM_ABREAST; b++) {
+        const long rest = (long)task->problem->m - (long)first - b * (long)GM_LANES;
+        counts[b] = (struct K(counts)){.lanes = rest < 0          ? 0
+                                                : rest < GM_LANES ? (int)rest
+                                                                  : GM_LANES,
                                        .continued = task->steps_before > 0};
         K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES));
     }
-    long done = 0;
+    /* after a failure the burst is one step, until it is found */
+    long done = 0, most = GM_BURST;
     while (done < progress->done) {
         const long left = progress->done - done;
-        const long burst = left < GM_BURST ? left : GM_BURST;
+        const long burst = left < most ? left : most;
         struct K(counts) counts_before[GM_ABREAST];
         struct K(block) before[GM_ABREAST];
 #pragma GCC unroll 8
-        for (int b = 0; b < count; b++) {
+        for (int b = 0; b < GM_ABREAST; b++) {
             before[b] = block[b];
             counts_before[b] = counts[b];
         }
-        mask good = K(all)();
+        mask solved = K(all)(), inside = K(all)();
         for (long i = 0; i < burst; i++) {
 #pragma GCC unroll 8
-            for (int b = 0; b < count; b++) {
-                good &= GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
-                good &= K(within)(&block[b], task->limit);
+            for (int b = 0; b < GM_ABREAST; b++) {
+                solved &= GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
+                inside &= K(within)(&block[b], task->limit);
             }
         }
-        if (K(everywhere)(good)) {
+        if (K(everywhere)(solved) && K(everywhere)(inside)) {
             done += burst;
             continue;
         }
+        if (burst == 1) {
+            progress->status = K(everywhere)(solved) ? GM_BLOW_UP : GM_NO_CONVERGENCE;
+            progress->done = done;
+        }
 #pragma GCC unroll 8
-        for (int b = 0; b < count; b++) {
+        for (int b = 0; b < GM_ABREAST; b++) {
             block[b] = before[b];
             counts[b] = counts_before[b];
         }
-        bool failed = false;
-        for (long i = 0; i < burst && !failed; i++) {
-#pragma GCC unroll 8
-            for (int b = 0; b < count && !failed; b++) {
-                mask solved = GM_STEP(row, &block[b], h, parameters, compensated, stiff, &counts[b]);
-                if (!K(everywhere)(solved) || !K(everywhere)(K(within)(&block[b], task->limit))) {
-                    progress->status = K(everywhere)(solved) ? GM_BLOW_UP : GM_NO_CONVERGENCE;
-                    failed = true;
-                }
-            }
-            done += failed ? 0 : 1;
-        }
-        progress->done = done;
+        most = 1;
     }
 #pragma GCC unroll 8
-    for (int b = 0; b < count; b++) {
+    for (int b = 0; b < GM_ABREAST; b++) {
         K(block_store)(&block[b], task, first + (size_t)(b * GM_LANES));
         progress->evaluations += counts[b].evaluations;
         progress->solves += counts[b].solves;
@@ -81,18 +77,8 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
 
 GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *row, bool compensated) {
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
-    const size_t m = task->problem->m;
-    size_t first = 0;
-    if (GM_ABREAST > 1) {
-        for (; m - first > (size_t)(GM_LANES * (GM_ABREAST - 1)); first += (size_t)(GM_LANES * GM_ABREAST)) {
-            GM_DRIVE_NAME(group)(task, row, compensated, first, GM_ABREAST, &progress);
-            if (m - first <= (size_t)(GM_LANES * GM_ABREAST)) {
-                return progress;
-            }
-        }
-    }
-    for (; first < m; first += GM_LANES) {
-        GM_DRIVE_NAME(group)(task, row, compensated, first, 1, &progress);
+    for (size_t first = 0; first < task->problem->m; first += (size_t)(GM_LANES * GM_ABREAST)) {
+        GM_DRIVE_NAME(group)(task, row, compensated, first, &progress);
     }
     return progress;
 }

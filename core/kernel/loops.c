@@ -41,12 +41,21 @@ typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
 #undef GM_PASS_SCALAR
 #include "core/kernel/pass.h"
 
-/* One run takes the scalar loops, an ensemble the loops over lanes. */
+/* One run takes the scalar loops, an ensemble the loops over lanes. A single run gains nothing from wide
+   registers, so its loops are those of the baseline alone. */
+#ifdef GM_BASELINE
 #define GM_DISPATCH(family)                                                                                  \
     static struct gm_progress family##_loop(const struct gm_task *task)                                      \
     {                                                                                                        \
         return task->problem->m == 1 ? family##_run_scalar(task) : family##_run_lanes(task);                 \
     }
+#else
+#define GM_DISPATCH(family)                                                                                  \
+    static struct gm_progress family##_loop(const struct gm_task *task)                                      \
+    {                                                                                                        \
+        return family##_run_lanes(task);                                                                     \
+    }
+#endif
 GM_DISPATCH(explicit_runge_kutta)
 GM_DISPATCH(implicit_runge_kutta)
 #ifdef GM_SEPARABLE

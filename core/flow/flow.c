@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/flow/flow.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/flow/cholesky.h"
+#include "core/flow/unknowns.h"
+
+size_t gm_flow_size(const struct gm_flow *flow)
+{
+    return GM_FLOW_BLOCKS * flow->complex->vertices + 1 + GM_TRACER_NUMBERS * flow->tracers;
+}
+
+const double *gm_flow_block(const struct gm_flow *flow, const double *y, enum gm_flow_block block)
+{
+    return y + (size_t)block * flow->complex->vertices;
+}
+
+double gm_flow_step(const struct gm_flow *flow, const double *y)
+{
+    return y[GM_FLOW_BLOCKS * flow->complex->vertices];
+}
+
+const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t tracer)
+{
+    return y + GM_FLOW_BLOCKS * flow->complex->vertices + 1 + GM_TRACER_NUMBERS * tracer;
+}
+
+struct gm_flow *gm_flow_open(struct gm_complex *complex)
+{
+    struct gm_flow *flow = calloc(1, sizeof *flow);
+    if (!flow) {
+        gm_complex_close(complex);
+        return NULL;
+    }
+    const size_t n = complex->vertices;
+    *flow = (struct gm_flow){
+        .complex = complex,
+        .time_unit = 1,
+        .kind = calloc(n, 1),
+        .psi = calloc(n, sizeof(double)),
+        .sheet = calloc(n, sizeof(double)),
+        .theta_fixed = calloc(n, sizeof(bool)),
+        .theta = calloc(n, sizeof(double)),
+    };
+    if (!flow->kind || !flow->psi || !flow->sheet || !flow->theta_fixed || !flow->theta) {
+        gm_flow_close(flow);
+        return NULL;
+    }
+    return flow;
+}
+
+void gm_flow_close(struct gm_flow *flow)
+{
+    if (!flow) {
+        return;
+    }
+    gm_complex_close(flow->complex);
+    free(flow->kind);
+    free(flow->psi);
+    free(flow->sheet);
+    free(flow->theta_fixed);
+    free(flow->theta);
+    free(flow->inflow.point);
+    free(flow->inflow.psi);
+    free(flow);
+}
+
+double gm_flow_psi_centre(const struct gm_complex *complex, const double *psi, size_t triangle)
+{
+    const int *t = complex->triangle + 3 * triangle;
+    const double *w = complex->weight + 3 * triangle;
+    return w[0] * psi[t[0]] + w[1] * psi[t[1]] + w[2] * psi[t[2]];
+}
+
+static double flux_between(const struct gm_complex *complex, const double *psi, const double *centre,
+                           size_t edge)
+{
+    const int *side = complex->edge_triangle + 2 * edge;
+    const double middle = (psi[complex->edge[2 * edge]] + psi[complex->edge[2 * edge + 1]]) / 2;
+    double value[2];
+    for (int k = 0; k < 2; k++) {
+        value[k] = side[k] < 0 ? middle
+                   : centre    ? centre[side[k]]
+                               : gm_flow_psi_centre(complex, psi, (size_t)side[k]);
+    }
+    return value[0] - value[1];
+}
+
+double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge)
+{
+    return flux_between(complex, psi, NULL, edge);
+}
+
+void gm_flow_fluxes(const struct gm_complex *complex, const double *psi, double *scratch, double *flux)
+{
+    for (size_t t = 0; t < complex->triangles; t++) {
+        scratch[t] = gm_flow_psi_centre(complex, psi, t);
+    }
+    for (size_t e = 0; e < complex->edges; e++) {
+        flux[e] = flux_between(complex, psi, scratch, e);
+    }
+}
+
+void gm_flow_vorticity(const struct gm_flow *flow, const double *psi, double *omega)
+{
+    const struct gm_complex *complex = flow->complex;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        if (flow->kind[v] == GM_VERTEX_SOFT) {
+            continue;
+        }
+        double sum = flow->sheet[v];
+        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+            sum += complex->star1[complex->ring_edge[k]] * (psi[v] - psi[complex->ring_vertex[k]]);
+        }
+        omega[v] = flow->kind[v] == GM_VERTEX_SLIP ? 0 : sum / complex->star0[v];
+    }
+}
+
+void gm_flow_velocity(const struct gm_complex *complex, const double *psi, size_t triangle,
+                      double velocity[2])
+{
+    double p[6];
+    const int *t = complex->triangle + 3 * triangle;
+    gm_complex_corners(complex, triangle, p);
+    const double twice = 2 * complex->area[triangle], first = psi[t[1]] - psi[t[0]],
+                 second = psi[t[2]] - psi[t[0]];
+    velocity[0] = (second * (p[2] - p[0]) - first * (p[4] - p[0])) / twice;
+    velocity[1] = -(first * (p[5] - p[1]) - second * (p[3] - p[1])) / twice;
+}
+
+void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *psi, double *velocities)
+{
+    memset(velocities, 0, 3 * complex->vertices * sizeof *velocities);
+    double *weight = velocities + 2 * complex->vertices;
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double u[2];
+        gm_flow_velocity(complex, psi, t, u);
+        for (int k = 0; k < 3; k++) {
+            const int v = complex->triangle[3 * t + (size_t)k];
+            velocities[2 * v] += complex->area[t] * u[0];
+            velocities[2 * v + 1] += complex->area[t] * u[1];
+            weight[v] += complex->area[t];
+        }
+    }
+    for (size_t v = 0; v < complex->vertices; v++) {
+        velocities[2 * v] /= weight[v];
+        velocities[2 * v + 1] /= weight[v];
+    }
+}
+
+bool gm_flow_is_vorticity_form(const struct gm_flow *flow)
+{
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        if (flow->kind[v] != GM_VERTEX_FREE && flow->kind[v] != GM_VERTEX_SLIP) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Solves K psi = right inside, with the given boundary values; right == NULL: 0. */
+static bool solve_poisson(const struct gm_flow *flow, const double *right, double *psi)
+{
+    struct gm_unknowns unknowns;
+    struct gm_cholesky *factor = NULL;
+    bool good = gm_unknowns_open(&unknowns, flow);
+    if (good && unknowns.count > 0) {
+        factor = gm_unknowns_factor_poisson(&unknowns, flow);
+        double *b = malloc(2 * unknowns.count * sizeof *b);
+        good = factor && b;
+        if (good) {
+            gm_unknowns_solve_poisson(&unknowns, flow, factor, right, b, b + unknowns.count, psi);
+        }
+        free(b);
+    }
+    gm_cholesky_close(factor);
+    gm_unknowns_close(&unknowns);
+    return good;
+}
+
+/* Completes a state whose psi and omega are set. */
+static void complete_start(const struct gm_flow *flow, double *y)
+{
+    const size_t n = flow->complex->vertices;
+    memcpy(y + GM_FLOW_PSI_HALF * n, y, n * sizeof *y);
+    memcpy(y + GM_FLOW_PSI_BEFORE * n, y, n * sizeof *y);
+    memcpy(y + GM_FLOW_OMEGA_USED * n, y + GM_FLOW_OMEGA * n, n * sizeof *y);
+    memcpy(y + GM_FLOW_THETA * n, flow->theta, n * sizeof *y);
+    memcpy(y + GM_FLOW_THETA_BEFORE * n, flow->theta, n * sizeof *y);
+    memset(y + GM_FLOW_BLOCKS * n, 0, (1 + GM_TRACER_NUMBERS * flow->tracers) * sizeof *y);
+    /* tracers are strewn evenly: the golden ratio's multiples over the triangles, by area */
+    const struct gm_complex *complex = flow->complex;
+    double *tracer = y + GM_FLOW_BLOCKS * n + 1, before = 0;
+    size_t t = 0;
+    for (size_t i = 0; i < flow->tracers; i++, tracer += GM_TRACER_NUMBERS) {
+        const double at = ((double)i + 0.5) / (double)flow->tracers * complex->total_area;
+        while (t + 1 < complex->triangles && before + complex->area[t] < at) {
+            before += complex->area[t++];
+        }
+        double p[6];
+        gm_complex_corners(complex, t, p);
+        const double r = sqrt(fmod((double)i * 0.7548776662466927, 1)),
+                     s = fmod((double)i * 0.5698402909980532, 1);
+        const double w[3] = {1 - r, r * (1 - s), r * s};
+        tracer[GM_TRACER_X] = w[0] * p[0] + w[1] * p[2] + w[2] * p[4];
+        tracer[GM_TRACER_Y] = w[0] * p[1] + w[1] * p[3] + w[2] * p[5];
+        tracer[GM_TRACER_TRIANGLE] = (double)t;
+    }
+}
+
+bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y)
+{
+    const size_t n = flow->complex->vertices;
+    memcpy(y, flow->psi, n * sizeof *y);
+    if (!solve_poisson(flow, NULL, y)) {
+        return false;
+    }
+    memset(y + GM_FLOW_OMEGA * n, 0, n * sizeof *y);
+    gm_flow_vorticity(flow, y, y + GM_FLOW_OMEGA * n);
+    complete_start(flow, y);
+    return true;
+}
+
+bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y)
+{
+    const struct gm_complex *complex = flow->complex;
+    const size_t n = complex->vertices;
+    double *mine = y + GM_FLOW_OMEGA * n, *right = y + GM_FLOW_THETA * n;
+    double sum = 0;
+    for (size_t v = 0; v < n; v++) {
+        sum += complex->star0[v] * omega[v];
+    }
+    for (size_t v = 0; v < n; v++) {
+        mine[v] = flow->kind[v] == GM_VERTEX_SLIP ? 0
+                  : complex->boundary == 0        ? omega[v] - sum / complex->total_area
+                                                  : omega[v];
+        right[v] = complex->star0[v] * mine[v];
+    }
+    memcpy(y, flow->psi, n * sizeof *y);
+    if (!solve_poisson(flow, right, y)) {
+        return false;
+    }
+    complete_start(flow, y);
+    return true;
+}

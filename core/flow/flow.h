@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FLOW_FLOW_H
+#define GM_CORE_FLOW_FLOW_H
+
+#include "core/flow/complex.h"
+#include "core/problem.h"
+
+/* An incompressible flow on a simplicial complex and a scalar that it carries, in the discrete exterior
+   calculus of Mohamed, Hirani & Samtaney (2016). Velocity u = (d psi/dy, -d psi/dx).
+
+   psi: stream function at the vertices; U = -star1 d0 psi its circulation along dual edges; K = d0' star1 d0;
+   omega = (K psi + sheet) / star0, sheet the circulation that moving walls add to a boundary cell;
+   F = (d1' P - boundary midpoints) psi the flux through dual edges, exactly free of divergence on inner dual
+   cells; convection of a: -d0' diag(F) A a, A the mean of an edge's ends. */
+
+/* What is known of psi and omega at a vertex. */
+enum gm_vertex_kind {
+    GM_VERTEX_FREE,  /* psi unknown: the interior */
+    GM_VERTEX_OPEN,  /* psi unknown on an outlet ("free") */
+    GM_VERTEX_FIXED, /* psi given, omega by the formula: walls, inlets */
+    GM_VERTEX_SOFT,  /* psi given, omega unknown: an outlet without tangential condition */
+    GM_VERTEX_SLIP,  /* psi given, omega = 0: a wall without friction */
+};
+
+/* Where tracers that leave come back: points of a line, in proportion to the flux between them. */
+struct gm_inflow {
+    size_t count;
+    double *point; /* 2 each */
+    double *psi;   /* monotonic */
+};
+
+struct gm_flow {
+    struct gm_complex *complex;
+    double viscosity, diffusivity;
+    double time_unit;    /* of a run, in the flow's own time */
+    double reynolds;     /* where continuation of steady states ends; 0: none is needed */
+    bool scalar;         /* theta is carried */
+    unsigned char *kind; /* enum gm_vertex_kind, a vertex */
+    double *psi;         /* given values, 0 elsewhere */
+    double *sheet;
+    bool *theta_fixed;
+    double *theta; /* given values, 0 elsewhere */
+    size_t tracers;
+    struct gm_inflow inflow;
+};
+
+/* The state of a run: blocks of one number a vertex, then the flow's step that led here and the tracers. What
+   a step used (psi_half: the stream function of its fluxes; what was before) is kept, so that budgets and
+   pressure are functions of the state alone. */
+enum gm_flow_block {
+    GM_FLOW_PSI,
+    GM_FLOW_OMEGA,
+    GM_FLOW_THETA,
+    GM_FLOW_PSI_HALF,
+    GM_FLOW_OMEGA_USED, /* what the step convected and diffused */
+    GM_FLOW_PSI_BEFORE,
+    GM_FLOW_THETA_BEFORE,
+    GM_FLOW_BLOCKS,
+};
+
+/* Numbers of a tracer: its place, its triangle, and its age in steps. */
+enum { GM_TRACER_X, GM_TRACER_Y, GM_TRACER_TRIANGLE, GM_TRACER_AGE, GM_TRACER_NUMBERS };
+
+size_t gm_flow_size(const struct gm_flow *flow);
+const double *gm_flow_block(const struct gm_flow *flow, const double *y, enum gm_flow_block block);
+/* The flow's time step that led to this state; 0 at the start and for steady states. */
+double gm_flow_step(const struct gm_flow *flow, const double *y);
+const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t tracer);
+
+/* A flow that owns the complex, everything free and 0. NULL (and the complex closed) when memory is short. */
+struct gm_flow *gm_flow_open(struct gm_complex *complex);
+void gm_flow_close(struct gm_flow *flow);
+
+/* The start without vorticity: K psi = 0 inside. Vertices of soft outlets have omega = 0. False when memory
+   is short or the boundary leaves psi undetermined. */
+bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y);
+/* The start from vorticity at the vertices, on a closed surface or between slip walls: K psi = star0 omega,
+   omega less its mean on a closed surface. */
+bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y);
+
+/* psi interpolated to the circumcentre of a triangle, and the flux through the dual of an edge. */
+double gm_flow_psi_centre(const struct gm_complex *complex, const double *psi, size_t triangle);
+double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge);
+
+/* All fluxes; scratch: a number for each triangle. */
+void gm_flow_fluxes(const struct gm_complex *complex, const double *psi, double *scratch, double *flux);
+
+/* omega at every vertex from psi, but for soft outlets, whose values stay as they are. */
+void gm_flow_vorticity(const struct gm_flow *flow, const double *psi, double *omega);
+
+/* The velocity of a triangle: u, v. */
+void gm_flow_velocity(const struct gm_complex *complex, const double *psi, size_t triangle,
+                      double velocity[2]);
+/* The velocities of the vertices, u and v of each: the mean over their triangles, weighted by area. The array
+   has 3 * vertices numbers; the last third is scratch. */
+void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *psi, double *velocities);
+
+/* Whether omega at the unknowns of psi is an unknown that boundary values of psi do not enter: closed
+   surfaces and slip walls. Then steps are made for omega. */
+bool gm_flow_is_vorticity_form(const struct gm_flow *flow);
+
+/* What is measured of a state y. */
+double gm_flow_kinetic_energy(const struct gm_flow *flow, const double *y);
+double gm_flow_enstrophy(const struct gm_flow *flow, const double *y);
+/* |sum star0 omega| relative to sum star0 |omega| */
+double gm_flow_circulation_error(const struct gm_flow *flow, const double *y);
+/* max |d1 d0 psi| */
+double gm_flow_divergence(const struct gm_flow *flow, const double *y);
+double gm_flow_scalar_total(const struct gm_flow *flow, const double *y);
+
+/* The scalar's budget over the last step; all rates per unit of the flow's own time. */
+struct gm_budget {
+    double rate;      /* of the total */
+    double convected; /* in through vertices with given theta */
+    double reaction;  /* what holding theta there adds */
+    double outflow;   /* through all other boundary vertices */
+    double defect;    /* |rate - convected - reaction + outflow|, relative to the largest of them */
+};
+struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y);
+
+/* The total pressure p/rho + |u|^2/2 of the triangles, of mean 0, after the last step: its differences over
+   inner dual edges are summed along a spanning tree. False on a torus, and when memory is short. */
+bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *pressure);
+
+/* Velocity at a point by the cubic polynomial fitted to psi at the 24 nearest vertices, with the weight
+   exp(-2 (distance / largest)^2); value of theta the same way. False where the mesh is too small. */
+struct gm_sample {
+    double psi, u, v, theta, omega;
+};
+bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z,
+                    struct gm_sample *sample);
+
+#endif

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is measured of a flow's state: functions of the state alone. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/flow/flow.h"
+
+double gm_flow_kinetic_energy(const struct gm_flow *flow, const double *y)
+{
+    const struct gm_complex *complex = flow->complex;
+    double sum = 0;
+    for (size_t e = 0; e < complex->edges; e++) {
+        const double difference = y[complex->edge[2 * e + 1]] - y[complex->edge[2 * e]];
+        sum += complex->star1[e] * difference * difference;
+    }
+    return sum / 2;
+}
+
+double gm_flow_enstrophy(const struct gm_flow *flow, const double *y)
+{
+    const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA);
+    double sum = 0;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        sum += flow->complex->star0[v] * omega[v] * omega[v];
+    }
+    return sum / 2;
+}
+
+double gm_flow_circulation_error(const struct gm_flow *flow, const double *y)
+{
+    const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA);
+    double sum = 0, sizes = 0;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        sum += flow->complex->star0[v] * omega[v];
+        sizes += flow->complex->star0[v] * fabs(omega[v]);
+    }
+    return sizes > 0 ? fabs(sum) / sizes : 0;
+}
+
+double gm_flow_divergence(const struct gm_flow *flow, const double *y)
+{
+    const struct gm_complex *complex = flow->complex;
+    double largest = 0;
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double sum = 0;
+        for (size_t k = 3 * t; k < 3 * t + 3; k++) {
+            const int *edge = complex->edge + 2 * complex->triangle_edge[k];
+            sum += complex->triangle_sign[k] * (y[edge[1]] - y[edge[0]]);
+        }
+        largest = fmax(largest, fabs(sum));
+    }
+    return largest;
+}
+
+double gm_flow_scalar_total(const struct gm_flow *flow, const double *y)
+{
+    const double *theta = gm_flow_block(flow, y, GM_FLOW_THETA);
+    double sum = 0;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        sum += flow->complex->star0[v] * theta[v];
+    }
+    return sum;
+}
+
+/* Row v of -d0' diag(F) A theta + kappa K theta, and q = d0' F there. */
+static double transport_row(const struct gm_flow *flow, const double *y, size_t v, double *out)
+{
+    const struct gm_complex *complex = flow->complex;
+    const double *theta = gm_flow_block(flow, y, GM_FLOW_THETA),
+                 *psi = gm_flow_block(flow, y, GM_FLOW_PSI_HALF);
+    double sum = 0;
+    *out = 0;
+    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+        const size_t e = (size_t)complex->ring_edge[k];
+        const int w = complex->ring_vertex[k];
+        const double flux = gm_flow_flux(complex, psi, e) * (complex->edge[2 * e] == (int)v ? 1 : -1);
+        sum +=
+            flux * (theta[v] + theta[w]) / 2 + flow->diffusivity * complex->star1[e] * (theta[v] - theta[w]);
+        *out -= flux;
+    }
+    return sum;
+}
+
+struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y)
+{
+    const struct gm_complex *complex = flow->complex;
+    const double *theta = gm_flow_block(flow, y, GM_FLOW_THETA);
+    const double *before = gm_flow_block(flow, y, GM_FLOW_THETA_BEFORE);
+    const double dt = gm_flow_step(flow, y);
+    struct gm_budget budget = {0};
+    for (size_t v = 0; dt != 0 && v < complex->vertices; v++) {
+        budget.rate += complex->star0[v] * (theta[v] - before[v]) / dt;
+    }
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const size_t v = (size_t)complex->boundary_vertex[b];
+        double out = 0;
+        const double row = transport_row(flow, y, v, &out);
+        if (flow->theta_fixed[v]) {
+            budget.convected -= out * theta[v];
+            budget.reaction += row + out * theta[v];
+            budget.reaction += dt != 0 ? complex->star0[v] * (theta[v] - before[v]) / dt : 0;
+        } else {
+            budget.outflow += out * theta[v];
+        }
+    }
+    const double largest = fmax(fmax(fabs(budget.rate), fabs(budget.convected)),
+                                fmax(fabs(budget.reaction), fabs(budget.outflow)));
+    const double defect = budget.rate - budget.convected - budget.reaction + budget.outflow;
+    budget.defect = largest > 0 ? fabs(defect) / largest : 0;
+    return budget;
+}
+
+/* P(left) - P(right) over an inner edge: the mean of omega on the flux, viscosity, and what accelerates U. */
+static double pressure_step(const struct gm_flow *flow, const double *y, size_t e)
+{
+    const struct gm_complex *complex = flow->complex;
+    const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA_USED);
+    const double *before = gm_flow_block(flow, y, GM_FLOW_PSI_BEFORE);
+    const int a = complex->edge[2 * e], b = complex->edge[2 * e + 1];
+    const double dt = gm_flow_step(flow, y);
+    const double flux = gm_flow_flux(complex, gm_flow_block(flow, y, GM_FLOW_PSI_HALF), e);
+    const double rate = dt != 0 ? (y[b] - before[b] - (y[a] - before[a])) / dt : 0;
+    return -flux * (omega[a] + omega[b]) / 2 +
+           complex->star1[e] * (flow->viscosity * (omega[b] - omega[a]) + rate);
+}
+
+bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *pressure)
+{
+    const struct gm_complex *complex = flow->complex;
+    int *queue = malloc(complex->triangles * sizeof *queue);
+    bool *met = calloc(complex->triangles, sizeof *met);
+    const bool good = queue && met && complex->boundary > 0;
+    size_t count = 0;
+    if (good) {
+        queue[count++] = 0;
+        met[0] = true;
+        pressure[0] = 0;
+    }
+    double mean = 0;
+    for (size_t i = 0; i < count; i++) {
+        const int t = queue[i];
+        mean += complex->area[t] * pressure[t] / complex->total_area;
+        for (int k = 0; k < 3; k++) {
+            const size_t e = (size_t)complex->triangle_edge[3 * t + k];
+            const bool left = complex->edge_triangle[2 * e] == t;
+            const int next = complex->edge_triangle[2 * e + (left ? 1 : 0)];
+            if (next >= 0 && !met[next]) {
+                met[next] = true;
+                pressure[next] = pressure[t] + (left ? -1 : 1) * pressure_step(flow, y, e);
+                queue[count++] = next;
+            }
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        pressure[i] -= mean;
+    }
+    free(queue);
+    free(met);
+    return good;
+}
+
+enum { NEAREST = 24, TERMS = 10, VALUES = 3 };
+
+struct near {
+    double distance, x, z;
+    size_t vertex;
+};
+
+/* The vertices nearest to a point, on a torus their nearest images; relative places. */
+static size_t find_nearest(const struct gm_complex *complex, double x, double z, struct near nearest[NEAREST])
+{
+    size_t count = 0;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        double d[2] = {complex->point[2 * v] - x, complex->point[2 * v + 1] - z};
+        for (int c = 0; c < 2; c++) {
+            const double period = complex->period[c];
+            d[c] -= period > 0 ? period * round(d[c] / period) : 0;
+        }
+        const double distance = d[0] * d[0] + d[1] * d[1];
+        if (count == NEAREST && distance >= nearest[count - 1].distance) {
+            continue;
+        }
+        size_t at = count < NEAREST ? count++ : NEAREST - 1;
+        for (; at > 0 && nearest[at - 1].distance > distance; at--) {
+            nearest[at] = nearest[at - 1];
+        }
+        nearest[at] = (struct near){distance, d[0], d[1], v};
+    }
+    return count;
+}
+
+/* Least squares by Householder's reflections: rows of TERMS coefficients and VALUES right sides. */
+static void least_squares(double a[NEAREST][TERMS + VALUES], size_t rows, double solution[VALUES][TERMS])
+{
+    for (size_t k = 0; k < TERMS; k++) {
+        double norm = 0, w[NEAREST] = {0};
+        for (size_t i = k; i < rows; i++) {
+            norm += a[i][k] * a[i][k];
+        }
+        norm = copysign(sqrt(norm), a[k][k]);
+        double length = 0;
+        for (size_t i = k; i < rows; i++) {
+            w[i] = a[i][k] + (i == k ? norm : 0);
+            length += w[i] * w[i];
+        }
+        for (size_t c = k; length > 0 && c < TERMS + VALUES; c++) {
+            double sum = 0;
+            for (size_t i = k; i < rows; i++) {
+                sum += w[i] * a[i][c];
+            }
+            for (size_t i = k; i < rows; i++) {
+                a[i][c] -= 2 * sum / length * w[i];
+            }
+        }
+    }
+    for (size_t s = 0; s < VALUES; s++) {
+        for (size_t i = TERMS; i-- > 0;) {
+            double sum = a[i][TERMS + s];
+            for (size_t k = i + 1; k < TERMS; k++) {
+                sum -= a[i][k] * solution[s][k];
+            }
+            solution[s][i] = a[i][i] != 0 ? sum / a[i][i] : 0;
+        }
+    }
+}
+
+bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z, struct gm_sample *sample)
+{
+    struct near nearest[NEAREST];
+    const size_t rows = find_nearest(flow->complex, x, z, nearest);
+    if (rows < TERMS) {
+        return false;
+    }
+    const double farthest = sqrt(nearest[rows - 1].distance);
+    const double *const fields[VALUES] = {y, gm_flow_block(flow, y, GM_FLOW_THETA),
+                                          gm_flow_block(flow, y, GM_FLOW_OMEGA)};
+    double a[NEAREST][TERMS + VALUES], solution[VALUES][TERMS];
+    for (size_t i = 0; i < rows; i++) {
+        const struct near *near = &nearest[i];
+        const double p = near->x / farthest, q = near->z / farthest;
+        const double weight = exp(-(p * p + q * q)); /* the square root, for the rows */
+        const double terms[TERMS] = {1,     p,         q,         p * p,     p * q,
+                                     q * q, p * p * p, p * p * q, p * q * q, q * q * q};
+        for (size_t k = 0; k < TERMS; k++) {
+            a[i][k] = weight * terms[k];
+        }
+        for (size_t s = 0; s < VALUES; s++) {
+            a[i][TERMS + s] = weight * fields[s][near->vertex];
+        }
+    }
+    least_squares(a, rows, solution);
+    *sample = (struct gm_sample){.psi = solution[0][0],
+                                 .u = solution[0][2] / farthest,
+                                 .v = -solution[0][1] / farthest,
+                                 .theta = solution[1][0],
+                                 .omega = solution[2][0]};
+    return true;
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FLOW_RECTANGLE_H
+#define GM_CORE_FLOW_RECTANGLE_H
+
+#include "core/flow/complex.h"
+
+/* An acute triangulation of a rectangle, or of a torus. */
+struct gm_rectangle {
+    double width, height;
+    long edges;      /* N: on each of the two walls that the strips run along */
+    long strips;     /* M, even */
+    bool transposed; /* strips run along y (N edges on the walls x = 0 and x = width) instead of along x */
+    bool torus;      /* opposite sides are one */
+    double
+        irregular; /* every vertex is moved at random by at most this part of its shortest edge, below 1/2 */
+    const double *fixed; /* points that stay where they are, 2 numbers each (corners always do) */
+    size_t fixed_count;
+};
+
+/* Whether the pattern is acute: the strips' height h and base a satisfy a/2 < h < a. */
+bool gm_rectangle_is_acute(const struct gm_rectangle *rectangle);
+
+/* The even number of strips whose triangles are best for this number of edges. */
+long gm_rectangle_strips(double width, double height, long edges, bool transposed);
+
+/* NULL with a fault when it cannot be made. */
+struct gm_complex *gm_rectangle_open(const struct gm_rectangle *rectangle, struct gm_mesh_fault *fault);
+
+#endif

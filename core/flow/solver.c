@@ -1,0 +1,387 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Linear algebra of the steps. With z = (psi at unknowns I, omega at soft vertices O) and
+       omega(z) = W (K psi + sheet) + omega_O,   W = 1 / star0, 0 at soft and slip vertices,
+   steps and steady states are equations R omega(z) = right on the rows I and O. The preconditioner leaves out
+   the convection: B = shift star0 + viscosity K, z_O = B_OO^-1 r_O,   z_I = (shift K_II + viscosity K_I W
+   K_I)^-1 (r_I - B_IO z_O). */
+#include "core/flow/solver.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool list_soft(struct gm_flow_solver *solver)
+{
+    const struct gm_flow *flow = solver->flow;
+    const size_t n = flow->complex->vertices;
+    solver->soft_vertex = malloc(n * sizeof *solver->soft_vertex);
+    solver->held = malloc(n * sizeof *solver->held);
+    if (!solver->soft_vertex || !solver->held) {
+        return false;
+    }
+    for (size_t v = 0; v < n; v++) {
+        solver->held[v] = flow->kind[v] == GM_VERTEX_SLIP;
+        if (flow->kind[v] == GM_VERTEX_SOFT) {
+            solver->soft_vertex[solver->soft++] = (int)v;
+        }
+    }
+    return true;
+}
+
+static bool take_memory(struct gm_flow_solver *solver)
+{
+    const struct gm_complex *complex = solver->flow->complex;
+    const size_t v = complex->vertices, z = solver->unknowns.count + solver->soft;
+    const struct {
+        double **place;
+        size_t size;
+    } wanted[] = {
+        {&solver->flux, complex->edges},
+        {&solver->centre, complex->triangles},
+        {&solver->rate, v},
+        {&solver->field, v},
+        {&solver->velocities, 3 * v},
+        {&solver->b, z},
+        {&solver->x, z},
+        {&solver->small_b, z},
+        {&solver->small_x, z},
+        {&solver->gmres, solver->vorticity_form ? 0 : gm_gmres_scratch(z)},
+        {&solver->bicgstab, 8 * v},
+    };
+    size_t total = 0;
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        total += wanted[i].size;
+    }
+    solver->numbers = calloc(total, sizeof *solver->numbers);
+    if (!solver->numbers) {
+        return false;
+    }
+    double *at = solver->numbers;
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        *wanted[i].place = at;
+        at += wanted[i].size;
+    }
+    return true;
+}
+
+struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
+{
+    struct gm_flow_solver *solver = calloc(1, sizeof *solver);
+    if (!solver) {
+        return NULL;
+    }
+    solver->flow = flow;
+    solver->vorticity_form = gm_flow_is_vorticity_form(flow);
+    bool good = gm_unknowns_open(&solver->unknowns, flow) && list_soft(solver) && take_memory(solver) &&
+                gm_transport_open(&solver->transport, flow->complex);
+    if (good && solver->unknowns.count > 0) {
+        solver->poisson = gm_unknowns_factor_poisson(&solver->unknowns, flow);
+        good = solver->poisson != NULL;
+    }
+    if (!good) {
+        gm_flow_solver_close(solver);
+        return NULL;
+    }
+    return solver;
+}
+
+void gm_flow_solver_close(struct gm_flow_solver *solver)
+{
+    if (!solver) {
+        return;
+    }
+    gm_unknowns_close(&solver->unknowns);
+    gm_cholesky_close(solver->poisson);
+    gm_cholesky_close(solver->stokes);
+    gm_cholesky_close(solver->soft_factor);
+    gm_transport_close(&solver->transport);
+    free(solver->soft_vertex);
+    free(solver->held);
+    free(solver->numbers);
+    free(solver);
+}
+
+/* The factor of shift star0 + viscosity K between soft vertices. */
+static struct gm_cholesky *factor_soft(const struct gm_flow_solver *solver, double shift, double viscosity)
+{
+    const struct gm_complex *complex = solver->flow->complex;
+    size_t capacity = solver->soft;
+    for (size_t i = 0; i < solver->soft; i++) {
+        const int v = solver->soft_vertex[i];
+        capacity += (size_t)(complex->ring_start[v + 1] - complex->ring_start[v]);
+    }
+    int *start = malloc((solver->soft + 1) * sizeof *start), *column = malloc(capacity * sizeof *column);
+    int *place = malloc(complex->vertices * sizeof *place);
+    double *value = malloc(capacity * sizeof *value);
+    struct gm_cholesky *factor = NULL;
+    if (start && column && place && value) {
+        memset(place, -1, complex->vertices * sizeof *place);
+        for (size_t i = 0; i < solver->soft; i++) {
+            place[solver->soft_vertex[i]] = (int)i;
+        }
+        int used = 0;
+        for (size_t i = 0; i < solver->soft; i++) {
+            const int v = solver->soft_vertex[i];
+            double diagonal = shift * complex->star0[v];
+            start[i] = used;
+            for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+                const double spread = viscosity * complex->star1[complex->ring_edge[k]];
+                diagonal += spread;
+                if (place[complex->ring_vertex[k]] >= 0) {
+                    column[used] = place[complex->ring_vertex[k]];
+                    value[used++] = -spread;
+                }
+            }
+            column[used] = (int)i;
+            value[used++] = diagonal;
+        }
+        start[solver->soft] = used;
+        factor = gm_cholesky_open(solver->soft, start, column, value);
+    }
+    free(start);
+    free(column);
+    free(place);
+    free(value);
+    return factor;
+}
+
+bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double viscosity)
+{
+    const bool there = solver->stokes && solver->shift == shift && solver->viscosity == viscosity;
+    if (solver->unknowns.count == 0 || there) {
+        return true;
+    }
+    gm_cholesky_close(solver->stokes);
+    gm_cholesky_close(solver->soft_factor);
+    solver->soft_factor = NULL;
+    solver->stokes = gm_unknowns_factor_stokes(&solver->unknowns, solver->flow, shift, viscosity);
+    if (solver->stokes && solver->soft > 0) {
+        solver->soft_factor = factor_soft(solver, shift, viscosity);
+    }
+    solver->shift = shift;
+    solver->viscosity = viscosity;
+    return solver->stokes && (solver->soft == 0 || solver->soft_factor);
+}
+
+/* y = (R omega(z) without sheet and given psi) on the rows I and O */
+static void apply(void *data, const double *z, double *y)
+{
+    struct gm_flow_solver *solver = data;
+    const struct gm_flow *flow = solver->flow;
+    const struct gm_complex *complex = flow->complex;
+    const struct gm_unknowns *unknowns = &solver->unknowns;
+    double *psi = solver->rate, *omega = solver->field;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        psi[v] = unknowns->index[v] < 0 ? 0 : z[unknowns->index[v]];
+    }
+    for (size_t v = 0; v < complex->vertices; v++) {
+        double sum = 0;
+        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+            sum += complex->star1[complex->ring_edge[k]] * (psi[v] - psi[complex->ring_vertex[k]]);
+        }
+        omega[v] = flow->kind[v] == GM_VERTEX_SLIP ? 0 : sum / complex->star0[v];
+    }
+    for (size_t i = 0; i < solver->soft; i++) {
+        omega[solver->soft_vertex[i]] = z[unknowns->count + i];
+    }
+    gm_transport_apply(&solver->transport, omega, psi);
+    for (size_t i = 0; i < unknowns->count; i++) {
+        y[i] = psi[unknowns->vertex[i]];
+    }
+    for (size_t i = 0; i < solver->soft; i++) {
+        y[unknowns->count + i] = psi[solver->soft_vertex[i]];
+    }
+}
+
+static void precondition(void *data, const double *r, double *z)
+{
+    struct gm_flow_solver *solver = data;
+    const struct gm_complex *complex = solver->flow->complex;
+    const struct gm_unknowns *unknowns = &solver->unknowns;
+    double *b = solver->small_b;
+    memcpy(b, r, unknowns->count * sizeof *b);
+    if (solver->soft > 0) {
+        double *soft = z + unknowns->count;
+        gm_cholesky_solve(solver->soft_factor, r + unknowns->count, soft);
+        for (size_t i = 0; i < solver->soft; i++) {
+            const int v = solver->soft_vertex[i];
+            for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+                const int j = unknowns->index[complex->ring_vertex[k]];
+                if (j >= 0) {
+                    b[j] += solver->viscosity * complex->star1[complex->ring_edge[k]] * soft[i];
+                }
+            }
+        }
+    }
+    gm_cholesky_solve(solver->stokes, b, z);
+}
+
+/* A row of the full matrix on its way: entries by column, added up. */
+struct full {
+    size_t n;
+    int *start, *column, *place;
+    double *value;
+    size_t used, capacity;
+    int row;
+};
+
+static void put(struct full *full, int column, double value)
+{
+    if (column < 0) {
+        return;
+    }
+    if (full->place[column] < full->start[full->row]) {
+        full->place[column] = (int)full->used;
+        full->column[full->used] = column;
+        full->value[full->used++] = 0;
+    }
+    full->value[full->place[column]] += value;
+}
+
+/* scale times row v of omega(z) */
+static void put_vorticity(struct full *full, const struct gm_flow_solver *solver, const int *soft_index,
+                          int v, double scale)
+{
+    const struct gm_flow *flow = solver->flow;
+    const struct gm_complex *complex = flow->complex;
+    if (flow->kind[v] == GM_VERTEX_SLIP) {
+        return;
+    }
+    if (flow->kind[v] == GM_VERTEX_SOFT) {
+        put(full, soft_index[v], scale);
+        return;
+    }
+    scale /= complex->star0[v];
+    double diagonal = 0;
+    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+        const double star = complex->star1[complex->ring_edge[k]];
+        diagonal += star;
+        put(full, solver->unknowns.index[complex->ring_vertex[k]], -scale * star);
+    }
+    put(full, solver->unknowns.index[v], scale * diagonal);
+}
+
+/* scale times the derivative of the flux over edge e by psi */
+static void put_flux(struct full *full, const struct gm_flow_solver *solver, size_t e, double scale)
+{
+    const struct gm_complex *complex = solver->flow->complex;
+    for (int side = 0; side < 2; side++) {
+        const int t = complex->edge_triangle[2 * e + (size_t)side];
+        const double sign = side == 0 ? scale : -scale;
+        for (int k = 0; k < 3 && t >= 0; k++) {
+            put(full, solver->unknowns.index[complex->triangle[3 * t + k]],
+                sign * complex->weight[3 * t + k]);
+        }
+        for (int k = 0; k < 2 && t < 0; k++) {
+            put(full, solver->unknowns.index[complex->edge[2 * e + (size_t)k]], sign / 2);
+        }
+    }
+}
+
+static int compare_columns(const void *a, const void *b)
+{
+    const int p = *(const int *)a, q = *(const int *)b;
+    return (p > q) - (p < q);
+}
+
+/* Columns of the row in increasing order; buffer: as many numbers as there are columns. */
+static void sort_row(struct full *full, double *buffer)
+{
+    const size_t begin = (size_t)full->start[full->row], count = full->used - begin;
+    for (size_t i = begin; i < full->used; i++) {
+        buffer[full->column[i]] = full->value[i];
+    }
+    qsort(full->column + begin, count, sizeof(int), compare_columns);
+    for (size_t i = begin; i < full->used; i++) {
+        full->value[i] = buffer[full->column[i]];
+        full->place[full->column[i]] = (int)i;
+    }
+}
+
+static void put_row(struct full *full, const struct gm_flow_solver *solver, const int *soft_index, int v,
+                    const double *omega)
+{
+    const struct gm_complex *complex = solver->flow->complex;
+    put_vorticity(full, solver, soft_index, v, solver->transport.diagonal[v]);
+    double out = 0;
+    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+        const int w = complex->ring_vertex[k];
+        const size_t e = (size_t)complex->ring_edge[k];
+        const double sign = complex->edge[2 * e] == v ? 1 : -1;
+        put_vorticity(full, solver, soft_index, w, solver->transport.ring[k]);
+        if (omega) {
+            put_flux(full, solver, e, sign * (omega[v] + omega[w]) / 2);
+            out -= sign * solver->flux[e];
+        }
+    }
+    if (omega && solver->flow->kind[v] == GM_VERTEX_OPEN && out > 0) {
+        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+            const size_t e = (size_t)complex->ring_edge[k];
+            put_flux(full, solver, e, (complex->edge[2 * e] == v ? -1 : 1) * omega[v]);
+        }
+    }
+}
+
+/* x = matrix^-1 b by LU; omega: with the derivative of the fluxes (else NULL). */
+static bool solve_directly(struct gm_flow_solver *solver, const double *omega)
+{
+    const struct gm_complex *complex = solver->flow->complex;
+    const struct gm_unknowns *unknowns = &solver->unknowns;
+    struct full full = {.n = unknowns->count + solver->soft};
+    int *soft_index = malloc(complex->vertices * sizeof *soft_index);
+    double *buffer = malloc(full.n * sizeof *buffer);
+    for (size_t v = 0; v < complex->vertices; v++) {
+        for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
+            const int w = k < complex->ring_start[v] ? (int)v : complex->ring_vertex[k];
+            full.capacity += (size_t)(complex->ring_start[w + 1] - complex->ring_start[w] + 2);
+        }
+    }
+    full.start = malloc((full.n + 1) * sizeof(int));
+    full.column = malloc(full.capacity * sizeof(int));
+    full.value = malloc(full.capacity * sizeof(double));
+    full.place = malloc(full.n * sizeof(int));
+    bool good = soft_index && buffer && full.start && full.column && full.value && full.place && full.n > 0;
+    if (good) {
+        memset(full.place, -1, full.n * sizeof(int));
+        memset(soft_index, -1, complex->vertices * sizeof *soft_index);
+        for (size_t i = 0; i < solver->soft; i++) {
+            soft_index[solver->soft_vertex[i]] = (int)(unknowns->count + i);
+        }
+        for (full.row = 0; full.row < (int)full.n; full.row++) {
+            const size_t i = (size_t)full.row;
+            full.start[full.row] = (int)full.used;
+            put_row(&full, solver, soft_index,
+                    i < unknowns->count ? unknowns->vertex[i] : solver->soft_vertex[i - unknowns->count],
+                    omega);
+            sort_row(&full, buffer);
+        }
+        full.start[full.n] = (int)full.used;
+        good = gm_lu_solve(full.n, full.start, full.column, full.value, solver->b, solver->x);
+    }
+    free(soft_index);
+    free(buffer);
+    free(full.start);
+    free(full.column);
+    free(full.value);
+    free(full.place);
+    return good;
+}
+
+bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned long *iterations)
+{
+    const double tolerance = 1e-13;
+    const size_t n = solver->unknowns.count + solver->soft;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(solver->b[i])) {
+            return false;
+        }
+    }
+    const struct gm_system system = {n, apply, precondition, solver};
+    return gm_gmres(&system, solver->b, solver->x, tolerance * size, solver->gmres, iterations) ||
+           solve_directly(solver, NULL);
+}
+
+bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega)
+{
+    return solve_directly(solver, omega);
+}

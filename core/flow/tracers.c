@@ -1,0 +1,142 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/flow/tracers.h"
+
+#include <math.h>
+#include <string.h>
+
+struct place {
+    double x[2];
+    int triangle;
+};
+
+/* Barycentric coordinates of a point; on a torus of its image next to the triangle. */
+static void coordinates(const struct gm_complex *complex, int triangle, const double x[2], double w[3])
+{
+    double p[6], at[2];
+    gm_complex_corners(complex, (size_t)triangle, p);
+    for (int c = 0; c < 2; c++) {
+        const double period = complex->period[c];
+        at[c] = x[c] - p[c];
+        at[c] -= period > 0 ? period * round(at[c] / period) : 0;
+    }
+    const double twice = 2 * complex->area[triangle];
+    w[1] = (at[0] * (p[5] - p[1]) - at[1] * (p[4] - p[0])) / twice;
+    w[2] = (at[1] * (p[2] - p[0]) - at[0] * (p[3] - p[1])) / twice;
+    w[0] = 1 - w[1] - w[2];
+}
+
+/* Walks from place->triangle towards the point; false where the walk leaves the mesh. */
+static bool locate(const struct gm_complex *complex, struct place *place, double w[3])
+{
+    enum { FARTHEST = 1000 };
+    for (int i = 0; i < FARTHEST; i++) {
+        coordinates(complex, place->triangle, place->x, w);
+        int worst = 0;
+        for (int k = 1; k < 3; k++) {
+            worst = w[k] < w[worst] ? k : worst;
+        }
+        if (w[worst] >= -1e-12) {
+            return true;
+        }
+        const int *pair =
+            complex->edge_triangle + 2 * complex->triangle_edge[3 * place->triangle + (worst + 1) % 3];
+        const int next = pair[0] == place->triangle ? pair[1] : pair[0];
+        if (next < 0) {
+            return false;
+        }
+        place->triangle = next;
+    }
+    return false;
+}
+
+static void velocity_at(const struct gm_complex *complex, const double *velocities, const struct place *place,
+                        const double w[3], double u[2])
+{
+    const int *t = complex->triangle + 3 * place->triangle;
+    for (int c = 0; c < 2; c++) {
+        u[c] = w[0] * velocities[2 * t[0] + c] + w[1] * velocities[2 * t[1] + c] +
+               w[2] * velocities[2 * t[2] + c];
+    }
+}
+
+static bool move(const struct gm_complex *complex, const double *velocities, double dt, struct place *place)
+{
+    double w[3], u[2];
+    if (!locate(complex, place, w)) {
+        return false;
+    }
+    const struct place start = *place;
+    for (int stage = 1; stage <= 2; stage++) {
+        velocity_at(complex, velocities, place, w, u);
+        for (int c = 0; c < 2; c++) {
+            place->x[c] = start.x[c] + dt * u[c] * stage / 2;
+        }
+        if (!locate(complex, place, w)) {
+            /* it hit the boundary: a wall stops it where it was; through an open one it is gone */
+            *place = start;
+            return false;
+        }
+    }
+    for (int c = 0; c < 2; c++) {
+        const double period = complex->period[c];
+        place->x[c] -= period > 0 ? period * floor(place->x[c] / period) : 0;
+    }
+    return true;
+}
+
+/* Whether a triangle touches an open vertex of the outlet. */
+static bool at_outlet(const struct gm_flow *flow, int triangle)
+{
+    for (int k = 0; k < 3; k++) {
+        const int v = flow->complex->triangle[3 * triangle + k];
+        if (!flow->theta_fixed[v] && flow->complex->boundary > 0 && flow->inflow.count > 0) {
+            for (int r = flow->complex->ring_start[v]; r < flow->complex->ring_start[v + 1]; r++) {
+                const int *pair = flow->complex->edge_triangle + 2 * flow->complex->ring_edge[r];
+                if (pair[0] < 0 || pair[1] < 0) {
+                    return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+/* A point of the inflow line, by the share of the flux that enters below it. */
+static void enter(const struct gm_flow *flow, double share, struct place *place)
+{
+    const struct gm_inflow *inflow = &flow->inflow;
+    const double first = inflow->psi[0], last = inflow->psi[inflow->count - 1],
+                 psi = first + share * (last - first);
+    size_t i = 0;
+    while (i + 2 < inflow->count && (inflow->psi[i + 1] - psi) * (last - first) < 0) {
+        i++;
+    }
+    const double s = (psi - inflow->psi[i]) / (inflow->psi[i + 1] - inflow->psi[i]);
+    for (int c = 0; c < 2; c++) {
+        place->x[c] = inflow->point[2 * i + (size_t)c] +
+                      s * (inflow->point[2 * i + 2 + (size_t)c] - inflow->point[2 * i + (size_t)c]);
+    }
+}
+
+void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, long step,
+                      const double *y, double *out)
+{
+    const struct gm_complex *complex = flow->complex;
+    for (size_t i = 0; i < flow->tracers; i++) {
+        const double *from = gm_flow_tracer(flow, y, i);
+        double *to = out + (from - y);
+        struct place place = {{from[GM_TRACER_X], from[GM_TRACER_Y]}, (int)from[GM_TRACER_TRIANGLE]};
+        double age = from[GM_TRACER_AGE] + 1;
+        if (!move(complex, velocities, dt, &place) && at_outlet(flow, place.triangle)) {
+            const double turn = 0.6180339887498949 * (double)step + 0.7548776662466927 * (double)i;
+            double w[3];
+            enter(flow, fmod(turn, 1), &place);
+            age = 0;
+            locate(complex, &place, w); /* it comes near; the next step goes on from there */
+        }
+        to[GM_TRACER_X] = place.x[0];
+        to[GM_TRACER_Y] = place.x[1];
+        to[GM_TRACER_TRIANGLE] = place.triangle;
+        to[GM_TRACER_AGE] = age;
+    }
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FLOW_TRANSPORT_H
+#define GM_CORE_FLOW_TRANSPORT_H
+
+#include "core/flow/flow.h"
+
+/* The matrix  shift star0 + share [-d0' diag(F) A + diag(boundary) + diffusion K],  vertices by vertices, in
+   the pattern of the complex' rings. */
+struct gm_transport {
+    const struct gm_complex *complex;
+    double *diagonal; /* vertices */
+    double *ring;     /* 2 * edges: row v in ring_start[v] .. ring_start[v + 1] */
+};
+
+/* What stands on the diagonal of boundary cells, q = d0' F being the flux out of the domain. */
+enum gm_backflow {
+    GM_BACKFLOW_ZERO, /* max(q, 0): what flows back in brings 0 with it */
+    GM_BACKFLOW_OWN,  /* q: it brings the boundary's own value */
+};
+
+bool gm_transport_open(struct gm_transport *transport, const struct gm_complex *complex);
+void gm_transport_close(struct gm_transport *transport);
+
+void gm_transport_assemble(struct gm_transport *transport, const double *flux, double shift, double share,
+                           double diffusion, enum gm_backflow backflow);
+
+/* y = matrix x */
+void gm_transport_apply(const struct gm_transport *transport, const double *x, double *y);
+
+/* Solves the rows that are not fixed for x there, to round-off: by BiCGStab with Jacobi's preconditioner (van
+   der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631), repeated on the residual; by LU where that gives up.
+   x: first guess, with the fixed values in place. scratch: 8 * vertices. Adds to *iterations. */
+bool gm_transport_solve(const struct gm_transport *transport, const bool *fixed, const double *right,
+                        double *x, double *scratch, unsigned long *iterations);
+/* The same by LU, for steady states. */
+bool gm_transport_solve_directly(const struct gm_transport *transport, const bool *fixed, const double *right,
+                                 double *x);
+
+#endif

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/flow/unknowns.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool gm_unknowns_open(struct gm_unknowns *unknowns, const struct gm_flow *flow)
+{
+    const size_t n = flow->complex->vertices;
+    *unknowns = (struct gm_unknowns){.vertex = malloc(n * sizeof(int)),
+                                     .index = malloc(n * sizeof(int)),
+                                     .closed = flow->complex->boundary == 0};
+    if (!unknowns->vertex || !unknowns->index) {
+        return false;
+    }
+    for (size_t v = 0; v < n; v++) {
+        const bool free_psi = flow->kind[v] == GM_VERTEX_FREE || flow->kind[v] == GM_VERTEX_OPEN;
+        const bool pinned = unknowns->closed && v == 0;
+        unknowns->index[v] = -1;
+        if (free_psi && !pinned) {
+            unknowns->index[v] = (int)unknowns->count;
+            unknowns->vertex[unknowns->count++] = (int)v;
+        }
+    }
+    return true;
+}
+
+void gm_unknowns_close(struct gm_unknowns *unknowns)
+{
+    free(unknowns->vertex);
+    free(unknowns->index);
+}
+
+/* Rows of a matrix that grow. */
+struct rows {
+    int *start, *column;
+    double *value;
+    size_t capacity, used;
+};
+
+static bool rows_open(struct rows *rows, size_t n, size_t capacity)
+{
+    *rows = (struct rows){.start = malloc((n + 1) * sizeof(int)),
+                          .column = malloc(capacity * sizeof(int)),
+                          .value = malloc(capacity * sizeof(double)),
+                          .capacity = capacity};
+    return rows->start && rows->column && rows->value;
+}
+
+static void rows_close(struct rows *rows)
+{
+    free(rows->start);
+    free(rows->column);
+    free(rows->value);
+}
+
+/* Row v of K: calls are made with every neighbour and with v itself. */
+static double diagonal(const struct gm_complex *complex, int v)
+{
+    double sum = 0;
+    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+        sum += complex->star1[complex->ring_edge[k]];
+    }
+    return sum;
+}
+
+struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow)
+{
+    const struct gm_complex *complex = flow->complex;
+    struct rows rows;
+    struct gm_cholesky *factor = NULL;
+    if (rows_open(&rows, unknowns->count, unknowns->count + 2 * complex->edges)) {
+        for (size_t i = 0; i < unknowns->count; i++) {
+            const int v = unknowns->vertex[i];
+            rows.start[i] = (int)rows.used;
+            for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+                const int j = unknowns->index[complex->ring_vertex[k]];
+                if (j >= 0) {
+                    rows.column[rows.used] = j;
+                    rows.value[rows.used++] = -complex->star1[complex->ring_edge[k]];
+                }
+            }
+            rows.column[rows.used] = (int)i;
+            rows.value[rows.used++] = diagonal(complex, v);
+        }
+        rows.start[unknowns->count] = (int)rows.used;
+        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value);
+    }
+    rows_close(&rows);
+    return factor;
+}
+
+static bool by_formula(const struct gm_flow *flow, int v)
+{
+    return flow->kind[v] != GM_VERTEX_SOFT && flow->kind[v] != GM_VERTEX_SLIP;
+}
+
+/* Adds scale times row `middle` of K, between unknowns, to the row being made in `dense`. */
+static void add_row(const struct gm_unknowns *unknowns, const struct gm_complex *complex, int middle,
+                    double scale, struct rows *rows, int *place, int row)
+{
+    for (int k = complex->ring_start[middle] - 1; k < complex->ring_start[middle + 1]; k++) {
+        const bool self = k < complex->ring_start[middle];
+        const int v = self ? middle : complex->ring_vertex[k], j = unknowns->index[v];
+        if (j < 0 || j > row) {
+            continue;
+        }
+        if (place[j] < rows->start[row]) {
+            place[j] = (int)rows->used;
+            rows->column[rows->used] = j;
+            rows->value[rows->used++] = 0;
+        }
+        rows->value[place[j]] +=
+            scale * (self ? diagonal(complex, middle) : -complex->star1[complex->ring_edge[k]]);
+    }
+}
+
+/* At most this many columns, up to the diagonal, in the rows of K W K. */
+static size_t two_ring_bound(const struct gm_unknowns *unknowns, const struct gm_complex *complex)
+{
+    size_t sum = 0;
+    for (size_t i = 0; i < unknowns->count; i++) {
+        const int v = unknowns->vertex[i];
+        for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
+            const int w = k < complex->ring_start[v] ? v : complex->ring_vertex[k];
+            sum += (size_t)(complex->ring_start[w + 1] - complex->ring_start[w] + 1);
+        }
+    }
+    return sum;
+}
+
+struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
+                                              double shift, double viscosity)
+{
+    const struct gm_complex *complex = flow->complex;
+    struct rows rows;
+    struct gm_cholesky *factor = NULL;
+    int *place = malloc((unknowns->count + 1) * sizeof *place);
+    if (rows_open(&rows, unknowns->count, two_ring_bound(unknowns, complex)) && place) {
+        memset(place, -1, unknowns->count * sizeof *place);
+        for (size_t i = 0; i < unknowns->count; i++) {
+            const int v = unknowns->vertex[i];
+            rows.start[i] = (int)rows.used;
+            add_row(unknowns, complex, v, shift, &rows, place, (int)i);
+            for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
+                const bool self = k < complex->ring_start[v];
+                const int w = self ? v : complex->ring_vertex[k];
+                const double entry = self ? diagonal(complex, v) : -complex->star1[complex->ring_edge[k]];
+                if (by_formula(flow, w)) {
+                    add_row(unknowns, complex, w, viscosity * entry / complex->star0[w], &rows, place,
+                            (int)i);
+                }
+            }
+        }
+        rows.start[unknowns->count] = (int)rows.used;
+        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value);
+    }
+    rows_close(&rows);
+    free(place);
+    return factor;
+}
+
+void gm_unknowns_solve_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
+                               struct gm_cholesky *factor, const double *right, double *b, double *x,
+                               double *psi)
+{
+    const struct gm_complex *complex = flow->complex;
+    if (unknowns->closed) {
+        psi[0] = 0;
+    }
+    for (size_t i = 0; i < unknowns->count; i++) {
+        const int v = unknowns->vertex[i];
+        double sum = right ? right[v] : 0;
+        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+            const int w = complex->ring_vertex[k];
+            sum += unknowns->index[w] < 0 ? complex->star1[complex->ring_edge[k]] * psi[w] : 0;
+        }
+        b[i] = sum;
+    }
+    gm_cholesky_solve(factor, b, x);
+    for (size_t i = 0; i < unknowns->count; i++) {
+        psi[unknowns->vertex[i]] = x[i];
+    }
+    if (unknowns->closed) {
+        double sum = 0;
+        for (size_t v = 0; v < complex->vertices; v++) {
+            sum += complex->star0[v] * psi[v];
+        }
+        for (size_t v = 0; v < complex->vertices; v++) {
+            psi[v] -= sum / complex->total_area;
+        }
+    }
+}
