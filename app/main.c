@@ -21,17 +21,24 @@ static const struct {
     {"run", "SCENE [key=value ...]", "numbers", GM_RUN, gm_command_run},
     {"render", "SCENE [key=value ...]", "pictures, frames, movies", GM_RENDER, gm_command_render},
     {"figures", "[NAME ...]", "published figures, made again", GM_FIGURES, gm_command_figures},
-    {"work-precision", "SCENE [key=value ...]", "error against run time and evaluations, of every scheme that fits",
-     GM_WORK_PRECISION, gm_command_work_precision},
-    {"stability", "SCENE [key=value ...]", "which time step keeps which scheme bounded, and how it fails beyond",
-     GM_STABILITY, gm_command_stability},
-    {"certify", "SCHEME|all", "measured order and properties against the claims", GM_CERTIFY, gm_command_certify},
-    {"again", "FILE.png", "make a picture once more from what it tells of itself", GM_AGAIN, gm_command_again},
+    {"work-precision", "SCENE [key=value ...]",
+     "error against run time and evaluations, of every scheme that fits", GM_WORK_PRECISION,
+     gm_command_work_precision},
+    {"stability", "SCENE [key=value ...]",
+     "which time step keeps which scheme bounded, and how it fails beyond", GM_STABILITY,
+     gm_command_stability},
+    {"certify", "SCHEME|all", "measured order and properties against the claims", GM_CERTIFY,
+     gm_command_certify},
+    {"again", "FILE.png", "make a picture once more from what it tells of itself", GM_AGAIN,
+     gm_command_again},
     {"terminal", "", "what was found out about this terminal, and why", GM_TERMINAL, gm_command_terminal},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
-static const char *command_name(size_t i, const void *data) { return (void)data, commands[i].name; }
+static const char *command_name(size_t i, const void *data)
+{
+    return (void)data, commands[i].name;
+}
 
 static int help(void)
 {
@@ -42,10 +49,11 @@ static int help(void)
         printf("  geomint %s %s\n      %s\n", commands[i].name, commands[i].synopsis, commands[i].help);
         gm_options_help(commands[i].bit);
     }
-    printf("  geomint --version | --help\n\n"
-           "key=value sets a parameter (geomint list SCENE names them), scheme=a,b,c the schemes; every key takes\n"
-           "a list, and lanes are the product of the lists (zip=yes pairs them). Numbers are typed as 1e-3, pi/60.\n"
-           "Exit: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim, 130 interrupted.\n");
+    printf(
+        "  geomint --version | --help\n\n"
+        "key=value sets a parameter (geomint list SCENE names them), scheme=a,b,c the schemes; every key takes\n"
+        "a list, and lanes are the product of the lists (zip=yes pairs them). Numbers are typed as 1e-3, pi/60.\n"
+        "Exit: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim, 130 interrupted.\n");
     return gm_finish(GM_EXIT_OK);
 }
 

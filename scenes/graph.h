@@ -17,8 +17,8 @@ const char *gm_lane_title(const struct gm_lane *lane);
 const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *lane);
 
 /* A recent past as a line that fades: `points` are count pairs, the newest last. */
-void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style, const double *points,
-                   size_t count);
+void gm_draw_trail(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                   const double *points, size_t count);
 
 /* A number as 2.4·10⁻⁴. */
 const char *gm_power_text(struct gm_picture *picture, double value);
@@ -32,8 +32,8 @@ struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double w
 /* One past the highest panel number of the lanes. */
 size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count);
 
-/* The history of observable number `series` as points (t, value): at most 4 * GM_HISTORY_BINS doubles. Returns their
-   number. */
+/* The history of observable number `series` as points (t, value): at most 4 * GM_HISTORY_BINS doubles.
+   Returns their number. */
 size_t gm_history_points(const struct gm_lane *lane, size_t series, double *points);
 
 /* A time axis for the histories of these lanes. */
@@ -41,12 +41,12 @@ void gm_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size
 
 /* How an observable is drawn over time. */
 struct gm_graph {
-    const char *observable; /* its key */
-    const char *title;      /* NULL: the observable's */
-    bool relative;          /* divided by its value at the start */
-    bool magnitude;         /* its absolute value */
-    bool highest;           /* the greatest values only, where there are too many to tell apart */
-    enum gm_scale scale;    /* GM_LOG: zeros are gaps; a round-off line where the range comes near it */
+    const char *observable;     /* its key */
+    const char *title;          /* NULL: the observable's */
+    bool relative;              /* divided by its value at the start */
+    bool magnitude;             /* its absolute value */
+    bool highest;               /* the greatest values only, where there are too many to tell apart */
+    enum gm_scale scale;        /* GM_LOG: zeros are gaps; a round-off line where the range comes near it */
     double calm_low, calm_high; /* the range shown at least; equal: none */
 };
 

@@ -103,7 +103,8 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
         mask stagnant = ((change >= previous) | last) & (change <= roundoff);
         mask done = active & ((change == K(constant)(0)) | stagnant);
         solved |= done;
-        active &= K(not )(done) & (change < K(constant)(1e100));
+        active &= K(not )(done);
+        active &= change < K(constant)(1e100);
         if (!K(somewhere)(active)) {
             break;
         }
