@@ -26,7 +26,6 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .t0 = lane->t0,
         .t = lane->run->t,
         .dt = lane->run->dt,
-        .scheme = lane->scheme,
         .memory = gm_run_memory(lane->run),
         .tracks = lane->entries,
         .run = lane->run,

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_TESTS_LABORATORY_H
+#define GM_TESTS_LABORATORY_H
+
+#include "app/drive.h"
+
+/* A lane run to its end as `geomint run` does it: words such as "kepler", "scheme=rk4", "dt=pi/100". */
+struct gm_trial {
+    struct gm_request request;
+    struct gm_drive drive;
+    double maxima[32]; /* of the observables over all steps, if asked for */
+};
+
+/* Runs the one lane that the words make, separated by blanks; fails the test on any refusal. */
+void gm_trial_run(struct gm_trial *trial, const char *words, bool maximum);
+void gm_trial_close(struct gm_trial *trial);
+/* The observable of that key at the end; its maximum. */
+double gm_trial_end(const struct gm_trial *trial, const char *key);
+double gm_trial_max(const struct gm_trial *trial, const char *key);
+
+/* The sentence that refuses these words; "" if they are accepted. */
+const char *gm_trial_refusal(const char *words, char *message);
+
+#endif

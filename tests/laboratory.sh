@@ -1,0 +1,87 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# work-precision and stability from the command line: laboratory.sh PROGRAM
+set -u
+program=$1
+folder=$(mktemp -d) || exit 99
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+fail()
+{
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+# refused MESSAGE-PART WORDS...: exit status 1 and one sentence
+refused()
+{
+    part=$1
+    shift
+    "$program" "$@" >"$folder/out" 2>"$folder/err"
+    [ $? -eq 1 ] || fail "$* is not refused"
+    grep -q -- "$part" "$folder/err" || fail "$*: $(cat "$folder/err")"
+    [ "$(wc -l <"$folder/err")" -eq 1 ] || fail "$*: more than a sentence"
+}
+
+refused "which scene" work-precision
+refused "no scene" work-precision keplar
+refused "only scheme and dt" work-precision kepler eccentricity=.1,.2
+refused "no observable" work-precision kepler --measure energy-error
+refused "says nothing" work-precision kepler perturbation=.01 --measure position_error
+refused "nothing to measure" work-precision kepler until=0
+refused "which scene" stability
+refused "no stability map" stability disc
+refused "did you mean" stability --region rk44
+refused "no linear stability region" stability --region logh2
+refused "no scene" stability kepler --region rk4
+
+# a small ladder: files, table, sentence
+"$program" work-precision kepler scheme=rk4,verlet dt=2*pi/50,2*pi/100,2*pi/200 until=2*pi --size 320x180 \
+    --out "$folder" >"$folder/out" 2>"$folder/err" || fail "work-precision: $(cat "$folder/err")"
+[ -s "$folder/kepler-work-precision.png" ] || fail "no PNG"
+[ "$(wc -l <"$folder/kepler-work-precision.csv")" -eq 7 ] || fail "the CSV has other than 6 rows"
+grep -q '^Cheapest by run time: ' "$folder/out" || fail "no sentence"
+grep -q '^kepler,rk4,4,.*,ok,' "$folder/kepler-work-precision.csv" || fail "no row of rk4"
+
+# the error falls by 2^4 with half the step
+awk -F, '$2 == "rk4" { if (before && (before / $8 < 10 || before / $8 > 40)) exit 1; before = $8 }' \
+    "$folder/kepler-work-precision.csv" || fail "rk4 is not of order 4 in the CSV"
+
+# no exact solution: a reference run; any scene has it
+"$program" work-precision disc scheme=verlet,rk4 dt=.1,.05 until=1 points=8 --size 320x180 --out "$folder" \
+    >"$folder/out" 2>&1 || fail "work-precision disc"
+grep -q 'against a run of' "$folder/out" || fail "no reference run is named"
+
+# another measure
+"$program" work-precision vortices scheme=rk4,gauss4 dt=.1,.05 until=1 strength=1 --measure angular_impulse_error \
+    --size 320x180 --out "$folder" >"$folder/out" 2>&1 || fail "work-precision --measure"
+grep -q ',angular_impulse_error,' "$folder/vortices-work-precision.csv" || fail "the measure is not named in the CSV"
+
+# interrupted, it keeps what it has
+"$program" work-precision kepler until=4000*pi --size 320x180 --out "$folder/half" >"$folder/out" 2>&1 &
+running=$!
+sleep 1
+kill -INT $running
+wait $running
+[ $? -eq 130 ] || fail "interrupted work-precision does not exit with 130"
+[ -s "$folder/half/kepler-work-precision.csv" ] || fail "interrupted work-precision keeps nothing"
+
+"$program" stability stiff scheme=verlet until=10 --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
+    fail "stability: $(cat "$folder/err")"
+[ -s "$folder/stiff-stability.png" ] || fail "no PNG of the map"
+grep -q '^stiff,verlet,50,2.0499.*,blow-up,blow-up,' "$folder/stiff-stability.csv" || fail "Verlet is not lost at 2.05"
+grep -q '^stiff,verlet,50,1.95.*,bounded,ok,' "$folder/stiff-stability.csv" || fail "Verlet is not bounded at 1.95"
+grep -q 'bounded for all values up to 1.95' "$folder/out" || fail "no limit in the table"
+
+"$program" stability --region rk4 --size 320x180 --out "$folder" >"$folder/out" 2>&1 || fail "stability --region"
+grep -q 'imaginary z up to 2.82' "$folder/out" || fail "the region of rk4: $(cat "$folder/out")"
+[ -s "$folder/rk4-stability.png" ] || fail "no PNG of the region"
+"$program" stability --region verlet --size 320x180 --out "$folder" | grep -q 'up to h ω = 2$' || fail "Verlet's limit"
+
+# a step that ends at the first t after until
+"$program" run kepler scheme=logh2 dt=2*pi/60 eccentricity=.9 until=10 --json >"$folder/out" || fail "logh2"
+grep -Eq '"t":10\.[0-9]+' "$folder/out" || fail "logh2 does not end just after until: $(cat "$folder/out")"
+
+[ $failures -eq 0 ] && echo "all well"
+exit $((failures > 0))
