@@ -28,7 +28,8 @@ static void note(struct gm_certificate *certificate, enum gm_claim claim, double
     measure->measured = true;
 }
 
-static void note_order(struct gm_certificate *certificate, double *farthest, double order, const char *problem)
+static void note_order(struct gm_certificate *certificate, double *farthest, double order,
+                       const char *problem)
 {
     const double away = isnan(order) ? INFINITY : fabs(order - certificate->scheme->order);
     if (away > *farthest) {
@@ -70,7 +71,8 @@ static double error_at(struct subject *subject, double t,
     return largest;
 }
 
-/* Forth 8 steps, back 7: the distance from the level after the first. Two-step schemes come back along their levels. */
+/* Forth 8 steps, back 7: the distance from the level after the first. Two-step schemes come back along their
+ * levels. */
 static double return_defect(struct subject *subject, const double *y)
 {
     const size_t points = subject->problem.line.points;
@@ -101,7 +103,8 @@ static double drift(struct subject *subject, const double *y,
         gm_run_advance(subject->run, 1);
         const double before = quantity(&subject->problem, gm_run_state(subject->run));
         if (gm_run_advance(subject->run, 60) == GM_OK) {
-            change = fabs(quantity(&subject->problem, gm_run_state(subject->run)) - before) / fmax(1, fabs(before));
+            change = fabs(quantity(&subject->problem, gm_run_state(subject->run)) - before) /
+                     fmax(1, fabs(before));
         }
         gm_run_close(subject->run);
     }
@@ -230,7 +233,8 @@ static void certify_nls(struct gm_certificate *certificate, double *farthest)
             gm_nls_exact(&bright, &problem->line, gm_line_node(&problem->line, i), 0, &y[i], &y[points + i]);
         }
         if (k == 0) {
-            note(certificate, GM_KEEPS_QUADRATIC, drift(&subject, y, gm_nls_node_charge), 1e-12, problem->name);
+            note(certificate, GM_KEEPS_QUADRATIC, drift(&subject, y, gm_nls_node_charge), 1e-12,
+                 problem->name);
             note(certificate, GM_SYMMETRIC, return_defect(&subject, y), 1e-12, problem->name);
         }
         if (open_run(&subject, 0, y)) {

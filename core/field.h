@@ -7,12 +7,12 @@
 
 struct gm_problem;
 
-/* Fields on a line: Hamiltonian partial differential equations in one space dimension on a periodic grid, in their
-   multisymplectic form
-       M s_t + K s_x = grad S(s),     M, K skew,
-   (Bridges & Reich, Phys. Lett. A 284 (2001) 184), and what elimination makes of them. */
+/* Fields on a line: Hamiltonian partial differential equations in one space dimension on a periodic grid, in
+   their multisymplectic form M s_t + K s_x = grad S(s),     M, K skew, (Bridges & Reich, Phys. Lett. A 284
+   (2001) 184), and what elimination makes of them. */
 
-/* A grid of equal spacing; node i lies at first + i dx. A periodic field obeys u(x + points dx) = u(x) + jump. */
+/* A grid of equal spacing; node i lies at first + i dx. A periodic field obeys u(x + points dx) = u(x) +
+ * jump. */
 struct gm_line {
     size_t points;
     double dx, first, jump;
@@ -24,10 +24,9 @@ static inline double gm_line_node(const struct gm_line *line, size_t i)
     return ((double)i + line->first / line->dx) * line->dx;
 }
 
-
 struct gm_field {
-    size_t dimension;        /* of s */
-    const double *m, *k;     /* dimension * dimension, row by row */
+    size_t dimension;    /* of s */
+    const double *m, *k; /* dimension * dimension, row by row */
     void (*gradient)(const void *parameters, const double *s, double *gradient); /* at one point */
 };
 
@@ -42,22 +41,25 @@ struct gm_wave {
     double (*quotient_slope)(double a, double b);
 };
 
-/* a A^p f_t + b D^p f + Q g(A f) = 0 on the grid, A f = (f_i + f_{i+1})/2, D f = (f_{i+1} - f_i)/dx, Q = A D or A: what
-   the box scheme leaves of an equation of first order in time. The field is real, with the state of a wave problem, or
-   complex, and its state is the real parts and the imaginary parts. */
+/* a A^p f_t + b D^p f + Q g(A f) = 0 on the grid, A f = (f_i + f_{i+1})/2, D f = (f_{i+1} - f_i)/dx, Q = A D
+   or A: what the box scheme leaves of an equation of first order in time. The field is real, with the state
+   of a wave problem, or complex, and its state is the real parts and the imaginary parts. */
 struct gm_dispersive {
-    int power;               /* p, 2 or 3 */
-    double factor[2];        /* a, real and imaginary part */
+    int power;                                              /* p, 2 or 3 */
+    double factor[2];                                       /* a, real and imaginary part */
     double (*dispersion)(const struct gm_problem *problem); /* b */
-    bool derivative;         /* Q = A D */
+    bool derivative;                                        /* Q = A D */
     bool complex_valued;
     void (*nonlinear)(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
                       double *g_im, size_t count); /* g */
 };
 
-/* State of a wave problem, 2 points + 1 numbers: u at the present time t, u at another time, and the second time
-   minus t. A scheme of two steps needs nothing else: after a step of length dt the other time is t - dt, at a start
-   from two exact levels it is t + dt. */
-static inline size_t gm_wave_size(size_t points) { return 2 * points + 1; }
+/* State of a wave problem, 2 points + 1 numbers: u at the present time t, u at another time, and the second
+   time minus t. A scheme of two steps needs nothing else: after a step of length dt the other time is t - dt,
+   at a start from two exact levels it is t + dt. */
+static inline size_t gm_wave_size(size_t points)
+{
+    return 2 * points + 1;
+}
 
 #endif

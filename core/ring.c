@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A circulant band matrix is a polynomial in the shift z. Each of its linear factors is inverted by one recursion,
-   forwards where the root lies inside the unit circle, backwards where it lies outside, so that rounding errors die
-   out. What the recursion starts from follows from the closed ring: a geometric sum, cut where it no longer counts. */
+/* A circulant band matrix is a polynomial in the shift z. Each of its linear factors is inverted by one
+   recursion, forwards where the root lies inside the unit circle, backwards where it lies outside, so that
+   rounding errors die out. What the recursion starts from follows from the closed ring: a geometric sum, cut
+   where it no longer counts. */
 #include "core/ring.h"
 
 #include <math.h>

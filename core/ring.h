@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Linear systems that look the same at every point of a ring of `count` points: circulant band matrices, solved in a
-   time proportional to count, whatever its factors, by sweeps of recursions that only damp. */
+/* Linear systems that look the same at every point of a ring of `count` points: circulant band matrices,
+   solved in a time proportional to count, whatever its factors, by sweeps of recursions that only damp. */
 
 /* (off f_{i-1} + diagonal f_i + off f_{i+1}) = b_i, diagonal > 2 |off|. */
 struct gm_ring {
@@ -18,7 +18,8 @@ struct gm_ring gm_ring_make(size_t count, double diagonal, double off);
 /* Replaces b by the solution. */
 void gm_ring_solve(const struct gm_ring *ring, double *b);
 
-/* scale (z - roots[0]) (z - roots[1]) ... f = b for complex b, (z f)_i = f_{i+1}; no root on the unit circle. */
+/* scale (z - roots[0]) (z - roots[1]) ... f = b for complex b, (z f)_i = f_{i+1}; no root on the unit circle.
+ */
 enum { GM_RING_ROOTS = 3 };
 struct gm_ring_roots {
     size_t count;

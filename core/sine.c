@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* sin x = (-1)^q sin(x - q pi), q = round(x / pi); pi in three parts (Cody & Waite), then the Taylor polynomial of
-   degree 21, whose remainder on [-pi/2, pi/2] is 1e-18. No branches, so that a compiler turns the loop into vectors. */
+/* sin x = (-1)^q sin(x - q pi), q = round(x / pi); pi in three parts (Cody & Waite), then the Taylor
+   polynomial of degree 21, whose remainder on [-pi/2, pi/2] is 1e-18. No branches, so that a compiler turns
+   the loop into vectors. */
 #include "core/sine.h"
 
 #include <stdint.h>

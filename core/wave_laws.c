@@ -7,7 +7,10 @@
 
 #include "core/families/two_step.h"
 
-static const struct gm_two_step_row *row_of(const struct gm_scheme *scheme) { return scheme->coefficients; }
+static const struct gm_two_step_row *row_of(const struct gm_scheme *scheme)
+{
+    return scheme->coefficients;
+}
 
 /* Node i + by of a level, around the ring. */
 static double at(const struct gm_line *line, const double *level, size_t i, int by)
@@ -81,10 +84,13 @@ struct levels {
     const double *past, *now, *next;
 };
 
-static void levels_close(struct levels *levels) { free(levels->memory); }
+static void levels_close(struct levels *levels)
+{
+    free(levels->memory);
+}
 
-static bool levels_open(struct levels *levels, const struct gm_problem *problem, const struct gm_scheme *scheme,
-                        double dt, const double *y)
+static bool levels_open(struct levels *levels, const struct gm_problem *problem,
+                        const struct gm_scheme *scheme, double dt, const double *y)
 {
     const size_t points = problem->line.points, size = gm_wave_size(points);
     const bool at_start = y[2 * points] != -dt;
@@ -120,8 +126,8 @@ static bool levels_open(struct levels *levels, const struct gm_problem *problem,
 }
 
 /* u_tt - d2 u + [V(a) - V(b)] / (a - b): what multiplies u_t in the law of energy, u_x in that of momentum */
-static double node_law(const struct gm_problem *problem, const struct levels *levels, double dt, size_t i, double a,
-                       double b)
+static double node_law(const struct gm_problem *problem, const struct levels *levels, double dt, size_t i,
+                       double a, double b)
 {
     return (levels->next[i] - 2 * levels->now[i] + levels->past[i]) / (dt * dt) -
            d2(&problem->line, levels->now, i) + problem->wave->quotient(a, b);
@@ -204,8 +210,8 @@ static void tangent_start(const struct tangent *tangent, size_t points, double w
 }
 
 /* The tangent at the next level by the linearised scheme of nodes. */
-static void tangent_nodes(const struct gm_problem *problem, const struct levels *levels, bool average, double dt,
-                          const struct tangent *a)
+static void tangent_nodes(const struct gm_problem *problem, const struct levels *levels, bool average,
+                          double dt, const struct tangent *a)
 {
     const struct gm_wave *wave = problem->wave;
     const struct gm_line ring = {problem->line.points, problem->line.dx, 0, 0};
@@ -237,17 +243,17 @@ static double form_of_nodes(const struct gm_problem *problem, double dt, const s
 }
 
 /* V'' in the cells between two levels. */
-static void cell_curvatures(const struct gm_problem *problem, const double *p, const double *q, double *curvature)
+static void cell_curvatures(const struct gm_problem *problem, const double *p, const double *q,
+                            double *curvature)
 {
     const struct gm_line *line = &problem->line;
     for (size_t i = 0; i < line->points; i++) {
-        curvature[i] =
-            problem->wave->curvature((p[i] + at(line, p, i, 1) + q[i] + at(line, q, i, 1)) / 4);
+        curvature[i] = problem->wave->curvature((p[i] + at(line, p, i, 1) + q[i] + at(line, q, i, 1)) / 4);
     }
 }
 
-/* dL/du at a corner of a cell, linearised along a; L = (D_t A_x u)^2/2 - (D_x A_t u)^2/2 - V(A_t A_x u). `before` and
-   `after` are the values of a at the cell's four corners. */
+/* dL/du at a corner of a cell, linearised along a; L = (D_t A_x u)^2/2 - (D_x A_t u)^2/2 - V(A_t A_x u).
+   `before` and `after` are the values of a at the cell's four corners. */
 static double corner(double before_left, double before_right, double after_left, double after_right,
                      double curvature, double dt, double dx, bool after, bool right)
 {
@@ -270,8 +276,8 @@ static double cells_at_node(const struct gm_line *ring, const struct tangent *a,
 }
 
 /* The next level of a tangent so that the sum at every node vanishes: iterated with the circulant part. */
-static bool tangent_cells(const struct gm_problem *problem, const double *earlier, const double *later, double dt,
-                          const struct tangent *a, double *residual)
+static bool tangent_cells(const struct gm_problem *problem, const double *earlier, const double *later,
+                          double dt, const struct tangent *a, double *residual)
 {
     enum { MOST = 200 };
     const struct gm_line ring = {problem->line.points, problem->line.dx, 0, 0};
@@ -299,9 +305,10 @@ static bool tangent_cells(const struct gm_problem *problem, const double *earlie
     return false;
 }
 
-/* Fluxes of the form through the corners of every cell add up to nothing in the cell; at a node they must too. */
-static double form_of_cells(const struct gm_problem *problem, const double *earlier, const double *later, double dt,
-                            const struct tangent *a, const struct tangent *b)
+/* Fluxes of the form through the corners of every cell add up to nothing in the cell; at a node they must
+ * too. */
+static double form_of_cells(const struct gm_problem *problem, const double *earlier, const double *later,
+                            double dt, const struct tangent *a, const struct tangent *b)
 {
     const struct gm_line ring = {problem->line.points, problem->line.dx, 0, 0};
     double largest = 0;
@@ -313,8 +320,8 @@ static double form_of_cells(const struct gm_problem *problem, const double *earl
 }
 
 /* The next level of a tangent by central differences of the scheme's step at four distances, extrapolated. */
-static bool tangent_by_differences(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                                   const struct levels *levels, const struct tangent *a)
+static bool tangent_by_differences(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                                   double dt, const struct levels *levels, const struct tangent *a)
 {
     enum { DISTANCES = 4 };
     const size_t points = problem->line.points, size = gm_wave_size(points);
@@ -322,8 +329,14 @@ static bool tangent_by_differences(const struct gm_problem *problem, const struc
     void *work = gm_two_step_open(problem, scheme);
     bool good = memory && work;
     double *y = memory, *out = memory + size, *table = out + size;
-    struct gm_task task = {.problem = problem, .scheme = scheme, .dt = dt, .steps = 1, .limit = INFINITY,
-                           .y = y, .out = out, .workspace = work};
+    struct gm_task task = {.problem = problem,
+                           .scheme = scheme,
+                           .dt = dt,
+                           .steps = 1,
+                           .limit = INFINITY,
+                           .y = y,
+                           .out = out,
+                           .workspace = work};
     for (int k = 0; good && k < DISTANCES; k++) {
         const double distance = ldexp(0.05, -k);
         double *slope = table + (size_t)k * points;
@@ -393,7 +406,8 @@ static double form_residual(const struct gm_problem *problem, const struct gm_sc
                tangent_cells(problem, earlier, later, dt, &b, scratch);
     }
     if (good) {
-        residual = nodes ? form_of_nodes(problem, dt, &a, &b) : form_of_cells(problem, earlier, later, dt, &a, &b);
+        residual =
+            nodes ? form_of_nodes(problem, dt, &a, &b) : form_of_cells(problem, earlier, later, dt, &a, &b);
     }
     levels_close(&levels);
     free(memory);

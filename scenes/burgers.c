@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Burgers' equation u_t + u u_x = nu u_xx, seen from frames that move with lambda: schemes that commute with its
-   symmetries and schemes that do not.
-   Razafindralandy, Hamdouni & Chhay (2018), section "Invariantisation", figures 24 to 26. */
+/* Burgers' equation u_t + u u_x = nu u_xx, seen from frames that move with lambda: schemes that commute with
+   its symmetries and schemes that do not. Razafindralandy, Hamdouni & Chhay (2018), section
+   "Invariantisation", figures 24 to 26. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -78,8 +78,9 @@ static const struct gm_parameter parameters[] = {
     {
         .key = "frame",
         .unit = "",
-        .help = "nodes at rest in the frame, or moving by lambda dt a step, which only invariant schemes know of; each: "
-                "moving for the invariant schemes, fixed for the others",
+        .help =
+            "nodes at rest in the frame, or moving by lambda dt a step, which only invariant schemes know of; each: "
+            "moving for the invariant schemes, fixed for the others",
         .type = GM_CHOICE,
         .offset = offsetof(struct scene, burgers.frame),
         .standard = "each",
@@ -106,9 +107,15 @@ static const struct gm_parameter parameters[] = {
     },
 };
 
-static double half_length(const struct scene *scene) { return scene->burgers.test == GM_BURGERS_SHOCK ? 1 : 2; }
+static double half_length(const struct scene *scene)
+{
+    return scene->burgers.test == GM_BURGERS_SHOCK ? 1 : 2;
+}
 
-static double t0(const void *own) { return gm_burgers_t0(&((const struct scene *)own)->burgers); }
+static double t0(const void *own)
+{
+    return gm_burgers_t0(&((const struct scene *)own)->burgers);
+}
 
 static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
 {
@@ -122,7 +129,8 @@ static bool settle(void *own, const char *const *keys, size_t count, char *sente
     scene->dx = length / fmax(2, round(length / scene->dx));
     const double follows = scene->courant * scene->dx;
     if (dt && courant && fabs(follows - scene->timing.dt) > 1e-9 * follows) {
-        snprintf(sentence, GM_SENTENCE, "dt= and courant= are both given; one of them follows from the other");
+        snprintf(sentence, GM_SENTENCE,
+                 "dt= and courant= are both given; one of them follows from the other");
         return false;
     }
     if (dt) {
@@ -140,12 +148,13 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     *problem = gm_problem_burgers;
     problem->burgers = &scene->burgers;
     /* a grid at rest grows to where the front travels */
-    const double travel = scene->burgers.frame == GM_FRAME_MOVING ? 0 : lambda * (scene->timing.until - t0(own));
+    const double travel =
+        scene->burgers.frame == GM_FRAME_MOVING ? 0 : lambda * (scene->timing.until - t0(own));
     const double more = round(fabs(travel) / scene->dx);
     const double pieces = round(2 * half_length(scene) / scene->dx) + more;
     if (!(pieces < most)) {
-        snprintf(sentence, GM_SENTENCE, "the grid would need %.3g nodes to hold the front until the end; 1e7 is the most",
-                 pieces);
+        snprintf(sentence, GM_SENTENCE,
+                 "the grid would need %.3g nodes to hold the front until the end; 1e7 is the most", pieces);
         return false;
     }
     problem->line = (struct gm_line){
@@ -181,7 +190,8 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
 static double exact(const struct gm_view *view, size_t j)
 {
     const struct gm_burgers *burgers = view->problem->burgers;
-    return gm_burgers_exact(burgers, gm_burgers_fixed(burgers, view->scheme), node(view->problem, j), view->t);
+    return gm_burgers_exact(burgers, gm_burgers_fixed(burgers, view->scheme), node(view->problem, j),
+                            view->t);
 }
 
 static double sup_error(const struct gm_view *view)
@@ -234,18 +244,20 @@ static double galilean_defect(const struct gm_view *view)
             continue;
         }
         const size_t at = (size_t)below;
-        const double there = fabs(part) < 1e-6 ? companion[at] : (1 - part) * companion[at] + part * companion[at + 1];
+        const double there =
+            fabs(part) < 1e-6 ? companion[at] : (1 - part) * companion[at] + part * companion[at + 1];
         largest = fmax(largest, fabs(view->state[j] - burgers->lambda - there));
     }
     return largest;
 }
 
-/* On the three nodes 0.3 - h, 0.3, 0.3 + h with the values 0.4, 0.3, 0.15, and the projection with a4 = 0.5. */
+/* On the three nodes 0.3 - h, 0.3, 0.3 + h with the values 0.4, 0.3, 0.15, and the projection with a4 = 0.5.
+ */
 static double projection_defect(const struct gm_view *view)
 {
     static const double u[3] = {0.4, 0.3, 0.15};
-    return gm_burgers_projection_defect(view->scheme, view->problem->burgers->viscosity, view->problem->line.dx,
-                                        view->dt, 0.5, 0.3, u);
+    return gm_burgers_projection_defect(view->scheme, view->problem->burgers->viscosity,
+                                        view->problem->line.dx, view->dt, 0.5, 0.3, u);
 }
 
 static const struct gm_observable observables[] = {
@@ -309,8 +321,8 @@ static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_la
     return panel;
 }
 
-static void draw_panel(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count, size_t number,
-                       double *points)
+static void draw_panel(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                       size_t number, double *points)
 {
     struct gm_panel *panel = NULL;
     size_t sharing = 0, named = 0;
@@ -337,15 +349,17 @@ static void draw_panel(struct gm_picture *picture, const struct gm_lane *const *
         const bool of_lambda = strncmp(typed, "lambda", 6) == 0;
         const char *name = of_lambda ? gm_picture_text(picture, "λ%s", typed + 6) : typed;
         if (frozen) {
-            panel->note = gm_picture_text(picture, "%s%s%s%s%s at %s", panel->note, panel->note[0] ? ", " : "", name,
-                                          name[0] ? " " : "", gm_status_name(lanes[i]->run->status),
-                                          gm_time_text(picture, lanes[i]->run->t, lanes[i]->run->dt));
+            panel->note =
+                gm_picture_text(picture, "%s%s%s%s%s at %s", panel->note, panel->note[0] ? ", " : "", name,
+                                name[0] ? " " : "", gm_status_name(lanes[i]->run->status),
+                                gm_time_text(picture, lanes[i]->run->t, lanes[i]->run->dt));
         }
         if (name[0] && number == 0) {
             /* in the empty corner above the front, one below the other */
-            gm_mark_text(picture, panel,
-                         (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 1, .width = 1},
-                         panel->x.high, 1.3 - 0.46 * (double)named++, GM_ANCHOR_RIGHT, name);
+            gm_mark_text(
+                picture, panel,
+                (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 1, .width = 1},
+                panel->x.high, 1.3 - 0.46 * (double)named++, GM_ANCHOR_RIGHT, name);
         }
     }
 }
@@ -365,14 +379,15 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->title = shock     ? "A viscous shock of Burgers' equation"
                      : boosted ? "Burgers' front from moving frames, drawn at rest"
                                : "A front of Burgers' equation";
-    picture->subtitle =
-        gm_picture_text(picture, "ν = %g,  Δx = %g,  Courant number %.4g,  exact solution in grey, start in red",
-                        scene->burgers.viscosity, scene->dx, lanes[0]->run->dt / scene->dx);
+    picture->subtitle = gm_picture_text(
+        picture, "ν = %g,  Δx = %g,  Courant number %.4g,  exact solution in grey, start in red",
+        scene->burgers.viscosity, scene->dx, lanes[0]->run->dt / scene->dx);
     gm_draw_clock(picture, lanes, count);
     for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
         draw_panel(picture, lanes, count, p, points);
     }
-    const struct gm_graph error = {.observable = "sup_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1};
+    const struct gm_graph error = {
+        .observable = "sup_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1};
     const struct gm_graph defect = {
         .observable = "galilean_defect", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1};
     gm_draw_graph(picture, lanes, count, &error, -1, false);
@@ -381,8 +396,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     }
 }
 
-static const char *const schemes[] = {"ftcs",           "lax-wendroff",           "ftcs-invariant",
-                                      "crank-nicolson", "lax-wendroff-invariant", "crank-nicolson-invariant",
+static const char *const schemes[] = {"ftcs",
+                                      "lax-wendroff",
+                                      "ftcs-invariant",
+                                      "crank-nicolson",
+                                      "lax-wendroff-invariant",
+                                      "crank-nicolson-invariant",
                                       NULL};
 
 static const struct gm_figure figures[] = {
@@ -393,16 +412,19 @@ static const struct gm_figure figures[] = {
     },
     {
         .name = "razafindralandy-25",
-        .statement = "the invariantised schemes give the same profile from every frame and do not oscillate (so "
-                     "here; at Δx = 0.02 that is true of Lax-Wendroff only)",
+        .statement =
+            "the invariantised schemes give the same profile from every frame and do not oscillate (so "
+            "here; at Δx = 0.02 that is true of Lax-Wendroff only)",
         .arguments = "scheme=ftcs-invariant,lax-wendroff-invariant,crank-nicolson-invariant lambda=0,1,2,3 "
                      "frame=moving dx=0.01",
     },
     {
         .name = "razafindralandy-26",
-        .statement = "on a self-similar shock the invariantised FTCS scheme stays close to the exact solution where "
-                     "FTCS does not",
-        .arguments = "scheme=ftcs,ftcs-invariant test=shock viscosity=0.01 dx=0.05 courant=1 form=printed until=2",
+        .statement =
+            "on a self-similar shock the invariantised FTCS scheme stays close to the exact solution where "
+            "FTCS does not",
+        .arguments =
+            "scheme=ftcs,ftcs-invariant test=shock viscosity=0.01 dx=0.05 courant=1 form=printed until=2",
     },
 };
 
@@ -411,10 +433,12 @@ static const struct gm_figure figures[] = {
 const struct gm_scene gm_scene_burgers = {
     .name = "burgers",
     .title = "Burgers' equation from moving frames",
-    .blurb = "A steep front or a viscous shock, and the same seen from a frame that moves with lambda. The equation "
-             "does not care; a standard scheme does, an invariantised one does not.",
-    .watch = "Watch the profiles part as lambda grows: invariantised schemes on moving nodes give one and the same "
-             "(confirmed to round-off); that they never oscillate holds for Lax-Wendroff only, and for all at dx = 0.01.",
+    .blurb =
+        "A steep front or a viscous shock, and the same seen from a frame that moves with lambda. The equation "
+        "does not care; a standard scheme does, an invariantised one does not.",
+    .watch =
+        "Watch the profiles part as lambda grows: invariantised schemes on moving nodes give one and the same "
+        "(confirmed to round-off); that they never oscillate holds for Lax-Wendroff only, and for all at dx = 0.01.",
     .size = sizeof(struct scene),
     .parameters = parameters,
     .parameter_count = COUNT(parameters),

@@ -10,7 +10,10 @@ static size_t columns_of(const struct gm_problem *problem)
     return problem->line.points < GM_SURFACE_COLUMNS ? problem->line.points : GM_SURFACE_COLUMNS;
 }
 
-size_t gm_surface_width(const struct gm_view *view) { return columns_of(view->problem); }
+size_t gm_surface_width(const struct gm_view *view)
+{
+    return columns_of(view->problem);
+}
 
 double gm_surface_interval(const void *parameters)
 {
@@ -18,7 +21,8 @@ double gm_surface_interval(const void *parameters)
     return fmax(timing->until / 200, fabs(timing->dt));
 }
 
-void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t), double *entry)
+void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
+                       double *entry)
 {
     const size_t points = view->problem->line.points, columns = columns_of(view->problem);
     for (size_t k = 0; k < columns; k++) {
@@ -26,19 +30,23 @@ void gm_surface_record(const struct gm_view *view, double (*value)(const struct 
     }
 }
 
-static double end_of(const struct gm_line *line) { return line->first + line->dx * (double)line->points; }
+static double end_of(const struct gm_line *line)
+{
+    return line->first + line->dx * (double)line->points;
+}
 
-void gm_draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count, size_t track,
-                      const struct gm_field_look *look)
+void gm_draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                      size_t track, const struct gm_field_look *look)
 {
     for (size_t i = 0; i < count; i++) {
         const struct gm_lane *lane = lanes[i];
         const struct gm_entries *rows = &lane->entries[track];
         const struct gm_timing *timing = lane->parameters;
         const struct gm_line *line = &lane->problem.line;
-        const char *name = lane->shown.colour_name[0]
-                               ? gm_picture_text(picture, "%s, %s", gm_lane_title(lane), lane->shown.colour_name)
-                               : gm_lane_title(lane);
+        const char *name =
+            lane->shown.colour_name[0]
+                ? gm_picture_text(picture, "%s, %s", gm_lane_title(lane), lane->shown.colour_name)
+                : gm_lane_title(lane);
         struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, name);
         panel->axes = true;
         panel->title_role = gm_lane_role(lane->shown.colour);
@@ -111,10 +119,11 @@ void gm_draw_profiles(struct gm_picture *picture, const struct gm_lane *const *l
     if (!points) {
         return;
     }
-    struct gm_panel *panel = gm_panel_add(
-        picture, GM_PLACE_GRAPH, gm_picture_text(picture, "%s at t = %s%s", look->name,
-                                                 gm_time_text(picture, ahead->run->t, ahead->run->dt),
-                                                 look->exact ? ", over the exact one in grey" : ""));
+    struct gm_panel *panel =
+        gm_panel_add(picture, GM_PLACE_GRAPH,
+                     gm_picture_text(picture, "%s at t = %s%s", look->name,
+                                     gm_time_text(picture, ahead->run->t, ahead->run->dt),
+                                     look->exact ? ", over the exact one in grey" : ""));
     panel->axes = true;
     panel->title_role = GM_INK;
     panel->x = (struct gm_axis){.label = "x", .low = line->first, .high = end_of(line)};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solitons of the Korteweg-de Vries equation u_t + eta u u_x + mu u_xxx = 0 on a ring.
-   Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic integrators"; Zabusky & Kruskal (1965). */
+   Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic integrators"; Zabusky & Kruskal (1965).
+ */
 #include <math.h>
 #include <string.h>
 
@@ -22,8 +23,9 @@ static const struct gm_parameter parameters[] = {
     {
         .key = "initial",
         .unit = "",
-        .help = "one soliton; two that overtake; cos πx, which breaks up into solitons (half_length 1, mu 0.022², "
-                "until 3.6/π unless given)",
+        .help =
+            "one soliton; two that overtake; cos πx, which breaks up into solitons (half_length 1, mu 0.022², "
+            "until 3.6/π unless given)",
         .type = GM_CHOICE,
         .offset = offsetof(struct scene, kdv.initial),
         .standard = "two-solitons",
@@ -75,7 +77,8 @@ static const struct gm_parameter parameters[] = {
     {
         .key = "half_length",
         .unit = "",
-        .help = "half the length of the ring (50 for two solitons, 20 for one, 1 for the cosine, unless given)",
+        .help =
+            "half the length of the ring (50 for two solitons, 20 for one, 1 for the cosine, unless given)",
         .type = GM_REAL,
         .offset = offsetof(struct scene, half_length),
         .standard = "50",
@@ -151,18 +154,30 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
     gm_kdv_levels(problem, ((const struct gm_timing *)own)->dt, y);
 }
 
-static double value(const struct gm_view *view, size_t node) { return view->state[node]; }
+static double value(const struct gm_view *view, size_t node)
+{
+    return view->state[node];
+}
 
 static double exact(const struct gm_view *view, double x)
 {
     return gm_kdv_exact(view->problem->kdv, &view->problem->line, x, view->t);
 }
 
-static double mass(const struct gm_view *view) { return gm_kdv_mass(view->problem, view->state); }
+static double mass(const struct gm_view *view)
+{
+    return gm_kdv_mass(view->problem, view->state);
+}
 
-static double square(const struct gm_view *view) { return gm_kdv_square(view->problem, view->state); }
+static double square(const struct gm_view *view)
+{
+    return gm_kdv_square(view->problem, view->state);
+}
 
-static double energy(const struct gm_view *view) { return gm_kdv_energy(view->problem, view->state); }
+static double energy(const struct gm_view *view)
+{
+    return gm_kdv_energy(view->problem, view->state);
+}
 
 /* NaN where there is no exact solution. */
 static double solution_error(const struct gm_view *view)
@@ -204,7 +219,10 @@ static const struct gm_observable observables[] = {
      .logarithmic = true},
 };
 
-static void record(const struct gm_view *view, double *entry) { gm_surface_record(view, value, entry); }
+static void record(const struct gm_view *view, double *entry)
+{
+    gm_surface_record(view, value, entry);
+}
 
 static const struct gm_track tracks[] = {
     {.key = "surface",
@@ -221,9 +239,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                          "One Korteweg-de Vries soliton overtakes another",
                                          "A cosine breaks up into Korteweg-de Vries solitons"};
     const bool cosine = scene->kdv.initial == GM_KDV_COSINE;
-    const double highest = cosine                               ? 2.5
+    const double highest = cosine                             ? 2.5
                            : scene->kdv.initial == GM_KDV_TWO ? 5 * scene->kdv.mu / scene->kdv.eta
-                                                                : 3.2 * scene->kdv.velocity / scene->kdv.eta;
+                                                              : 3.2 * scene->kdv.velocity / scene->kdv.eta;
     const struct gm_field_look look = {.value = value,
                                        .exact = cosine ? NULL : exact,
                                        .name = "u",
@@ -231,9 +249,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                        .high = highest,
                                        .map = GM_MAP_SEQUENTIAL};
     picture->title = titles[scene->kdv.initial];
-    picture->subtitle =
-        gm_picture_text(picture, "η = %g,  μ = %.3g,  %ld points%s", scene->kdv.eta, scene->kdv.mu, scene->points,
-                        gm_shared_step(picture, lanes, count));
+    picture->subtitle = gm_picture_text(picture, "η = %g,  μ = %.3g,  %ld points%s", scene->kdv.eta,
+                                        scene->kdv.mu, scene->points, gm_shared_step(picture, lanes, count));
     gm_draw_clock(picture, lanes, count);
     gm_draw_surfaces(picture, lanes, count, 0, &look);
     gm_draw_profiles(picture, lanes, count, &look);
@@ -254,10 +271,12 @@ static const char *const schemes[] = {"box", "zabusky-kruskal", NULL};
 const struct gm_scene gm_scene_kdv = {
     .name = "kdv",
     .title = "Solitons of the Korteweg-de Vries equation",
-    .blurb = "One soliton, two, or Zabusky's and Kruskal's cosine, by the multisymplectic box and by leapfrog, whose step "
-             "is bound by 0.385 Δx³/μ.",
-    .watch = "Watch what a step costs: at Δx = 0.1 leapfrog blows up at Δt = 0.05, where the box runs on; at equal "
-             "Δt and Δx its error is the smaller one, by a factor of 1.5, so the box gains its step and nothing else.",
+    .blurb =
+        "One soliton, two, or Zabusky's and Kruskal's cosine, by the multisymplectic box and by leapfrog, whose step "
+        "is bound by 0.385 Δx³/μ.",
+    .watch =
+        "Watch what a step costs: at Δx = 0.1 leapfrog blows up at Δt = 0.05, where the box runs on; at equal "
+        "Δt and Δx its error is the smaller one, by a factor of 1.5, so the box gains its step and nothing else.",
     .size = sizeof(struct scene),
     .parameters = parameters,
     .parameter_count = COUNT(parameters),

@@ -119,11 +119,20 @@ static double exact(const struct gm_view *view, double x)
     return hypot(re, im);
 }
 
-static double charge(const struct gm_view *view) { return gm_nls_charge(view->problem, view->state); }
+static double charge(const struct gm_view *view)
+{
+    return gm_nls_charge(view->problem, view->state);
+}
 
-static double node_charge(const struct gm_view *view) { return gm_nls_node_charge(view->problem, view->state); }
+static double node_charge(const struct gm_view *view)
+{
+    return gm_nls_node_charge(view->problem, view->state);
+}
 
-static double energy(const struct gm_view *view) { return gm_nls_energy(view->problem, view->state); }
+static double energy(const struct gm_view *view)
+{
+    return gm_nls_energy(view->problem, view->state);
+}
 
 /* NaN where there is no exact solution. */
 static double solution_error(const struct gm_view *view)
@@ -184,7 +193,10 @@ static const struct gm_observable observables[] = {
      .logarithmic = true},
 };
 
-static void record(const struct gm_view *view, double *entry) { gm_surface_record(view, value, entry); }
+static void record(const struct gm_view *view, double *entry)
+{
+    gm_surface_record(view, value, entry);
+}
 
 static const struct gm_track tracks[] = {
     {.key = "surface",
@@ -205,11 +217,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                        .low = 0,
                                        .high = alone ? top : 2 * top,
                                        .map = GM_MAP_SEQUENTIAL};
-    picture->title =
-        alone ? "A soliton of the nonlinear Schrödinger equation" : "Two nonlinear Schrödinger solitons pass each other";
-    picture->subtitle =
-        gm_picture_text(picture, "amplitude %g,  velocity %s%g,  %ld points%s", scene->nls.amplitude,
-                        alone ? "" : "±", scene->nls.velocity, scene->points, gm_shared_step(picture, lanes, count));
+    picture->title = alone ? "A soliton of the nonlinear Schrödinger equation"
+                           : "Two nonlinear Schrödinger solitons pass each other";
+    picture->subtitle = gm_picture_text(picture, "amplitude %g,  velocity %s%g,  %ld points%s",
+                                        scene->nls.amplitude, alone ? "" : "±", scene->nls.velocity,
+                                        scene->points, gm_shared_step(picture, lanes, count));
     gm_draw_clock(picture, lanes, count);
     gm_draw_surfaces(picture, lanes, count, 0, &look);
     gm_draw_profiles(picture, lanes, count, &look);
@@ -229,8 +241,9 @@ const struct gm_scene gm_scene_nls = {
     .name = "nls",
     .title = "Solitons of the nonlinear Schrödinger equation",
     .blurb = "One soliton or a collision, by the multisymplectic box and by the split-step Fourier method.",
-    .watch = "Watch the charge: each scheme keeps its own, of cell means or of nodes, to round-off; the energy only "
-             "nearly, and it dips while the solitons meet.",
+    .watch =
+        "Watch the charge: each scheme keeps its own, of cell means or of nodes, to round-off; the energy only "
+        "nearly, and it dips while the solitons meet.",
     .size = sizeof(struct scene),
     .parameters = parameters,
     .parameter_count = COUNT(parameters),

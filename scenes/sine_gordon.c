@@ -15,7 +15,8 @@ struct scene {
     long points;
 };
 
-static const char *const initials[] = {"breather", "kink", "antikink", "kink-antikink", "antikink-kink", NULL};
+static const char *const initials[] = {"breather",      "kink",          "antikink",
+                                       "kink-antikink", "antikink-kink", NULL};
 
 static const struct gm_parameter parameters[] = {
     GM_DT("0.05", 1e-6, 100),
@@ -110,16 +111,25 @@ static double exact(const struct gm_view *view, double x)
     return gm_sine_gordon_exact(&scene->solution, scene->half_length, x, view->t);
 }
 
-static double value(const struct gm_view *view, size_t node) { return view->state[node]; }
+static double value(const struct gm_view *view, size_t node)
+{
+    return view->state[node];
+}
 
-static double energy(const struct gm_view *view) { return gm_wave_energy(view->problem, view->state); }
+static double energy(const struct gm_view *view)
+{
+    return gm_wave_energy(view->problem, view->state);
+}
 
 static double own_energy(const struct gm_view *view)
 {
     return gm_wave_own_energy(view->problem, view->scheme, view->state);
 }
 
-static double momentum(const struct gm_view *view) { return gm_wave_momentum(view->problem, view->state); }
+static double momentum(const struct gm_view *view)
+{
+    return gm_wave_momentum(view->problem, view->state);
+}
 
 static double solution_error(const struct gm_view *view)
 {
@@ -200,7 +210,10 @@ static const struct gm_observable observables[] = {
      .logarithmic = true},
 };
 
-static void record(const struct gm_view *view, double *entry) { gm_surface_record(view, value, entry); }
+static void record(const struct gm_view *view, double *entry)
+{
+    gm_surface_record(view, value, entry);
+}
 
 static const struct gm_track tracks[] = {
     {.key = "surface",
@@ -218,16 +231,17 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const double jump = gm_sine_gordon_jump(&scene->solution);
     const bool whole = jump != 0;
     const double highest = scene->solution.initial == GM_BREATHER ? 5 : 2 * M_PI;
-    struct gm_field_look look = {.value = value, .exact = exact, .name = "u", .low = -highest, .high = highest};
+    struct gm_field_look look = {
+        .value = value, .exact = exact, .name = "u", .low = -highest, .high = highest};
     look.map = whole ? GM_MAP_SEQUENTIAL : GM_MAP_DIVERGING;
     look.low = whole ? 0 : -highest;
-    picture->title = gm_picture_text(picture, "%s of the sine-Gordon equation", titles[scene->solution.initial]);
-    picture->subtitle =
-        gm_picture_text(picture, "%s = %g,  %ld points,  Δx = %g%s",
-                        scene->solution.initial == GM_BREATHER ? "ω" : "velocity",
-                        scene->solution.initial == GM_BREATHER ? scene->solution.frequency
-                                                               : scene->solution.velocity,
-                        scene->points, lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count));
+    picture->title =
+        gm_picture_text(picture, "%s of the sine-Gordon equation", titles[scene->solution.initial]);
+    picture->subtitle = gm_picture_text(
+        picture, "%s = %g,  %ld points,  Δx = %g%s",
+        scene->solution.initial == GM_BREATHER ? "ω" : "velocity",
+        scene->solution.initial == GM_BREATHER ? scene->solution.frequency : scene->solution.velocity,
+        scene->points, lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count));
     gm_draw_clock(picture, lanes, count);
     gm_draw_surfaces(picture, lanes, count, 0, &look);
     gm_draw_profiles(picture, lanes, count, &look);
@@ -239,13 +253,15 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_graph(picture, lanes, count, &kept, -1, false);
 }
 
-static const char *const schemes[] = {"leapfrog", "energy-conserving", "box", "euler-box", "midpoint-box", NULL};
+static const char *const schemes[] = {"leapfrog",  "energy-conserving", "box",
+                                      "euler-box", "midpoint-box",      NULL};
 
 static const struct gm_figure figures[] = {
     {
         .name = "razafindralandy-11",
-        .statement = "at Δt = Δx the leapfrog scheme destroys the breather before t = 30, the multisymplectic scheme "
-                     "keeps it",
+        .statement =
+            "at Δt = Δx the leapfrog scheme destroys the breather before t = 30, the multisymplectic scheme "
+            "keeps it",
         .arguments = "scheme=leapfrog,box dt=0.05 until=40",
     },
     {
@@ -265,11 +281,13 @@ static const struct gm_figure figures[] = {
 const struct gm_scene gm_scene_sine_gordon = {
     .name = "sine-gordon",
     .title = "Solitons of the sine-Gordon equation",
-    .blurb = "A breather, a kink or a collision on a ring, by an explicit, an energy-conserving and a multisymplectic "
-             "scheme. At Δt = Δx the explicit one lies beyond its Courant limit 4/Δt² ≥ 4/Δx² + 1: rounding grows "
-             "until it destroys the wave.",
-    .watch = "Watch leapfrog roughen near t = 25 and break the breather by t = 31, as published; it is not for want of "
-             "a multisymplectic law, which leapfrog keeps to round-off, but of stability.",
+    .blurb =
+        "A breather, a kink or a collision on a ring, by an explicit, an energy-conserving and a multisymplectic "
+        "scheme. At Δt = Δx the explicit one lies beyond its Courant limit 4/Δt² ≥ 4/Δx² + 1: rounding grows "
+        "until it destroys the wave.",
+    .watch =
+        "Watch leapfrog roughen near t = 25 and break the breather by t = 31, as published; it is not for want of "
+        "a multisymplectic law, which leapfrog keeps to round-off, but of stability.",
     .size = sizeof(struct scene),
     .parameters = parameters,
     .parameter_count = COUNT(parameters),

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wave equation u_tt = u_xx by the variational scheme of Razafindralandy, Hamdouni & Chhay (2018), eqs. 62 to 67,
-   on the uniform mesh that it can be solved on, and what varying the mesh as well would ask for.
+/* The wave equation u_tt = u_xx by the variational scheme of Razafindralandy, Hamdouni & Chhay (2018), eqs.
+   62 to 67, on the uniform mesh that it can be solved on, and what varying the mesh as well would ask for.
 
    The discrete action sum dt dx (-u_t^2 + u_x^2)/2 with forward differences gives, varied in u, t and x,
        (67a)  dt [ux_j - ux_{j-1}] - [dx ut_j^n - dx ut_j^{n-1}] = 0                         leapfrog
        (67b)  dx [e_j^n - e_j^{n-1}] = 0,   (67c)  dt [e_j^n - e_{j-1}^n] = 0,   e = (ut^2 + ux^2)/2:
-   3 J equations for the 2 J + 1 unknowns t^{n+1}, x_j^{n+1}, u_j^{n+1}, of which the x_j^{n+1} occur in none. */
+   3 J equations for the 2 J + 1 unknowns t^{n+1}, x_j^{n+1}, u_j^{n+1}, of which the x_j^{n+1} occur in none.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -80,7 +81,8 @@ static bool settle(void *own, const char *const *keys, size_t count, char *sente
     }
     const double dx = 2 * M_PI / (double)scene->points, follows = scene->courant * dx;
     if (dt && courant && fabs(follows - scene->timing.dt) > 1e-9 * follows) {
-        snprintf(sentence, GM_SENTENCE, "dt= and courant= are both given; one of them follows from the other");
+        snprintf(sentence, GM_SENTENCE,
+                 "dt= and courant= are both given; one of them follows from the other");
         return false;
     }
     if (dt) {
@@ -128,9 +130,15 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
     y[2 * points] = scene->timing.dt;
 }
 
-static double value(const struct gm_view *view, size_t node) { return view->state[node]; }
+static double value(const struct gm_view *view, size_t node)
+{
+    return view->state[node];
+}
 
-static double exact(const struct gm_view *view, double x) { return exact_at(view->parameters, x, view->t); }
+static double exact(const struct gm_view *view, double x)
+{
+    return exact_at(view->parameters, x, view->t);
+}
 
 static double solution_error(const struct gm_view *view)
 {
@@ -141,9 +149,13 @@ static double solution_error(const struct gm_view *view)
     return largest;
 }
 
-static double energy(const struct gm_view *view) { return gm_wave_energy(view->problem, view->state); }
+static double energy(const struct gm_view *view)
+{
+    return gm_wave_energy(view->problem, view->state);
+}
 
-/* What the terms of the printed equations are at a node, between the level before and one step of leapfrog ahead. */
+/* What the terms of the printed equations are at a node, between the level before and one step of leapfrog
+ * ahead. */
 struct terms {
     double e_before, e, ut, ux_change;
 };
@@ -211,12 +223,18 @@ static double momentum_law(const struct gm_view *view)
     return largest / scale;
 }
 
-static double unknowns(const struct gm_view *view) { return 2 * (double)view->problem->line.points + 1; }
+static double unknowns(const struct gm_view *view)
+{
+    return 2 * (double)view->problem->line.points + 1;
+}
 
-static double equations(const struct gm_view *view) { return 3 * (double)view->problem->line.points; }
+static double equations(const struct gm_view *view)
+{
+    return 3 * (double)view->problem->line.points;
+}
 
-/* Of the equations' Jacobian. (67a) determines every u_j^{n+1}; the x_j^{n+1} have empty columns; eliminating the
-   u_j^{n+1} from (67b) leaves the column of t^{n+1} with the entries ut_j (ux_j - ux_{j-1}). */
+/* Of the equations' Jacobian. (67a) determines every u_j^{n+1}; the x_j^{n+1} have empty columns; eliminating
+   the u_j^{n+1} from (67b) leaves the column of t^{n+1} with the entries ut_j (ux_j - ux_{j-1}). */
 static double rank(const struct gm_view *view)
 {
     const size_t points = view->problem->line.points;
@@ -262,7 +280,10 @@ static const struct gm_observable observables[] = {
     {.key = "rank", .title = "rank of their Jacobian", .unit = "", .evaluate = rank},
 };
 
-static void record(const struct gm_view *view, double *entry) { gm_surface_record(view, value, entry); }
+static void record(const struct gm_view *view, double *entry)
+{
+    gm_surface_record(view, value, entry);
+}
 
 static const struct gm_track tracks[] = {
     {.key = "surface",
@@ -279,9 +300,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .value = value, .exact = exact, .name = "u", .low = -0.5, .high = 1, .map = GM_MAP_SEQUENTIAL};
     const struct gm_view view = gm_lane_view(lanes[0]);
     picture->title = "The wave equation on a mesh that cannot move";
-    picture->subtitle = gm_picture_text(picture, "%ld points,  Courant number %.4g;  mesh and time varied too: %.0f "
-                                                 "equations for %.0f unknowns, of rank %.0f",
-                                        scene->points, scene->courant, equations(&view), unknowns(&view), rank(&view));
+    picture->subtitle =
+        gm_picture_text(picture,
+                        "%ld points,  Courant number %.4g;  mesh and time varied too: %.0f "
+                        "equations for %.0f unknowns, of rank %.0f",
+                        scene->points, scene->courant, equations(&view), unknowns(&view), rank(&view));
     gm_draw_clock(picture, lanes, count);
     gm_draw_surfaces(picture, lanes, count, 0, &look);
     gm_draw_profiles(picture, lanes, count, &look);
@@ -300,10 +323,12 @@ static const char *const schemes[] = {"leapfrog", "box", NULL};
 const struct gm_scene gm_scene_wave = {
     .name = "wave",
     .title = "The wave equation, varied in time and space",
-    .blurb = "A Gaussian on a ring by the variational scheme, which on a uniform mesh is leapfrog, and the laws of energy "
-             "and momentum that it would have to obey if the mesh were to adapt.",
-    .watch = "Watch the two laws: along exact waves the law of energy fails by tens of per cent cell by cell and holds "
-             "only as a sum, so no mesh can satisfy the published system, which has more equations than rank.",
+    .blurb =
+        "A Gaussian on a ring by the variational scheme, which on a uniform mesh is leapfrog, and the laws of energy "
+        "and momentum that it would have to obey if the mesh were to adapt.",
+    .watch =
+        "Watch the two laws: along exact waves the law of energy fails by tens of per cent cell by cell and holds "
+        "only as a sum, so no mesh can satisfy the published system, which has more equations than rank.",
     .size = sizeof(struct scene),
     .parameters = parameters,
     .parameter_count = COUNT(parameters),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Nanoseconds a point and step of the schemes for fields, beside a bare loop over libm's sin: no test, ratios to read.
-   Every figure is the median of several runs. */
+/* Nanoseconds a point and step of the schemes for fields, beside a bare loop over libm's sin: no test, ratios
+   to read. Every figure is the median of several runs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -54,7 +54,8 @@ static double bare_sine(size_t points, long steps)
     return sum < INFINITY ? median(taken) : 0;
 }
 
-static double time_of(const struct gm_problem *problem, const char *scheme, double dt, long steps, const double *y)
+static double time_of(const struct gm_problem *problem, const char *scheme, double dt, long steps,
+                      const double *y)
 {
     static const struct gm_settings no_settings;
     double taken[REPEATS];
@@ -92,15 +93,17 @@ static void waves(size_t points, double half_length, double dt, long steps, doub
     gm_sine_gordon_levels(&problem, 0, dt, y);
     printf("sine-Gordon, %zu points\n", points);
     tell("  leapfrog", time_of(&problem, "leapfrog", 0.9 * problem.line.dx, steps, y), 8, sine);
-    tell("  energy-conserving", time_of(&problem, "energy-conserving", 0.9 * problem.line.dx, steps / 8 + 1, y), 0, sine);
+    tell("  energy-conserving",
+         time_of(&problem, "energy-conserving", 0.9 * problem.line.dx, steps / 8 + 1, y), 0, sine);
     tell("  box", time_of(&problem, "box", dt, steps / 4 + 1, y), 150, sine);
     free(y);
 }
 
 static void burgers(size_t points, long steps, double sine)
 {
-    static const char *const names[] = {"ftcs",           "lax-wendroff",           "crank-nicolson",
-                                        "ftcs-invariant", "lax-wendroff-invariant", "crank-nicolson-invariant"};
+    static const char *const names[] = {
+        "ftcs",           "lax-wendroff",           "crank-nicolson",
+        "ftcs-invariant", "lax-wendroff-invariant", "crank-nicolson-invariant"};
     const double dx = 4.0 / (double)(points - 1);
     const struct gm_burgers front = {.viscosity = dx / 2};
     struct gm_problem problem = gm_problem_burgers;
@@ -116,7 +119,8 @@ static void burgers(size_t points, long steps, double sine)
         char what[48];
         snprintf(what, sizeof what, "  %s", names[s]);
         const bool implicit = s % 3 == 2;
-        tell(what, time_of(&problem, names[s], dx / 4, implicit ? steps / 8 + 1 : steps, y), implicit ? 0 : 4, sine);
+        tell(what, time_of(&problem, names[s], dx / 4, implicit ? steps / 8 + 1 : steps, y), implicit ? 0 : 4,
+             sine);
     }
     free(y);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The tables of what Burgers' front and shock are to give, scheme by scheme and frame by frame. Where the printed
-   Crank-Nicolson forms grow at the front (h/nu = 4) the result depends on rounding: there the test asks only that it
-   is bad. */
+/* The tables of what Burgers' front and shock are to give, scheme by scheme and frame by frame. Where the
+   printed Crank-Nicolson forms grow at the front (h/nu = 4) the result depends on rounding: there the test
+   asks only that it is bad. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,8 @@ struct row {
     double blow_up; /* the time, or NaN */
 };
 
-static void expect_row(const char *common, const struct row *row) {
+static void expect_row(const char *common, const struct row *row)
+{
     char words[256];
     snprintf(words, sizeof words, "%s %s", common, row->words);
     struct field_run run = field_run_make(words, -1);
@@ -37,7 +38,8 @@ static void expect_row(const char *common, const struct row *row) {
     field_run_close(&run);
 }
 
-static void the_front_from_moving_frames(void **unused) {
+static void the_front_from_moving_frames(void **unused)
+{
     (void)unused;
     static const struct row rows[] = {
         {"scheme=ftcs form=printed lambda=0", 1.07, .055, NAN},
@@ -67,7 +69,8 @@ static void the_front_from_moving_frames(void **unused) {
     field_run_close(&run);
 }
 
-static void invariant_schemes_do_not_see_the_frame(void **unused) {
+static void invariant_schemes_do_not_see_the_frame(void **unused)
+{
     (void)unused;
     static const char *const lambdas[] = {"0", "0.5", "1", "2", "3"};
     static const struct {
@@ -91,7 +94,8 @@ static void invariant_schemes_do_not_see_the_frame(void **unused) {
     }
 }
 
-static void the_self_similar_shock(void **unused) {
+static void the_self_similar_shock(void **unused)
+{
     (void)unused;
     static const struct row rows[] = {
         {"scheme=ftcs offset=0", .257, .034, NAN},
@@ -118,7 +122,8 @@ static void the_self_similar_shock(void **unused) {
     }
 }
 
-static void standard_schemes_do_not_commute(void **unused) {
+static void standard_schemes_do_not_commute(void **unused)
+{
     (void)unused;
     static const char *const names[] = {"burgers scheme=ftcs", "burgers scheme=lax-wendroff"};
     for (size_t i = 0; i < 2; i++) {
@@ -128,7 +133,8 @@ static void standard_schemes_do_not_commute(void **unused) {
     }
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_front_from_moving_frames),
         cmocka_unit_test(invariant_schemes_do_not_see_the_frame),

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the wave scenes are to reproduce: long runs of the sine-Gordon breather, Korteweg-de Vries solitons and the
-   cosine of Zabusky & Kruskal against a spectral run made here, Schroedinger solitons, the wave equation. */
+/* What the wave scenes are to reproduce: long runs of the sine-Gordon breather, Korteweg-de Vries solitons
+   and the cosine of Zabusky & Kruskal against a spectral run made here, Schroedinger solitons, the wave
+   equation. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +15,8 @@
 
 #include "tests/field_runs.h"
 
-static double value_at_end(const char *words, const char *observable) {
+static double value_at_end(const char *words, const char *observable)
+{
     struct field_run run = field_run_make(words, -1);
     assert_int_equal(run.lane->run->status, GM_OK);
     const double value = field_run_value(&run, observable);
@@ -22,11 +24,12 @@ static double value_at_end(const char *words, const char *observable) {
     return value;
 }
 
-static void breathers_at_equal_steps(void **unused) {
+static void breathers_at_equal_steps(void **unused)
+{
     (void)unused;
     struct field_run run = field_run_make("sine-gordon scheme=leapfrog until=40", 0);
-    expect_within("leapfrog, dt = dx = .05: error above 1 at t =", field_run_until(&run, "solution_error", 1), 25.5,
-                  0.04);
+    expect_within("leapfrog, dt = dx = .05: error above 1 at t =", field_run_until(&run, "solution_error", 1),
+                  25.5, 0.04);
     expect_within("leapfrog: |u| above 10 at t =", field_run_until(&run, "amplitude", 10), 35, 0.04);
     field_run_close(&run);
 
@@ -38,13 +41,15 @@ static void breathers_at_equal_steps(void **unused) {
     field_run_close(&run);
 
     run = field_run_make("sine-gordon scheme=box until=500", 0);
-    expect_within("box to t = 500: largest energy error", field_run_largest(&run, "energy_error"), 2.7e-4, 0.1);
+    expect_within("box to t = 500: largest energy error", field_run_largest(&run, "energy_error"), 2.7e-4,
+                  0.1);
     assert_int_equal(run.lane->run->status, GM_OK);
     assert_true(field_run_value(&run, "solution_error") < 0.5);
     field_run_close(&run);
 }
 
-static void breathers_at_twice_the_step(void **unused) {
+static void breathers_at_twice_the_step(void **unused)
+{
     (void)unused;
     static const char *const explicit_ones[] = {"sine-gordon scheme=leapfrog dt=.1 until=500",
                                                 "sine-gordon scheme=energy-conserving dt=.1 until=500"};
@@ -55,8 +60,8 @@ static void breathers_at_twice_the_step(void **unused) {
         field_run_close(&run);
     }
     struct field_run run = field_run_make("sine-gordon scheme=box dt=.1 until=500", 0);
-    expect_within("box, dt = .1, to t = 500: largest energy error", field_run_largest(&run, "energy_error"), 8e-4,
-                  0.4);
+    expect_within("box, dt = .1, to t = 500: largest energy error", field_run_largest(&run, "energy_error"),
+                  8e-4, 0.4);
     assert_int_equal(run.lane->run->status, GM_OK);
     field_run_close(&run);
     run = field_run_make("sine-gordon scheme=energy-conserving points=801 until=40", -1);
@@ -65,14 +70,18 @@ static void breathers_at_twice_the_step(void **unused) {
     field_run_close(&run);
 }
 
-static void korteweg_de_vries_solitons(void **unused) {
+static void korteweg_de_vries_solitons(void **unused)
+{
     (void)unused;
     expect_within("kdv, one soliton, 200 points",
-                  value_at_end("kdv initial=soliton points=200 dt=.05 until=10", "solution_error"), 3.43e-2, 0.01);
+                  value_at_end("kdv initial=soliton points=200 dt=.05 until=10", "solution_error"), 3.43e-2,
+                  0.01);
     expect_within("kdv, one soliton, 400 points",
-                  value_at_end("kdv initial=soliton points=400 dt=.025 until=10", "solution_error"), 8.57e-3, 0.01);
+                  value_at_end("kdv initial=soliton points=400 dt=.025 until=10", "solution_error"), 8.57e-3,
+                  0.01);
     expect_within("kdv, one soliton, 800 points",
-                  value_at_end("kdv initial=soliton points=800 dt=.0125 until=10", "solution_error"), 2.15e-3, 0.01);
+                  value_at_end("kdv initial=soliton points=800 dt=.0125 until=10", "solution_error"), 2.15e-3,
+                  0.01);
     assert_true(value_at_end("kdv initial=soliton points=400 dt=.025 until=10", "mass_error") < 1e-12);
     expect_within("kdv, two solitons, 1001 points",
                   value_at_end("kdv points=1001 dt=.05 until=40", "solution_error"), 0.143, 0.01);
@@ -80,7 +89,8 @@ static void korteweg_de_vries_solitons(void **unused) {
                   value_at_end("kdv points=2001 dt=.025 until=40", "solution_error"), 0.0359, 0.01);
 }
 
-/* Zabusky's and Kruskal's problem by Fourier modes: the linear part exactly, the rest by Runge and Kutta's method. */
+/* Zabusky's and Kruskal's problem by Fourier modes: the linear part exactly, the rest by Runge and Kutta's
+ * method. */
 enum { MODES = 512 };
 
 struct spectral {
@@ -89,10 +99,14 @@ struct spectral {
     double scratch[2 * MODES];
 };
 
-static double wave_number(size_t k) { return M_PI * (k <= MODES / 2 ? (double)k : (double)k - MODES); }
+static double wave_number(size_t k)
+{
+    return M_PI * (k <= MODES / 2 ? (double)k : (double)k - MODES);
+}
 
 /* f = -i k/2 of the transform of u^2 */
-static void convection(struct spectral *spectral, const double *modes, double *f) {
+static void convection(struct spectral *spectral, const double *modes, double *f)
+{
     memcpy(spectral->scratch, modes, sizeof spectral->scratch);
     gsl_fft_complex_inverse(spectral->scratch, 1, MODES, spectral->table, spectral->space);
     for (size_t i = 0; i < MODES; i++) {
@@ -108,7 +122,8 @@ static void convection(struct spectral *spectral, const double *modes, double *f
 }
 
 /* modes *= exp(i mu k^3 h) */
-static void disperse(double *modes, double h) {
+static void disperse(double *modes, double h)
+{
     for (size_t k = 0; k < MODES; k++) {
         const double number = k == MODES / 2 ? 0 : wave_number(k);
         const double angle = 0.022 * 0.022 * number * number * number * h, re = modes[2 * k];
@@ -117,13 +132,15 @@ static void disperse(double *modes, double h) {
     }
 }
 
-static void combine(double *out, const double *base, double h, const double *f) {
+static void combine(double *out, const double *base, double h, const double *f)
+{
     for (size_t i = 0; i < 2 * MODES; i++) {
         out[i] = base[i] + h * f[i];
     }
 }
 
-static void spectral_run(double *modes, double until, long steps) {
+static void spectral_run(double *modes, double until, long steps)
+{
     static struct spectral spectral;
     spectral.table = gsl_fft_complex_wavetable_alloc(MODES);
     spectral.space = gsl_fft_complex_workspace_alloc(MODES);
@@ -156,7 +173,8 @@ static void spectral_run(double *modes, double until, long steps) {
     gsl_fft_complex_workspace_free(spectral.space);
 }
 
-static double spectral_value(const double *modes, double x) {
+static double spectral_value(const double *modes, double x)
+{
     double sum = modes[0];
     for (size_t k = 1; k < MODES / 2; k++) {
         const double angle = M_PI * (double)k * x;
@@ -165,7 +183,8 @@ static double spectral_value(const double *modes, double x) {
     return sum / MODES;
 }
 
-static void the_cosine_of_zabusky_and_kruskal(void **unused) {
+static void the_cosine_of_zabusky_and_kruskal(void **unused)
+{
     (void)unused;
     static double modes[2 * MODES], coarse[2 * MODES];
     const double until = 3.6 / M_PI;
@@ -207,11 +226,14 @@ static void the_cosine_of_zabusky_and_kruskal(void **unused) {
     field_run_close(&run);
 }
 
-static void schroedinger_solitons(void **unused) {
+static void schroedinger_solitons(void **unused)
+{
     (void)unused;
-    static const char *const words[] = {"nls initial=soliton points=200 dt=.02", "nls initial=soliton points=400 dt=.01",
+    static const char *const words[] = {"nls initial=soliton points=200 dt=.02",
+                                        "nls initial=soliton points=400 dt=.01",
                                         "nls initial=soliton points=800 dt=.005"};
-    static const double complex_errors[] = {0.513, 0.134, 0.0337}, modulus_errors[] = {7.1e-2, 1.9e-2, 4.8e-3};
+    static const double complex_errors[] = {0.513, 0.134, 0.0337},
+                        modulus_errors[] = {7.1e-2, 1.9e-2, 4.8e-3};
     for (size_t i = 0; i < 3; i++) {
         expect_within(words[i], value_at_end(words[i], "solution_error"), complex_errors[i], 0.01);
         expect_within("  of the modulus", value_at_end(words[i], "modulus_error"), modulus_errors[i], 0.02);
@@ -223,7 +245,8 @@ static void schroedinger_solitons(void **unused) {
     field_run_close(&run);
 }
 
-static void waves_on_a_ring(void **unused) {
+static void waves_on_a_ring(void **unused)
+{
     (void)unused;
     assert_true(value_at_end("wave courant=1", "solution_error") < 1e-14);
     expect_within("wave, Courant number .9", value_at_end("wave", "solution_error"), 0.088, 0.01);
@@ -238,7 +261,8 @@ static void waves_on_a_ring(void **unused) {
     assert_true(pointwise > 0.05 && pointwise < 0.6);
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(breathers_at_equal_steps),   cmocka_unit_test(breathers_at_twice_the_step),
         cmocka_unit_test(korteweg_de_vries_solitons), cmocka_unit_test(the_cosine_of_zabusky_and_kruskal),

@@ -18,7 +18,8 @@ enum { CASES = sizeof reference_burgers / sizeof reference_burgers[0], MOST = 10
 
 static const struct gm_settings no_settings;
 
-static void values_agree(void **unused) {
+static void values_agree(void **unused)
+{
     (void)unused;
     for (size_t c = 0; c < CASES; c++) {
         const struct reference_burgers *reference = &reference_burgers[c];
@@ -58,8 +59,8 @@ static void values_agree(void **unused) {
         }
         const double tolerance = 1e-12 + 100 * (reference->conditioning + reference->agreement);
         if (!(error <= tolerance * largest)) {
-            fail_msg("%s, %s, %s, %s, lambda %g: error %.2e", reference->test, reference->scheme, reference->form,
-                     reference->frame, reference->lambda, error);
+            fail_msg("%s, %s, %s, %s, lambda %g: error %.2e", reference->test, reference->scheme,
+                     reference->form, reference->frame, reference->lambda, error);
         }
         assert_true(fabs(sup - reference->sup_error) < 1e-9);
         assert_true(fabs(sum - reference->l1_error) < 1e-9);
@@ -68,16 +69,15 @@ static void values_agree(void **unused) {
 }
 
 /* Three nodes, dx = dt = 0.01: values 0.4, 0.3, 0.15 around x = 0.3, projected with a4 = 0.5. */
-static void projections_commute_or_not(void **unused) {
+static void projections_commute_or_not(void **unused)
+{
     (void)unused;
     static const double u[3] = {0.4, 0.3, 0.15};
     static const struct {
         const char *name;
         bool commutes;
-    } schemes[] = {{"ftcs", false},
-                   {"lax-wendroff", false},
-                   {"ftcs-invariant", true},
-                   {"lax-wendroff-invariant", true}};
+    } schemes[] = {
+        {"ftcs", false}, {"lax-wendroff", false}, {"ftcs-invariant", true}, {"lax-wendroff-invariant", true}};
     for (size_t s = 0; s < 4; s++) {
         const double defect =
             gm_burgers_projection_defect(gm_scheme_find(schemes[s].name), 0.005, 0.01, 0.01, 0.5, 0.3, u);
@@ -88,7 +88,8 @@ static void projections_commute_or_not(void **unused) {
 }
 
 /* Steps made one by one and all at once are the same bits; so are those after a copy of the state. */
-static void bits_do_not_depend_on_bursts(void **unused) {
+static void bits_do_not_depend_on_bursts(void **unused)
+{
     (void)unused;
     const struct gm_burgers burgers = {.frame = GM_FRAME_FIXED, .viscosity = 0.005, .lambda = 0.7};
     struct gm_problem problem = gm_problem_burgers;
@@ -113,21 +114,24 @@ static void bits_do_not_depend_on_bursts(void **unused) {
     free(y);
 }
 
-static void exact_solutions_survive_extremes(void **unused) {
+static void exact_solutions_survive_extremes(void **unused)
+{
     (void)unused;
     static const double viscosities[] = {0, 1e-300, 1e-6, 1, 10};
     for (size_t i = 0; i < 5; i++) {
         for (int test = 0; test < 2; test++) {
             const struct gm_burgers burgers = {.test = test, .viscosity = viscosities[i], .lambda = 1e3};
             for (int k = -10; k <= 10; k++) {
-                assert_true(fabs(gm_burgers_exact(&burgers, true, k / 10.0 + 1e3, gm_burgers_t0(&burgers) + 1) -
-                                 1e3) <= 1);
+                assert_true(
+                    fabs(gm_burgers_exact(&burgers, true, k / 10.0 + 1e3, gm_burgers_t0(&burgers) + 1) -
+                         1e3) <= 1);
             }
         }
     }
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_agree),
         cmocka_unit_test(projections_commute_or_not),

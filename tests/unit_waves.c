@@ -23,7 +23,8 @@ enum { CASES = sizeof reference_waves / sizeof reference_waves[0] };
 
 static const struct gm_settings no_settings;
 
-static void expect_level(const double *u, const double *reference, double tolerance, const char *what) {
+static void expect_level(const double *u, const double *reference, double tolerance, const char *what)
+{
     double error = 0, scale = 0;
     for (size_t i = 0; i < REFERENCE_POINTS; i++) {
         error = fmax(error, fabs(u[i] - reference[i]));
@@ -34,21 +35,23 @@ static void expect_level(const double *u, const double *reference, double tolera
     }
 }
 
-static struct gm_problem wave_problem(size_t points, double half_length, double jump) {
+static struct gm_problem wave_problem(size_t points, double half_length, double jump)
+{
     struct gm_problem problem = gm_problem_sine_gordon;
-    problem.line =
-        (struct gm_line){points, 2 * half_length / (double)points, -half_length, jump};
+    problem.line = (struct gm_line){points, 2 * half_length / (double)points, -half_length, jump};
     problem.n = gm_wave_size(points);
     return problem;
 }
 
-static void expect_number(double value, double reference, double tolerance) {
+static void expect_number(double value, double reference, double tolerance)
+{
     if (!(fabs(value - reference) <= tolerance * fmax(1, fabs(reference)))) {
         fail_msg("%.17g is not %.17g", value, reference);
     }
 }
 
-static void levels_agree(void **unused) {
+static void levels_agree(void **unused)
+{
     (void)unused;
     for (size_t c = 0; c < CASES; c++) {
         const struct reference_wave *reference = &reference_waves[c];
@@ -83,7 +86,8 @@ static void levels_agree(void **unused) {
 static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.5, .velocity = 0.5};
 
 /* A run of the breather; *problem is filled. */
-static struct gm_run *breather_run(struct gm_problem *problem, const char *scheme, size_t points, double dt) {
+static struct gm_run *breather_run(struct gm_problem *problem, const char *scheme, size_t points, double dt)
+{
     *problem = wave_problem(points, 20, 0);
     problem->parameters = &breather;
     double *y = malloc(problem->n * sizeof *y);
@@ -94,7 +98,8 @@ static struct gm_run *breather_run(struct gm_problem *problem, const char *schem
     return run;
 }
 
-static double breather_error(const struct gm_run *run) {
+static double breather_error(const struct gm_run *run)
+{
     double largest = 0;
     for (size_t i = 0; i < run->problem->line.points; i++) {
         const double x = run->problem->line.first + (double)i * run->problem->line.dx;
@@ -103,7 +108,8 @@ static double breather_error(const struct gm_run *run) {
     return largest;
 }
 
-static void all_have_order_two(void **unused) {
+static void all_have_order_two(void **unused)
+{
     (void)unused;
     static const char *const names[] = {"leapfrog", "energy-conserving", "box"};
     for (size_t s = 0; s < 3; s++) {
@@ -122,8 +128,10 @@ static void all_have_order_two(void **unused) {
     }
 }
 
-/* A change of dt or of its sign in flight: leapfrog goes back the way it came; a doubled step keeps the order. */
-static void the_step_may_change(void **unused) {
+/* A change of dt or of its sign in flight: leapfrog goes back the way it came; a doubled step keeps the
+ * order. */
+static void the_step_may_change(void **unused)
+{
     (void)unused;
     struct gm_problem problem;
     struct gm_run *run = breather_run(&problem, "leapfrog", 201, 0.05);
@@ -147,10 +155,12 @@ static void the_step_may_change(void **unused) {
     assert_true(fabs(log2(error[0] / error[1]) - 2) < 0.2);
 }
 
-/* The box in all its variables, through the matrices and the gradient of the facet: from the levels of a run the mean
-   velocity V = A_x v of every cell and the mean slope W = A_t w of every node follow up to a constant, and with
-   them every equation of the box; so does the local law of energy, whose residual is known in closed form. */
-static void the_box_solves_the_whole_system(void **unused) {
+/* The box in all its variables, through the matrices and the gradient of the facet: from the levels of a run
+   the mean velocity V = A_x v of every cell and the mean slope W = A_t w of every node follow up to a
+   constant, and with them every equation of the box; so does the local law of energy, whose residual is known
+   in closed form. */
+static void the_box_solves_the_whole_system(void **unused)
+{
     (void)unused;
     enum { POINTS = 201, STEPS = 40 };
     const double dt = 0.1;
@@ -195,7 +205,8 @@ static void the_box_solves_the_whole_system(void **unused) {
             for (size_t row = 0; row < 3; row++) {
                 double residual = -gradient[row];
                 for (size_t k = 0; k < 3; k++) {
-                    residual += problem.field->m[3 * row + k] * s_t[k] + problem.field->k[3 * row + k] * s_x[k];
+                    residual +=
+                        problem.field->m[3 * row + k] * s_t[k] + problem.field->k[3 * row + k] * s_x[k];
                 }
                 largest = fmax(largest, fabs(residual));
             }
@@ -221,7 +232,8 @@ static void the_box_solves_the_whole_system(void **unused) {
     gm_run_close(run);
 }
 
-static void the_form_is_kept_or_not(void **unused) {
+static void the_form_is_kept_or_not(void **unused)
+{
     (void)unused;
     struct gm_problem problem;
     static const char *const names[] = {"leapfrog", "box", "energy-conserving"};
@@ -237,7 +249,8 @@ static void the_form_is_kept_or_not(void **unused) {
 }
 
 /* The box for Korteweg-de Vries and nonlinear Schroedinger, and leapfrog for the former. */
-static void dispersive_levels_agree(void **unused) {
+static void dispersive_levels_agree(void **unused)
+{
     (void)unused;
     const struct gm_kdv kdv = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1, .position = -5};
     struct gm_problem problem = gm_problem_kdv;
@@ -288,7 +301,8 @@ static void dispersive_levels_agree(void **unused) {
 }
 
 /* The matrices of every equation are skew. */
-static void matrices_are_skew(void **unused) {
+static void matrices_are_skew(void **unused)
+{
     (void)unused;
     const struct gm_problem *const problems[] = {&gm_problem_sine_gordon, &gm_problem_wave, &gm_problem_kdv,
                                                  &gm_problem_nls};
@@ -303,7 +317,8 @@ static void matrices_are_skew(void **unused) {
     }
 }
 
-static void sines_are_sines(void **unused) {
+static void sines_are_sines(void **unused)
+{
     (void)unused;
     for (int k = -40000; k <= 40000; k++) {
         const double x = 0.0123456789 * k * (k % 5 ? 1 : 200);
@@ -320,7 +335,8 @@ static void sines_are_sines(void **unused) {
 }
 
 /* Both ring solvers against the matrix. */
-static void rings_are_solved(void **unused) {
+static void rings_are_solved(void **unused)
+{
     (void)unused;
     static const size_t sizes[] = {2, 3, 8, 101};
     for (size_t s = 0; s < 4; s++) {
@@ -351,8 +367,8 @@ static void rings_are_solved(void **unused) {
             for (size_t i = 0; i < n; i++) {
                 for (int k = 0; k <= power; k++) {
                     const double sign = (power - k) % 2 ? -1 : 1;
-                    const double complex entry = binomial[power][k] * (mean / pow(2, power) +
-                                                                       sign * difference / pow(h, power));
+                    const double complex entry =
+                        binomial[power][k] * (mean / pow(2, power) + sign * difference / pow(h, power));
                     f[i] += entry * (re[(i + (size_t)k) % n] + I * im[(i + (size_t)k) % n]);
                 }
                 assert_true(cabs(f[i] - (b[i] + I * cos((double)i))) < 1e-11);
@@ -361,7 +377,8 @@ static void rings_are_solved(void **unused) {
     }
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_agree),
         cmocka_unit_test(all_have_order_two),

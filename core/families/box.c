@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The box scheme of Preissmann: the implicit midpoint rule in time and in space for M s_t + K s_x = grad S(s),
-       M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),     A f = (f_i + f_{i+1})/2,  D f = (f_{i+1} - f_i)/dx,
-   with all but the field eliminated. For u_tt - u_xx + V'(u) = 0 nine points are left,
-       (A_x^2 u^{n+1} - 2 A_x^2 u^n + A_x^2 u^{n-1}) / dt^2 - (d2 u^{n+1} + 2 d2 u^n + d2 u^{n-1}) / (4 dx^2)
+/* The box scheme of Preissmann: the implicit midpoint rule in time and in space for M s_t + K s_x = grad
+   S(s), M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),     A f = (f_i + f_{i+1})/2,  D f = (f_{i+1} -
+   f_i)/dx, with all but the field eliminated. For u_tt - u_xx + V'(u) = 0 nine points are left, (A_x^2
+   u^{n+1} - 2 A_x^2 u^n + A_x^2 u^{n-1}) / dt^2 - (d2 u^{n+1} + 2 d2 u^n + d2 u^{n-1}) / (4 dx^2)
            + 1/4 sum over the four cells around the node of V'(mean of the four corners) = 0,
-   A_x^2 f = (f_{i+1} + 2 f_i + f_{i-1})/4. Bridges & Reich, Phys. Lett. A 284 (2001) 184. (The form printed in
-   Razafindralandy et al. (2018) lacks the averages.)
+   A_x^2 f = (f_{i+1} + 2 f_i + f_{i-1})/4. Bridges & Reich, Phys. Lett. A 284 (2001) 184. (The form printed
+   in Razafindralandy et al. (2018) lacks the averages.)
 
-   The linear part is circulant; it is inverted by two sweeps and the rest is iterated, which contracts by dt^2/4. */
+   The linear part is circulant; it is inverted by two sweeps and the rest is iterated, which contracts by
+   dt^2/4. */
 #include <math.h>
 
 #include "core/clones.h"
@@ -113,7 +114,10 @@ enum gm_status gm_box_step(struct gm_two_step_work *work, const struct gm_proble
 
 static const struct gm_two_step_row row = {gm_box_step, gm_wave_start, GM_LAW_CELLS, false};
 
-static bool is_wave(const struct gm_problem *problem) { return problem->wave != NULL; }
+static bool is_wave(const struct gm_problem *problem)
+{
+    return problem->wave != NULL;
+}
 
 static struct gm_progress advance(const struct gm_task *task)
 {

@@ -2,16 +2,15 @@
 /* Schemes for u_t + u u_x = nu u_xx and their invariantised forms, which commute with its symmetries.
    D0 u = (u_{j+1} - u_{j-1})/(2h), D2 u = (u_{j+1} - 2 u_j + u_{j-1})/h^2, time step k:
        FTCS              v = u - k u D0 u + k nu D2 u                    (or D0(u^2/2), conservative)
-       Lax-Wendroff      v = u - k D0(u^2/2) + k^2/(2h^2) [A+ (f_{j+1} - f_j) - A- (f_j - f_{j-1})] + k nu D2 u,
-                         f = u^2/2, A+- the mean of u to the right and left
-       Crank-Nicolson    (v - u)/k + (v D0 v + u D0 u)/2 = nu/2 (D2 u + D2 v)
-   A moving frame turns the three values around a node into u = 0, D0 u = 0 by a boost and a projection with
-   a4 = -D0 u, m = 1 + k D0 u; there the step is made, and transformed back. A node that moves by sigma a step gives
-   a5 = -sigma/k (the print omits sigma a4):
-       FTCS              v = [u - sigma a4 + k nu D2 u / m] / m
-       Lax-Wendroff      v = [u - sigma a4 + k/m (nu + k a^2/(2m)) D2 u] / m,   a = (u_{j+1} + 2 u_j + u_{j-1})/4 + a5
-       Crank-Nicolson    m (m v + sigma a4 - u)/k + (m v + sigma a4 + a5) m (m D0 v + a4)/2 = nu/2 (D2 u + m^3 D2 v)
-   Chhay & Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018), section "Invariantisation". */
+       Lax-Wendroff      v = u - k D0(u^2/2) + k^2/(2h^2) [A+ (f_{j+1} - f_j) - A- (f_j - f_{j-1})] + k nu D2
+   u, f = u^2/2, A+- the mean of u to the right and left Crank-Nicolson    (v - u)/k + (v D0 v + u D0 u)/2 =
+   nu/2 (D2 u + D2 v) A moving frame turns the three values around a node into u = 0, D0 u = 0 by a boost and
+   a projection with a4 = -D0 u, m = 1 + k D0 u; there the step is made, and transformed back. A node that
+   moves by sigma a step gives a5 = -sigma/k (the print omits sigma a4): FTCS              v = [u - sigma a4 +
+   k nu D2 u / m] / m Lax-Wendroff      v = [u - sigma a4 + k/m (nu + k a^2/(2m)) D2 u] / m,   a = (u_{j+1} +
+   2 u_j + u_{j-1})/4 + a5 Crank-Nicolson    m (m v + sigma a4 - u)/k + (m v + sigma a4 + a5) m (m D0 v +
+   a4)/2 = nu/2 (D2 u + m^3 D2 v) Chhay & Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018),
+   section "Invariantisation". */
 #include "core/families/burgers.h"
 
 #include <math.h>
@@ -52,13 +51,12 @@ static enum gm_status ftcs(const struct gm_burgers_step *step, struct gm_progres
     return GM_OK;
 }
 
-GM_CLONES static void lax_wendroff_nodes(const double *restrict u, double *restrict v, size_t points, double ratio,
-                                         double diffusion)
+GM_CLONES static void lax_wendroff_nodes(const double *restrict u, double *restrict v, size_t points,
+                                         double ratio, double diffusion)
 {
     for (size_t j = 1; j + 1 < points; j++) {
         const double left = u[j - 1] * u[j - 1] / 2, here = u[j] * u[j] / 2, right = u[j + 1] * u[j + 1] / 2;
-        const double second =
-            (u[j] + u[j + 1]) / 2 * (right - here) - (u[j - 1] + u[j]) / 2 * (here - left);
+        const double second = (u[j] + u[j + 1]) / 2 * (right - here) - (u[j - 1] + u[j]) / 2 * (here - left);
         v[j] = u[j] - ratio / 2 * (right - left) + ratio * ratio / 2 * second +
                diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]);
     }
@@ -72,8 +70,8 @@ static enum gm_status lax_wendroff(const struct gm_burgers_step *step, struct gm
     return GM_OK;
 }
 
-GM_CLONES static void ftcs_invariant_nodes(const double *restrict u, double *restrict v, size_t points, double k,
-                                           double sigma, double over_2h, double diffusion)
+GM_CLONES static void ftcs_invariant_nodes(const double *restrict u, double *restrict v, size_t points,
+                                           double k, double sigma, double over_2h, double diffusion)
 {
     for (size_t j = 1; j + 1 < points; j++) {
         const double slope = over_2h * (u[j + 1] - u[j - 1]), m = 1 + k * slope;
@@ -89,9 +87,9 @@ static enum gm_status ftcs_invariant(const struct gm_burgers_step *step, struct 
     return GM_OK;
 }
 
-GM_CLONES static void lax_wendroff_invariant_nodes(const double *restrict u, double *restrict v, size_t points,
-                                                   double k, double sigma, double over_2h, double over_square,
-                                                   double viscosity)
+GM_CLONES static void lax_wendroff_invariant_nodes(const double *restrict u, double *restrict v,
+                                                   size_t points, double k, double sigma, double over_2h,
+                                                   double over_square, double viscosity)
 {
     const double a5 = -sigma / k;
     for (size_t j = 1; j + 1 < points; j++) {
@@ -141,8 +139,9 @@ static double old_standard(const struct gm_burgers_step *step, size_t j)
 {
     const double *u = step->u;
     const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
-    const double convection = step->burgers->printed ? u[j] * over_2h * (u[j + 1] - u[j - 1])
-                                                     : over_2h * (u[j + 1] * u[j + 1] - u[j - 1] * u[j - 1]) / 2;
+    const double convection = step->burgers->printed
+                                  ? u[j] * over_2h * (u[j + 1] - u[j - 1])
+                                  : over_2h * (u[j + 1] * u[j + 1] - u[j - 1] * u[j - 1]) / 2;
     return -u[j] / step->k + convection / 2 -
            step->burgers->viscosity / 2 * over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
 }
@@ -158,21 +157,25 @@ static struct row row_invariant(const struct gm_burgers_step *step, const double
     const double value = m * v[j] + shift + a5, slope = m * (m * over_2h * (v[j + 1] - v[j - 1]) + a4);
     const double cube = m * m * m * over_square;
     return (struct row){
-        .residual = m * (m * v[j] + shift - u[j]) / step->k + value * slope / 2 -
-                    nu * (over_square * (u[j + 1] - 2 * u[j] + u[j - 1]) +
-                          cube * (v[j + 1] - 2 * v[j] + v[j - 1])),
+        .residual =
+            m * (m * v[j] + shift - u[j]) / step->k + value * slope / 2 -
+            nu * (over_square * (u[j + 1] - 2 * u[j] + u[j - 1]) + cube * (v[j + 1] - 2 * v[j] + v[j - 1])),
         .below = -value * m * m * over_2h / 2 - nu * cube,
         .diagonal = m * m / step->k + m * slope / 2 + 2 * nu * cube,
         .above = value * m * m * over_2h / 2 - nu * cube,
     };
 }
 
-static double nothing(const struct gm_burgers_step *step, size_t j) { return (void)step, (void)j, 0; }
+static double nothing(const struct gm_burgers_step *step, size_t j)
+{
+    return (void)step, (void)j, 0;
+}
 
 /* Newton's method; the tridiagonal systems by elimination. */
 static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progress *progress,
                             double (*old)(const struct gm_burgers_step *, size_t),
-                            struct row (*row_at)(const struct gm_burgers_step *, const double *, size_t, double))
+                            struct row (*row_at)(const struct gm_burgers_step *, const double *, size_t,
+                                                 double))
 {
     enum { MOST = 60 };
     const size_t points = step->points;
@@ -201,7 +204,7 @@ static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progre
         progress->solves++;
         progress->evaluations++;
         if (!isfinite(size)) {
-            return GM_BLOW_UP;
+            return GM_NO_CONVERGENCE;
         }
         if (size <= 1e-16 * largest || (size >= last && size <= 1e-12 * largest)) {
             return GM_OK;
@@ -216,7 +219,8 @@ static enum gm_status crank_nicolson(const struct gm_burgers_step *step, struct 
     return solve(step, progress, old_standard, row_standard);
 }
 
-static enum gm_status crank_nicolson_invariant(const struct gm_burgers_step *step, struct gm_progress *progress)
+static enum gm_status crank_nicolson_invariant(const struct gm_burgers_step *step,
+                                               struct gm_progress *progress)
 {
     return solve(step, progress, nothing, row_invariant);
 }
@@ -274,8 +278,8 @@ bool gm_burgers_fixed(const struct gm_burgers *burgers, const struct gm_scheme *
 }
 
 /* One step of a level to its other half, with the exact values at both ends. */
-static enum gm_status make_step(const struct gm_task *task, const struct gm_burgers *burgers, double *level[2],
-                                double *scratch, double t, struct gm_progress *progress)
+static enum gm_status make_step(const struct gm_task *task, const struct gm_burgers *burgers,
+                                double *level[2], double *scratch, double t, struct gm_progress *progress)
 {
     const struct gm_burgers_row *row = task->scheme->coefficients;
     const struct gm_line *line = &task->problem->line;
@@ -325,8 +329,8 @@ static struct gm_progress advance(const struct gm_task *task)
             return progress;
         }
         /* a companion that fails stands still: its failure is not this run's */
-        accompanied = accompanied &&
-                      make_step(task, &at_rest, work->companion, work->scratch, t, &uncounted) == GM_OK;
+        accompanied =
+            accompanied && make_step(task, &at_rest, work->companion, work->scratch, t, &uncounted) == GM_OK;
         progress.done++;
     }
     memcpy(task->out, work->level[0], size);
@@ -337,8 +341,8 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-double gm_burgers_projection_defect(const struct gm_scheme *scheme, double viscosity, double h, double k, double a,
-                                    double x, const double u[3])
+double gm_burgers_projection_defect(const struct gm_scheme *scheme, double viscosity, double h, double k,
+                                    double a, double x, const double u[3])
 {
     const struct gm_burgers_row *row = scheme->coefficients;
     if (row->implicit) {
@@ -362,9 +366,12 @@ double gm_burgers_projection_defect(const struct gm_scheme *scheme, double visco
 }
 
 static const struct gm_burgers_row rows[] = {
-    {ftcs, false, false},           {lax_wendroff, false, false},
-    {crank_nicolson, true, false},  {ftcs_invariant, false, true},
-    {lax_wendroff_invariant, false, true}, {crank_nicolson_invariant, true, true},
+    {ftcs, false, false},
+    {lax_wendroff, false, false},
+    {crank_nicolson, true, false},
+    {ftcs_invariant, false, true},
+    {lax_wendroff_invariant, false, true},
+    {crank_nicolson_invariant, true, true},
 };
 
 #define BURGERS .family = &gm_family_burgers, .needs = GM_NEEDS_BURGERS

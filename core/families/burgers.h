@@ -29,9 +29,9 @@ bool gm_burgers_fixed(const struct gm_burgers *burgers, const struct gm_scheme *
 
 /* The defect of one step of a scheme under the projection
        (t, x, u) -> (t / (1 - a t), x / (1 - a t), (1 - a t) u + a x)
-   from t = 0 on the three nodes x - h, x, x + h: the step of the projected data against the projected step. NaN for
-   implicit schemes, whose step three nodes do not determine. */
-double gm_burgers_projection_defect(const struct gm_scheme *scheme, double viscosity, double h, double k, double a,
-                                    double x, const double u[3]);
+   from t = 0 on the three nodes x - h, x, x + h: the step of the projected data against the projected step.
+   NaN for implicit schemes, whose step three nodes do not determine. */
+double gm_burgers_projection_defect(const struct gm_scheme *scheme, double viscosity, double h, double k,
+                                    double a, double x, const double u[3]);
 
 #endif

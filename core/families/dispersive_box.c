@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The box scheme, all but the field eliminated, for equations of first order in time:
        a A^p (f^{n+1} - f^n)/dt + b D^p (f^{n+1} + f^n)/2 + Q g(A (f^{n+1} + f^n)/2) = 0.
-   Korteweg-de Vries, eight points: Ascher & McLachlan, Appl. Numer. Math. 48 (2004) 255. Nonlinear Schroedinger, six
-   points: Islas, Karpeev & Schober, J. Comput. Phys. 173 (2001) 116. The linear part is circulant and inverted by
-   recursions; the rest is iterated to round-off. */
+   Korteweg-de Vries, eight points: Ascher & McLachlan, Appl. Numer. Math. 48 (2004) 255. Nonlinear
+   Schroedinger, six points: Islas, Karpeev & Schober, J. Comput. Phys. 173 (2001) 116. The linear part is
+   circulant and inverted by recursions; the rest is iterated to round-off. */
 #include "core/families/dispersive_box.h"
 
 #include <math.h>
@@ -35,7 +35,8 @@ void *gm_dispersive_open(const struct gm_problem *problem)
 }
 
 /* out += (c0 + i c1) sum_k binomial(p, k) sign^(p - k) f_{i+k}, around the ring */
-static void add_power(double *out, const double *f, size_t points, int power, double sign, double c0, double c1)
+static void add_power(double *out, const double *f, size_t points, int power, double sign, double c0,
+                      double c1)
 {
     static const double binomial[4][4] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
     double weight[4];
@@ -97,7 +98,7 @@ static enum gm_status make_step(const struct gm_two_step_work *work, const struc
         progress->solves++;
         progress->iterations++;
         if (!isfinite(change)) {
-            return GM_BLOW_UP;
+            return GM_NO_CONVERGENCE; /* the iteration diverged, not the solution */
         }
         if (change <= 1e-16 * largest || (change >= last && change <= 1e-12 * fmax(largest, 1e-3))) {
             return GM_OK;

@@ -2,8 +2,9 @@
 /* Centred differences in time and space for M s_t + K s_x = grad S(s),
        M (s^{n+1} - s^{n-1})/(2 dt) + K (s_{i+1} - s_{i-1})/(2 dx) = grad S(s):
        u^{n+1} = u^{n-1} + 2 dt v^n,   w = D0 u,   v^{n+1} = v^{n-1} + 2 dt [D0 w - V'(u)].
-   With v and w eliminated these are four leapfrogs on the grid of steps (2 dt, 2 dx) that know nothing of each other: the
-   solution splits into a checkerboard. Stable for dt <= dx. The memory is v at the two levels of the state. */
+   With v and w eliminated these are four leapfrogs on the grid of steps (2 dt, 2 dx) that know nothing of
+   each other: the solution splits into a checkerboard. Stable for dt <= dx. The memory is v at the two levels
+   of the state. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,7 +50,8 @@ static double at(const struct gm_line *line, const double *u, size_t i, long by)
 }
 
 /* u_tt: by centred differences twice over, or the usual ones */
-static double acceleration(const struct gm_problem *problem, const double *u, size_t i, long reach, double slope)
+static double acceleration(const struct gm_problem *problem, const double *u, size_t i, long reach,
+                           double slope)
 {
     const struct gm_line *line = &problem->line;
     const double step = (double)reach * line->dx;
@@ -64,8 +66,7 @@ static enum gm_status start(const struct gm_task *task)
     const double *u = task->y, *other = task->y + points, gap = task->y[2 * points];
     for (size_t i = 0; i < points; i++) {
         const double quotient = (other[i] - u[i]) / gap;
-        task->memory_out[i] =
-            quotient - gap / 2 * acceleration(problem, u, i, 1, problem->wave->slope(u[i]));
+        task->memory_out[i] = quotient - gap / 2 * acceleration(problem, u, i, 1, problem->wave->slope(u[i]));
         task->memory_out[points + i] =
             quotient + gap / 2 * acceleration(problem, other, i, 1, problem->wave->slope(other[i]));
     }
@@ -160,7 +161,8 @@ static const struct gm_scheme schemes[] = {
         .name = "midpoint-box",
         .title = "midpoint box",
         .formula = "M (sⁿ⁺¹ − sⁿ⁻¹)/2Δt + K (sᵢ₊₁ − sᵢ₋₁)/2Δx = ∇S(s)",
-        .reference = "Razafindralandy et al. (2018), multisymplectic midpoint scheme: four leapfrogs on (2Δt, 2Δx)",
+        .reference =
+            "Razafindralandy et al. (2018), multisymplectic midpoint scheme: four leapfrogs on (2Δt, 2Δx)",
         .family = &gm_family_midpoint_box,
         .coefficients = &row,
         .order = 2,

@@ -2,9 +2,9 @@
 /* Schemes of two steps for u_tt - u_xx + V'(u) = 0, d2 u = (u_{i+1} - 2 u_i + u_{i-1}) / dx^2:
        leapfrog             (u^{n+1} - 2 u^n + u^{n-1}) / dt^2 = d2 u^n - V'(u^n)
        energy-conserving    the same with [V(u^{n+1}) - V(u^{n-1})] / (u^{n+1} - u^{n-1}) for V'(u^n)
-   Leapfrog is also the multisymplectic Euler scheme of Moore & Reich, Numer. Math. 95 (2003) 625, with the triangular
-   splitting of the two skew matrices, v and w eliminated. Energy-conserving: Strauss & Vazquez, J. Comput. Phys. 28
-   (1978) 271. Stable for dt <= dx (leapfrog a little below: 4/dt^2 >= 4/dx^2 + V''). */
+   Leapfrog is also the multisymplectic Euler scheme of Moore & Reich, Numer. Math. 95 (2003) 625, with the
+   triangular splitting of the two skew matrices, v and w eliminated. Energy-conserving: Strauss & Vazquez, J.
+   Comput. Phys. 28 (1978) 271. Stable for dt <= dx (leapfrog a little below: 4/dt^2 >= 4/dx^2 + V''). */
 #include "core/families/two_step.h"
 
 #include <math.h>
@@ -63,7 +63,8 @@ GM_CLONES static bool within(const double *level, size_t points, double limit)
 }
 
 static enum gm_status leapfrog(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                               const double *past, const double *now, double *next, struct gm_progress *progress)
+                               const double *past, const double *now, double *next,
+                               struct gm_progress *progress)
 {
     const double dx = problem->line.dx;
     problem->wave->slopes(now, work->force, work->points);
@@ -79,8 +80,8 @@ static double solve_node(const struct gm_wave *wave, double square, double past,
     enum { MOST = 50 };
     double last = INFINITY;
     for (int k = 0; k < MOST; k++) {
-        const double change = (x + square * wave->quotient(x, past) - right) /
-                              (1 + square * wave->quotient_slope(x, past));
+        const double change =
+            (x + square * wave->quotient(x, past) - right) / (1 + square * wave->quotient_slope(x, past));
         const double size = fabs(change);
         ++*iterations;
         if (size >= last && size <= 1e-14 * fmax(1, fabs(x))) {
@@ -95,15 +96,16 @@ static double solve_node(const struct gm_wave *wave, double square, double past,
     return NAN;
 }
 
-static enum gm_status energy_conserving(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                        const double *past, const double *now, double *next,
+static enum gm_status energy_conserving(struct gm_two_step_work *work, const struct gm_problem *problem,
+                                        double dt, const double *past, const double *now, double *next,
                                         struct gm_progress *progress)
 {
     const double square = dt * dt, ratio = square / (problem->line.dx * problem->line.dx);
     for (size_t i = 0; i < work->points; i++) {
         const double curvature = (now + i)[1] - 2 * now[i] + (now + i)[-1];
         const double right = 2 * now[i] - past[i] + ratio * curvature;
-        next[i] = solve_node(problem->wave, square, past[i], right, 2 * now[i] - past[i], &progress->iterations);
+        next[i] =
+            solve_node(problem->wave, square, past[i], right, 2 * now[i] - past[i], &progress->iterations);
         if (isnan(next[i])) {
             return isfinite(right) ? GM_NO_CONVERGENCE : GM_BLOW_UP;
         }
@@ -112,10 +114,11 @@ static enum gm_status energy_conserving(struct gm_two_step_work *work, const str
     return GM_OK;
 }
 
-/* M = M+ - M+', K = K+ - K+' with the upper triangles M+, K+, and M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s =
-   grad S(s): here v = D_t^- u, w = D_x^- u, -D_t^+ v + D_x^+ w = V'(u). */
+/* M = M+ - M+', K = K+ - K+' with the upper triangles M+, K+, and M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+'
+   D_x^- s = grad S(s): here v = D_t^- u, w = D_x^- u, -D_t^+ v + D_x^+ w = V'(u). */
 static enum gm_status euler_box(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                                const double *past, const double *now, double *next, struct gm_progress *progress)
+                                const double *past, const double *now, double *next,
+                                struct gm_progress *progress)
 {
     const double dx = problem->line.dx;
     double *v = work->right, *w = work->guess;
@@ -131,8 +134,8 @@ static enum gm_status euler_box(struct gm_two_step_work *work, const struct gm_p
     return GM_OK;
 }
 
-/* The other level of the state lies at neither t + dt nor t - dt: the level at t + dt by the velocity at t, to second
-   order from both sides, so that a change of dt costs no order. */
+/* The other level of the state lies at neither t + dt nor t - dt: the level at t + dt by the velocity at t,
+   to second order from both sides, so that a change of dt costs no order. */
 void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
                    const double *now, const double *other, double *next)
 {
@@ -202,8 +205,9 @@ static const struct gm_scheme schemes[] = {
         .name = "leapfrog",
         .title = "leapfrog",
         .formula = "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − V′(uⁿ)",
-        .reference = "multisymplectic Euler scheme with the triangular splitting: Moore & Reich, Numer. Math. 95 (2003) "
-                     "625; Razafindralandy et al. (2018) call it not multisymplectic, which it is",
+        .reference =
+            "multisymplectic Euler scheme with the triangular splitting: Moore & Reich, Numer. Math. 95 (2003) "
+            "625; Razafindralandy et al. (2018) call it not multisymplectic, which it is",
         .family = &gm_family_two_step,
         .coefficients = &rows[0],
         .order = 2,
@@ -224,7 +228,8 @@ static const struct gm_scheme schemes[] = {
     {
         .name = "euler-box",
         .title = "Euler box",
-        .formula = "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
+        .formula =
+            "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
         .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
         .family = &gm_family_two_step,
         .coefficients = &rows[2],

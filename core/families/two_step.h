@@ -8,8 +8,8 @@
 /* Levels have two more points than the grid, at both ends: level[-1] and level[points]. */
 struct gm_two_step_work {
     size_t points;
-    double *level[3];  /* past, present, next */
-    double *force;     /* points + 2, from [-1] */
+    double *level[3];              /* past, present, next */
+    double *force;                 /* points + 2, from [-1] */
     double *right, *guess, *cells; /* of implicit schemes */
     struct gm_ring ring;
     double *memory;

@@ -21,10 +21,12 @@ static enum gm_status step(struct gm_two_step_work *work, const struct gm_proble
                            const double *past, const double *now, double *next, struct gm_progress *progress)
 {
     const double dx = problem->line.dx;
-    const double convection = problem->kdv->eta * dt / (3 * dx), third = problem->kdv->mu * dt / (dx * dx * dx);
+    const double convection = problem->kdv->eta * dt / (3 * dx),
+                 third = problem->kdv->mu * dt / (dx * dx * dx);
     for (size_t i = 2; i + 2 < work->points; i++) {
         const double l = now[i - 1], r = now[i + 1];
-        next[i] = past[i] - convection * (r + now[i] + l) * (r - l) - third * (now[i + 2] - 2 * r + 2 * l - now[i - 2]);
+        next[i] = past[i] - convection * (r + now[i] + l) * (r - l) -
+                  third * (now[i + 2] - 2 * r + 2 * l - now[i - 2]);
     }
     for (size_t i = 0; i < work->points; i++) {
         if (i < 2 || i + 2 >= work->points) {
@@ -54,7 +56,8 @@ static const struct gm_scheme schemes[] = {
     {
         .name = "zabusky-kruskal",
         .title = "Zabusky-Kruskal",
-        .formula = "uⁿ⁺¹ = uⁿ⁻¹ − ηΔt/3Δx (uᵢ₊₁ + uᵢ + uᵢ₋₁)(uᵢ₊₁ − uᵢ₋₁) − μΔt/Δx³ (uᵢ₊₂ − 2uᵢ₊₁ + 2uᵢ₋₁ − uᵢ₋₂)",
+        .formula =
+            "uⁿ⁺¹ = uⁿ⁻¹ − ηΔt/3Δx (uᵢ₊₁ + uᵢ + uᵢ₋₁)(uᵢ₊₁ − uᵢ₋₁) − μΔt/Δx³ (uᵢ₊₂ − 2uᵢ₊₁ + 2uᵢ₋₁ − uᵢ₋₂)",
         .reference = "N.J. Zabusky & M.D. Kruskal, Phys. Rev. Lett. 15 (1965) 240",
         .family = &gm_family_zabusky_kruskal,
         .coefficients = &row,

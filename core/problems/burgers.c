@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Razafindralandy et al. (2018), eqs. 93 to 96, 125 and 127; in (127) as printed the argument of tanh lacks t. */
+/* Razafindralandy et al. (2018), eqs. 93 to 96, 125 and 127; in (127) as printed the argument of tanh lacks
+ * t. */
 #include "core/problems/burgers.h"
 
 #include <math.h>
 
-double gm_burgers_t0(const struct gm_burgers *burgers) { return burgers->test == GM_BURGERS_SHOCK ? 1 : 0; }
+double gm_burgers_t0(const struct gm_burgers *burgers)
+{
+    return burgers->test == GM_BURGERS_SHOCK ? 1 : 0;
+}
 
 /* lambda = 0; without overflow for any viscosity, which for 0 means the limit */
 static double unboosted(const struct gm_burgers *burgers, double x, double t)

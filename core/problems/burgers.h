@@ -4,8 +4,8 @@
 
 #include "core/problem.h"
 
-/* u_t + u u_x = nu u_xx and its frames of reference: (t, x, u) -> (t, x + lambda (t - t0), u + lambda). The nodes are
-   those of gm_problem.line, the first and the last hold exact values. */
+/* u_t + u u_x = nu u_xx and its frames of reference: (t, x, u) -> (t, x + lambda (t - t0), u + lambda). The
+   nodes are those of gm_problem.line, the first and the last hold exact values. */
 
 enum gm_burgers_test {
     GM_BURGERS_FRONT, /* -sinh(x/2nu) / (cosh(x/2nu) + exp(-t/4nu)), t0 = 0 */
@@ -27,11 +27,12 @@ struct gm_burgers {
 
 double gm_burgers_t0(const struct gm_burgers *burgers);
 
-/* The exact value at time t, in the new frame, at the node that was at x at t0 and rests there (fixed) or moves. */
+/* The exact value at time t, in the new frame, at the node that was at x at t0 and rests there (fixed) or
+ * moves. */
 double gm_burgers_exact(const struct gm_burgers *burgers, bool fixed, double x, double t);
 
-/* State: u at the nodes; where lambda is not 0 a companion follows, the same run in the frame lambda = 0 on as many
-   nodes, and a number, 1 while it is well. */
+/* State: u at the nodes; where lambda is not 0 a companion follows, the same run in the frame lambda = 0 on
+   as many nodes, and a number, 1 while it is well. */
 size_t gm_burgers_size(const struct gm_burgers *burgers, size_t points);
 
 extern const struct gm_problem gm_problem_burgers; /* the caller sets burgers, line and n */

@@ -7,9 +7,9 @@
 /* Korteweg-de Vries, u_t + eta u u_x + mu u_xxx = 0, with the state of a wave problem. */
 enum gm_kdv_initial {
     GM_KDV_SOLITON, /* 3 c/eta sech^2(sqrt(c/mu)/2 (x - x0 - c t)) */
-    GM_KDV_TWO,     /* 12 mu/eta (ln F)_xx, F = 1 + e1 + e2 + ((k1-k2)/(k1+k2))^2 e1 e2, ei = exp(ki (x-xi) - mu ki^3 t),
-                       k = 1.2, .8, x1 = -30, x2 = -15 */
-    GM_KDV_COSINE,  /* cos(pi x) at t = 0 (Zabusky & Kruskal 1965); no exact solution */
+    GM_KDV_TWO, /* 12 mu/eta (ln F)_xx, F = 1 + e1 + e2 + ((k1-k2)/(k1+k2))^2 e1 e2, ei = exp(ki (x-xi) - mu
+                   ki^3 t), k = 1.2, .8, x1 = -30, x2 = -15 */
+    GM_KDV_COSINE, /* cos(pi x) at t = 0 (Zabusky & Kruskal 1965); no exact solution */
 };
 struct gm_kdv {
     int initial;
@@ -27,7 +27,7 @@ double gm_kdv_energy(const struct gm_problem *problem, const double *y);
 
 /* Nonlinear Schroedinger, i psi_t + psi_xx + |psi|^2 psi = 0; the state is Re psi, then Im psi. */
 enum gm_nls_initial {
-    GM_NLS_SOLITON, /* sqrt(2) a sech(a (x - x0 - c t)) exp i[c (x - x0)/2 + (a^2 - c^2/4) t] */
+    GM_NLS_SOLITON,   /* sqrt(2) a sech(a (x - x0 - c t)) exp i[c (x - x0)/2 + (a^2 - c^2/4) t] */
     GM_NLS_COLLISION, /* one from x0 with c and one from -x0 with -c; no exact solution */
 };
 struct gm_nls {
@@ -35,7 +35,8 @@ struct gm_nls {
     double amplitude, velocity, position;
 };
 /* NaN for a collision at t > 0. */
-void gm_nls_exact(const struct gm_nls *nls, const struct gm_line *line, double x, double t, double *re, double *im);
+void gm_nls_exact(const struct gm_nls *nls, const struct gm_line *line, double x, double t, double *re,
+                  double *im);
 
 /* dx sum |A psi|^2;  dx sum [|D psi|^2 - |A psi|^4 / 2];  dx sum |psi|^2 */
 double gm_nls_charge(const struct gm_problem *problem, const double *y);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* s = (phi, u, v, w):  u_t/2 + w_x = 0,  -phi_t/2 - v_x = -w + eta u^2/2,  u_x = v/mu,  -phi_x = -u,
-   S = v^2/(2 mu) - u w + eta u^3/6.   Ascher & McLachlan, Appl. Numer. Math. 48 (2004) 255. The field u comes second. */
+   S = v^2/(2 mu) - u w + eta u^3/6.   Ascher & McLachlan, Appl. Numer. Math. 48 (2004) 255. The field u comes
+   second. */
 #include <math.h>
 
 #include "core/problems/dispersive.h"
@@ -17,7 +18,10 @@ static void gradient(const void *parameters, const double *s, double *gradient)
     gradient[3] = -s[1];
 }
 
-static double dispersion(const struct gm_problem *problem) { return problem->kdv->mu; }
+static double dispersion(const struct gm_problem *problem)
+{
+    return problem->kdv->mu;
+}
 
 static void nonlinear(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
                       double *g_im, size_t count)
@@ -41,7 +45,8 @@ static double around(const struct gm_line *line, double distance)
 static double two_solitons(const struct gm_kdv *kdv, double x, double t)
 {
     const double k1 = 1.2, k2 = 0.8, x1 = -30, x2 = -15, share = (k1 - k2) / (k1 + k2);
-    const double a1 = k1 * (x - x1) - kdv->mu * k1 * k1 * k1 * t, a2 = k2 * (x - x2) - kdv->mu * k2 * k2 * k2 * t;
+    const double a1 = k1 * (x - x1) - kdv->mu * k1 * k1 * k1 * t,
+                 a2 = k2 * (x - x2) - kdv->mu * k2 * k2 * k2 * t;
     const double exponents[4] = {0, a1, a2, a1 + a2 + 2 * log(share)}, rates[4] = {0, k1, k2, k1 + k2};
     double largest = 0, sum = 0, first = 0, second = 0;
     for (int i = 0; i < 4; i++) {

@@ -18,7 +18,10 @@ static void gradient(const void *parameters, const double *s, double *gradient)
     gradient[3] = s[3];
 }
 
-static double dispersion(const struct gm_problem *problem) { return (void)problem, 1; }
+static double dispersion(const struct gm_problem *problem)
+{
+    return (void)problem, 1;
+}
 
 static void nonlinear(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
                       double *g_im, size_t count)
@@ -32,8 +35,8 @@ static void nonlinear(const struct gm_problem *problem, const double *re, const 
 }
 
 /* Adds one soliton; on the ring its phase follows it. */
-static void add_soliton(const struct gm_nls *nls, const struct gm_line *line, double c, double x0, double x, double t,
-                        double *re, double *im)
+static void add_soliton(const struct gm_nls *nls, const struct gm_line *line, double c, double x0, double x,
+                        double t, double *re, double *im)
 {
     const double period = line->dx * (double)line->points, a = nls->amplitude;
     double away = x - x0 - c * t;
@@ -43,7 +46,8 @@ static void add_soliton(const struct gm_nls *nls, const struct gm_line *line, do
     *im += size * sin(phase);
 }
 
-void gm_nls_exact(const struct gm_nls *nls, const struct gm_line *line, double x, double t, double *re, double *im)
+void gm_nls_exact(const struct gm_nls *nls, const struct gm_line *line, double x, double t, double *re,
+                  double *im)
 {
     *re = *im = nls->initial == GM_NLS_COLLISION && t != 0 ? NAN : 0;
     add_soliton(nls, line, nls->velocity, nls->position, x, t, re, im);

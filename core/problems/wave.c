@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* u_tt - u_xx + V'(u) = 0 with s = (u, v, w):  -v_t + w_x = V'(u),  u_t = v,  -u_x = -w,
-   S = V(u) + v^2/2 - w^2/2.   Bridges & Reich, Phys. Lett. A 284 (2001) 184; Razafindralandy et al. (2018). */
+   S = V(u) + v^2/2 - w^2/2.   Bridges & Reich, Phys. Lett. A 284 (2001) 184; Razafindralandy et al. (2018).
+ */
 #include <math.h>
 
 #include "core/problems/problems.h"
@@ -27,17 +28,26 @@ static void gradient_linear(const void *parameters, const double *s, double *gra
 }
 
 /* sin x / x and its derivative; series where the quotient would cancel */
-static double sinc(double x) { return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x; }
+static double sinc(double x)
+{
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+}
 
 static double sinc_slope(double x)
 {
     return fabs(x) < 1e-3 ? -x / 3 + x * x * x / 30 : (cos(x) - sin(x) / x) / x;
 }
 
-static double potential(double u) { return -cos(u); }
+static double potential(double u)
+{
+    return -cos(u);
+}
 
 /* -(cos a - cos b) / (a - b) */
-static double quotient(double a, double b) { return sin((a + b) / 2) * sinc((a - b) / 2); }
+static double quotient(double a, double b)
+{
+    return sin((a + b) / 2) * sinc((a - b) / 2);
+}
 
 static double quotient_slope(double a, double b)
 {
@@ -45,9 +55,15 @@ static double quotient_slope(double a, double b)
     return (cos(mean) * sinc(half) + sin(mean) * sinc_slope(half)) / 2;
 }
 
-static double none(double u) { return (void)u, 0; }
+static double none(double u)
+{
+    return (void)u, 0;
+}
 
-static double none_between(double a, double b) { return (void)a, (void)b, 0; }
+static double none_between(double a, double b)
+{
+    return (void)a, (void)b, 0;
+}
 
 static void no_slopes(const double *u, double *slope, size_t count)
 {
