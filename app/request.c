@@ -33,9 +33,15 @@ __attribute__((format(printf, 2, 3))) static bool refuse(char *message, const ch
     return false;
 }
 
-static const char *scene_name(size_t i, const void *data) { return (void)data, gm_scene_at(i)->name; }
+static const char *scene_name(size_t i, const void *data)
+{
+    return (void)data, gm_scene_at(i)->name;
+}
 
-static const char *scheme_name(size_t i, const void *data) { return (void)data, gm_scheme_at(i)->name; }
+static const char *scheme_name(size_t i, const void *data)
+{
+    return (void)data, gm_scheme_at(i)->name;
+}
 
 static const char *const app_keys[] = {"scheme", "steps", "zip"};
 enum { APP_KEYS = 3 };
@@ -189,7 +195,8 @@ static bool set_parameter(const struct gm_parameter *row, void *owner, const cha
                   nearest);
 }
 
-static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, const char *name, char *message)
+static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, const char *name,
+                       char *message)
 {
     spec->scheme = gm_scheme_find(name);
     if (!spec->scheme) {
@@ -268,8 +275,8 @@ static void show(const struct lists *lists, size_t lane, struct gm_lane_spec *sp
                 shown->panel = index;
             }
         } else if (!lists->zip) {
-            shown->colour = shown->colour == lane && !shown->colour_name[0] ? index
-                                                                           : shown->colour * list->count + index;
+            shown->colour =
+                shown->colour == lane && !shown->colour_name[0] ? index : shown->colour * list->count + index;
             if (strcmp(list->key, "scheme") == 0) {
                 snprintf(shown->colour_name, sizeof shown->colour_name, "%s", spec->scheme->title);
             } else {
@@ -300,7 +307,8 @@ static bool count_lanes(const struct lists *lists, size_t *lanes, char *message)
 }
 
 /* dt and until, or steps, to whole steps; with `steps` until follows. */
-static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec, bool steps_given, char *message)
+static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec, bool steps_given,
+                        char *message)
 {
     struct gm_timing *timing = spec->parameters;
     const double t0 = gm_scene_t0(scene, spec->parameters);
@@ -350,7 +358,7 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
         return refuse(message, "steps= and until= are both given; one of them follows from the other");
     }
     const char *keys[MOST_LISTS] = {NULL};
-    for (size_t i = 0; i < lists->count; i++) {
+    for (size_t i = 0; i < lists->count && i < MOST_LISTS; i++) {
         keys[i] = lists->list[i].key;
     }
     for (size_t k = 0; k < count; k++) {
