@@ -365,7 +365,7 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
         return refuse(message, "steps= and until= are both given; one of them follows from the other");
     }
     const char *keys[MOST_LISTS] = {NULL};
-    for (size_t i = 0; i < lists->count; i++) {
+    for (size_t i = 0; i < lists->count && i < MOST_LISTS; i++) {
         keys[i] = lists->list[i].key;
     }
     for (size_t k = 0; k < count; k++) {

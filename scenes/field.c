@@ -123,7 +123,7 @@ void gm_draw_profiles(struct gm_picture *picture, const struct gm_lane *const *l
         gm_panel_add(picture, GM_PLACE_GRAPH,
                      gm_picture_text(picture, "%s at t = %s%s", look->name,
                                      gm_time_text(picture, ahead->run->t, ahead->run->dt),
-                                     look->exact ? ", over the exact one in grey" : ""));
+                                     look->exact ? ", exact in grey" : ""));
     panel->axes = true;
     panel->title_role = GM_INK;
     panel->x = (struct gm_axis){.label = "x", .low = line->first, .high = end_of(line)};

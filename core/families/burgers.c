@@ -204,7 +204,7 @@ static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progre
         progress->solves++;
         progress->evaluations++;
         if (!isfinite(size)) {
-            return GM_BLOW_UP;
+            return GM_NO_CONVERGENCE;
         }
         if (size <= 1e-16 * largest || (size >= last && size <= 1e-12 * largest)) {
             return GM_OK;

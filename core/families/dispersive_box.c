@@ -98,7 +98,7 @@ static enum gm_status make_step(const struct gm_two_step_work *work, const struc
         progress->solves++;
         progress->iterations++;
         if (!isfinite(change)) {
-            return GM_BLOW_UP;
+            return GM_NO_CONVERGENCE; /* the iteration diverged, not the solution */
         }
         if (change <= 1e-16 * largest || (change >= last && change <= 1e-12 * fmax(largest, 1e-3))) {
             return GM_OK;
