@@ -98,7 +98,8 @@ static const struct gm_parameter parameters[] = {
     {
         .key = "show",
         .unit = "",
-        .help = "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
+        .help =
+            "what the picture shows: all, the field, the paths of the nodes, the energy, or error over nodes",
         .type = GM_CHOICE,
         .offset = offsetof(struct soliton, show),
         .standard = "all",
@@ -121,8 +122,8 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     return true;
 }
 
-static bool start_with(const void *own, const struct gm_problem *problem, const struct gm_scheme *scheme, double *y,
-                       char *sentence)
+static bool start_with(const void *own, const struct gm_problem *problem, const struct gm_scheme *scheme,
+                       double *y, char *sentence)
 {
     const struct soliton *soliton = own;
     struct gm_mesh mesh;
@@ -130,9 +131,10 @@ static bool start_with(const void *own, const struct gm_problem *problem, const 
     if (gm_mesh_start(&mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &soliton->own, y)) {
         return true;
     }
-    snprintf(sentence, GM_SENTENCE,
-             "no mesh of %ld nodes was found for alpha = %g and velocity = %g; a smaller alpha or more points help",
-             soliton->own.points, gm_soliton_alpha(&soliton->own), soliton->own.velocity);
+    snprintf(
+        sentence, GM_SENTENCE,
+        "no mesh of %ld nodes was found for alpha = %g and velocity = %g; a smaller alpha or more points help",
+        soliton->own.points, gm_soliton_alpha(&soliton->own), soliton->own.velocity);
     return false;
 }
 
@@ -143,7 +145,10 @@ static struct gm_mesh mesh_of(const struct gm_view *view)
     return mesh;
 }
 
-static bool moves(const struct gm_view *view) { return gm_scheme_mesh(view->run->scheme) == GM_MESH_MOVING; }
+static bool moves(const struct gm_view *view)
+{
+    return gm_scheme_mesh(view->run->scheme) == GM_MESH_MOVING;
+}
 
 static double solution_error(const struct gm_view *view)
 {
@@ -177,7 +182,10 @@ static double constraint_defect(const struct gm_view *view)
     return moves(view) ? gm_mesh_constraint_defect(&mesh, view->state) : NAN;
 }
 
-static double multiplier_norm(const struct gm_view *view) { return gm_mesh_multiplier_norm(view->run); }
+static double multiplier_norm(const struct gm_view *view)
+{
+    return gm_mesh_multiplier_norm(view->run);
+}
 
 static double smallest_cell(const struct gm_view *view)
 {
@@ -185,9 +193,15 @@ static double smallest_cell(const struct gm_view *view)
     return gm_mesh_smallest_cell(&mesh, view->state);
 }
 
-static double newton_iterations(const struct gm_view *view) { return (double)view->run->iterations; }
+static double newton_iterations(const struct gm_view *view)
+{
+    return (double)view->run->iterations;
+}
 
-static double factorisations(const struct gm_view *view) { return gm_mesh_factorisations(view->run); }
+static double factorisations(const struct gm_view *view)
+{
+    return gm_mesh_factorisations(view->run);
+}
 
 static const struct gm_observable observables[] = {
     {.key = "solution_error",
@@ -214,13 +228,20 @@ static const struct gm_observable observables[] = {
      .evaluate = constraint_defect,
      .logarithmic = true},
     {.key = "multiplier_norm", .title = "largest multiplier", .unit = "", .evaluate = multiplier_norm},
-    {.key = "smallest_cell", .title = "smallest cell", .unit = "", .evaluate = smallest_cell, .logarithmic = true},
+    {.key = "smallest_cell",
+     .title = "smallest cell",
+     .unit = "",
+     .evaluate = smallest_cell,
+     .logarithmic = true},
     {.key = "newton_iterations", .title = "Newton iterations", .unit = "", .evaluate = newton_iterations},
     {.key = "factorisations", .title = "matrices factored", .unit = "", .evaluate = factorisations},
 };
 
 /* Paths of all nodes, or of evenly chosen ones. */
-static size_t path_stride(size_t points) { return (points + PATHS - 1) / PATHS; }
+static size_t path_stride(size_t points)
+{
+    return (points + PATHS - 1) / PATHS;
+}
 
 static size_t path_count(const struct gm_view *view)
 {
@@ -228,7 +249,10 @@ static size_t path_count(const struct gm_view *view)
     return (points + stride - 1) / stride;
 }
 
-static double path_interval(const void *own) { return ((const struct gm_timing *)own)->until / (RECORDS / 2 - 1); }
+static double path_interval(const void *own)
+{
+    return ((const struct gm_timing *)own)->until / (RECORDS / 2 - 1);
+}
 
 static void record_paths(const struct gm_view *view, double *entry)
 {
@@ -239,7 +263,11 @@ static void record_paths(const struct gm_view *view, double *entry)
 }
 
 static const struct gm_track tracks[] = {
-    {.key = "paths", .width = path_count, .interval = path_interval, .bound = RECORDS, .record = record_paths},
+    {.key = "paths",
+     .width = path_count,
+     .interval = path_interval,
+     .bound = RECORDS,
+     .record = record_paths},
 };
 
 static void field_axes(struct gm_panel *panel, const struct soliton *soliton, const struct gm_mesh *mesh)
@@ -296,7 +324,8 @@ static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     double *nodes = nodes_of(picture, &mesh, view.start);
     if (nodes && view.t != view.t0) {
-        gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.35, 1.2, GM_SOLID}, nodes, mesh.points + 2, false);
+        gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.35, 1.2, GM_SOLID}, nodes,
+                     mesh.points + 2, false);
     }
     nodes = nodes_of(picture, &mesh, view.state);
     if (!nodes) {
@@ -326,7 +355,7 @@ static void draw_fields(struct gm_picture *picture, const struct gm_lane *const 
                 panel->title_role = gm_lane_role(lanes[i]->shown.colour);
                 const char *failure = gm_lane_failure(picture, lanes[i]);
                 const double error = solution_error(&view);
-                panel->note = failure[0]       ? failure
+                panel->note = failure[0]        ? failure
                               : isfinite(error) ? gm_picture_text(picture, "error %.3f", error)
                                                 : "";
                 draw_exact(picture, panel, &view);
@@ -339,7 +368,8 @@ static void draw_fields(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
-static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane, bool crowded)
+static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                       bool crowded)
 {
     const struct gm_entries *entries = &lane->entries[0];
     const struct gm_view view = gm_lane_view(lane);
@@ -358,7 +388,8 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
     }
 }
 
-static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count, bool named)
+static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        bool named)
 {
     for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
         struct gm_panel *panel = NULL;
@@ -371,7 +402,8 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
                 panel = gm_panel_add(picture, GM_PLACE_STATE, named ? gm_lane_title(lanes[i]) : "");
                 panel->axes = true;
                 panel->title_role = gm_lane_role(lanes[i]->shown.colour);
-                panel->x = (struct gm_axis){.label = "X", .scale = GM_LINEAR, .low = 0, .high = soliton->own.length};
+                panel->x =
+                    (struct gm_axis){.label = "X", .scale = GM_LINEAR, .low = 0, .high = soliton->own.length};
                 panel->y = (struct gm_axis){.label = "t", .scale = GM_LINEAR, .low = 0, .high = 1};
                 panel->note = named ? gm_lane_failure(picture, lanes[i]) : "";
             }
@@ -407,7 +439,8 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     gm_range_round(&low_y, &high_y, GM_LOG);
     panel->axes = true;
     panel->title_role = GM_INK;
-    panel->x = (struct gm_axis){.label = "elements", .scale = GM_LOG, .low = low_x / 1.3, .high = high_x * 1.3};
+    panel->x =
+        (struct gm_axis){.label = "elements", .scale = GM_LOG, .low = low_x / 1.3, .high = high_x * 1.3};
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = low_y, .high = high_y};
     size_t series = 0;
     for (size_t i = 0; i < count; i++) {
@@ -428,7 +461,8 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
             }
         }
         const enum gm_role role = gm_lane_role(series);
-        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, gm_lane_dash(series)}, points, made, false);
+        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, gm_lane_dash(series)}, points, made,
+                     false);
         gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, points, made);
         if (made > 0) {
             gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, points[0],
@@ -447,8 +481,9 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
         one_step &= lanes[i]->run->dt == lanes[0]->run->dt;
         one_size &= other->own.points == soliton->own.points;
     }
-    return gm_picture_text(picture, "%s,  velocity %g%s%s%s%s", soliton->own.field == GM_PHI4 ? "φ⁴" : "sine-Gordon",
-                           soliton->own.velocity, one_size ? ",  " : "",
+    return gm_picture_text(picture, "%s,  velocity %g%s%s%s%s",
+                           soliton->own.field == GM_PHI4 ? "φ⁴" : "sine-Gordon", soliton->own.velocity,
+                           one_size ? ",  " : "",
                            one_size ? gm_picture_text(picture, "%ld nodes", soliton->own.points) : "",
                            one_step ? ",  Δt = " : "",
                            one_step ? gm_time_text(picture, lanes[0]->run->dt, lanes[0]->run->dt) : "");
@@ -507,26 +542,20 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         gm_draw_graph(picture, lanes, count, &kept, -1, false);
     }
     if (soliton->show == SHOW_ALL) {
-        const struct gm_graph error = {
-            .observable = "solution_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 10, .floor = 1e-4};
+        const struct gm_graph error = {.observable = "solution_error",
+                                       .scale = GM_LOG,
+                                       .calm_low = 1e-3,
+                                       .calm_high = 10,
+                                       .floor = 1e-4};
         gm_draw_graph(picture, lanes, count, &error, -1, false);
     }
 }
 
-static const char *const schemes[] = {"multiplier-lobatto4",
-                                      "control-gauss4",
-                                      "uniform-gauss4",
-                                      "multiplier-lobatto2",
-                                      "multiplier-trapezoidal",
-                                      "control-gauss2",
-                                      "control-lobatto2",
-                                      "control-lobatto4",
-                                      "control-radau3",
-                                      "control-radau5",
-                                      "uniform-gauss2",
-                                      "uniform-lobatto2",
-                                      "uniform-lobatto4",
-                                      NULL};
+static const char *const schemes[] = {"multiplier-lobatto4", "control-gauss4",         "uniform-gauss4",
+                                      "multiplier-lobatto2", "multiplier-trapezoidal", "multiplier-adaptive4",
+                                      "control-gauss2",      "control-lobatto2",       "control-lobatto4",
+                                      "control-radau3",      "control-radau5",         "uniform-gauss2",
+                                      "uniform-lobatto2",    "uniform-lobatto4",       NULL};
 
 static const struct gm_figure figures[] = {
     {
@@ -541,7 +570,8 @@ static const struct gm_figure figures[] = {
     },
     {
         .name = "tyranowski-4",
-        .statement = "17 mesh points capture the soliton with the multiplier strategy; it bounces at 13.84 and 41.52",
+        .statement =
+            "17 mesh points capture the soliton with the multiplier strategy; it bounces at 13.84 and 41.52",
         .arguments = "scheme=multiplier-lobatto4 points=15 until=50",
     },
     {
@@ -576,27 +606,32 @@ static const struct gm_figure figures[] = {
     },
     {
         .name = "tyranowski-11",
-        .statement = "the multiplier strategy is more accurate than the control-theoretic one, and both than a uniform mesh",
+        .statement =
+            "the multiplier strategy is more accurate than the control-theoretic one, and both than a uniform mesh",
         .arguments = "scheme=multiplier-lobatto4,control-gauss4,uniform-gauss4 points=15,31,63,127 until=50 "
                      "show=convergence",
     },
     {
         .name = "tyranowski-12",
-        .statement = "the multiplier solution gets ahead of the exact one, the control-theoretic solution lags behind",
-        .arguments = "scheme=multiplier-lobatto4,control-gauss4 solitons=2 points=25 alpha=1.5 dt=0.05 until=100 "
-                     "show=field",
+        .statement =
+            "the multiplier solution gets ahead of the exact one, the control-theoretic solution lags behind",
+        .arguments =
+            "scheme=multiplier-lobatto4,control-gauss4 solitons=2 points=25 alpha=1.5 dt=0.05 until=100 "
+            "show=field",
     },
     {
         .name = "tyranowski-13",
-        .statement = "the multiplier strategy keeps the energy, but for spikes at the bounces; order 4 better than 2",
+        .statement =
+            "the multiplier strategy keeps the energy, but for spikes at the bounces; order 4 better than 2",
         .arguments = "scheme=multiplier-lobatto2,multiplier-lobatto4 solitons=2 points=25 alpha=1.5 dt=0.05 "
                      "until=300 show=energy",
     },
     {
         .name = "tyranowski-14",
         .statement = "with the control-theoretic strategy the energy wanders, symplectic or not",
-        .arguments = "scheme=control-gauss4,control-lobatto4,control-radau5 solitons=2 points=25 alpha=1.5 dt=0.05 "
-                     "until=300 show=energy",
+        .arguments =
+            "scheme=control-gauss4,control-lobatto4,control-radau5 solitons=2 points=25 alpha=1.5 dt=0.05 "
+            "until=300 show=energy",
     },
 };
 
@@ -605,10 +640,12 @@ static const struct gm_figure figures[] = {
 const struct gm_scene gm_scene_soliton = {
     .name = "soliton",
     .title = "Mesh points that follow a soliton",
-    .blurb = "The sine-Gordon equation between two walls, on linear elements whose nodes move so that the arclength "
-             "of the field is equidistributed, with variational integrators for field and mesh.",
-    .watch = "Watch the energy: the multiplier strategy keeps it, with the control-theoretic one it wanders, although "
-             "both meshes follow the soliton equally well.",
+    .blurb =
+        "The sine-Gordon equation between two walls, on linear elements whose nodes move so that the arclength "
+        "of the field is equidistributed, with variational integrators for field and mesh.",
+    .watch =
+        "Watch the energy: the multiplier strategy keeps it, with the control-theoretic one it wanders, although "
+        "both meshes follow the soliton equally well.",
     .size = sizeof(struct soliton),
     .parameters = parameters,
     .parameter_count = COUNT(parameters),

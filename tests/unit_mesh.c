@@ -71,10 +71,10 @@ static void every_node_of_the_reference(void **unused)
 static void symmetric_schemes_come_back(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"uniform-gauss2",      "uniform-gauss4",        "uniform-lobatto2",
-                                        "uniform-lobatto4",    "control-gauss2",        "control-gauss4",
-                                        "control-lobatto2",    "control-lobatto4",      "multiplier-lobatto2",
-                                        "multiplier-lobatto4", "multiplier-trapezoidal"};
+    static const char *const names[] = {
+        "uniform-gauss2",      "uniform-gauss4",      "uniform-lobatto2",       "uniform-lobatto4",
+        "control-gauss2",      "control-gauss4",      "control-lobatto2",       "control-lobatto4",
+        "multiplier-lobatto2", "multiplier-lobatto4", "multiplier-trapezoidal", "multiplier-adaptive4"};
     double start[60];
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         struct gm_problem problem;
@@ -98,9 +98,9 @@ static void symmetric_schemes_come_back(void **unused)
 static void resumed_runs_keep_their_bits(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"uniform-gauss4",      "control-gauss4",
-                                        "control-radau5",      "multiplier-lobatto4",
-                                        "multiplier-lobatto2", "multiplier-trapezoidal"};
+    static const char *const names[] = {
+        "uniform-gauss4",      "control-gauss4",         "control-radau5",      "multiplier-lobatto4",
+        "multiplier-lobatto2", "multiplier-trapezoidal", "multiplier-adaptive4"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         struct gm_problem problem;
         struct gm_run *whole = open_soliton(&reference, &problem, names[i], 0.03);

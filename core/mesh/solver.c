@@ -53,7 +53,7 @@ static double *past(double *memory, size_t n, size_t back)
     return memory + GM_MEMORY_HEAD + back * n;
 }
 
-/* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic. */
+/* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic, 6 quintic. */
 static void extrapolate(const struct gm_equations *equations, double *memory, size_t n, size_t order,
                         double *out)
 {
@@ -108,6 +108,7 @@ static bool refresh(struct gm_solver *solver, const struct gm_equations *equatio
     double *made_from = past(memory, n, PAST);
     memcpy(made_from, unknowns, n * sizeof *made_from);
     memcpy(made_from + n, state, equations->state * sizeof *made_from);
+    memory[GM_MEMORY_STEP] = equations->step;
     memory[GM_MEMORY_STAMP]++;
     solver->stamp = memory[GM_MEMORY_STAMP];
     return factor(solver, equations, unknowns);
@@ -121,7 +122,7 @@ static void restore(struct gm_solver *solver, const struct gm_equations *equatio
         return;
     }
     const double *made_from = past(memory, n, PAST);
-    equations->place(equations->self, made_from + n);
+    equations->place(equations->self, made_from + n, memory[GM_MEMORY_STEP]);
     equations->residual(equations->self, made_from, solver->residual);
     factor(solver, equations, made_from);
     solver->stamp = memory[GM_MEMORY_STAMP];
@@ -251,7 +252,7 @@ enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_equatio
     const size_t n = solver->matrix.n;
     const size_t known = (size_t)memory[GM_MEMORY_PAST];
     restore(solver, equations, memory);
-    equations->place(equations->self, state);
+    equations->place(equations->self, state, equations->step);
     extrapolate(equations, memory, n, known, solver->unknowns);
     enum outcome outcome = iterate(solver, equations, memory, state, progress);
     bool tangled = false;
