@@ -6,11 +6,12 @@
 
 /* What is measured of a scheme on meshes, on one soliton and a few nodes. Infinite where a run failed. */
 struct gm_mesh_measures {
-    double order;          /* the exponent of differences between runs with halved steps; NaN: not found */
-    double symmetry;       /* |step(-dt) step(dt) - 1| */
-    double reversibility;  /* the same with the velocities turned round */
-    double symplecticity;  /* change of dy dp_y + dX dp_X over a step, on the states that the mesh constraint allows */
-    double energy;         /* largest relative change of the energy */
+    double order;         /* the exponent of differences between runs with halved steps; NaN: not found */
+    double symmetry;      /* |step(-dt) step(dt) - 1| */
+    double reversibility; /* the same with the velocities turned round */
+    double symplecticity; /* change of dy dp_y + dX dp_X over a step, on the states that the mesh constraint
+                             allows */
+    double energy;        /* largest relative change of the energy */
 };
 
 struct gm_mesh_measures gm_measure_on_mesh(const struct gm_scheme *scheme);

@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "core/certify.h"
+#include "core/families/mesh_multiplier.h"
 #include "core/mesh/banded.h"
 #include "core/mesh/element.h"
 #include "core/problems/soliton.h"
@@ -425,6 +427,30 @@ static void other_fields_and_densities(void **unused)
     }
 }
 
+/* certify refuses rows that are wrong or claim what they do not have. */
+static void wrong_rows_are_caught(void **unused)
+{
+    (void)unused;
+    struct gm_scheme wrong = *gm_scheme_find("control-gauss4");
+    assert_true(gm_certify(&wrong).holds);
+    wrong.claims |= GM_SYMPLECTIC;
+    assert_false(gm_certify(&wrong).holds);
+    wrong = *gm_scheme_find("control-radau3");
+    wrong.claims |= GM_SYMMETRIC;
+    assert_false(gm_certify(&wrong).holds);
+    wrong = *gm_scheme_find("multiplier-lobatto2");
+    wrong.order = 3;
+    assert_false(gm_certify(&wrong).order_holds);
+    /* a wrong digit among the coefficients */
+    struct gm_tableau tableau = gm_tableau_lobatto4;
+    tableau.abar[2][1] += 1e-4;
+    struct gm_multiplier digit = gm_multiplier_lobatto4;
+    digit.tableau = &tableau;
+    wrong = *gm_scheme_find("multiplier-lobatto4");
+    wrong.coefficients = &digit;
+    assert_false(gm_certify(&wrong).holds);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -432,7 +458,7 @@ int main(void)
         cmocka_unit_test(resumed_runs_keep_their_bits),        cmocka_unit_test(strategies_take_over),
         cmocka_unit_test(without_density_the_mesh_is_uniform), cmocka_unit_test(derivatives_of_an_element),
         cmocka_unit_test(banded_systems_are_solved),           cmocka_unit_test(extremes_end_well),
-        cmocka_unit_test(other_fields_and_densities),
+        cmocka_unit_test(other_fields_and_densities),          cmocka_unit_test(wrong_rows_are_caught),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,7 +15,8 @@
 
 enum { CASES = sizeof reference_ode / sizeof reference_ode[0] };
 
-static void expect_state(const double *y, const double *reference, double tolerance, size_t row) {
+static void expect_state(const double *y, const double *reference, double tolerance, size_t row)
+{
     const double scale = fmax(fabs(reference[0]), fabs(reference[1]));
     const double error = fmax(fabs(y[0] - reference[0]), fabs(y[1] - reference[1]));
     if (!(error <= tolerance * scale)) {
@@ -24,7 +25,8 @@ static void expect_state(const double *y, const double *reference, double tolera
     }
 }
 
-static void states_agree(void **unused) {
+static void states_agree(void **unused)
+{
     (void)unused;
     for (size_t i = 0; i < CASES; i++) {
         const bool pendulum = strcmp(reference_ode[i].problem, "pendulum") == 0;
@@ -48,10 +50,14 @@ static void states_agree(void **unused) {
     }
 }
 
-static void every_scheme_has_a_reference(void **unused) {
+static void every_scheme_has_a_reference(void **unused)
+{
     (void)unused;
     for (size_t s = 0; s < gm_scheme_count(); s++) {
         size_t found = 0;
+        if (gm_scheme_at(s)->needs & GM_NEEDS_MOVING_MESH) {
+            continue; /* unit_mesh has theirs */
+        }
         for (size_t i = 0; i < CASES; i++) {
             found += strcmp(reference_ode[i].scheme, gm_scheme_at(s)->name) == 0;
         }
@@ -61,7 +67,8 @@ static void every_scheme_has_a_reference(void **unused) {
     }
 }
 
-int main(void) {
+int main(void)
+{
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(states_agree),
         cmocka_unit_test(every_scheme_has_a_reference),

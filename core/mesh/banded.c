@@ -31,7 +31,10 @@ void gm_banded_clear(struct gm_banded *matrix)
     memset(matrix->values, 0, matrix->n * matrix->stride * sizeof *matrix->values);
 }
 
-static size_t least(size_t a, size_t b) { return a < b ? a : b; }
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
 
 /* y -= factor x */
 static inline void subtract(double *restrict y, const double *restrict x, double factor, size_t count)
@@ -88,7 +91,8 @@ void gm_banded_solve(const struct gm_banded *matrix, double *x)
         const double value = x[pivot];
         x[pivot] = x[j];
         x[j] = value;
-        subtract(x + j + 1, matrix->values + j * matrix->stride + 2 * band + 1, value, least(band, n - 1 - j));
+        subtract(x + j + 1, matrix->values + j * matrix->stride + 2 * band + 1, value,
+                 least(band, n - 1 - j));
     }
     for (size_t j = n; j-- > 0;) {
         const double *diagonal = matrix->values + j * matrix->stride + 2 * band;

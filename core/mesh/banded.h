@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A square banded matrix of order n with equally many diagonals, `band`, below and above the main one, and its
-   LU factors with partial pivoting: unsymmetric saddle points need it. Column by column, as LAPACK's dgbtrf
-   stores it, so that both sweeps of a solve run along columns. */
+/* A square banded matrix of order n with equally many diagonals, `band`, below and above the main one, and
+   its LU factors with partial pivoting: unsymmetric saddle points need it. Column by column, as LAPACK's
+   dgbtrf stores it, so that both sweeps of a solve run along columns. */
 struct gm_banded {
     size_t n, band;
     size_t stride;  /* of a column: 3 band + 1, band of them for what pivoting fills in */

@@ -4,8 +4,8 @@
 #include <math.h>
 
 /* Row or column of entry `entry` of z = (y0, X0, y1, X1), or no such: the ends are fixed. */
-static inline bool locate(size_t points, size_t per_node, size_t element, size_t entry, struct gm_places places,
-                          size_t *index)
+static inline bool locate(size_t points, size_t per_node, size_t element, size_t entry,
+                          struct gm_places places, size_t *index)
 {
     const size_t node = element + entry / 2;
     if (node < 1 || node > points) {
@@ -66,7 +66,8 @@ void gm_nodes_add_row(struct gm_banded *matrix, size_t points, size_t per_node, 
     }
 }
 
-/* The derivative of the constraint by the nodes' places alone; `slope` is dy/dX at the nodes, NULL: y is given. */
+/* The derivative of the constraint by the nodes' places alone; `slope` is dy/dX at the nodes, NULL: y is
+ * given. */
 static void by_places(const struct gm_elements *stage, const double *slope, struct gm_banded *matrix)
 {
     const size_t points = stage->count - 1;
@@ -87,8 +88,10 @@ static void by_places(const struct gm_elements *stage, const double *slope, stru
     }
 }
 
-/* The field at the nodes where they are now, if it is a function of the place; true if all widths are positive. */
-static bool look(struct gm_elements *stage, const struct gm_mesh *mesh, gm_profile *profile, const void *context)
+/* The field at the nodes where they are now, if it is a function of the place; true if all widths are
+ * positive. */
+static bool look(struct gm_elements *stage, const struct gm_mesh *mesh, gm_profile *profile,
+                 const void *context)
 {
     for (size_t k = 1; profile && k <= mesh->points; k++) {
         profile(context, stage->x[k], &stage->y[k], &stage->u[k], &stage->v[k]);

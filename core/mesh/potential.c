@@ -6,14 +6,15 @@
 
 #include "core/moving_mesh.h"
 
-/* Sine-Gordon: the mean of cos over an element is cos(m) S(r / 2), S(h) = sin(h) / h, which has no 0/0 where the
-   field is flat. */
+/* Sine-Gordon: the mean of cos over an element is cos(m) S(r / 2), S(h) = sin(h) / h, which has no 0/0 where
+   the field is flat. */
 
 /* S, S' / h and S'' for |h| < 1/2 by their series in z = h^2. */
 static inline double series(double z)
 {
     return 1 +
-           z * (-1. / 6 + z * (1. / 120 + z * (-1. / 5040 + z * (1. / 362880 + z * (-1. / 39916800 + z / 6227020800)))));
+           z * (-1. / 6 + z * (1. / 120 +
+                               z * (-1. / 5040 + z * (1. / 362880 + z * (-1. / 39916800 + z / 6227020800)))));
 }
 
 static inline double series_slope(double z)
@@ -28,8 +29,8 @@ static inline double series_bend(double z)
 
 static const double wide = 0.5;
 
-/* Sine and cosine without a branch, so that loops over elements are vectorised; error below 1e-16 for arguments
-   up to 10^5: reduction by pi/2 in two parts (Cody & Waite 1980), then Taylor's polynomials. */
+/* Sine and cosine without a branch, so that loops over elements are vectorised; error below 1e-16 for
+   arguments up to 10^5: reduction by pi/2 in two parts (Cody & Waite 1980), then Taylor's polynomials. */
 static inline void sine_cosine(double x, double *sine, double *cosine)
 {
     const double magic = 0x1.8p52;
@@ -38,21 +39,19 @@ static inline void sine_cosine(double x, double *sine, double *cosine)
     const double r = (x - quarters * 0x1.921fb544p0) - quarters * 0x1.0b4611a626331p-34;
     const double z = r * r;
     const double s =
-        r +
-        r * z *
-            (-1. / 6 +
-             z * (1. / 120 +
-                  z * (-1. / 5040 +
-                       z * (1. / 362880 +
-                            z * (-1. / 39916800 + z * (1. / 6227020800 + z * (-1. / 1307674368000)))))));
+        r + r * z *
+                (-1. / 6 +
+                 z * (1. / 120 +
+                      z * (-1. / 5040 +
+                           z * (1. / 362880 +
+                                z * (-1. / 39916800 + z * (1. / 6227020800 + z * (-1. / 1307674368000)))))));
     const double c =
         1 - z / 2 +
         z * z *
-            (1. / 24 +
-             z * (-1. / 720 +
-                  z * (1. / 40320 +
-                       z * (-1. / 3628800 +
-                            z * (1. / 479001600 + z * (-1. / 87178291200 + z * (1. / 20922789888000)))))));
+            (1. / 24 + z * (-1. / 720 +
+                            z * (1. / 40320 + z * (-1. / 3628800 +
+                                                   z * (1. / 479001600 + z * (-1. / 87178291200 +
+                                                                              z * (1. / 20922789888000)))))));
     uint64_t quadrant, sine_bits, cosine_bits;
     memcpy(&quadrant, &shifted, sizeof quadrant);
     memcpy(&sine_bits, &s, sizeof sine_bits);
@@ -125,8 +124,8 @@ const struct gm_potential gm_potential_sine_gordon = {
 
 /* phi^4: over an element phi^2 has the mean m^2 + r^2 / 12, phi^4 the mean m^4 + m^2 r^2 / 2 + r^4 / 80. */
 
-static void phi4_first(const double *restrict middle, const double *restrict rise, size_t n, double *restrict w,
-                       double *restrict w_m, double *restrict w_r)
+static void phi4_first(const double *restrict middle, const double *restrict rise, size_t n,
+                       double *restrict w, double *restrict w_m, double *restrict w_r)
 {
     for (size_t e = 0; e < n; e++) {
         const double m = middle[e], r = rise[e], mm = m * m, rr = r * r;

@@ -41,7 +41,8 @@ static void even(const struct gm_mesh *mesh, double *x)
     }
 }
 
-static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_profile *profile, const void *context)
+static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_profile *profile,
+                        const void *context)
 {
     double *x = bench->stage.x;
     const size_t size = (mesh->points + 2) * sizeof *x;
@@ -89,11 +90,12 @@ static bool refine(struct bench *bench, const struct gm_mesh *mesh, gm_profile *
         bench->stage.x[k] = x[node] + (at - (double)node) * (x[node + 1] - x[node]);
     }
     bench_close(&under);
-    return good && gm_nodes_equidistribute(&bench->stage, mesh, profile, context, &bench->matrix, bench->change);
+    return good &&
+           gm_nodes_equidistribute(&bench->stage, mesh, profile, context, &bench->matrix, bench->change);
 }
 
-bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_profile *profile, const void *context,
-                   double *state)
+bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_profile *profile,
+                   const void *context, double *state)
 {
     const size_t points = mesh->points;
     struct bench bench;
@@ -156,9 +158,7 @@ static void slopes(const struct gm_elements *stage, double *slope)
         }
         const double before = stage->slope[k - 1], after = stage->slope[k];
         const double d0 = stage->width[k - 1], d1 = stage->width[k];
-        slope[k] = before * after > 0
-                       ? 3 * (d0 + d1) / ((2 * d1 + d0) / before + (d1 + 2 * d0) / after)
-                       : 0;
+        slope[k] = before * after > 0 ? 3 * (d0 + d1) / ((2 * d1 + d0) / before + (d1 + 2 * d0) / after) : 0;
     }
 }
 

@@ -4,8 +4,8 @@
 
 #include "core/moving_mesh.h"
 
-/* One or two solitons of the sine-Gordon equation, or kinks of phi^4, between the walls of a box, on a moving mesh.
-   Tyranowski & Desbrun (2019), section 5. */
+/* One or two solitons of the sine-Gordon equation, or kinks of phi^4, between the walls of a box, on a moving
+   mesh. Tyranowski & Desbrun (2019), section 5. */
 
 enum gm_soliton_field { GM_SINE_GORDON, GM_PHI4 };
 enum gm_soliton_density { GM_ARCLENGTH, GM_CURVATURE, GM_MIX };

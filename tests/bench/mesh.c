@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Processor time of a step of the r-adaptive schemes: one soliton, dt = 0.01, medians of several runs; and how the
-   cost grows with the number of points. Usage: bench_mesh [runs] */
+/* Processor time of a step of the r-adaptive schemes: one soliton, dt = 0.01, medians of several runs; and
+   how the cost grows with the number of points. Usage: bench_mesh [runs] */
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -37,7 +37,8 @@ static double measure(const char *name, long points, long steps, int runs)
     gm_soliton_problem(&soliton, &problem);
     problem.moving_mesh->describe(&problem, &mesh);
     double *state = malloc(problem.n * sizeof *state);
-    if (!state || !scheme || !gm_mesh_start(&mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &soliton, state)) {
+    if (!state || !scheme ||
+        !gm_mesh_start(&mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &soliton, state)) {
         free(state);
         return -1;
     }
@@ -67,13 +68,15 @@ static double measure(const char *name, long points, long steps, int runs)
 int main(int count, char **words)
 {
     const int runs = count > 1 && atoi(words[1]) > 0 ? atoi(words[1]) : 5;
-    static const char *const names[] = {"uniform-gauss4",      "control-gauss4",         "control-radau5",
-                                        "multiplier-lobatto2", "multiplier-trapezoidal", "multiplier-lobatto4"};
+    static const char *const names[] = {"uniform-gauss4",         "control-gauss4",
+                                        "control-radau5",         "multiplier-lobatto2",
+                                        "multiplier-trapezoidal", "multiplier-lobatto4"};
     printf("31 points, 1000 steps of 0.01\n");
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         printf("  %-24s %8.2f us a step\n", names[i], measure(names[i], 31, 1000, runs));
     }
-    printf("multiplier-lobatto4, 40 steps of 0.32 / (points + 1)\n  %8s %12s %14s\n", "points", "us a step", "ns a point");
+    printf("multiplier-lobatto4, 40 steps of 0.32 / (points + 1)\n  %8s %12s %14s\n", "points", "us a step",
+           "ns a point");
     for (long points = 63; points <= 4095; points = 2 * points + 1) {
         const double time = measure("multiplier-lobatto4", points, 40, runs);
         printf("  %8ld %12.1f %14.1f\n", points, time, 1e3 * time / (double)points);
