@@ -10,6 +10,12 @@ enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 static const double tolerance = 1e-11; /* of a change of the unknowns */
 static const double contracts = 0.2;   /* a ratio of changes at which the rest may be told from them */
 
+/* Of a change that solves the equations: what round-off makes need not be smaller. */
+static double enough(const struct gm_equations *equations)
+{
+    return fmax(tolerance, 4 * equations->noise);
+}
+
 /* Of a change that no longer shrinks: multipliers carry noise, velocities the round-off of places over dt. */
 static double stagnation(const struct gm_equations *equations)
 {
@@ -172,9 +178,10 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_equations 
         const double change = move(equations, solver->residual, 1, solver->unknowns);
         const double ratio = change / before;
         /* what is left after this change is about ratio / (1 - ratio) of it */
-        if (change < tolerance || (iteration > 3 && ratio > 0.5 && change < stagnation(equations)) ||
+        const bool stands = iteration > 3 && ratio > 0.5 && change < stagnation(equations);
+        if (stands || change < enough(equations) ||
             (ratio > 0 && ratio < contracts && change * ratio < 0.1 * tolerance)) {
-            memory[GM_MEMORY_SLOW] = iteration > MANY;
+            memory[GM_MEMORY_SLOW] = iteration > MANY && !stands;
             return SOLVED;
         }
         if (!(change < INFINITY)) {
@@ -219,7 +226,7 @@ static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_equa
             progress->evaluations++;
             if (equations->residual(equations->self, solver->unknowns, solver->residual)) {
                 if (share == 1 &&
-                    (change < tolerance || (change > before / 2 && change < stagnation(equations)))) {
+                    (change < enough(equations) || (change > before / 2 && change < stagnation(equations)))) {
                     memory[GM_MEMORY_SLOW] = 0;
                     return SOLVED;
                 }
