@@ -51,6 +51,8 @@ static double distance(const double *a, const double *b, size_t n)
     return largest;
 }
 
+/* Differences of the field and nodes. A scheme that chooses its steps ends at times that differ in second
+   order; what that makes is taken off with the velocities. */
 static double measure_order(const struct gm_scheme *scheme)
 {
     enum { LADDER = 7 };
@@ -59,20 +61,28 @@ static double measure_order(const struct gm_scheme *scheme)
     if (!open_subject(&subject, scheme, FINE_POINTS)) {
         return NAN;
     }
-    double before[MOST], now[MOST], previous = 0, order = NAN;
+    const size_t half = subject.problem.n / 2;
+    double before[MOST] = {0}, previous = 0, order = NAN, t_before = 0;
     for (int i = 0; i < LADDER; i++) {
         const long steps = 5L << i;
-        if (!integrate(&subject, scheme, until / (double)steps, steps, subject.start, now)) {
+        struct gm_run *run =
+            gm_run_open(&subject.problem, scheme, &settings, 0, until / (double)steps, subject.start);
+        if (!run || gm_run_advance(run, steps) != GM_OK) {
+            gm_run_close(run);
             return NAN;
         }
-        if (i > 0) {
-            const double change = distance(now, before, subject.problem.n);
-            if (i > 1 && change > round_off) {
-                order = log2(previous / change);
-            }
-            previous = change;
+        const double *state = gm_run_state(run);
+        double change = 0;
+        for (size_t k = 0; k < half; k++) {
+            change = fmax(change, fabs(state[k] + (t_before - run->t) * state[half + k] - before[k]));
         }
-        memcpy(before, now, sizeof before);
+        if (i > 1 && change > round_off) {
+            order = log2(previous / change);
+        }
+        previous = change;
+        memcpy(before, state, subject.problem.n * sizeof *state);
+        t_before = run->t;
+        gm_run_close(run);
     }
     return order;
 }

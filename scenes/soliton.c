@@ -551,13 +551,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     }
 }
 
-static const char *const schemes[] = {"multiplier-lobatto4",    "control-gauss4",
-                                      "uniform-gauss4",         "multiplier-lobatto2",
-                                      "multiplier-trapezoidal", "control-gauss2",
-                                      "control-lobatto2",       "control-lobatto4",
-                                      "control-radau3",         "control-radau5",
-                                      "uniform-gauss2",         "uniform-lobatto2",
-                                      "uniform-lobatto4",       NULL};
+static const char *const schemes[] = {"multiplier-lobatto4", "control-gauss4",         "uniform-gauss4",
+                                      "multiplier-lobatto2", "multiplier-trapezoidal", "multiplier-adaptive4",
+                                      "control-gauss2",      "control-lobatto2",       "control-lobatto4",
+                                      "control-radau3",      "control-radau5",         "uniform-gauss2",
+                                      "uniform-lobatto2",    "uniform-lobatto4",       NULL};
 
 static const struct gm_figure figures[] = {
     {

@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "core/certify.h"
+#include "core/families/mesh_multiplier.h"
 #include "core/mesh/banded.h"
 #include "core/mesh/element.h"
 #include "core/problems/soliton.h"
@@ -71,10 +73,10 @@ static void every_node_of_the_reference(void **unused)
 static void symmetric_schemes_come_back(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"uniform-gauss2",      "uniform-gauss4",        "uniform-lobatto2",
-                                        "uniform-lobatto4",    "control-gauss2",        "control-gauss4",
-                                        "control-lobatto2",    "control-lobatto4",      "multiplier-lobatto2",
-                                        "multiplier-lobatto4", "multiplier-trapezoidal"};
+    static const char *const names[] = {
+        "uniform-gauss2",      "uniform-gauss4",      "uniform-lobatto2",       "uniform-lobatto4",
+        "control-gauss2",      "control-gauss4",      "control-lobatto2",       "control-lobatto4",
+        "multiplier-lobatto2", "multiplier-lobatto4", "multiplier-trapezoidal", "multiplier-adaptive4"};
     double start[60];
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         struct gm_problem problem;
@@ -98,9 +100,9 @@ static void symmetric_schemes_come_back(void **unused)
 static void resumed_runs_keep_their_bits(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"uniform-gauss4",      "control-gauss4",
-                                        "control-radau5",      "multiplier-lobatto4",
-                                        "multiplier-lobatto2", "multiplier-trapezoidal"};
+    static const char *const names[] = {
+        "uniform-gauss4",      "control-gauss4",         "control-radau5",      "multiplier-lobatto4",
+        "multiplier-lobatto2", "multiplier-trapezoidal", "multiplier-adaptive4"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         struct gm_problem problem;
         struct gm_run *whole = open_soliton(&reference, &problem, names[i], 0.03);
@@ -425,6 +427,30 @@ static void other_fields_and_densities(void **unused)
     }
 }
 
+/* certify refuses rows that are wrong or claim what they do not have. */
+static void wrong_rows_are_caught(void **unused)
+{
+    (void)unused;
+    struct gm_scheme wrong = *gm_scheme_find("control-gauss4");
+    assert_true(gm_certify(&wrong).holds);
+    wrong.claims |= GM_SYMPLECTIC;
+    assert_false(gm_certify(&wrong).holds);
+    wrong = *gm_scheme_find("control-radau3");
+    wrong.claims |= GM_SYMMETRIC;
+    assert_false(gm_certify(&wrong).holds);
+    wrong = *gm_scheme_find("multiplier-lobatto2");
+    wrong.order = 3;
+    assert_false(gm_certify(&wrong).order_holds);
+    /* a wrong digit among the coefficients */
+    struct gm_tableau tableau = gm_tableau_lobatto4;
+    tableau.abar[2][1] += 1e-4;
+    struct gm_multiplier digit = gm_multiplier_lobatto4;
+    digit.tableau = &tableau;
+    wrong = *gm_scheme_find("multiplier-lobatto4");
+    wrong.coefficients = &digit;
+    assert_false(gm_certify(&wrong).holds);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -432,7 +458,7 @@ int main(void)
         cmocka_unit_test(resumed_runs_keep_their_bits),        cmocka_unit_test(strategies_take_over),
         cmocka_unit_test(without_density_the_mesh_is_uniform), cmocka_unit_test(derivatives_of_an_element),
         cmocka_unit_test(banded_systems_are_solved),           cmocka_unit_test(extremes_end_well),
-        cmocka_unit_test(other_fields_and_densities),
+        cmocka_unit_test(other_fields_and_densities),          cmocka_unit_test(wrong_rows_are_caught),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

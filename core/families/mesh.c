@@ -22,8 +22,10 @@ struct gm_progress gm_mesh_advance(const struct gm_task *task, struct gm_solver 
     const size_t remembered = gm_solver_memory(equations->nodes, equations->per_node, count);
     double *memory = task->memory_out, *state = task->out;
     struct gm_progress progress = {.status = GM_OK};
-    memcpy(state, task->y, count * sizeof *state);
-    memcpy(memory, task->memory, remembered * sizeof *memory);
+    if (state != task->y) {
+        memcpy(state, task->y, count * sizeof *state);
+        memcpy(memory, task->memory, remembered * sizeof *memory);
+    }
     while (progress.done < task->steps) {
         progress.status = gm_solver_solve(solver, equations, memory, state, &progress);
         if (progress.status == GM_OK) {

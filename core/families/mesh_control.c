@@ -102,9 +102,10 @@ static void workspace_reset(void *workspace)
     ((struct workspace *)workspace)->solver.stamp = 0;
 }
 
-static void place(void *self, const double *state)
+static void place(void *self, const double *state, double step)
 {
     struct workspace *work = self;
+    work->h = step;
     const size_t points = work->mesh.points;
     work->state = state;
     gm_elements_place(&work->ends, state);
@@ -374,12 +375,12 @@ static struct gm_progress loop(const struct gm_task *task)
         .state = 4 * points,
         .noise = DBL_EPSILON * work->mesh.length / fabs(task->dt),
         .weights = weights,
+        .step = task->dt,
         .place = place,
         .guess = guess,
         .residual = residual,
         .jacobian = jacobian,
     };
-    work->h = task->dt;
     return gm_mesh_advance(task, &work->solver, &equations, finish);
 }
 

@@ -15,18 +15,12 @@
 
 #include "core/families/families.h"
 #include "core/families/mesh.h"
+#include "core/families/mesh_multiplier.h"
 #include "core/mesh/nodes.h"
-#include "core/mesh/tableau.h"
-
-struct multiplier {
-    const struct gm_tableau *tableau;
-    double kappa[GM_STAGES]; /* a kappa = 0 */
-    double left[GM_STAGES];  /* left^T abar = 0 */
-};
 
 struct workspace {
     struct gm_mesh mesh;
-    const struct multiplier *row;
+    const struct gm_multiplier *row;
     double h;
     const double *state;
     struct gm_solver solver;
@@ -46,14 +40,14 @@ static size_t stages_of(const struct workspace *work)
     return work->row->tableau->stages;
 }
 
-static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+size_t gm_multiplier_memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    const struct multiplier *row = scheme->coefficients;
+    const struct gm_multiplier *row = scheme->coefficients;
     const size_t points = problem->n / 4;
     return gm_solver_memory(points, 3 * row->tableau->stages, 4 * points);
 }
 
-static void workspace_close(void *workspace)
+void gm_multiplier_workspace_close(void *workspace)
 {
     struct workspace *work = workspace;
     for (size_t i = 0; i < GM_STAGES; i++) {
@@ -66,7 +60,7 @@ static void workspace_close(void *workspace)
     free(work);
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+void *gm_multiplier_workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     struct workspace *work = calloc(1, sizeof *work);
     if (!work) {
@@ -83,7 +77,7 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     good = good && gm_banded_open(&work->projection, 3 * points, 5);
     work->momenta = calloc((5 + 2 * stages) * points + (1 + stages) * (points + 1), sizeof *work->momenta);
     if (!good || !work->momenta) {
-        workspace_close(work);
+        gm_multiplier_workspace_close(work);
         return NULL;
     }
     work->motion = work->momenta + 2 * points;
@@ -97,14 +91,15 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return work;
 }
 
-static void workspace_reset(void *workspace)
+void gm_multiplier_workspace_reset(void *workspace)
 {
     ((struct workspace *)workspace)->solver.stamp = 0;
 }
 
-static void place(void *self, const double *state)
+static void place(void *self, const double *state, double step)
 {
     struct workspace *work = self;
+    work->h = step;
     const size_t points = work->mesh.points;
     work->state = state;
     gm_elements_place(&work->ends, state);
@@ -226,7 +221,7 @@ static void jacobian(void *self, const double *unknowns, struct gm_banded *matri
 {
     (void)unknowns;
     struct workspace *work = self;
-    const struct multiplier *row = work->row;
+    const struct gm_multiplier *row = work->row;
     const struct gm_tableau *tableau = row->tableau;
     const size_t points = work->mesh.points, stages = tableau->stages, per_node = 3 * stages;
     const double h = work->h;
@@ -325,14 +320,14 @@ static enum gm_status finish(void *self, double *state, double *multiplier)
     return GM_OK;
 }
 
-static enum gm_status start(const struct gm_task *task)
+enum gm_status gm_multiplier_start(const struct gm_task *task)
 {
     struct workspace *work = task->workspace;
     gm_solver_start(&work->solver, task->memory_out);
     return gm_mesh_carry(&work->mesh, GM_MESH_MOVING, task->y, task->out) ? GM_OK : GM_MESH_CROSSING;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
+struct gm_progress gm_multiplier_advance(const struct gm_task *task)
 {
     struct workspace *work = task->workspace;
     const size_t points = work->mesh.points, stages = stages_of(work), per_node = 3 * stages;
@@ -347,12 +342,12 @@ static struct gm_progress loop(const struct gm_task *task)
         .state = 4 * points,
         .noise = DBL_EPSILON * work->mesh.length / fabs(task->dt),
         .weights = work->weights,
+        .step = task->dt,
         .place = place,
         .guess = guess,
         .residual = residual,
         .jacobian = jacobian,
     };
-    work->h = task->dt;
     return gm_mesh_advance(task, &work->solver, &equations, finish);
 }
 
@@ -363,8 +358,8 @@ static struct gm_progress loop(const struct gm_task *task)
     .family = &gm_family_mesh_multiplier, .needs = GM_NEEDS_MOVING_MESH,                                     \
     .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE
 
-static const struct multiplier lobatto2 = {&gm_tableau_lobatto2, {1, -1}, {1, -1}};
-static const struct multiplier lobatto4 = {&gm_tableau_lobatto4, {1, -0.5, 1}, {1, -2, 1}};
+static const struct gm_multiplier lobatto2 = {&gm_tableau_lobatto2, {1, -1}, {1, -1}};
+const struct gm_multiplier gm_multiplier_lobatto4 = {&gm_tableau_lobatto4, {1, -0.5, 1}, {1, -2, 1}};
 
 static const struct gm_scheme schemes[] = {
     {
@@ -381,7 +376,7 @@ static const struct gm_scheme schemes[] = {
         .title = "multiplier 4",
         .formula = EQUATIONS,
         .reference = "Tyranowski & Desbrun (2019), eqs. 95–98; L. O. Jay (1996)",
-        .coefficients = &lobatto4,
+        .coefficients = &gm_multiplier_lobatto4,
         .order = 4,
         COMMON,
     },
@@ -392,10 +387,10 @@ const struct gm_family gm_family_mesh_multiplier = {
     .title = "meshes held by Lagrange multipliers",
     .schemes = schemes,
     .count = sizeof schemes / sizeof schemes[0],
-    .loop = loop,
-    .memory = memory,
-    .start = start,
-    .workspace_open = workspace_open,
-    .workspace_close = workspace_close,
-    .workspace_reset = workspace_reset,
+    .loop = gm_multiplier_advance,
+    .memory = gm_multiplier_memory,
+    .start = gm_multiplier_start,
+    .workspace_open = gm_multiplier_workspace_open,
+    .workspace_close = gm_multiplier_workspace_close,
+    .workspace_reset = gm_multiplier_workspace_reset,
 };

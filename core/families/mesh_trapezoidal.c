@@ -73,9 +73,10 @@ static void workspace_reset(void *workspace)
     ((struct workspace *)workspace)->solver.stamp = 0;
 }
 
-static void place(void *self, const double *state)
+static void place(void *self, const double *state, double step)
 {
     struct workspace *work = self;
+    work->h = step;
     work->state = state;
     gm_elements_place(&work->before, state);
     gm_elements_evaluate(&work->before, &work->mesh);
@@ -215,12 +216,12 @@ static struct gm_progress loop(const struct gm_task *task)
         .state = 4 * points,
         .noise = DBL_EPSILON * work->mesh.length / fabs(task->dt),
         .weights = work->weights,
+        .step = task->dt,
         .place = place,
         .guess = guess,
         .residual = residual,
         .jacobian = jacobian,
     };
-    work->h = task->dt;
     return gm_mesh_advance(task, &work->solver, &equations, finish);
 }
 

@@ -10,6 +10,12 @@ enum { MANY = 3, PAST = 6, SIMPLIFIED = 15, FULL = 40, HALVINGS = 12 };
 static const double tolerance = 1e-11; /* of a change of the unknowns */
 static const double contracts = 0.2;   /* a ratio of changes at which the rest may be told from them */
 
+/* Of a change that solves the equations: what round-off makes need not be smaller. */
+static double enough(const struct gm_equations *equations)
+{
+    return fmax(tolerance, 4 * equations->noise);
+}
+
 /* Of a change that no longer shrinks: multipliers carry noise, velocities the round-off of places over dt. */
 static double stagnation(const struct gm_equations *equations)
 {
@@ -53,7 +59,7 @@ static double *past(double *memory, size_t n, size_t back)
     return memory + GM_MEMORY_HEAD + back * n;
 }
 
-/* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic. */
+/* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic, 6 quintic. */
 static void extrapolate(const struct gm_equations *equations, double *memory, size_t n, size_t order,
                         double *out)
 {
@@ -108,6 +114,7 @@ static bool refresh(struct gm_solver *solver, const struct gm_equations *equatio
     double *made_from = past(memory, n, PAST);
     memcpy(made_from, unknowns, n * sizeof *made_from);
     memcpy(made_from + n, state, equations->state * sizeof *made_from);
+    memory[GM_MEMORY_STEP] = equations->step;
     memory[GM_MEMORY_STAMP]++;
     solver->stamp = memory[GM_MEMORY_STAMP];
     return factor(solver, equations, unknowns);
@@ -121,7 +128,7 @@ static void restore(struct gm_solver *solver, const struct gm_equations *equatio
         return;
     }
     const double *made_from = past(memory, n, PAST);
-    equations->place(equations->self, made_from + n);
+    equations->place(equations->self, made_from + n, memory[GM_MEMORY_STEP]);
     equations->residual(equations->self, made_from, solver->residual);
     factor(solver, equations, made_from);
     solver->stamp = memory[GM_MEMORY_STAMP];
@@ -171,9 +178,10 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_equations 
         const double change = move(equations, solver->residual, 1, solver->unknowns);
         const double ratio = change / before;
         /* what is left after this change is about ratio / (1 - ratio) of it */
-        if (change < tolerance || (iteration > 3 && ratio > 0.5 && change < stagnation(equations)) ||
+        const bool stands = iteration > 3 && ratio > 0.5 && change < stagnation(equations);
+        if (stands || change < enough(equations) ||
             (ratio > 0 && ratio < contracts && change * ratio < 0.1 * tolerance)) {
-            memory[GM_MEMORY_SLOW] = iteration > MANY;
+            memory[GM_MEMORY_SLOW] = iteration > MANY && !stands;
             return SOLVED;
         }
         if (!(change < INFINITY)) {
@@ -218,7 +226,7 @@ static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_equa
             progress->evaluations++;
             if (equations->residual(equations->self, solver->unknowns, solver->residual)) {
                 if (share == 1 &&
-                    (change < tolerance || (change > before / 2 && change < stagnation(equations)))) {
+                    (change < enough(equations) || (change > before / 2 && change < stagnation(equations)))) {
                     memory[GM_MEMORY_SLOW] = 0;
                     return SOLVED;
                 }
@@ -251,7 +259,7 @@ enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_equatio
     const size_t n = solver->matrix.n;
     const size_t known = (size_t)memory[GM_MEMORY_PAST];
     restore(solver, equations, memory);
-    equations->place(equations->self, state);
+    equations->place(equations->self, state, equations->step);
     extrapolate(equations, memory, n, known, solver->unknowns);
     enum outcome outcome = iterate(solver, equations, memory, state, progress);
     bool tangled = false;

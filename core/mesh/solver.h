@@ -11,15 +11,16 @@
    The LU factors are kept over iterations and steps until they converge too slowly. They are derived data:
    what they were made from (a state and unknowns) is part of the scheme's memory, so a run that is resumed
    makes the same factors again and goes on with the same bits. First guesses are extrapolated from the last
-   four steps. */
+   six steps. */
 
 struct gm_equations {
     void *self;
     size_t nodes, per_node, state; /* state: numbers of the canonical state */
     double noise;                  /* change of the unknowns that round-off alone makes */
     const double *weights;         /* per_node, of a change of an unknown in the test of convergence */
-    /* takes the state that the step starts from */
-    void (*place)(void *self, const double *state);
+    double step;
+    /* takes the state that a step of this length starts from */
+    void (*place)(void *self, const double *state, double step);
     /* the unknowns of a scheme that has no past */
     void (*guess)(void *self, double *unknowns);
     /* false: a cell is not positive */
@@ -36,11 +37,12 @@ struct gm_solver {
 
 /* Where things are in a scheme's memory. */
 enum {
-    GM_MEMORY_PAST,       /* how many steps are remembered, at most 4 */
+    GM_MEMORY_PAST,       /* how many steps are remembered, at most 6 */
     GM_MEMORY_STAMP,      /* factorisations so far: a name for the present factors */
     GM_MEMORY_SLOW,       /* 1: the last step converged slowly, so the factors are made again */
     GM_MEMORY_MULTIPLIER, /* largest multiplier of the last step */
-    GM_MEMORY_HEAD,       /* then 4 past unknowns, newest first, then state and unknowns of the factors */
+    GM_MEMORY_STEP,       /* length of the step that the factors were made for */
+    GM_MEMORY_HEAD,       /* then 6 past unknowns, newest first, then state and unknowns of the factors */
 };
 
 size_t gm_solver_memory(size_t nodes, size_t per_node, size_t state);
