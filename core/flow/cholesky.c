@@ -51,6 +51,8 @@ struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *colu
     cholmod_common *common = &cholesky->common;
     cholmod_start(common);
     common->print = 0;
+    /* measured: solving takes two thirds of the time without supernodes at 3000 unknowns, as long at 20000 */
+    common->supernodal = n < 12000 ? CHOLMOD_SIMPLICIAL : CHOLMOD_AUTO;
     common->error_handler = NULL;
     common->quick_return_if_not_posdef = 1;
     cholmod_sparse *matrix = upper_triangle(n, start, column, value, common);
@@ -63,8 +65,8 @@ struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *colu
     cholesky->b = cholmod_zeros(n, 1, CHOLMOD_REAL, common);
     if (good && cholesky->b) {
         /* makes room for the solution and for scratch */
-        good = cholmod_solve2(CHOLMOD_A, cholesky->factor, cholesky->b, NULL, &cholesky->x, NULL, &cholesky->y,
-                              &cholesky->e, common);
+        good = cholmod_solve2(CHOLMOD_A, cholesky->factor, cholesky->b, NULL, &cholesky->x, NULL,
+                              &cholesky->y, &cholesky->e, common);
     }
     if (!good || !cholesky->b) {
         gm_cholesky_close(cholesky);
@@ -92,12 +94,13 @@ void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x)
 {
     const size_t size = cholesky->b->nrow * sizeof(double);
     memcpy(cholesky->b->x, b, size);
-    cholmod_solve2(CHOLMOD_A, cholesky->factor, cholesky->b, NULL, &cholesky->x, NULL, &cholesky->y, &cholesky->e,
-                   &cholesky->common);
+    cholmod_solve2(CHOLMOD_A, cholesky->factor, cholesky->b, NULL, &cholesky->x, NULL, &cholesky->y,
+                   &cholesky->e, &cholesky->common);
     memcpy(x, cholesky->x->x, size);
 }
 
-bool gm_lu_solve(size_t n, const int *start, const int *column, const double *value, const double *b, double *x)
+bool gm_lu_solve(size_t n, const int *start, const int *column, const double *value, const double *b,
+                 double *x)
 {
     double control[UMFPACK_CONTROL];
     void *symbolic = NULL, *numeric = NULL;
