@@ -60,27 +60,55 @@ static double *refine(struct gm_picture *picture, const struct gm_complex *compl
     return fine;
 }
 
-/* A torus is drawn with its triangles unfolded: three vertices of their own each. */
+/* A torus is drawn unfolded: vertices come nine times, shifted by the periods, and triangles that stick out
+   at one side come again at the other. */
 static bool unfold(struct gm_picture *picture, const struct gm_complex *complex, const double *psi,
                    const double *field, struct sheet *sheet)
 {
-    const size_t count = complex->triangles;
-    double *points = gm_picture_memory(picture, 6 * count * sizeof *points);
-    double *own_psi = gm_picture_memory(picture, 3 * count * sizeof *own_psi);
-    double *own_field = gm_picture_memory(picture, 3 * count * sizeof *own_field);
-    int *triangles = gm_picture_memory(picture, 3 * count * sizeof *triangles);
+    enum { COPIES = 9 };
+    const size_t n = complex->vertices;
+    double *points = gm_picture_memory(picture, 2 * COPIES * n * sizeof *points);
+    double *own_psi = gm_picture_memory(picture, COPIES * n * sizeof *own_psi);
+    double *own_field = gm_picture_memory(picture, COPIES * n * sizeof *own_field);
+    int *triangles = gm_picture_memory(picture, 3 * 4 * complex->triangles * sizeof *triangles);
     if (!points || !own_psi || !own_field || !triangles) {
         return false;
     }
-    for (size_t t = 0; t < count; t++) {
-        gm_complex_corners(complex, t, points + 6 * t);
-        for (size_t k = 3 * t; k < 3 * t + 3; k++) {
-            own_psi[k] = psi[complex->triangle[k]];
-            own_field[k] = field ? field[complex->triangle[k]] : 0;
-            triangles[k] = (int)k;
+    for (size_t i = 0; i < COPIES * n; i++) {
+        const size_t v = i % n, copy = i / n;
+        points[2 * i] = complex->point[2 * v] + complex->period[0] * ((double)(copy % 3) - 1);
+        points[2 * i + 1] = complex->point[2 * v + 1] + complex->period[1] * ((double)(copy / 3) - 1);
+        own_psi[i] = psi[v];
+        own_field[i] = field ? field[v] : 0;
+    }
+    size_t count = 0;
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double p[6];
+        gm_complex_corners(complex, t, p);
+        for (int copy = 0; copy < COPIES; copy++) {
+            int corners[3];
+            double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+            bool there = true;
+            for (int k = 0; k < 3; k++) {
+                const int v = complex->triangle[3 * t + (size_t)k];
+                int shift[2];
+                for (int c = 0; c < 2; c++) {
+                    const double period = complex->period[c], moved = (c ? copy / 3 : copy % 3) - 1;
+                    const double x = p[2 * k + c] + period * moved;
+                    shift[c] = (int)round((x - complex->point[2 * v + c]) / period) + 1;
+                    there &= shift[c] >= 0 && shift[c] < 3;
+                    low[c] = fmin(low[c], x / period);
+                    high[c] = fmax(high[c], x / period);
+                }
+                corners[k] = v + (int)n * (shift[0] + 3 * shift[1]);
+            }
+            if (there && low[0] < 1 && low[1] < 1 && high[0] > 0 && high[1] > 0 &&
+                count < 4 * complex->triangles) {
+                memcpy(triangles + 3 * count++, corners, sizeof corners);
+            }
         }
     }
-    *sheet = (struct sheet){points, own_psi, field ? own_field : NULL, triangles, 3 * count, count};
+    *sheet = (struct sheet){points, own_psi, field ? own_field : NULL, triangles, COPIES * n, count};
     return true;
 }
 
@@ -210,7 +238,7 @@ static void draw_streamlines(struct gm_picture *picture, struct gm_panel *panel,
     const struct gm_flows *own = lane->parameters;
     const bool over = own->show != GM_SHOW_NONE && !is_signed(own->show);
     const struct gm_style passing = {over ? GM_OVER : GM_INK, over ? 0.6 : 0.5, 1.1, GM_SOLID};
-    const struct gm_style turning = {over ? GM_OVER : gm_lane_role(0), over ? 0.38 : 0.8, 1.0, GM_SOLID};
+    const struct gm_style turning = {over ? GM_OVER : GM_INK, over ? 0.38 : 0.5, 1.0, GM_SOLID};
     const struct gm_flow *flow = flow_of(lane);
     const struct gm_complex *complex = flow->complex;
     double levels[MOST_LEVELS], low = INFINITY, high = -INFINITY, through = 0;
@@ -419,7 +447,7 @@ static void name_openings(struct gm_picture *picture, struct gm_panel *panel, co
 static const char *const bar_labels[] = {"concentration θ", "vorticity ω", "speed |u|", "total pressure"};
 
 static void draw_state(struct gm_picture *picture, const struct gm_lane *lane, const struct gm_look *look,
-                       double low, double high, bool titled)
+                       double low, double high, bool titled, bool named)
 {
     const struct gm_flows *own = lane->parameters;
     const struct gm_flow *flow = flow_of(lane);
@@ -440,7 +468,7 @@ static void draw_state(struct gm_picture *picture, const struct gm_lane *lane, c
     }
     const double size = fmax(box[1] - box[0], box[3] - box[2]),
                  edge = complex->boundary > 0 ? 0.006 * size : 0;
-    const double side = flow->inflow.count > 0 ? 0.1 * size : edge;
+    const double side = flow->inflow.count > 0 && named ? 0.1 * size : edge;
     panel->x = (struct gm_axis){.label = "", .low = box[0] - side, .high = box[1] + side};
     panel->y = (struct gm_axis){.label = "", .low = box[2] - edge, .high = box[3] + edge};
     panel->equal = true;
@@ -469,7 +497,9 @@ static void draw_state(struct gm_picture *picture, const struct gm_lane *lane, c
     }
     draw_tracers(picture, panel, lane, over, size);
     draw_walls(picture, panel, flow);
-    name_openings(picture, panel, flow, size);
+    if (named) {
+        name_openings(picture, panel, flow, size);
+    }
 }
 
 /* Errors against the mean edge length, a point for each lane. */
@@ -532,7 +562,11 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     picture->subtitle = look->subtitle(picture, lanes[0]);
     gm_draw_clock(picture, lanes, count);
     if (look->clock_unit[0]) {
-        picture->clock = gm_picture_text(picture, "t = %.2f %s", lanes[0]->run->t, look->clock_unit);
+        double latest = lanes[0]->run->t;
+        for (size_t i = 1; i < count; i++) {
+            latest = fmax(latest, lanes[i]->run->t);
+        }
+        picture->clock = gm_picture_text(picture, "t = %.2f %s", latest, look->clock_unit);
     }
     if (own->show == GM_SHOW_CONVERGENCE && look->errors) {
         draw_convergence(picture, lanes, count, look);
@@ -551,9 +585,9 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     double low = 0, high = 1;
     colour_range(picture, lanes, count, look, &low, &high);
     for (size_t i = 0; i < count; i++) {
-        draw_state(picture, lanes[i], look, low, high, count > 1);
+        draw_state(picture, lanes[i], look, low, high, count > 1, count == 1);
     }
-    for (int i = 0; i < 2 && count <= 2 && look->graphs[i]; i++) {
+    for (int i = 0; i < 2 && count <= 2 && own->show != GM_SHOW_NONE && look->graphs[i]; i++) {
         const struct gm_graph graph = {
             .observable = look->graphs[i], .calm_low = look->graph_low[i], .calm_high = look->graph_high[i]};
         gm_draw_graph(picture, lanes, count, &graph, -1, false);

@@ -82,7 +82,9 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                 if (gm_flow_sample(lanes[k]->problem.flow, gm_run_state(lanes[k]->run), x, z, &sample)) {
                     points[2 * made] = scalar ? sample.theta : sample.u;
                     points[2 * made + 1] = z;
-                    gm_range_add(&panel->x.low, &panel->x.high, points[2 * made]);
+                    if (!exact) {
+                        gm_range_add(&panel->x.low, &panel->x.high, points[2 * made]);
+                    }
                     made++;
                 }
             }
@@ -90,7 +92,7 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
                 gm_mark_line(picture, panel, gm_lane_style(lanes[k], 1, 2.4), points, made, false);
             }
         }
-        if (!drawn) {
+        if (!drawn && !exact) {
             gm_range_round(&panel->x.low, &panel->x.high, GM_LINEAR);
         }
     }

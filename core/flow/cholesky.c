@@ -51,6 +51,8 @@ struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *colu
     cholmod_common *common = &cholesky->common;
     cholmod_start(common);
     common->print = 0;
+    /* measured: solving takes two thirds of the time without supernodes at 3000 unknowns, as long at 20000 */
+    common->supernodal = n < 12000 ? CHOLMOD_SIMPLICIAL : CHOLMOD_AUTO;
     common->error_handler = NULL;
     common->quick_return_if_not_posdef = 1;
     cholmod_sparse *matrix = upper_triangle(n, start, column, value, common);
