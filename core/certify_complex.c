@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Certification of schemes for flows on complexes. Order: on an irregular torus against the semi-discrete equations
-   d omega / dt = -(C(F) + nu K) omega / star0, written here anew with a dense Poisson matrix and integrated by GSL.
-   Claims: a room with inlet and soft outlet, and the torus without viscosity. */
+/* Certification of schemes for flows on complexes. Order: on an irregular torus against the semi-discrete
+   equations d omega / dt = -(C(F) + nu K) omega / star0, written here anew with a dense Poisson matrix and
+   integrated by GSL. Claims: a room with inlet and soft outlet, and the torus without viscosity. */
 #include "core/certify_complex.h"
 
 #include <math.h>
@@ -53,7 +53,8 @@ static struct gm_problem problem_of(const struct gm_flow *flow)
 static void swirl(const struct gm_flow *flow, double *omega)
 {
     for (size_t v = 0; v < flow->complex->vertices; v++) {
-        const double x = 2 * M_PI * flow->complex->point[2 * v], z = 2 * M_PI * flow->complex->point[2 * v + 1];
+        const double x = 2 * M_PI * flow->complex->point[2 * v],
+                     z = 2 * M_PI * flow->complex->point[2 * v + 1];
         omega[v] = 6 * sin(x + z + 0.3) + 5 * sin(x - 2 * z + 1.1) + 4 * sin(2 * x + z + 0.2);
     }
 }
@@ -131,8 +132,8 @@ static bool solve_by_gsl(const struct gm_flow *flow, double until, double *omega
 }
 
 /* A run of a scheme; NULL when memory is short. */
-static struct gm_run *run_for(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt, long steps,
-                              const double *start)
+static struct gm_run *run_for(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                              long steps, const double *start)
 {
     const struct gm_settings settings = {0};
     struct gm_run *run = gm_run_open(problem, scheme, &settings, 0, dt, start);
@@ -189,7 +190,8 @@ static void measure_torus(const struct gm_scheme *scheme, struct gm_certificate 
             const double *y = gm_run_state(run);
             const double before = gm_flow_enstrophy(flow, start);
             note(certificate, GM_KEEPS_LINEAR, gm_flow_circulation_error(flow, y), "torus");
-            note(certificate, GM_KEEPS_QUADRATIC, fabs(gm_flow_enstrophy(flow, y) - before) / before, "torus");
+            note(certificate, GM_KEEPS_QUADRATIC, fabs(gm_flow_enstrophy(flow, y) - before) / before,
+                 "torus");
         }
         gm_run_close(run);
     }
@@ -264,11 +266,12 @@ static void measure_room(const struct gm_scheme *scheme, struct gm_certificate *
         for (size_t v = 0; constant && v < n; v++) {
             flow->theta[v] = 1;
         }
-        struct gm_run *run = gm_flow_start_irrotational(flow, start) ? run_for(&problem, scheme, 0.1, 1, start) : NULL;
+        struct gm_run *run =
+            gm_flow_start_irrotational(flow, start) ? run_for(&problem, scheme, 0.1, 1, start) : NULL;
         for (int i = 0; run && i < STEPS && run->status == GM_OK; i++, gm_run_advance(run, 1)) {
             const double *y = gm_run_state(run), *theta = gm_flow_block(flow, y, GM_FLOW_THETA);
-            note(certificate, GM_DIVERGENCE_FREE, incidence_defect(flow->complex) + gm_flow_divergence(flow, y),
-                 "room");
+            note(certificate, GM_DIVERGENCE_FREE,
+                 incidence_defect(flow->complex) + gm_flow_divergence(flow, y), "room");
             if (!constant) {
                 note(certificate, GM_CLOSES_BUDGET, gm_flow_budget(flow, y).defect, "room");
             }

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fields, totals and errors of flows on small meshes, computed elsewhere, with their conditioning (the largest
-   relative change when every coordinate changes by 1e-14 of itself). Vertex i is the node with tag i + 1. */
+/* Fields, totals and errors of flows on small meshes, computed elsewhere, with their conditioning (the
+   largest relative change when every coordinate changes by 1e-14 of itself). Vertex i is the node with tag i
+   + 1. */
 #ifndef GM_TESTS_REFERENCE_FLOW_H
 #define GM_TESTS_REFERENCE_FLOW_H
 
+/* clang-format off */
 static const int ref_square_edges[158] = {
     0, 4, 0, 13, 0, 14, 1, 6, 1, 7, 1, 17, 2, 8, 2, 9, 2, 31, 3, 11, 3, 12, 3, 28, 4, 5, 4, 14, 4, 15, 5, 6,
     5, 15, 5, 16, 6, 16, 6, 17, 7, 8, 7, 17, 7, 20, 7, 24, 8, 24, 8, 27, 8, 31, 9, 10, 9, 30, 9, 31, 10, 11,
@@ -1495,5 +1497,6 @@ static const double ref_torus_inviscid_psi_10_crank_nicolson[80] = {
     0.0834905164688232, 0.025082773334293193, -0.0025126052320776082, -0.01341114077810647,
     -0.00603459998416131, -0.04880218452517068, -0.03512602232875875,
 };
+/* clang-format on */
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Flows by discrete exterior calculus against operators, fields and totals computed elsewhere, on meshes of Gmsh. */
+/* Flows by discrete exterior calculus against operators, fields and totals computed elsewhere, on meshes of
+ * Gmsh. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -40,11 +41,11 @@ static void expect_number(const char *name, double mine, double reference)
     }
 }
 
-#define FIELD(flow, y, block, reference)                                                                      \
+#define FIELD(flow, y, block, reference)                                                                     \
     expect_field(#reference, gm_flow_block(flow, y, block), reference, (flow)->complex->vertices)
 
-static struct gm_run *open_run(const struct gm_flow *flow, struct gm_problem *problem, const char *scheme, double dt,
-                               const double *start)
+static struct gm_run *open_run(const struct gm_flow *flow, struct gm_problem *problem, const char *scheme,
+                               double dt, const double *start)
 {
     const struct gm_settings settings = {0};
     *problem = (struct gm_problem){.name = "flow", .n = gm_flow_size(flow), .m = 1, .flow = flow};
@@ -166,7 +167,8 @@ static void scrambled_is_the_same(void **unused)
     gm_mesh_close(&b);
 }
 
-static void expect_pressure(const char *name, const struct gm_flow *flow, const double *y, const double *reference)
+static void expect_pressure(const char *name, const struct gm_flow *flow, const double *y,
+                            const double *reference)
 {
     double *pressure = malloc(flow->complex->triangles * sizeof *pressure);
     assert_non_null(pressure);
@@ -227,18 +229,18 @@ static void cavities_agree(void **unused)
     (void)unused;
     const struct cavity cavities[] = {
         {"square-small.msh", 0.1, 0.02, ref_cavity_re_10_omega_start, ref_cavity_re_10_psi_1,
-         ref_cavity_re_10_omega_1, ref_cavity_re_10_psi_5, ref_cavity_re_10_omega_5, ref_cavity_re_10_psi_steady,
-         ref_cavity_re_10_omega_steady, NULL, NULL, 0.008079254323588199, 3.6910106331193435, 0.029311199787695964,
-         3.20205670100826},
+         ref_cavity_re_10_omega_1, ref_cavity_re_10_psi_5, ref_cavity_re_10_omega_5,
+         ref_cavity_re_10_psi_steady, ref_cavity_re_10_omega_steady, NULL, NULL, 0.008079254323588199,
+         3.6910106331193435, 0.029311199787695964, 3.20205670100826},
         {"square-small.msh", 0.01, 0.1, ref_cavity_re_100_omega_start, ref_cavity_re_100_psi_1,
          ref_cavity_re_100_omega_1, ref_cavity_re_100_psi_5, ref_cavity_re_100_omega_5,
          ref_cavity_re_100_psi_steady, ref_cavity_re_100_omega_steady, ref_cavity_re_100_total_pressure_5,
-         ref_cavity_re_100_total_pressure_steady, 0.003195418349987838, 4.233861103919766, 0.02512967695555195,
-         4.093915871169333},
-        {"lshape.msh", 0.1, 0.02, ref_lshape_re_10_omega_start, ref_lshape_re_10_psi_1, ref_lshape_re_10_omega_1,
-         ref_lshape_re_10_psi_5, ref_lshape_re_10_omega_5, ref_lshape_re_10_psi_steady,
-         ref_lshape_re_10_omega_steady, NULL, NULL, 0.010404547663752043, 4.926312084938418, 0.020006010628919282,
-         4.702053575644528},
+         ref_cavity_re_100_total_pressure_steady, 0.003195418349987838, 4.233861103919766,
+         0.02512967695555195, 4.093915871169333},
+        {"lshape.msh", 0.1, 0.02, ref_lshape_re_10_omega_start, ref_lshape_re_10_psi_1,
+         ref_lshape_re_10_omega_1, ref_lshape_re_10_psi_5, ref_lshape_re_10_omega_5,
+         ref_lshape_re_10_psi_steady, ref_lshape_re_10_omega_steady, NULL, NULL, 0.010404547663752043,
+         4.926312084938418, 0.020006010628919282, 4.702053575644528},
     };
     for (size_t i = 0; i < sizeof cavities / sizeof cavities[0]; i++) {
         cavity_agrees(&cavities[i]);
@@ -255,8 +257,8 @@ static struct gm_flow *small_room(enum gm_vertex_kind outlet)
     return flow;
 }
 
-static void expect_budget(const struct gm_flow *flow, const double *y, double total, double rate, double convected,
-                          double reaction, double outflow)
+static void expect_budget(const struct gm_flow *flow, const double *y, double total, double rate,
+                          double convected, double reaction, double outflow)
 {
     const struct gm_budget budget = gm_flow_budget(flow, y);
     expect_number("total", gm_flow_scalar_total(flow, y), total);
@@ -346,8 +348,10 @@ static void channel_agrees(void **unused)
         FIELD(flow, y, GM_FLOW_OMEGA, (soft ? ref_channel_soft_omega_steady : ref_channel_free_omega_steady));
         FIELD(flow, y, GM_FLOW_THETA, (soft ? ref_channel_soft_theta_steady : ref_channel_free_theta_steady));
         expect_pressure("pressure", flow, y,
-                        soft ? ref_channel_soft_total_pressure_steady : ref_channel_free_total_pressure_steady);
-        expect_number("outflow", gm_flow_budget(flow, y).outflow, soft ? 5.845547920532039 : 5.879389986377435);
+                        soft ? ref_channel_soft_total_pressure_steady
+                             : ref_channel_free_total_pressure_steady);
+        expect_number("outflow", gm_flow_budget(flow, y).outflow,
+                      soft ? 5.845547920532039 : 5.879389986377435);
         gm_run_close(run);
 
         /* marching comes to the same state */
@@ -366,8 +370,8 @@ static void channel_agrees(void **unused)
 static struct gm_flow *torus(double viscosity)
 {
     struct gm_mesh_fault fault;
-    struct gm_complex *complex =
-        gm_complex_open(ref_torus_vertices, 80, ref_torus_triangles, 160, (const double[]){1, 1}, NULL, &fault);
+    struct gm_complex *complex = gm_complex_open(ref_torus_vertices, 80, ref_torus_triangles, 160,
+                                                 (const double[]){1, 1}, NULL, &fault);
     assert_non_null(complex);
     assert_int_equal(complex->boundary, 0);
     assert_int_equal((long)complex->vertices - (long)complex->edges + (long)complex->triangles, 0);
@@ -504,8 +508,12 @@ static void rectangles_are_acute(void **unused)
     (void)unused;
     for (long edges = 3; edges <= 48; edges = edges * 3 / 2 + 1) {
         for (int kind = 0; kind < 8; kind++) {
-            struct gm_rectangle rectangle = {.width = 2, .height = 1, .edges = edges, .transposed = kind & 1,
-                                             .irregular = kind & 2 ? 0.25 : 0, .torus = kind & 4};
+            struct gm_rectangle rectangle = {.width = 2,
+                                             .height = 1,
+                                             .edges = edges,
+                                             .transposed = kind & 1,
+                                             .irregular = kind & 2 ? 0.25 : 0,
+                                             .torus = kind & 4};
             rectangle.strips = gm_rectangle_strips(2, 1, edges, rectangle.transposed);
             if (rectangle.strips < 4 || !gm_rectangle_is_acute(&rectangle)) {
                 continue;
@@ -513,7 +521,8 @@ static void rectangles_are_acute(void **unused)
             struct gm_mesh_fault fault;
             struct gm_complex *complex = gm_rectangle_open(&rectangle, &fault);
             if (!complex) {
-                fail_msg("%ld edges, %ld strips, kind %d: fault %d", edges, rectangle.strips, kind, (int)fault.kind);
+                fail_msg("%ld edges, %ld strips, kind %d: fault %d", edges, rectangle.strips, kind,
+                         (int)fault.kind);
             }
             const size_t n = (size_t)edges, m = (size_t)rectangle.strips;
             assert_int_equal(complex->triangles, 2 * n * m);
@@ -581,11 +590,11 @@ static void samples_are_cubic(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(operators_agree),     cmocka_unit_test(scrambled_is_the_same),
-        cmocka_unit_test(rectangles_are_acute), cmocka_unit_test(fluxes_are_closed),
-        cmocka_unit_test(cavities_agree),      cmocka_unit_test(room_agrees),
-        cmocka_unit_test(channel_agrees),      cmocka_unit_test(torus_agrees),
-        cmocka_unit_test(torus_conserves),     cmocka_unit_test(snapshots_resume),
+        cmocka_unit_test(operators_agree),       cmocka_unit_test(scrambled_is_the_same),
+        cmocka_unit_test(rectangles_are_acute),  cmocka_unit_test(fluxes_are_closed),
+        cmocka_unit_test(cavities_agree),        cmocka_unit_test(room_agrees),
+        cmocka_unit_test(channel_agrees),        cmocka_unit_test(torus_agrees),
+        cmocka_unit_test(torus_conserves),       cmocka_unit_test(snapshots_resume),
         cmocka_unit_test(tracers_do_not_matter), cmocka_unit_test(samples_are_cubic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Incompressible flow in discrete exterior calculus (notation: core/flow/flow.h), with C(F) = -d0' diag(F) A:
-       half step   star0 omega* = star0 omega - dt/2 [C(F) omega + nu K omega],   K psi* + sheet = star0 omega*
-       flow        [star0/dt + C(F*) + nu K] omega' = star0 omega / dt,   K psi' + sheet = star0 omega'
+       half step   star0 omega* = star0 omega - dt/2 [C(F) omega + nu K omega],   K psi* + sheet = star0
+   omega* flow        [star0/dt + C(F*) + nu K] omega' = star0 omega / dt,   K psi' + sheet = star0 omega'
        scalar      [star0/dt + C(F*) + diag(q) + kappa K] theta' = star0 theta / dt
-   Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175; Razafindralandy et al. (2018), eqs. 153-155. */
+   Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175; Razafindralandy et al. (2018), eqs. 153-155.
+ */
 #include <math.h>
 #include <string.h>
 
@@ -29,10 +30,13 @@ static void *open_workspace(const struct gm_problem *problem, const struct gm_sc
     return gm_flow_solver_open(problem->flow);
 }
 
-static void close_workspace(void *workspace) { gm_flow_solver_close(workspace); }
+static void close_workspace(void *workspace)
+{
+    gm_flow_solver_close(workspace);
+}
 
-/* What the steady scheme carries: the Reynolds number it has come to, the corrections made for it, and whether the
-   last one was round-off. */
+/* What the steady scheme carries: the Reynolds number it has come to, the corrections made for it, and
+   whether the last one was round-off. */
 enum { LEVEL, CORRECTIONS, DONE, MEMORY };
 
 static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
@@ -41,7 +45,8 @@ static size_t memory(const struct gm_problem *problem, const struct gm_scheme *s
     return scheme->coefficients == &steady ? MEMORY : 0;
 }
 
-static const double first_level = 100; /* Newton's method converges from rest up to about this Reynolds number */
+static const double first_level =
+    100; /* Newton's method converges from rest up to about this Reynolds number */
 
 static enum gm_status start(const struct gm_task *task)
 {
@@ -73,13 +78,15 @@ static void half_step(struct gm_flow_solver *solver, double dt, double *y)
     }
     memcpy(psi_half, flow->psi, complex->vertices * sizeof *psi_half);
     if (solver->unknowns.count > 0) {
-        gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b, solver->x,
-                                  psi_half);
+        gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
+                                  solver->x, psi_half);
     }
 }
 
-/* star0 omega / dt less what the old time contributes, into solver->rate. Leaves the matrix of the step assembled. */
-static void make_equation(struct gm_flow_solver *solver, const struct row *row, double dt, const double *omega)
+/* star0 omega / dt less what the old time contributes, into solver->rate. Leaves the matrix of the step
+ * assembled. */
+static void make_equation(struct gm_flow_solver *solver, const struct row *row, double dt,
+                          const double *omega)
 {
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
@@ -116,7 +123,8 @@ static bool advance_vorticity(struct gm_flow_solver *solver, const struct row *r
         solver->rate[v] = complex->star0[v] * omega[v];
     }
     if (solver->unknowns.count > 0) {
-        gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b, solver->x, y);
+        gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
+                                  solver->x, y);
     }
     progress->solves += 2;
     return true;
@@ -152,7 +160,8 @@ static void correct(const struct gm_flow_solver *solver, double *y)
     gm_flow_vorticity(flow, y, omega);
 }
 
-/* The step for psi, and for omega where psi does not give it. The first guess goes on as the last step did. */
+/* The step for psi, and for omega where psi does not give it. The first guess goes on as the last step did.
+ */
 static bool advance_stream(struct gm_flow_solver *solver, const struct row *row, double dt, double *y,
                            const double *psi_before, struct gm_progress *progress)
 {
@@ -192,13 +201,14 @@ static bool advance_scalar(struct gm_flow_solver *solver, double dt, double *y, 
         solver->rate[v] = shift * complex->star0[v] * theta[v];
     }
     progress->solves++;
-    return shift != 0 ? gm_transport_solve(&solver->transport, flow->theta_fixed, solver->rate, theta,
-                                           solver->bicgstab, &progress->iterations)
-                      : gm_transport_solve_directly(&solver->transport, flow->theta_fixed, solver->rate, theta);
+    return shift != 0
+               ? gm_transport_solve(&solver->transport, flow->theta_fixed, solver->rate, theta,
+                                    solver->bicgstab, &progress->iterations)
+               : gm_transport_solve_directly(&solver->transport, flow->theta_fixed, solver->rate, theta);
 }
 
-static enum gm_status step(struct gm_flow_solver *solver, const struct row *row, double dt, long number, double *y,
-                           struct gm_progress *progress)
+static enum gm_status step(struct gm_flow_solver *solver, const struct row *row, double dt, long number,
+                           double *y, struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
     const size_t n = flow->complex->vertices;
@@ -221,12 +231,13 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
     return GM_OK;
 }
 
-/* One correction of Newton's method at the present Reynolds number; a change small enough leads to the next one. */
+/* One correction of Newton's method at the present Reynolds number; a change small enough leads to the next
+ * one. */
 static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried, double *y,
                                   struct gm_progress *progress)
 {
-    enum { MOST_CORRECTIONS = 60 };
-    const double roundoff = 1e-9, good_start = 1e-2, factor = 2.5;
+    enum { MOST_CORRECTIONS = 25 };
+    const double roundoff = 1e-9, good_start = 1e-2, factor = carried[LEVEL] < 1000 ? 2.5 : 1.5;
     const struct gm_flow *flow = solver->flow;
     const size_t n = flow->complex->vertices;
     double *omega = block(flow, y, GM_FLOW_OMEGA);
@@ -237,7 +248,8 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
     const double ratio = flow->reynolds > 0 ? flow->reynolds / carried[LEVEL] : 1;
     if (solver->unknowns.count > 0) {
         fluxes(solver, y);
-        gm_transport_assemble(&solver->transport, solver->flux, 0, 1, ratio * flow->viscosity, GM_BACKFLOW_ZERO);
+        gm_transport_assemble(&solver->transport, solver->flux, 0, 1, ratio * flow->viscosity,
+                              GM_BACKFLOW_ZERO);
         memset(solver->rate, 0, n * sizeof *solver->rate);
         residual(solver, omega);
         if (!gm_flow_solver_newton(solver, omega)) {
@@ -292,9 +304,10 @@ static struct gm_progress loop(const struct gm_task *task)
         memcpy(task->memory_out, task->memory, MEMORY * sizeof *task->memory);
     }
     while (progress.done < task->steps) {
-        progress.status = row == &steady ? step_steady(task->workspace, task->memory_out, task->out, &progress)
-                                         : step(task->workspace, row, task->dt * flow->time_unit,
-                                                task->steps_before + progress.done, task->out, &progress);
+        progress.status = row == &steady
+                              ? step_steady(task->workspace, task->memory_out, task->out, &progress)
+                              : step(task->workspace, row, task->dt * flow->time_unit,
+                                     task->steps_before + progress.done, task->out, &progress);
         if (progress.status == GM_OK && !within(task->out, task->problem->n, task->limit)) {
             progress.status = GM_BLOW_UP;
         }
@@ -324,7 +337,8 @@ static const struct gm_scheme schemes[] = {
         .name = "crank-nicolson",
         .title = "Crank–Nicolson",
         .formula = "[⋆₀/h + (C(F½) + νK)/2] ω₁ = [⋆₀/h − (C(F½) + νK)/2] ω₀,  K ψ₁ = ⋆₀ω₁",
-        .reference = "J. Crank & P. Nicolson (1947); with the fluxes of Razafindralandy et al. (2018), eq. 153",
+        .reference =
+            "J. Crank & P. Nicolson (1947); with the fluxes of Razafindralandy et al. (2018), eq. 153",
         .coefficients = &centred,
         .order = 2,
         .claims = EXACT_CALCULUS | GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC,

@@ -3,7 +3,8 @@
 
 #include <stdlib.h>
 
-/* A run of boundary edges of one side: `first` .. `first + count`, cyclic; psi goes from `from` to `to` along it. */
+/* A run of boundary edges of one side: `first` .. `first + count`, cyclic; psi goes from `from` to `to` along
+ * it. */
 struct run {
     size_t first, count;
     double from, to;
@@ -62,7 +63,8 @@ static void open_run(struct gm_flow *flow, const struct run *run, enum gm_vertex
         if (i > 0) {
             const double s = passed / length;
             flow->kind[v] = (unsigned char)kind;
-            flow->psi[v] = kind == GM_VERTEX_OPEN ? 0 : run->from + (run->to - run->from) * s * s * (3 - 2 * s);
+            flow->psi[v] =
+                kind == GM_VERTEX_OPEN ? 0 : run->from + (run->to - run->from) * s * s * (3 - 2 * s);
             flow->theta_fixed[v] = theta_fixed;
             flow->theta[v] = theta_fixed ? theta : 0;
         }

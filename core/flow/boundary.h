@@ -10,19 +10,20 @@ enum gm_side { GM_SIDE_WALL, GM_SIDE_INLET, GM_SIDE_OUTLET, GM_SIDE_LID, GM_SIDE
 enum gm_boundary_fault {
     GM_BOUNDARY_OK,
     GM_BOUNDARY_MEMORY,
-    GM_BOUNDARY_LOOPS,          /* a hole: the stream function on its wall is not known */
-    GM_BOUNDARY_NO_INLET,       /* an outlet alone */
+    GM_BOUNDARY_LOOPS,    /* a hole: the stream function on its wall is not known */
+    GM_BOUNDARY_NO_INLET, /* an outlet alone */
     GM_BOUNDARY_NO_OUTLET,
-    GM_BOUNDARY_SEVERAL,        /* an inlet or an outlet in several pieces */
-    GM_BOUNDARY_SHORT,          /* an inlet or an outlet of one edge: no vertex inside */
-    GM_BOUNDARY_WHOLE,          /* nothing but an inlet or an outlet */
+    GM_BOUNDARY_SEVERAL, /* an inlet or an outlet in several pieces */
+    GM_BOUNDARY_SHORT,   /* an inlet or an outlet of one edge: no vertex inside */
+    GM_BOUNDARY_WHOLE,   /* nothing but an inlet or an outlet */
 };
 
-/* The boundary of a room: edges of complex->boundary_edge in that order. Through the inlet enters, and through the
-   outlet leaves, the flow 2/3 speed * length of the inlet with parabolic profile; the lid moves clockwise (to +x on
-   top) with this speed; walls stand still. A vertex belongs to the inlet (outlet) if both its boundary edges do.
-   Outlet vertices are of the kind `outlet`. theta is held at 0 on walls and lid and at `theta` in the inlet, and is
-   free in the outlet. psi is 0 on the wall from which the outlet begins, counter-clockwise. */
+/* The boundary of a room: edges of complex->boundary_edge in that order. Through the inlet enters, and
+   through the outlet leaves, the flow 2/3 speed * length of the inlet with parabolic profile; the lid moves
+   clockwise (to +x on top) with this speed; walls stand still. A vertex belongs to the inlet (outlet) if both
+   its boundary edges do. Outlet vertices are of the kind `outlet`. theta is held at 0 on walls and lid and at
+   `theta` in the inlet, and is free in the outlet. psi is 0 on the wall from which the outlet begins,
+   counter-clockwise. */
 enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned char *sides, double speed,
                                             enum gm_vertex_kind outlet, double theta);
 

@@ -19,7 +19,10 @@ static bool fail(struct gm_mesh_fault *fault, enum gm_mesh_fault_kind kind)
     return false;
 }
 
-static long tag_of(const long *tags, int vertex) { return tags ? tags[vertex] : vertex + 1L; }
+static long tag_of(const long *tags, int vertex)
+{
+    return tags ? tags[vertex] : vertex + 1L;
+}
 
 static void name_triangle(const struct gm_complex *complex, size_t triangle, const long *tags,
                           struct gm_mesh_fault *fault)
@@ -145,7 +148,8 @@ static bool make_edges(struct gm_complex *complex, const struct side *sides, con
         pair[0] = pair[1] = -1;
         complex->edge[2 * edges] = sides[i].low;
         complex->edge[2 * edges + 1] = sides[i].high;
-        for (end = i; end < count && sides[end].low == sides[i].low && sides[end].high == sides[i].high; end++) {
+        for (end = i; end < count && sides[end].low == sides[i].low && sides[end].high == sides[i].high;
+             end++) {
             const int place = sides[end].place;
             const bool along = complex->triangle[place] == sides[end].low;
             int *seat = &pair[along ? 0 : 1];
@@ -185,7 +189,8 @@ static void make_rings(struct gm_complex *complex)
     int *next = complex->ring_start;
     for (int head = 1; head >= 0; head--) {
         for (size_t e = 0; e < complex->edges; e++) {
-            const int at = complex->edge[2 * e + (size_t)head], other = complex->edge[2 * e + 1 - (size_t)head];
+            const int at = complex->edge[2 * e + (size_t)head],
+                      other = complex->edge[2 * e + 1 - (size_t)head];
             const int place = next[at]++;
             complex->ring_vertex[place] = other;
             complex->ring_edge[place] = (int)e;
@@ -360,8 +365,9 @@ static double angle_facing(const struct gm_complex *complex, int triangle, int e
         a++;
     }
     const int k = (a + 2) % 3, b = (a + 1) % 3;
-    return fabs(atan2(2 * complex->area[triangle], (p[2 * a] - p[2 * k]) * (p[2 * b] - p[2 * k]) +
-                                                       (p[2 * a + 1] - p[2 * k + 1]) * (p[2 * b + 1] - p[2 * k + 1]))) *
+    return fabs(atan2(2 * complex->area[triangle],
+                      (p[2 * a] - p[2 * k]) * (p[2 * b] - p[2 * k]) +
+                          (p[2 * a + 1] - p[2 * k + 1]) * (p[2 * b + 1] - p[2 * k + 1]))) *
            180 / M_PI;
 }
 
@@ -472,11 +478,11 @@ void gm_complex_close(struct gm_complex *complex)
     if (!complex) {
         return;
     }
-    void *const owned[] = {complex->point,         complex->triangle,    complex->triangle_edge,
-                           complex->triangle_sign, complex->edge,        complex->edge_triangle,
-                           complex->ring_start,    complex->ring_vertex, complex->ring_edge,
+    void *const owned[] = {complex->point,         complex->triangle,      complex->triangle_edge,
+                           complex->triangle_sign, complex->edge,          complex->edge_triangle,
+                           complex->ring_start,    complex->ring_vertex,   complex->ring_edge,
                            complex->edge_ring,     complex->boundary_edge, complex->boundary_vertex,
-                           complex->length,        complex->area,        complex->weight,
+                           complex->length,        complex->area,          complex->weight,
                            complex->star0,         complex->star1};
     for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
         free(owned[i]);

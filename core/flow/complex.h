@@ -9,24 +9,25 @@
 enum gm_mesh_fault_kind {
     GM_MESH_OK,
     GM_MESH_MEMORY,
-    GM_MESH_NOT_GMSH,       /* does not begin with $MeshFormat */
-    GM_MESH_VERSION,        /* text: the version; only 4.1 is read */
+    GM_MESH_NOT_GMSH, /* does not begin with $MeshFormat */
+    GM_MESH_VERSION,  /* text: the version; only 4.1 is read */
     GM_MESH_BINARY,
-    GM_MESH_SYNTAX,         /* line; text: what is expected there */
-    GM_MESH_TRUNCATED,      /* text: the section that does not end */
-    GM_MESH_HUGE,           /* line: announces more than the file can hold, or than 5e6 */
-    GM_MESH_REPEATED_NODE,  /* line, nodes[0] */
-    GM_MESH_UNKNOWN_NODE,   /* line, nodes[0] */
-    GM_MESH_ELEMENT,        /* line, nodes[0]: a type of element that is not read */
-    GM_MESH_THREE_D,        /* line, nodes[0]: a node off the plane */
-    GM_MESH_EMPTY,          /* no triangle */
-    GM_MESH_DEGENERATE,     /* triangle, nodes: no area */
-    GM_MESH_OVERLAP,        /* triangle, nodes: two triangles on the same side of an edge */
-    GM_MESH_EDGE_OF_THREE,  /* nodes: an edge of three or more triangles */
-    GM_MESH_PINCHED,        /* nodes[0]: two pieces that meet in one vertex only */
-    GM_MESH_PIECES,         /* more than one piece */
-    GM_MESH_NOT_DELAUNAY,   /* triangle, nodes, value: its largest angle, opposite to a dual edge not positive */
-    GM_MESH_DUAL_CELL,      /* nodes[0]: a dual cell whose area is not positive */
+    GM_MESH_SYNTAX,        /* line; text: what is expected there */
+    GM_MESH_TRUNCATED,     /* text: the section that does not end */
+    GM_MESH_HUGE,          /* line: announces more than the file can hold, or than 5e6 */
+    GM_MESH_REPEATED_NODE, /* line, nodes[0] */
+    GM_MESH_UNKNOWN_NODE,  /* line, nodes[0] */
+    GM_MESH_ELEMENT,       /* line, nodes[0]: a type of element that is not read */
+    GM_MESH_THREE_D,       /* line, nodes[0]: a node off the plane */
+    GM_MESH_EMPTY,         /* no triangle */
+    GM_MESH_DEGENERATE,    /* triangle, nodes: no area */
+    GM_MESH_OVERLAP,       /* triangle, nodes: two triangles on the same side of an edge */
+    GM_MESH_EDGE_OF_THREE, /* nodes: an edge of three or more triangles */
+    GM_MESH_PINCHED,       /* nodes[0]: two pieces that meet in one vertex only */
+    GM_MESH_PIECES,        /* more than one piece */
+    GM_MESH_NOT_DELAUNAY,  /* triangle, nodes, value: its largest angle, opposite to a dual edge not positive
+                            */
+    GM_MESH_DUAL_CELL,     /* nodes[0]: a dual cell whose area is not positive */
 };
 
 struct gm_mesh_fault {
@@ -38,9 +39,10 @@ struct gm_mesh_fault {
     char text[64];
 };
 
-/* An oriented two-dimensional simplicial complex with its circumcentric dual. Triangles run counter-clockwise,
-   edges from their lower to their higher vertex. The dual edge of e points from the triangle on the right of e to
-   the one on its left. Where triangles are obtuse the parts of dual edges and cells keep their signs. */
+/* An oriented two-dimensional simplicial complex with its circumcentric dual. Triangles run
+   counter-clockwise, edges from their lower to their higher vertex. The dual edge of e points from the
+   triangle on the right of e to the one on its left. Where triangles are obtuse the parts of dual edges and
+   cells keep their signs. */
 struct gm_complex {
     size_t vertices, edges, triangles;
     double *point;              /* 2 a vertex */
@@ -53,23 +55,23 @@ struct gm_complex {
     int *ring_start;            /* vertices + 1: where the neighbours of a vertex begin */
     int *ring_vertex;           /* 2 * edges: neighbours, in increasing order for each vertex */
     int *ring_edge;             /* 2 * edges: the edge to that neighbour */
-    int *edge_ring;             /* 2 an edge: the place in the rings of its high vertex at its low one, and back */
-    size_t boundary;            /* number of boundary edges */
-    int *boundary_edge;         /* in counter-clockwise order, loop after loop */
-    int *boundary_vertex;       /* the vertex where each begins */
-    size_t loops;               /* connected pieces of the boundary */
-    double *length;             /* of the edges */
-    double *area;               /* of the triangles */
-    double *weight;             /* 3 a triangle: barycentric coordinates of its circumcentre (the matrix P) */
-    double *star0;              /* area of the dual cells */
-    double *star1;              /* |dual edge| / |edge|; on the boundary half a dual edge */
+    int *edge_ring;       /* 2 an edge: the place in the rings of its high vertex at its low one, and back */
+    size_t boundary;      /* number of boundary edges */
+    int *boundary_edge;   /* in counter-clockwise order, loop after loop */
+    int *boundary_vertex; /* the vertex where each begins */
+    size_t loops;         /* connected pieces of the boundary */
+    double *length;       /* of the edges */
+    double *area;         /* of the triangles */
+    double *weight;       /* 3 a triangle: barycentric coordinates of its circumcentre (the matrix P) */
+    double *star0;        /* area of the dual cells */
+    double *star1;        /* |dual edge| / |edge|; on the boundary half a dual edge */
     double smallest_angle, largest_angle; /* in degrees */
     double total_area, mean_edge;
 };
 
-/* Builds the complex of `triangles` triangles (3 vertices each, any orientation) on `vertices` points, every one
-   of them used; on a torus of these periods if they are positive (triangles take the nearest images). NULL with a
-   fault if it is no such mesh. `tags`: names of the points for the fault, or NULL. */
+/* Builds the complex of `triangles` triangles (3 vertices each, any orientation) on `vertices` points, every
+   one of them used; on a torus of these periods if they are positive (triangles take the nearest images).
+   NULL with a fault if it is no such mesh. `tags`: names of the points for the fault, or NULL. */
 struct gm_complex *gm_complex_open(const double *points, size_t vertices, const int *triangles, size_t count,
                                    const double period[2], const long *tags, struct gm_mesh_fault *fault);
 void gm_complex_close(struct gm_complex *complex);

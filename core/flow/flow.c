@@ -75,7 +75,8 @@ double gm_flow_psi_centre(const struct gm_complex *complex, const double *psi, s
     return w[0] * psi[t[0]] + w[1] * psi[t[1]] + w[2] * psi[t[2]];
 }
 
-static double flux_between(const struct gm_complex *complex, const double *psi, const double *centre, size_t edge)
+static double flux_between(const struct gm_complex *complex, const double *psi, const double *centre,
+                           size_t edge)
 {
     const int *side = complex->edge_triangle + 2 * edge;
     const double middle = (psi[complex->edge[2 * edge]] + psi[complex->edge[2 * edge + 1]]) / 2;
@@ -118,12 +119,14 @@ void gm_flow_vorticity(const struct gm_flow *flow, const double *psi, double *om
     }
 }
 
-void gm_flow_velocity(const struct gm_complex *complex, const double *psi, size_t triangle, double velocity[2])
+void gm_flow_velocity(const struct gm_complex *complex, const double *psi, size_t triangle,
+                      double velocity[2])
 {
     double p[6];
     const int *t = complex->triangle + 3 * triangle;
     gm_complex_corners(complex, triangle, p);
-    const double twice = 2 * complex->area[triangle], first = psi[t[1]] - psi[t[0]], second = psi[t[2]] - psi[t[0]];
+    const double twice = 2 * complex->area[triangle], first = psi[t[1]] - psi[t[0]],
+                 second = psi[t[2]] - psi[t[0]];
     velocity[0] = (second * (p[2] - p[0]) - first * (p[4] - p[0])) / twice;
     velocity[1] = -(first * (p[5] - p[1]) - second * (p[3] - p[1])) / twice;
 }
@@ -199,7 +202,8 @@ static void complete_start(const struct gm_flow *flow, double *y)
         }
         double p[6];
         gm_complex_corners(complex, t, p);
-        const double r = sqrt(fmod((double)i * 0.7548776662466927, 1)), s = fmod((double)i * 0.5698402909980532, 1);
+        const double r = sqrt(fmod((double)i * 0.7548776662466927, 1)),
+                     s = fmod((double)i * 0.5698402909980532, 1);
         const double w[3] = {1 - r, r * (1 - s), r * s};
         tracer[GM_TRACER_X] = w[0] * p[0] + w[1] * p[2] + w[2] * p[4];
         tracer[GM_TRACER_Y] = w[0] * p[1] + w[1] * p[3] + w[2] * p[5];

@@ -5,13 +5,13 @@
 #include "core/flow/complex.h"
 #include "core/problem.h"
 
-/* An incompressible flow on a simplicial complex and a scalar that it carries, in the discrete exterior calculus of
-   Mohamed, Hirani & Samtaney (2016). Velocity u = (d psi/dy, -d psi/dx).
+/* An incompressible flow on a simplicial complex and a scalar that it carries, in the discrete exterior
+   calculus of Mohamed, Hirani & Samtaney (2016). Velocity u = (d psi/dy, -d psi/dx).
 
    psi: stream function at the vertices; U = -star1 d0 psi its circulation along dual edges; K = d0' star1 d0;
    omega = (K psi + sheet) / star0, sheet the circulation that moving walls add to a boundary cell;
-   F = (d1' P - boundary midpoints) psi the flux through dual edges, exactly free of divergence on inner dual cells;
-   convection of a: -d0' diag(F) A a, A the mean of an edge's ends. */
+   F = (d1' P - boundary midpoints) psi the flux through dual edges, exactly free of divergence on inner dual
+   cells; convection of a: -d0' diag(F) A a, A the mean of an edge's ends. */
 
 /* What is known of psi and omega at a vertex. */
 enum gm_vertex_kind {
@@ -32,21 +32,21 @@ struct gm_inflow {
 struct gm_flow {
     struct gm_complex *complex;
     double viscosity, diffusivity;
-    double time_unit;   /* of a run, in the flow's own time */
-    double reynolds;    /* where continuation of steady states ends; 0: none is needed */
-    bool scalar;        /* theta is carried */
+    double time_unit;    /* of a run, in the flow's own time */
+    double reynolds;     /* where continuation of steady states ends; 0: none is needed */
+    bool scalar;         /* theta is carried */
     unsigned char *kind; /* enum gm_vertex_kind, a vertex */
-    double *psi;        /* given values, 0 elsewhere */
+    double *psi;         /* given values, 0 elsewhere */
     double *sheet;
     bool *theta_fixed;
-    double *theta;      /* given values, 0 elsewhere */
+    double *theta; /* given values, 0 elsewhere */
     size_t tracers;
     struct gm_inflow inflow;
 };
 
-/* The state of a run: blocks of one number a vertex, then the flow's step that led here and the tracers. What a
-   step used (psi_half: the stream function of its fluxes; what was before) is kept, so that budgets and pressure
-   are functions of the state alone. */
+/* The state of a run: blocks of one number a vertex, then the flow's step that led here and the tracers. What
+   a step used (psi_half: the stream function of its fluxes; what was before) is kept, so that budgets and
+   pressure are functions of the state alone. */
 enum gm_flow_block {
     GM_FLOW_PSI,
     GM_FLOW_OMEGA,
@@ -71,11 +71,11 @@ const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t
 struct gm_flow *gm_flow_open(struct gm_complex *complex);
 void gm_flow_close(struct gm_flow *flow);
 
-/* The start without vorticity: K psi = 0 inside. Vertices of soft outlets have omega = 0. False when memory is short
-   or the boundary leaves psi undetermined. */
+/* The start without vorticity: K psi = 0 inside. Vertices of soft outlets have omega = 0. False when memory
+   is short or the boundary leaves psi undetermined. */
 bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y);
-/* The start from vorticity at the vertices, on a closed surface or between slip walls: K psi = star0 omega, omega
-   less its mean on a closed surface. */
+/* The start from vorticity at the vertices, on a closed surface or between slip walls: K psi = star0 omega,
+   omega less its mean on a closed surface. */
 bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y);
 
 /* psi interpolated to the circumcentre of a triangle, and the flux through the dual of an edge. */
@@ -89,13 +89,14 @@ void gm_flow_fluxes(const struct gm_complex *complex, const double *psi, double 
 void gm_flow_vorticity(const struct gm_flow *flow, const double *psi, double *omega);
 
 /* The velocity of a triangle: u, v. */
-void gm_flow_velocity(const struct gm_complex *complex, const double *psi, size_t triangle, double velocity[2]);
-/* The velocities of the vertices, u and v of each: the mean over their triangles, weighted by area. The array has
-   3 * vertices numbers; the last third is scratch. */
+void gm_flow_velocity(const struct gm_complex *complex, const double *psi, size_t triangle,
+                      double velocity[2]);
+/* The velocities of the vertices, u and v of each: the mean over their triangles, weighted by area. The array
+   has 3 * vertices numbers; the last third is scratch. */
 void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *psi, double *velocities);
 
-/* Whether omega at the unknowns of psi is an unknown that boundary values of psi do not enter: closed surfaces and
-   slip walls. Then steps are made for omega. */
+/* Whether omega at the unknowns of psi is an unknown that boundary values of psi do not enter: closed
+   surfaces and slip walls. Then steps are made for omega. */
 bool gm_flow_is_vorticity_form(const struct gm_flow *flow);
 
 /* What is measured of a state y. */
@@ -109,16 +110,16 @@ double gm_flow_scalar_total(const struct gm_flow *flow, const double *y);
 
 /* The scalar's budget over the last step; all rates per unit of the flow's own time. */
 struct gm_budget {
-    double rate;       /* of the total */
-    double convected;  /* in through vertices with given theta */
-    double reaction;   /* what holding theta there adds */
-    double outflow;    /* through all other boundary vertices */
-    double defect;     /* |rate - convected - reaction + outflow|, relative to the largest of them */
+    double rate;      /* of the total */
+    double convected; /* in through vertices with given theta */
+    double reaction;  /* what holding theta there adds */
+    double outflow;   /* through all other boundary vertices */
+    double defect;    /* |rate - convected - reaction + outflow|, relative to the largest of them */
 };
 struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y);
 
-/* The total pressure p/rho + |u|^2/2 of the triangles, of mean 0, after the last step: its differences over inner
-   dual edges are summed along a spanning tree. False on a torus, and when memory is short. */
+/* The total pressure p/rho + |u|^2/2 of the triangles, of mean 0, after the last step: its differences over
+   inner dual edges are summed along a spanning tree. False on a torus, and when memory is short. */
 bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *pressure);
 
 /* Velocity at a point by the cubic polynomial fitted to psi at the 24 nearest vertices, with the weight
@@ -126,6 +127,7 @@ bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *press
 struct gm_sample {
     double psi, u, v, theta, omega;
 };
-bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z, struct gm_sample *sample);
+bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z,
+                    struct gm_sample *sample);
 
 #endif

@@ -6,7 +6,10 @@
 
 enum { M = GM_GMRES_BASIS };
 
-size_t gm_gmres_scratch(size_t n) { return (M + 4) * n; }
+size_t gm_gmres_scratch(size_t n)
+{
+    return (M + 4) * n;
+}
 
 static double dot(const double *a, const double *b, size_t n)
 {

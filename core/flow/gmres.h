@@ -18,8 +18,8 @@ struct gm_system {
 /* Numbers of scratch that a system of n unknowns needs. */
 size_t gm_gmres_scratch(size_t n);
 
-/* Restarted GMRES, preconditioned from the right (Saad & Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856), from
-   x = 0 until |b - A x| <= small. Adds to *iterations; false if that is not reached. */
+/* Restarted GMRES, preconditioned from the right (Saad & Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856),
+   from x = 0 until |b - A x| <= small. Adds to *iterations; false if that is not reached. */
 bool gm_gmres(const struct gm_system *system, const double *b, double *x, double small, double *scratch,
               unsigned long *iterations);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gmsh's file format 4.1, ASCII (Geuzaine & Remacle, Int. J. Numer. Meth. Eng. 79 (2009) 1309; Gmsh's reference
-   manual, "MSH file format"). Announced counts are believed only as far as the text is long. */
+/* Gmsh's file format 4.1, ASCII (Geuzaine & Remacle, Int. J. Numer. Meth. Eng. 79 (2009) 1309; Gmsh's
+   reference manual, "MSH file format"). Announced counts are believed only as far as the text is long. */
 #include "core/flow/gmsh.h"
 
 #include <ctype.h>
@@ -43,7 +43,8 @@ struct reader {
 static bool fail(struct reader *reader, enum gm_mesh_fault_kind kind, const char *text)
 {
     *reader->fault = (struct gm_mesh_fault){.kind = kind, .line = reader->line};
-    snprintf(reader->fault->text, sizeof reader->fault->text, "%.*s", (int)sizeof reader->fault->text - 1, text);
+    snprintf(reader->fault->text, sizeof reader->fault->text, "%.*s", (int)sizeof reader->fault->text - 1,
+             text);
     return false;
 }
 
@@ -219,7 +220,8 @@ static bool read_entity(struct reader *reader, int dimension)
         reader->curves[reader->curve_count++] = (struct curve){tag, first};
     }
     long bounds = 0;
-    return dimension == 0 || (take_count(reader, &bounds, "a number of entities") && skip_numbers(reader, bounds));
+    return dimension == 0 ||
+           (take_count(reader, &bounds, "a number of entities") && skip_numbers(reader, bounds));
 }
 
 static bool read_entities(struct reader *reader)
@@ -274,7 +276,8 @@ static bool read_node_block(struct reader *reader, size_t total)
         nodes[i].line = reader->line;
     }
     for (long i = 0; i < count; i++) {
-        if (!take_number(reader, &nodes[i].x, "a coordinate") || !take_number(reader, &nodes[i].y, "a coordinate") ||
+        if (!take_number(reader, &nodes[i].x, "a coordinate") ||
+            !take_number(reader, &nodes[i].y, "a coordinate") ||
             !take_number(reader, &nodes[i].z, "a coordinate") ||
             !skip_numbers(reader, parametric ? dimension : 0)) {
             return false;
@@ -287,8 +290,9 @@ static bool read_node_block(struct reader *reader, size_t total)
 static bool read_nodes(struct reader *reader)
 {
     long blocks = 0, total = 0, low = 0, high = 0;
-    if (!take_count(reader, &blocks, "a number of blocks") || !take_count(reader, &total, "a number of nodes") ||
-        !take_whole(reader, &low, "a tag") || !take_whole(reader, &high, "a tag")) {
+    if (!take_count(reader, &blocks, "a number of blocks") ||
+        !take_count(reader, &total, "a number of nodes") || !take_whole(reader, &low, "a tag") ||
+        !take_whole(reader, &high, "a tag")) {
         return false;
     }
     if (reader->nodes) {
@@ -320,7 +324,8 @@ static bool read_element_block(struct reader *reader, size_t total, size_t *done
 {
     long dimension = 0, entity = 0, type = 0, count = 0, tag = 0;
     if (!take_whole(reader, &dimension, "a dimension") || !take_whole(reader, &entity, "an entity") ||
-        !take_whole(reader, &type, "a type of elements") || !take_count(reader, &count, "a number of elements")) {
+        !take_whole(reader, &type, "a type of elements") ||
+        !take_count(reader, &count, "a number of elements")) {
         return false;
     }
     if (type != LINE && type != TRIANGLE && type != POINT) {
@@ -400,7 +405,9 @@ static bool read_sections(struct reader *reader)
         const char *name;
         bool (*read)(struct reader *);
     } known[] = {
-        {"$PhysicalNames", read_names}, {"$Entities", read_entities}, {"$Nodes", read_nodes},
+        {"$PhysicalNames", read_names},
+        {"$Entities", read_entities},
+        {"$Nodes", read_nodes},
         {"$Elements", read_elements},
     };
     char section[40];
@@ -493,10 +500,9 @@ static int compare_curves(const void *a, const void *b)
 static long physical_of(const struct reader *reader, long entity)
 {
     const struct curve key = {.tag = entity};
-    const struct curve *curve =
-        reader->curve_count == 0
-            ? NULL
-            : bsearch(&key, reader->curves, reader->curve_count, sizeof *reader->curves, compare_curves);
+    const struct curve *curve = reader->curve_count == 0 ? NULL
+                                                         : bsearch(&key, reader->curves, reader->curve_count,
+                                                                   sizeof *reader->curves, compare_curves);
     return curve ? curve->physical : 0;
 }
 
@@ -518,7 +524,8 @@ static bool name_edges(struct reader *reader, struct gm_mesh *mesh)
     }
     for (size_t i = 0; i < reader->line_count; i++) {
         const struct element *element = &reader->lines[i];
-        const struct node *a = find_node(reader, element->nodes[0]), *b = find_node(reader, element->nodes[1]);
+        const struct node *a = find_node(reader, element->nodes[0]),
+                          *b = find_node(reader, element->nodes[1]);
         if (!a || !b) {
             return fail_at_node(reader, GM_MESH_UNKNOWN_NODE, element->line, element->nodes[a ? 1 : 0]);
         }
@@ -546,8 +553,8 @@ static bool assemble(struct reader *reader, struct gm_mesh *mesh)
     }
     good = good && number_nodes(reader, points, mesh->tags, corners, &vertices);
     if (good) {
-        mesh->complex =
-            gm_complex_open(points, vertices, corners, reader->triangle_count, plane, mesh->tags, reader->fault);
+        mesh->complex = gm_complex_open(points, vertices, corners, reader->triangle_count, plane, mesh->tags,
+                                        reader->fault);
         good = mesh->complex != NULL;
         if (!good && reader->fault->triangle > 0) {
             reader->fault->line = reader->triangles[reader->fault->triangle - 1].line;

@@ -7,18 +7,18 @@
 /* A mesh with names on its boundary. */
 struct gm_mesh {
     struct gm_complex *complex;
-    long *tags;           /* of the vertices, increasing */
-    int *edge_group;      /* a physical tag for every edge of the complex; 0: none */
-    size_t groups;        /* physical groups of curves */
+    long *tags;      /* of the vertices, increasing */
+    int *edge_group; /* a physical tag for every edge of the complex; 0: none */
+    size_t groups;   /* physical groups of curves */
     struct gm_mesh_group {
         long tag;
         char name[64]; /* "" where it has none */
-    } *group;
+    } * group;
 };
 
-/* Reads a Gmsh file, version 4.1, ASCII: `size` bytes of text. Only triangles of the plane with three nodes, and
-   the lines that carry physical groups, are taken; points are passed over; nodes that nothing uses are dropped.
-   False with a fault, and nothing to close, if the text is no such mesh. */
+/* Reads a Gmsh file, version 4.1, ASCII: `size` bytes of text. Only triangles of the plane with three nodes,
+   and the lines that carry physical groups, are taken; points are passed over; nodes that nothing uses are
+   dropped. False with a fault, and nothing to close, if the text is no such mesh. */
 bool gm_mesh_read(const char *text, size_t size, struct gm_mesh *mesh, struct gm_mesh_fault *fault);
 void gm_mesh_close(struct gm_mesh *mesh);
 

@@ -67,14 +67,16 @@ double gm_flow_scalar_total(const struct gm_flow *flow, const double *y)
 static double transport_row(const struct gm_flow *flow, const double *y, size_t v, double *out)
 {
     const struct gm_complex *complex = flow->complex;
-    const double *theta = gm_flow_block(flow, y, GM_FLOW_THETA), *psi = gm_flow_block(flow, y, GM_FLOW_PSI_HALF);
+    const double *theta = gm_flow_block(flow, y, GM_FLOW_THETA),
+                 *psi = gm_flow_block(flow, y, GM_FLOW_PSI_HALF);
     double sum = 0;
     *out = 0;
     for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
         const size_t e = (size_t)complex->ring_edge[k];
         const int w = complex->ring_vertex[k];
         const double flux = gm_flow_flux(complex, psi, e) * (complex->edge[2 * e] == (int)v ? 1 : -1);
-        sum += flux * (theta[v] + theta[w]) / 2 + flow->diffusivity * complex->star1[e] * (theta[v] - theta[w]);
+        sum +=
+            flux * (theta[v] + theta[w]) / 2 + flow->diffusivity * complex->star1[e] * (theta[v] - theta[w]);
         *out -= flux;
     }
     return sum;
@@ -238,7 +240,8 @@ bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, doubl
         const struct near *near = &nearest[i];
         const double p = near->x / farthest, q = near->z / farthest;
         const double weight = exp(-(p * p + q * q)); /* the square root, for the rows */
-        const double terms[TERMS] = {1, p, q, p * p, p * q, q * q, p * p * p, p * p * q, p * q * q, q * q * q};
+        const double terms[TERMS] = {1,     p,         q,         p * p,     p * q,
+                                     q * q, p * p * p, p * p * q, p * q * q, q * q * q};
         for (size_t k = 0; k < TERMS; k++) {
             a[i][k] = weight * terms[k];
         }

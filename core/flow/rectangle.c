@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An acute triangulation of a rectangle by M strips of height h. Even rows of vertices have N + 1 of them, a apart;
-   odd rows have N, one above the middle of each edge but for the ends, which keep the distance c from the wall, so
-   that the wall's triangle (0, 2 k h), (c, (2 k + 1) h), (0, (2 k + 2) h) is acute. If a/2 < h < c < a, all are:
-   the foot of every apex lies inside its base and splits it into p + q <= a with p q <= a^2 / 4 < h^2. */
+/* An acute triangulation of a rectangle by M strips of height h. Even rows of vertices have N + 1 of them, a
+   apart; odd rows have N, one above the middle of each edge but for the ends, which keep the distance c from
+   the wall, so that the wall's triangle (0, 2 k h), (c, (2 k + 1) h), (0, (2 k + 2) h) is acute. If a/2 < h <
+   c < a, all are: the foot of every apex lies inside its base and splits it into p + q <= a with p q <= a^2 /
+   4 < h^2. */
 #include "core/flow/rectangle.h"
 
 #include <math.h>
@@ -69,7 +70,10 @@ static void add_triangle(struct pattern *pattern, long a, long b, long c)
 }
 
 /* where a row of the rectangle begins */
-static long row_begin(long n, long row) { return row / 2 * (2 * n + 1) + (row % 2) * (n + 1); }
+static long row_begin(long n, long row)
+{
+    return row / 2 * (2 * n + 1) + (row % 2) * (n + 1);
+}
 
 static void lay_rectangle(struct pattern *pattern, const struct gm_rectangle *r)
 {
@@ -97,7 +101,8 @@ static void lay_rectangle(struct pattern *pattern, const struct gm_rectangle *r)
             add_triangle(pattern, odd + k, odd + k + 1, even + k + 1);
         }
         if (row % 2 == 1) {
-            const long below = row_begin(n, row - 1), middle = row_begin(n, row), above = row_begin(n, row + 1);
+            const long below = row_begin(n, row - 1), middle = row_begin(n, row),
+                       above = row_begin(n, row + 1);
             add_triangle(pattern, below, middle, above);
             add_triangle(pattern, below + n, middle + n - 1, above + n);
         }
@@ -226,8 +231,8 @@ struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_mes
         } else {
             lay_rectangle(&pattern, r);
         }
-        complex = gm_complex_open(pattern.points, pattern.vertices, pattern.triangles, pattern.count, period, NULL,
-                                  fault);
+        complex = gm_complex_open(pattern.points, pattern.vertices, pattern.triangles, pattern.count, period,
+                                  NULL, fault);
     }
     if (complex && r->irregular > 0) {
         const bool moved = jiggle(&pattern, r, complex);
@@ -235,8 +240,8 @@ struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_mes
         complex = NULL;
         *fault = (struct gm_mesh_fault){.kind = GM_MESH_MEMORY};
         if (moved) {
-            complex = gm_complex_open(pattern.points, pattern.vertices, pattern.triangles, pattern.count, period,
-                                      NULL, fault);
+            complex = gm_complex_open(pattern.points, pattern.vertices, pattern.triangles, pattern.count,
+                                      period, NULL, fault);
         }
     }
     free(pattern.points);

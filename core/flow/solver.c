@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Linear algebra of the steps. With z = (psi at unknowns I, omega at soft vertices O) and
        omega(z) = W (K psi + sheet) + omega_O,   W = 1 / star0, 0 at soft and slip vertices,
-   steps and steady states are equations R omega(z) = right on the rows I and O. The preconditioner leaves out the
-   convection: B = shift star0 + viscosity K,
-       z_O = B_OO^-1 r_O,   z_I = (shift K_II + viscosity K_I W K_I)^-1 (r_I - B_IO z_O). */
+   steps and steady states are equations R omega(z) = right on the rows I and O. The preconditioner leaves out
+   the convection: B = shift star0 + viscosity K, z_O = B_OO^-1 r_O,   z_I = (shift K_II + viscosity K_I W
+   K_I)^-1 (r_I - B_IO z_O). */
 #include "core/flow/solver.h"
 
 #include <math.h>
@@ -239,8 +239,8 @@ static void put(struct full *full, int column, double value)
 }
 
 /* scale times row v of omega(z) */
-static void put_vorticity(struct full *full, const struct gm_flow_solver *solver, const int *soft_index, int v,
-                          double scale)
+static void put_vorticity(struct full *full, const struct gm_flow_solver *solver, const int *soft_index,
+                          int v, double scale)
 {
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
@@ -269,7 +269,8 @@ static void put_flux(struct full *full, const struct gm_flow_solver *solver, siz
         const int t = complex->edge_triangle[2 * e + (size_t)side];
         const double sign = side == 0 ? scale : -scale;
         for (int k = 0; k < 3 && t >= 0; k++) {
-            put(full, solver->unknowns.index[complex->triangle[3 * t + k]], sign * complex->weight[3 * t + k]);
+            put(full, solver->unknowns.index[complex->triangle[3 * t + k]],
+                sign * complex->weight[3 * t + k]);
         }
         for (int k = 0; k < 2 && t < 0; k++) {
             put(full, solver->unknowns.index[complex->edge[2 * e + (size_t)k]], sign / 2);
@@ -350,7 +351,8 @@ static bool solve_directly(struct gm_flow_solver *solver, const double *omega)
             const size_t i = (size_t)full.row;
             full.start[full.row] = (int)full.used;
             put_row(&full, solver, soft_index,
-                    i < unknowns->count ? unknowns->vertex[i] : solver->soft_vertex[i - unknowns->count], omega);
+                    i < unknowns->count ? unknowns->vertex[i] : solver->soft_vertex[i - unknowns->count],
+                    omega);
             sort_row(&full, buffer);
         }
         full.start[full.n] = (int)full.used;

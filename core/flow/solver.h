@@ -6,20 +6,20 @@
 #include "core/flow/transport.h"
 #include "core/flow/unknowns.h"
 
-/* What steps of a flow need besides the state: index sets, matrices, factors, scratch. All derived from the flow and
-   the time step. */
+/* What steps of a flow need besides the state: index sets, matrices, factors, scratch. All derived from the
+   flow and the time step. */
 struct gm_flow_solver {
     const struct gm_flow *flow;
     struct gm_unknowns unknowns;
     bool vorticity_form;
-    size_t soft;      /* vertices whose omega is an unknown of its own */
+    size_t soft; /* vertices whose omega is an unknown of its own */
     int *soft_vertex;
-    bool *held;       /* vertices whose omega is given, where steps are made for omega */
+    bool *held; /* vertices whose omega is given, where steps are made for omega */
     struct gm_cholesky *poisson;
     double shift, viscosity; /* that stokes and soft_factor were made for; shift = 0: none yet */
     struct gm_cholesky *stokes, *soft_factor;
     struct gm_transport transport;
-    double *numbers;  /* the memory of all that follows */
+    double *numbers;                   /* the memory of all that follows */
     double *flux, *centre;             /* edges, triangles */
     double *rate, *field, *velocities; /* vertices, vertices, 3 * vertices */
     double *b, *x;                     /* unknowns and soft vertices */
@@ -30,13 +30,13 @@ struct gm_flow_solver {
 struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow);
 void gm_flow_solver_close(struct gm_flow_solver *solver);
 
-/* Makes the factors of shift K + viscosity K W K; nothing to do if they are there. False if it is not positive
-   definite or memory is short. */
+/* Makes the factors of shift K + viscosity K W K; nothing to do if they are there. False if it is not
+   positive definite or memory is short. */
 bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double viscosity);
 
-/* The unknowns (psi, then omega of soft vertices) of the correction that takes the residual solver->b to 0, for the
-   matrix in solver->transport: into solver->x. By GMRES; by LU where that fails. `size`: what residuals are compared
-   with. */
+/* The unknowns (psi, then omega of soft vertices) of the correction that takes the residual solver->b to 0,
+   for the matrix in solver->transport: into solver->x. By GMRES; by LU where that fails. `size`: what
+   residuals are compared with. */
 bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned long *iterations);
 
 /* Newton's correction of a steady state: the same with the derivative of the fluxes, by LU. omega: of the

@@ -38,7 +38,8 @@ static bool locate(const struct gm_complex *complex, struct place *place, double
         if (w[worst] >= -1e-12) {
             return true;
         }
-        const int *pair = complex->edge_triangle + 2 * complex->triangle_edge[3 * place->triangle + (worst + 1) % 3];
+        const int *pair =
+            complex->edge_triangle + 2 * complex->triangle_edge[3 * place->triangle + (worst + 1) % 3];
         const int next = pair[0] == place->triangle ? pair[1] : pair[0];
         if (next < 0) {
             return false;
@@ -53,7 +54,8 @@ static void velocity_at(const struct gm_complex *complex, const double *velociti
 {
     const int *t = complex->triangle + 3 * place->triangle;
     for (int c = 0; c < 2; c++) {
-        u[c] = w[0] * velocities[2 * t[0] + c] + w[1] * velocities[2 * t[1] + c] + w[2] * velocities[2 * t[2] + c];
+        u[c] = w[0] * velocities[2 * t[0] + c] + w[1] * velocities[2 * t[1] + c] +
+               w[2] * velocities[2 * t[2] + c];
     }
 }
 
@@ -103,7 +105,8 @@ static bool at_outlet(const struct gm_flow *flow, int triangle)
 static void enter(const struct gm_flow *flow, double share, struct place *place)
 {
     const struct gm_inflow *inflow = &flow->inflow;
-    const double first = inflow->psi[0], last = inflow->psi[inflow->count - 1], psi = first + share * (last - first);
+    const double first = inflow->psi[0], last = inflow->psi[inflow->count - 1],
+                 psi = first + share * (last - first);
     size_t i = 0;
     while (i + 2 < inflow->count && (inflow->psi[i + 1] - psi) * (last - first) < 0) {
         i++;
@@ -115,8 +118,8 @@ static void enter(const struct gm_flow *flow, double share, struct place *place)
     }
 }
 
-void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, long step, const double *y,
-                      double *out)
+void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, long step,
+                      const double *y, double *out)
 {
     const struct gm_complex *complex = flow->complex;
     for (size_t i = 0; i < flow->tracers; i++) {

@@ -4,10 +4,11 @@
 
 #include "core/flow/flow.h"
 
-/* Carries the tracers of y for the time dt into those of out, by the midpoint rule with velocities interpolated
-   linearly between the vertices (gm_flow_vertex_velocities). They are passive: nothing else is read or written. Who
-   leaves through an outlet comes back at the inflow, at a place that `step` and its number decide. */
-void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, long step, const double *y,
-                      double *out);
+/* Carries the tracers of y for the time dt into those of out, by the midpoint rule with velocities
+   interpolated linearly between the vertices (gm_flow_vertex_velocities). They are passive: nothing else is
+   read or written. Who leaves through an outlet comes back at the inflow, at a place that `step` and its
+   number decide. */
+void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, long step,
+                      const double *y, double *out);
 
 #endif

@@ -81,8 +81,8 @@ static double residual_of(const struct gm_transport *transport, const bool *fixe
 }
 
 /* matrix diagonal^-1 p, on the rows that are not fixed */
-static void apply_scaled(const struct gm_transport *transport, const bool *fixed, const double *p, double *scaled,
-                         double *product)
+static void apply_scaled(const struct gm_transport *transport, const bool *fixed, const double *p,
+                         double *scaled, double *product)
 {
     const size_t n = transport->complex->vertices;
     for (size_t v = 0; v < n; v++) {
@@ -94,14 +94,15 @@ static void apply_scaled(const struct gm_transport *transport, const bool *fixed
     }
 }
 
-/* Adds to x the solution of matrix d = r. Stops where the residual is below `small`; false where it does not. */
-static bool bicgstab(const struct gm_transport *transport, const bool *fixed, double *r, double *x, double small,
-                     double *scratch, unsigned long *iterations)
+/* Adds to x the solution of matrix d = r. Stops where the residual is below `small`; false where it does not.
+ */
+static bool bicgstab(const struct gm_transport *transport, const bool *fixed, double *r, double *x,
+                     double small, double *scratch, unsigned long *iterations)
 {
     enum { MOST = 200 };
     const size_t n = transport->complex->vertices;
-    double *shadow = scratch, *p = scratch + n, *v = scratch + 2 * n, *t = scratch + 3 * n, *scaled = scratch + 4 * n,
-           *scaled_r = scratch + 5 * n;
+    double *shadow = scratch, *p = scratch + n, *v = scratch + 2 * n, *t = scratch + 3 * n,
+           *scaled = scratch + 4 * n, *scaled_r = scratch + 5 * n;
     memcpy(shadow, r, n * sizeof *r);
     memset(p, 0, n * sizeof *p);
     memset(v, 0, n * sizeof *v);
@@ -140,8 +141,8 @@ static bool bicgstab(const struct gm_transport *transport, const bool *fixed, do
     return false;
 }
 
-bool gm_transport_solve(const struct gm_transport *transport, const bool *fixed, const double *right, double *x,
-                        double *scratch, unsigned long *iterations)
+bool gm_transport_solve(const struct gm_transport *transport, const bool *fixed, const double *right,
+                        double *x, double *scratch, unsigned long *iterations)
 {
     enum { ROUNDS = 4 };
     const size_t n = transport->complex->vertices;

@@ -4,8 +4,8 @@
 
 #include "core/flow/flow.h"
 
-/* The matrix  shift star0 + share [-d0' diag(F) A + diag(boundary) + diffusion K],  vertices by vertices, in the
-   pattern of the complex' rings. */
+/* The matrix  shift star0 + share [-d0' diag(F) A + diag(boundary) + diffusion K],  vertices by vertices, in
+   the pattern of the complex' rings. */
 struct gm_transport {
     const struct gm_complex *complex;
     double *diagonal; /* vertices */
@@ -27,11 +27,11 @@ void gm_transport_assemble(struct gm_transport *transport, const double *flux, d
 /* y = matrix x */
 void gm_transport_apply(const struct gm_transport *transport, const double *x, double *y);
 
-/* Solves the rows that are not fixed for x there, to round-off: by BiCGStab with Jacobi's preconditioner (van der
-   Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631), repeated on the residual; by LU where that gives up. x: first
-   guess, with the fixed values in place. scratch: 8 * vertices. Adds to *iterations. */
-bool gm_transport_solve(const struct gm_transport *transport, const bool *fixed, const double *right, double *x,
-                        double *scratch, unsigned long *iterations);
+/* Solves the rows that are not fixed for x there, to round-off: by BiCGStab with Jacobi's preconditioner (van
+   der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631), repeated on the residual; by LU where that gives up.
+   x: first guess, with the fixed values in place. scratch: 8 * vertices. Adds to *iterations. */
+bool gm_transport_solve(const struct gm_transport *transport, const bool *fixed, const double *right,
+                        double *x, double *scratch, unsigned long *iterations);
 /* The same by LU, for steady states. */
 bool gm_transport_solve_directly(const struct gm_transport *transport, const bool *fixed, const double *right,
                                  double *x);

@@ -97,8 +97,8 @@ static bool by_formula(const struct gm_flow *flow, int v)
 }
 
 /* Adds scale times row `middle` of K, between unknowns, to the row being made in `dense`. */
-static void add_row(const struct gm_unknowns *unknowns, const struct gm_complex *complex, int middle, double scale,
-                    struct rows *rows, int *place, int row)
+static void add_row(const struct gm_unknowns *unknowns, const struct gm_complex *complex, int middle,
+                    double scale, struct rows *rows, int *place, int row)
 {
     for (int k = complex->ring_start[middle] - 1; k < complex->ring_start[middle + 1]; k++) {
         const bool self = k < complex->ring_start[middle];
@@ -148,7 +148,8 @@ struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns
                 const int w = self ? v : complex->ring_vertex[k];
                 const double entry = self ? diagonal(complex, v) : -complex->star1[complex->ring_edge[k]];
                 if (by_formula(flow, w)) {
-                    add_row(unknowns, complex, w, viscosity * entry / complex->star0[w], &rows, place, (int)i);
+                    add_row(unknowns, complex, w, viscosity * entry / complex->star0[w], &rows, place,
+                            (int)i);
                 }
             }
         }
@@ -161,7 +162,8 @@ struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns
 }
 
 void gm_unknowns_solve_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
-                               struct gm_cholesky *factor, const double *right, double *b, double *x, double *psi)
+                               struct gm_cholesky *factor, const double *right, double *b, double *x,
+                               double *psi)
 {
     const struct gm_complex *complex = flow->complex;
     if (unknowns->closed) {
