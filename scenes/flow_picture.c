@@ -9,7 +9,7 @@
 #include "scenes/flows.h"
 #include "scenes/graph.h"
 
-enum { MOST_LEVELS = 64 };
+enum { MOST_LEVELS = 64, SMOOTH = 4000 /* triangles */ };
 
 static const struct gm_flow *flow_of(const struct gm_lane *lane)
 {
@@ -340,13 +340,18 @@ static void draw_state(struct gm_picture *picture, const struct gm_lane *lane, c
     panel->note = gm_lane_failure(picture, lane);
     const bool coloured = own->show <= GM_SHOW_PRESSURE, over = coloured && !is_signed(own->show);
     const double *field = coloured ? field_of(picture, lane) : NULL;
+    /* colours of fine meshes are smooth as they are, and four times the triangles cost three times the time
+     */
+    const bool plain = complex->boundary > 0 && complex->triangles > SMOOTH;
     struct gm_flow_sheet sheet;
-    if (!gm_flow_sheet_make(picture, complex, gm_run_state(lane->run), field, &sheet)) {
+    if (!gm_flow_sheet_make(picture, complex, gm_run_state(lane->run), plain ? NULL : field, &sheet)) {
         return;
     }
     if (field) {
         gm_mark_mesh(picture, panel, is_signed(own->show) ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL, low, high,
-                     sheet.points, sheet.field, sheet.vertices, sheet.triangles, sheet.count);
+                     plain ? complex->point : sheet.points, plain ? field : sheet.field,
+                     plain ? complex->vertices : sheet.vertices, plain ? complex->triangle : sheet.triangles,
+                     plain ? complex->triangles : sheet.count);
         panel->colour_bar = true;
         panel->colour_bar_label = bar_labels[own->show];
     }
