@@ -175,7 +175,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const bool flow = own->system == ABC;
     picture->title = gm_picture_text(
         picture, flow ? "The ABC flow: section and volume, by %s" : "A linear flow of zero trace, by %s",
-        gm_counted_schemes(count));
+        gm_counted_schemes(lanes, count));
     picture->subtitle = gm_picture_text(picture, "%s%s",
                                         flow ? "x and y, modulo 2π, whenever z passes a multiple of 2π"
                                              : "the orbit in x and y",

@@ -11,7 +11,7 @@
 
 static const struct gm_parameter parameters[] = {
     GM_DT("0.05", 1e-7, 10),
-    GM_UNTIL("1"),
+    GM_UNTIL("4"),
     GM_FLOWS_NUMBER(reynolds, "Reynolds number U L / ν", "1000", 0.01, 1e5, true),
     GM_FLOWS_WHOLE(columns, "edges at the bottom and on the lid", "128", 4, 2000),
     GM_FLOWS_WHOLE(rows, "strips of triangles along y; 0: the best", "168", 0, 3000),

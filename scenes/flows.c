@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 const char *const gm_flows_shows[] = {"scalar",   "vorticity",   "speed",      "pressure", "none",
                                       "profiles", "convergence", "divergence", NULL};
@@ -133,8 +134,14 @@ struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sent
 static char *read_file(const char *path, size_t *size, char *sentence)
 {
     enum { LARGEST = 1 << 29 };
+    struct stat about;
     FILE *file = fopen(path, "rb");
     char *text = NULL;
+    if (file && (fstat(fileno(file), &about) != 0 || !S_ISREG(about.st_mode))) {
+        snprintf(sentence, GM_SENTENCE, "%.150s is no file with a mesh", path);
+        fclose(file);
+        return NULL;
+    }
     if (file && fseek(file, 0, SEEK_END) == 0) {
         const long length = ftell(file);
         if (length > LARGEST) {

@@ -160,8 +160,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         one_energy &= other->energy == orbit->energy;
         widest = fmax(widest, other->energy);
     }
-    picture->title =
-        gm_picture_text(picture, "A star in a galaxy: Poincaré section by %s", gm_counted_schemes(count));
+    picture->title = gm_picture_text(picture, "A star in a galaxy: Poincaré section by %s",
+                                     gm_counted_schemes(lanes, count));
     picture->subtitle = gm_picture_text(
         picture, "q₂ and p₂ whenever q₁ = 0, p₁ > 0%s%s;  grey: the border of what this energy allows",
         one_energy ? gm_picture_text(picture, ",  energy 1/%.4g", 1 / orbit->energy) : "",

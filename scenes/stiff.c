@@ -289,7 +289,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->title = gm_picture_text(picture,
                                      stiff->system == FPU ? "Three stiff springs trade their energy, by %s"
                                                           : "A stiff spring pendulum, followed by %s",
-                                     gm_counted_schemes(count));
+                                     gm_counted_schemes(lanes, count));
     picture->subtitle = gm_picture_text(
         picture, "%s%s%s", stiff->system == FPU ? "chain of Fermi, Pasta and Ulam" : "spring and gravity",
         one_system ? gm_picture_text(picture, ",  ω = %.4g", omega) : "",

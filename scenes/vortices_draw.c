@@ -239,10 +239,10 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
     }
     const long vortices = own->configuration == GM_REDUCED ? 4 : own->count;
     const char *number = vortices == 4 ? "Four" : gm_picture_text(picture, "%ld", vortices);
-    picture->title =
-        own->tracers > 0
-            ? gm_picture_text(picture, "%s vortices stir a dye, by %s", number, gm_counted_schemes(count))
-            : gm_picture_text(picture, "%s vortices, followed by %s", number, gm_counted_schemes(count));
+    picture->title = own->tracers > 0 ? gm_picture_text(picture, "%s vortices stir a dye, by %s", number,
+                                                        gm_counted_schemes(lanes, count))
+                                      : gm_picture_text(picture, "%s vortices, followed by %s", number,
+                                                        gm_counted_schemes(lanes, count));
     const bool turned = own->configuration == GM_REDUCED || own->configuration == GM_TWO_TURNED ||
                         own->configuration == GM_ONE_TURNED;
     picture->subtitle = gm_picture_text(

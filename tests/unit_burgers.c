@@ -44,8 +44,8 @@ static void values_agree(void **unused)
         }
         y[2 * points] = 1;
         const double t0 = gm_burgers_t0(&burgers);
-        struct gm_run *run =
-            gm_run_open(&problem, gm_scheme_find(reference->scheme), &no_settings, t0, 0.008, y);
+        struct gm_run *run = gm_run_open(&problem, gm_scheme_find_for(reference->scheme, &problem),
+                                         &no_settings, t0, 0.008, y);
         assert_non_null(run);
         assert_int_equal(gm_run_advance(run, STEPS), GM_OK);
         const double *u = gm_run_state(run);
@@ -102,8 +102,10 @@ static void bits_do_not_depend_on_bursts(void **unused)
         y[161 + j] = y[j] - 0.7;
     }
     y[322] = 1;
-    struct gm_run *one = gm_run_open(&problem, gm_scheme_find("crank-nicolson"), &no_settings, 0, 0.01, y);
-    struct gm_run *all = gm_run_open(&problem, gm_scheme_find("crank-nicolson"), &no_settings, 0, 0.01, y);
+    struct gm_run *one =
+        gm_run_open(&problem, gm_scheme_find_for("crank-nicolson", &problem), &no_settings, 0, 0.01, y);
+    struct gm_run *all =
+        gm_run_open(&problem, gm_scheme_find_for("crank-nicolson", &problem), &no_settings, 0, 0.01, y);
     assert_int_equal(gm_run_advance(all, 30), GM_OK);
     for (int k = 0; k < 30; k++) {
         assert_int_equal(gm_run_advance(one, 1), GM_OK);

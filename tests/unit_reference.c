@@ -229,7 +229,7 @@ static void every_scheme_has_a_reference(void **unused)
 {
     (void)unused;
     const unsigned fields = GM_NEEDS_FIELD | GM_NEEDS_WAVE | GM_NEEDS_BURGERS | GM_NEEDS_KDV | GM_NEEDS_NLS |
-                            GM_NEEDS_MOVING_MESH;
+                            GM_NEEDS_MOVING_MESH | GM_NEEDS_COMPLEX;
     for (size_t s = 0; s < gm_scheme_count(); s++) {
         if (gm_scheme_at(s)->needs & fields) {
             continue; /* they have references of their own */
