@@ -11,13 +11,16 @@ enum { MOST_EDGES = 64 };
 /* Edges of cells around `count` rising values: halfway, on the axis' scale. */
 static void edges_of(const double *values, size_t count, bool logarithmic, double *edges)
 {
-    double at[MOST_EDGES];
+    double at[MOST_EDGES] = {0};
     for (size_t i = 0; i < count; i++) {
         at[i] = logarithmic ? log(values[i]) : values[i];
     }
+    /* a single value has no neighbour to tell the width of its cell */
+    const double first = count > 1 ? at[1] - at[0] : 1;
+    const double last = count > 1 ? at[count - 1] - at[count - 2] : 1;
     for (size_t i = 0; i <= count; i++) {
-        const double before = i > 0 ? at[i - 1] : 2 * at[0] - at[1];
-        const double after = i < count ? at[i] : 2 * at[count - 1] - at[count - 2];
+        const double before = i > 0 ? at[i - 1] : at[0] - first;
+        const double after = i < count ? at[i] : at[count - 1] + last;
         const double edge = (before + after) / 2;
         edges[i] = logarithmic ? exp(edge) : edge;
     }
