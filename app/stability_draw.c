@@ -11,7 +11,7 @@ enum { MOST_EDGES = 64 };
 /* Edges of cells around `count` rising values: halfway, on the axis' scale. */
 static void edges_of(const double *values, size_t count, bool logarithmic, double *edges)
 {
-    double at[MOST_EDGES];
+    double at[MOST_EDGES] = {0};
     for (size_t i = 0; i < count; i++) {
         at[i] = logarithmic ? log(values[i]) : values[i];
     }
