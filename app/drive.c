@@ -78,9 +78,7 @@ bool gm_drive_is_over(const struct gm_drive *drive)
 bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
 {
     struct gm_lane *lane = drive->lane;
-    const long follow = lane->scene->follow;
-    long burst = record || lane->scheme->family->own_time ? 1 : burst_of(lane);
-    burst = follow > 0 && follow < burst ? follow : burst;
+    const long burst = record || lane->scheme->family->own_time ? 1 : burst_of(lane);
     while (lane->run->status == GM_OK && !gm_interrupted && !gm_drive_is_over(drive)) {
         if (!make_changes(drive, message)) {
             return false;
@@ -89,17 +87,17 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
         if (left <= 0) {
             break;
         }
-        const long before = lane->run->steps;
+        const long before = lane->run->steps, steps = left < burst ? left : burst;
         const double start = processor_seconds();
-        gm_run_advance(lane->run, left < burst ? left : burst);
-        drive->seconds += processor_seconds() - start;
-        if (lane->run->steps == before) {
-            continue;
-        }
         if (record) {
+            gm_run_advance(lane->run, steps);
+        } else {
+            gm_lane_advance(lane,
+                            steps); /* what it follows on the way costs less than looking at the clock */
+        }
+        drive->seconds += processor_seconds() - start;
+        if (record && lane->run->steps > before) {
             gm_lane_record(lane);
-        } else if (follow > 0) {
-            gm_lane_follow(lane);
         }
     }
     return true;

@@ -509,8 +509,8 @@ const char *gm_work_sentence(const struct gm_work_table *table, char *text, size
     size_t used = (size_t)snprintf(text, size, "Cheapest by run time:");
     for (size_t i = 0; i < 3; i++) {
         const struct gm_work_line *line = gm_work_cheapest(table, gm_work_errors[i], GM_COST_SECONDS);
-        used += (size_t)snprintf(text + used, used < size ? size - used : 0, "%s %s for an error of %s",
-                                 i ? "," : "", line ? line->scheme->title : "none", words[i]);
+        used += (size_t)snprintf(text + used, used < size ? size - used : 0, "%s %s at %s", i ? "," : "",
+                                 line ? line->scheme->title : "none", words[i]);
         used = used < size ? used : size - 1;
     }
     snprintf(text + used, size - used, ".");
