@@ -197,7 +197,9 @@ void gm_run_save(const struct gm_run *run, void *snapshot)
 void gm_run_load(struct gm_run *run, const void *snapshot)
 {
     void *workspace = run->workspace;
+    const struct gm_problem *problem = run->problem; /* a fork has one of its own */
     memcpy(run, snapshot, sizeof *run);
+    run->problem = problem;
     memcpy(half(run, run->current), (const char *)snapshot + head_size(), run->half_size);
     run->workspace = workspace;
     if (workspace && run->scheme->family->workspace_reset) {
