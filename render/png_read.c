@@ -9,7 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/sentence.h"
+#include "render/message.h"
 
 enum { SIGNATURE = 8, LENGTH = 4, TYPE = 4, CHECKSUM = 4 }; /* bytes */
 
