@@ -231,7 +231,7 @@ static void verdicts(void **unused)
     struct gm_stability_table table;
     char message[GM_MESSAGE];
     assert_true(gm_stability_open(&table, &options, message));
-    assert_true(gm_stability_measure(&table, message));
+    assert_true(gm_stability_measure(&table, NULL, message));
     const struct gm_stability *plan = table.plan;
     for (size_t s = 0; s < plan->step_count; s++) {
         const size_t fifty = s * plan->value_count + 1;
