@@ -114,7 +114,7 @@ struct gm_choice {
 };
 enum { GM_CHOICES = 4 };
 
-/* Text sizes that setup may use for a sentence. */
+/* Bytes of a sentence that a scene writes. */
 enum { GM_SENTENCE = 256 };
 
 struct gm_scene {
