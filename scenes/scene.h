@@ -163,6 +163,9 @@ struct gm_scene {
 
 #define GM_PROFILE_COLUMNS "profile,x,y,psi,u,v,theta,omega,reference"
 
+/* A choice of three digits, which is what a place in a picture tells. */
+void gm_choose(struct gm_choice *choice, const char *key, double value);
+
 size_t gm_scene_count(void);
 const struct gm_scene *gm_scene_at(size_t index);
 const struct gm_scene *gm_scene_find(const char *name);
