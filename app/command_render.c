@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint render: pictures, frames and movies. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "app/commands.h"
 #include "app/drive.h"
+#include "app/folder.h"
 #include "app/provenance.h"
 #include "render/canvas.h"
 #include "render/sink.h"
@@ -167,15 +166,6 @@ static char *pattern_of(const char *out, const char *name, bool still)
     return text;
 }
 
-static bool make_folder(const char *path, char *message)
-{
-    if (mkdir(path, 0777) == 0 || errno == EEXIST) {
-        return true;
-    }
-    snprintf(message, GM_MESSAGE, "%s could not be made: %s", path, strerror(errno));
-    return false;
-}
-
 static struct gm_sink *open_sink(const struct work *work, const char *name, char *message)
 {
     const struct gm_options *options = work->options;
@@ -198,7 +188,7 @@ static struct gm_sink *open_sink(const struct work *work, const char *name, char
     } else {
         const char *out = options->out ? options->out : ".";
         char *pattern = pattern_of(out, name, work->still);
-        if (pattern && make_folder(out, message)) {
+        if (pattern && gm_folder_make(out, message)) {
             sink = gm_sink_open_png(pattern, &settings, message);
         }
         free(pattern);

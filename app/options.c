@@ -36,14 +36,14 @@ static const struct row rows[] = {
     {"--from", NUMBER, GM_RENDER, AT(from), "T", "first frame at model time T"},
     {"--at", NUMBER, GM_RENDER, AT(at), "T", "one picture at model time T"},
     {"--size", SIZE, PAINTS, AT(width), "WxH", "pixels (1280x720)"},
-    {"--theme", THEME, PAINTS, AT(theme), "light|dark", "colours for paper or for a screen"},
+    {"--theme", THEME, PAINTS & ~(unsigned)GM_FIGURES, AT(theme), "light|dark", "colours for paper or for a screen"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", TEXT, GM_RENDER, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--strict", FLAG, GM_RENDER, AT(strict), "", "exit 2 if a lane ends in a numerical failure"},
     {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
     {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
      "the linear stability region of a scheme, no scene"},
-    {"--quick", FLAG, GM_FIGURES, AT(quick), "", "few steps and small pictures"},
+    {"--quick", FLAG, GM_FIGURES, AT(quick), "", "shorter runs and smaller pictures; nothing long is judged"},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -94,6 +94,7 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         }
         options->width = width;
         options->height = height;
+        options->sized = true;
         return true;
     }
     case THEME:

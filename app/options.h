@@ -27,6 +27,7 @@ struct gm_options {
     double fps, rate;    /* NAN: not given */
     double from, at;     /* NAN: not given */
     int width, height;   /* 1280 x 720 */
+    bool sized;          /* these were given */
     enum gm_theme theme; /* light */
     char **words;        /* what is left: scene, key=value, names */
     int word_count;
