@@ -11,7 +11,7 @@ struct gm_png_text {
 };
 
 /* Writes rgb (height rows of width * 3 bytes, top first) to path, by way of a temporary name, so that a
-   killed program leaves no half file. False on failure, with one sentence in message (512 bytes). */
+   killed program leaves no half file. False on failure, with one sentence in message (GM_MESSAGE bytes). */
 bool gm_png_write(const char *path, int width, int height, const unsigned char *rgb,
                   const struct gm_png_text *texts, size_t count, char *message);
 

@@ -6,7 +6,7 @@
 
 /* Where frames go: numbered PNG files, one PNG file, or a movie. Frames are encoded by worker threads behind
    a bounded queue: gm_sink_frame waits while all frames are in use, so memory does not grow with their
-   number. Messages have room for 512 bytes. */
+   number. Messages have room for GM_MESSAGE bytes. */
 
 struct gm_sink;
 

@@ -3,6 +3,7 @@
 #define GM_SCENES_SCENE_H
 
 #include "core/run.h"
+#include "core/sentence.h"
 #include "render/picture.h"
 
 struct gm_lane;
@@ -106,9 +107,6 @@ struct gm_figure {
     const char *statement; /* what the document says it shows */
     const char *arguments; /* of `geomint render SCENE`, separated by blanks */
 };
-
-/* Text sizes that setup may use for a sentence. */
-enum { GM_SENTENCE = 256 };
 
 struct gm_scene {
     const char *name, *title, *blurb, *watch;
