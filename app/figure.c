@@ -437,7 +437,7 @@ void gm_statement_expectation(const struct gm_statement *statement, char *text, 
     } else if (statement->high == INFINITY) {
         snprintf(text, size, "at least %.3g", statement->low);
     } else {
-        snprintf(text, size, "%.4g to %.4g", statement->low, statement->high);
+        snprintf(text, size, "%.5g to %.5g", statement->low, statement->high);
     }
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app/figures_page.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -23,6 +24,7 @@ static const char style[] =
     "h1{font-size:2rem;line-height:1.15;margin:0 0 .5rem;letter-spacing:-.01em;text-wrap:balance}\n"
     "h2{font-size:1.3rem;line-height:1.3;margin:4rem 0 .25rem;text-wrap:balance}\n"
     "h3{font-size:1.05rem;margin:0}\n"
+    "h3 .soft{font-weight:normal}\n"
     "a{color:var(--link)}\n"
     "p{max-width:46rem}\n"
     ".soft,figcaption{color:var(--soft)}\n"
@@ -39,7 +41,7 @@ static const char style[] =
     "table{border-collapse:collapse;width:100%;font-size:.92rem}\n"
     "th,td{text-align:left;vertical-align:top;padding:.4rem .9rem .4rem 0;border-bottom:1px solid var(--line)}\n"
     "th{font-weight:normal;color:var(--soft)}\n"
-    "td.n,th.n{white-space:nowrap}\n"
+    "td.n,th.n{white-space:nowrap}.judged td:first-child{width:44%}\n"
     ".good,.bad,.none{white-space:nowrap}\n"
     ".good{color:var(--good)}.bad{color:var(--bad);font-weight:bold}.none{color:var(--soft)}\n"
     "details{margin:.75rem 0;font-size:.92rem}\n"
@@ -52,13 +54,14 @@ static const char style[] =
     "footer{padding-top:3rem;padding-bottom:3rem;color:var(--soft);font-size:.9rem}\n"
     "@media(max-width:40rem){header{padding-top:1.5rem}h1{font-size:1.6rem}h2{margin-top:3rem}"
     ".judged,.judged tbody,.judged tr,.judged td{display:block}.judged thead{display:none}"
-    ".judged tr{padding:.5rem 0;border-bottom:1px solid var(--line)}.judged td{border:0;padding:.1rem 0}"
+    ".judged td:first-child{width:auto}.judged tr{padding:.5rem 0;border-bottom:1px solid var(--line)}.judged td{border:0;padding:.1rem 0}"
     ".judged td[data-is]::before{content:attr(data-is) ' ';color:var(--soft)}"
     "figure{overflow-x:auto;margin-left:-1.25rem;margin-right:-1.25rem}figure img{min-width:40rem}}\n"
     "@media print{:root{--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--tint:#f4f4f4;--good:#004d38;"
     "--bad:#8a3700;--link:#000}body{font-size:9.5pt}header,main,footer{max-width:none;padding-left:0;"
     "padding-right:0}article{break-inside:avoid;margin-top:1.2rem;padding-top:.8rem}h2{break-after:avoid}"
-    "figure{max-width:15cm}details{display:none}a{text-decoration:none}@page{margin:1.6cm}}\n";
+    "figure{max-width:13cm;margin:.4rem 0}p{margin:.4rem 0}table{font-size:8.5pt}"
+    "pre{font-size:7.5pt}td,th{padding:.2rem .6rem .2rem 0}details{display:none}a{text-decoration:none}@page{margin:1.6cm}}\n";
 
 static void put_text(FILE *page, const char *text)
 {
@@ -80,6 +83,13 @@ static void put_text(FILE *page, const char *text)
             putc(*text, page);
         }
     }
+}
+
+/* As a sentence: with a capital letter in front. */
+static void put_sentence(FILE *page, const char *text)
+{
+    putc(toupper((unsigned char)text[0]), page);
+    put_text(page, text + 1);
 }
 
 /* RFC 4648. False if the file cannot be read. */
@@ -109,7 +119,7 @@ static bool put_picture(FILE *page, const struct gm_options *options, const stru
 {
     char *dark = gm_figure_path(options, job->figure->name, GM_THEME_DARK);
     char *light = gm_figure_path(options, job->figure->name, GM_THEME_LIGHT);
-    fputs("<figure><picture><source media=\"(prefers-color-scheme:dark) and (not print)\" "
+    fputs("<figure><picture><source media=\"screen and (prefers-color-scheme:dark)\" "
           "srcset=\"data:image/png;base64,",
           page);
     bool good = dark && light && put_base64(page, dark);
@@ -152,7 +162,7 @@ static void put_statements(FILE *page, const struct gm_figure_job *job, const st
         char text[64];
         const struct gm_statement *statement = &job->published->statements[i];
         fputs("<tr><td>", page);
-        put_text(page, statement->says);
+        put_sentence(page, statement->says);
         fputs("<td class=\"soft\">", page);
         put_text(page, statement->lanes);
         if (statement->against) {
@@ -227,8 +237,8 @@ static bool put_figure(FILE *page, const struct gm_options *options, const struc
 {
     fprintf(page, "<article id=\"%s\">\n<h3><a href=\"#%s\">", job->figure->name, job->figure->name);
     put_title(page, job->figure->name);
-    fputs("</a></h3>\n<p>", page);
-    put_text(page, job->figure->statement);
+    fprintf(page, "</a> <span class=\"soft\">%s</span></h3>\n<p>", job->scene->name);
+    put_sentence(page, job->figure->statement);
     fputs(".</p>\n", page);
     bool good = true;
     if (outcome->progress == GM_MADE) {
@@ -325,8 +335,9 @@ static void put_head(FILE *page, const struct gm_options *options, const struct 
         "<p class=\"soft\">Each figure comes with what its document says of it, the number that was found here, "
         "and the command that makes the picture. Bounds are the document’s own where it gives a number. Where it "
         "gives a word, the word means the same throughout: a number <i>grows</i> whose largest value in the "
-        "second half of the time is at least 1.5 times that in the first; it is <i>bounded</i> up to 1.1 times; "
-        "<i>round-off</i> is at most 1e-13; <i>close</i> is within 5 % of the solution’s own size. A run that "
+        "second half of the time is more than 1.1 times that in the first, and is <i>bounded</i> otherwise; "
+        "<i>round-off</i> is at most 1e-13; <i>close</i> is within 5 % of the solution’s own size; "
+        "<i>about</i> is up to twice as much. A run that "
         "ended before its time never has a number that is small enough.</p>\n",
         page);
     if (options->quick) {
