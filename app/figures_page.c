@@ -60,7 +60,7 @@ static const char style[] =
     "@media print{:root{--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--tint:#f4f4f4;--good:#004d38;"
     "--bad:#8a3700;--link:#000}body{font-size:9.5pt}header,main,footer{max-width:none;padding-left:0;"
     "padding-right:0}article{break-inside:avoid;margin-top:1.2rem;padding-top:.8rem}h2{break-after:avoid}"
-    "figure{max-width:13cm;margin:.4rem 0}p{margin:.4rem 0}table{font-size:8.5pt}"
+    "figure{max-width:11cm;margin:.4rem 0}p{margin:.4rem 0}table{font-size:8.5pt}"
     "pre{font-size:7.5pt}td,th{padding:.2rem .6rem .2rem 0}details{display:none}a{text-decoration:none}@page{margin:1.6cm}}\n";
 
 static void put_text(FILE *page, const char *text)

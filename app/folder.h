@@ -4,7 +4,8 @@
 
 #include <stdbool.h>
 
-/* Makes a folder that may be there already, or be NULL: the present one. False with a sentence. */
+/* Makes a folder that may be there already, or be NULL: the present one. False with a sentence (GM_MESSAGE
+   bytes). */
 bool gm_folder_make(const char *path, char *message);
 
 #endif
