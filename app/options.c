@@ -24,6 +24,7 @@ struct row {
 static const struct row rows[] = {
     {"--json", FLAG, GM_RUN | GM_LIST | GM_CERTIFY, AT(json), "", "one JSON object a line"},
     {"--long", FLAG, GM_LIST, AT(longer), "", "with formulas and references"},
+    {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
     {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
     {"--max", FLAG, GM_RUN, AT(maximum), "", "with NAME_max, the maximum over all steps"},
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},

@@ -21,7 +21,7 @@ enum gm_command {
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
-    int json, state, maximum, strict, longer, quick;
+    int json, state, maximum, strict, longer, quick, markdown;
     const char *csv, *profile, *out, *movie, *measure, *region;
     long every, frames;
     long shard, shards;  /* 0, 0: not given */

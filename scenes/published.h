@@ -7,7 +7,7 @@
 /* What the documents say of their figures, as numbers that can be held against ours. The figures themselves,
    that is the arguments that redo them, are the scenes' (struct gm_figure). */
 
-enum gm_measure {
+enum gm_figure_measure {
     GM_AT_END,  /* an observable at the end */
     GM_MAXIMUM, /* its largest value over all steps */
     GM_GROWTH,  /* its largest value in the second half of the time, divided by that in the first */
@@ -22,7 +22,7 @@ struct gm_statement {
     const char *lanes;
     const char *against;    /* lanes whose numbers divide those, one by one or one for all; NULL: none */
     const char *observable; /* its key; NULL for GM_LASTS */
-    enum gm_measure measure;
+    enum gm_figure_measure measure;
     /* NULL; or the key of a parameter or observable: then the number is the order of convergence, the slope
        of the measure against that on log axes, from the first of the lanes to the last */
     const char *over;
