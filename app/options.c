@@ -182,6 +182,17 @@ void gm_options_close(struct gm_options *options)
     options->words = NULL;
 }
 
+size_t gm_option_count(void)
+{
+    return ROWS;
+}
+
+struct gm_option gm_option_at(size_t index)
+{
+    const struct row *row = &rows[index];
+    return (struct gm_option){row->name, row->value, row->help, row->commands};
+}
+
 void gm_options_help(enum gm_command command)
 {
     for (size_t i = 0; i < ROWS; i++) {

@@ -17,6 +17,8 @@ enum gm_command {
     GM_TERMINAL = 1 << 7,
     GM_WORK_PRECISION = 1 << 8,
     GM_STABILITY = 1 << 9,
+    GM_MANUAL = 1 << 29,
+    GM_COMPLETE = 1 << 30,
 };
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
@@ -38,6 +40,16 @@ struct gm_options {
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message);
 void gm_options_close(struct gm_options *options);
+
+/* What is known of an option. */
+struct gm_option {
+    const char *name;  /* "--size" */
+    const char *value; /* "WxH"; "" if it takes none */
+    const char *help;
+    unsigned commands; /* those that take it */
+};
+size_t gm_option_count(void);
+struct gm_option gm_option_at(size_t index);
 
 /* Writes the options of a command for --help. */
 void gm_options_help(enum gm_command command);
