@@ -37,7 +37,8 @@ static const struct row rows[] = {
     {"--from", NUMBER, GM_RENDER, AT(from), "T", "first frame at model time T"},
     {"--at", NUMBER, GM_RENDER, AT(at), "T", "one picture at model time T"},
     {"--size", SIZE, PAINTS, AT(width), "WxH", "pixels (1280x720)"},
-    {"--theme", THEME, PAINTS & ~(unsigned)GM_FIGURES, AT(theme), "light|dark", "colours for paper or for a screen"},
+    {"--theme", THEME, PAINTS & ~(unsigned)GM_FIGURES, AT(theme), "light|dark",
+     "colours for paper or for a screen"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", TEXT, GM_RENDER, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},
@@ -174,6 +175,17 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
         }
     }
     return true;
+}
+
+bool gm_options_have(const struct gm_options *options, const char *word)
+{
+    const size_t length = strcspn(word, "=") + 1;
+    for (int i = 0; i < options->word_count; i++) {
+        if (strncmp(options->words[i], word, length) == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void gm_options_close(struct gm_options *options)

@@ -42,6 +42,9 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
                       char *message);
 void gm_options_close(struct gm_options *options);
 
+/* Whether the words set the key that `word` sets: "dt=" or "dt=0.1". */
+bool gm_options_have(const struct gm_options *options, const char *word);
+
 /* What is known of an option. */
 struct gm_option {
     const char *name;  /* "--size" */
