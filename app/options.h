@@ -17,11 +17,12 @@ enum gm_command {
     GM_TERMINAL = 1 << 7,
     GM_WORK_PRECISION = 1 << 8,
     GM_STABILITY = 1 << 9,
+    GM_TOUR = 1 << 10,
 };
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
-    int json, state, maximum, strict, longer, quick;
+    int json, state, maximum, strict, longer, quick, listing;
     const char *csv, *profile, *out, *movie, *measure, *region;
     long every, frames;
     double fps, rate;    /* NAN: not given */

@@ -13,7 +13,9 @@
 #include <unistd.h>
 
 #include "app/explorer/console.h"
+#include "app/explorer/guide.h"
 #include "app/explorer/keys.h"
+#include "app/explorer/studies.h"
 #include "app/explorer/writer.h"
 
 enum { FRAME_MILLISECONDS = 33, FIRST_SCHEMES = 3 };
@@ -26,6 +28,8 @@ struct explorer {
     int wake;                 /* the worker's shots and all signals are announced here */
     struct gm_worker *worker; /* NULL: the list of scenes is shown */
     struct gm_shot *shot;
+    struct gm_guide guide;
+    struct gm_studies studies;
     size_t choice;     /* in the list of scenes */
     bool dirty;        /* the screen has to be composed again */
     bool fresh;        /* with a new picture */
@@ -49,9 +53,11 @@ static void leave(struct explorer *explorer, int status)
     explorer->status = status;
 }
 
-static bool open_scene(struct explorer *explorer, const struct gm_request *request)
+static bool open_scene(struct explorer *explorer, const struct gm_request *request,
+                       const struct gm_order *first)
 {
-    explorer->worker = gm_worker_open(request, explorer->terminal.theme, explorer->wake, explorer->message);
+    explorer->worker =
+        gm_worker_open(request, explorer->terminal.theme, explorer->wake, first, explorer->message);
     explorer->asked = true; /* a new worker owes its first shot */
     explorer->next_shot = 0;
     return explorer->worker != NULL;
@@ -64,9 +70,68 @@ static bool open_by_name(struct explorer *explorer, const struct gm_scene *scene
     if (!gm_request_parse(&request, 1, words, FIRST_SCHEMES, explorer->message)) {
         return false;
     }
-    bool ok = open_scene(explorer, &request);
+    bool ok = open_scene(explorer, &request, NULL);
     gm_request_close(&request);
     return ok;
+}
+
+/* ---- a tour ---- */
+
+static void begin_study(struct explorer *explorer)
+{
+    const struct gm_guide *guide = &explorer->guide;
+    const struct gm_tour_step *step = &guide->tour->steps[guide->step];
+    explorer->studies.shown = GM_STUDY_NONE;
+    if (step->study != GM_STUDY_NONE && guide->answered) {
+        gm_studies_open(&explorer->studies, step->study, step->study_words, explorer->wake);
+    }
+}
+
+/* The scene of the present step, from its start, in place of what was there. */
+static bool open_step(struct explorer *explorer)
+{
+    const struct gm_guide *guide = &explorer->guide;
+    const struct gm_order first = {
+        .kind = GM_ORDER_TOUR, .amount = !guide->answered, .tour = guide->tour, .step = guide->step};
+    gm_worker_close(explorer->worker);
+    explorer->shot = NULL;
+    begin_study(explorer);
+    return open_scene(explorer, &guide->tour->steps[gm_tour_first(guide->tour, guide->step)].request, &first);
+}
+
+static bool press_in_tour(struct explorer *explorer, int key)
+{
+    if (!explorer->guide.tour || explorer->face.help || explorer->face.choosing) {
+        return false;
+    }
+    switch (gm_guide_press(&explorer->guide, key)) {
+    case GM_GUIDE_OPEN:
+        if (!open_step(explorer)) {
+            leave(explorer, GM_EXIT_USAGE);
+        }
+        break;
+    case GM_GUIDE_RUN:
+        begin_study(explorer);
+        gm_worker_order(explorer->worker, (struct gm_order){.kind = GM_ORDER_RUN});
+        break;
+    case GM_GUIDE_END:
+        break;
+    case GM_GUIDE_IGNORED:
+        return false;
+    }
+    explorer->dirty = true;
+    return true;
+}
+
+static bool press_in_studies(struct explorer *explorer, int key)
+{
+    if (explorer->face.help || explorer->face.choosing) {
+        return false;
+    }
+    const bool taken =
+        gm_studies_press(&explorer->studies, key, explorer->shot, explorer->terminal.theme, explorer->wake);
+    explorer->dirty = explorer->dirty || taken;
+    return taken;
 }
 
 static void resize(struct explorer *explorer)
@@ -114,10 +179,15 @@ static void press(struct explorer *explorer, int key)
         press_at_start(explorer, key);
         return;
     }
-    if (!explorer->shot) { /* before the first picture there is only leaving */
+    if (!explorer->shot) { /* before the first picture there is only leaving, or another step */
         if (key == 'q') {
             leave(explorer, GM_EXIT_OK);
+        } else {
+            press_in_tour(explorer, key);
         }
+        return;
+    }
+    if (press_in_tour(explorer, key) || press_in_studies(explorer, key)) {
         return;
     }
     switch (gm_key_press(key, &explorer->face, explorer->shot, explorer->worker, explorer->terminal.utf8)) {
@@ -172,6 +242,7 @@ static void read_news(struct explorer *explorer)
     if (gm_console_resized()) {
         resize(explorer);
     }
+    explorer->dirty = gm_studies_look(&explorer->studies) || explorer->dirty;
     struct gm_shot *shot = explorer->worker ? gm_worker_take(explorer->worker) : NULL;
     if (shot) {
         explorer->shot = shot;
@@ -250,7 +321,8 @@ static void run(struct explorer *explorer)
     }
 }
 
-int gm_explorer(const struct gm_request *request)
+/* A request or a tour, or neither: the list of scenes. */
+static int explore(const struct gm_request *request, const struct gm_tour *tour)
 {
     struct explorer explorer = {.wake = -1};
     if (!gm_terminal_detect(&explorer.terminal, explorer.message) ||
@@ -260,14 +332,19 @@ int gm_explorer(const struct gm_request *request)
     }
     explorer.face = (struct gm_face){.blocks = explorer.terminal.blocks,
                                      .theme = explorer.terminal.theme,
-                                     .few_colours = explorer.terminal.colours < GM_COLOURS_256};
+                                     .few_colours = explorer.terminal.colours < GM_COLOURS_256,
+                                     .studies = &explorer.studies};
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     /* The lanes are opened before the terminal is taken over: a mistake is best read in the shell. */
     bool ok = explorer.wake >= 0;
     if (!ok) {
         snprintf(explorer.message, GM_MESSAGE, "The system has no eventfd to spare.");
+    } else if (tour) {
+        explorer.guide = gm_guide_open(tour);
+        explorer.face.guide = &explorer.guide;
+        ok = open_step(&explorer);
     } else if (request && request->scene) {
-        ok = open_scene(&explorer, request);
+        ok = open_scene(&explorer, request, NULL);
     } else if (gm_scene_count() == 1) {
         ok = open_by_name(&explorer, gm_scene_at(0));
     }
@@ -280,6 +357,7 @@ int gm_explorer(const struct gm_request *request)
     }
     gm_console_close();
     gm_worker_close(explorer.worker);
+    gm_studies_close(&explorer.studies);
     gm_screen_close(&explorer.screen);
     if (explorer.wake >= 0) {
         close(explorer.wake);
@@ -294,4 +372,14 @@ int gm_explorer(const struct gm_request *request)
         raise(number);
     }
     return explorer.status;
+}
+
+int gm_explorer(const struct gm_request *request)
+{
+    return explore(request, NULL);
+}
+
+int gm_explorer_tour(const struct gm_tour *tour)
+{
+    return explore(NULL, tour);
 }

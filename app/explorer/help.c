@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "app/explorer/screen.h"
+#include "app/explorer/paragraph.h"
 
 /* A column of the page that grows downwards, scrolled by the sheet's face. */
 struct page {
@@ -16,37 +16,9 @@ static void put(struct page *page, int column, const char *text, enum gm_role ro
     gm_sheet_text(&page->sheet, column, page->row - page->scroll, text, role, bold);
 }
 
-/* Breaks a text at its blanks; lines after the first begin at `column` too. */
 static void put_wrapped(struct page *page, int column, const char *text, enum gm_role role)
 {
-    int room = page->sheet.width - column;
-    while (*text && room > 0) {
-        char line[512];
-        size_t fits = 0;
-        for (size_t i = 1; i < sizeof line; i++) {
-            bool end = text[i] == '\0' || text[i] == '\n', blank = end || text[i] == ' ';
-            if (blank) {
-                snprintf(line, sizeof line, "%.*s", (int)i, text);
-                if (gm_sheet_width(&page->sheet, line) > room && fits > 0) {
-                    break;
-                }
-                fits = i;
-            }
-            if (end) {
-                break;
-            }
-        }
-        if (fits == 0) {
-            fits = strlen(text) < sizeof line ? strlen(text) : sizeof line - 1;
-        }
-        snprintf(line, sizeof line, "%.*s", (int)fits, text);
-        put(page, column, line, role, false);
-        page->row++;
-        text += fits;
-        while (*text == ' ' || *text == '\n') {
-            text++;
-        }
-    }
+    page->row += gm_paragraph_draw(&page->sheet, column, page->row - page->scroll, text, role, false);
 }
 
 static void put_heading(struct page *page, const char *text)

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/explorer/guide.h"
+#include "app/explorer/studies.h"
 #include "render/cells_text.h"
 
 /* ---- cells and sheets ---- */
@@ -69,6 +71,15 @@ void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t 
     cell->bold = bold;
 }
 
+bool gm_cells_resize(struct gm_cells *cells, int columns, int rows, enum gm_theme theme)
+{
+    if (!resize(cells, columns, rows)) {
+        return false;
+    }
+    clear(cells, theme);
+    return true;
+}
+
 bool gm_screen_resize(struct gm_screen *screen, int columns, int rows)
 {
     screen->fresh = false;
@@ -105,10 +116,9 @@ static void draw_picture(struct gm_screen *screen, const struct gm_face *face, c
 {
     if (!screen->fresh || screen->blocks != face->blocks || screen->picture.columns != columns ||
         screen->picture.rows != rows) {
-        if (!resize(&screen->picture, columns, rows)) {
+        if (!gm_cells_resize(&screen->picture, columns, rows, face->theme)) {
             return;
         }
-        clear(&screen->picture, face->theme);
         screen->picture.outlines = face->few_colours;
         gm_cells_paint(&screen->picture, shot->picture, face->theme, face->blocks);
         screen->blocks = face->blocks;
@@ -156,6 +166,8 @@ static const struct hint paused_hints[] = {
 };
 static const struct hint chooser_hints[] = {
     {"enter", "switch"}, {"↑↓", "choose"}, {"esc", "back"}, {NULL, NULL}};
+static const struct hint study_hints[] = {{"esc", "back"}, {"x", "stop"}, {"p", "save"},
+                                          {"b", "blocks"}, {"q", "quit"}, {NULL, NULL}};
 static const struct hint help_hints[] = {{"?", "back"}, {"↑↓", "scroll"}, {"q", "quit"}, {NULL, NULL}};
 static const struct hint start_hints[] = {{"enter", "open"}, {"↑↓", "choose"}, {"q", "quit"}, {NULL, NULL}};
 
@@ -217,6 +229,33 @@ static void draw_status(struct gm_screen *screen, const struct gm_face *face, co
     }
 }
 
+/* The last row while a study is shown: how far it is. */
+static void draw_study_status(struct gm_screen *screen, const struct gm_face *face)
+{
+    char text[GM_MESSAGE];
+    if (status_rows(&screen->cells) == 0) {
+        return;
+    }
+    struct gm_sheet sheet = {&screen->cells, face, 0, screen->cells.rows - 1, screen->cells.columns, 1};
+    gm_studies_status(face->studies, text, sizeof text);
+    const int from = 1 + gm_sheet_width(&sheet, text) + 3, most = sheet.width - 10;
+    sheet.width = draw_hints(&sheet, from < most ? from : most > 1 ? most : 1, study_hints) - 2;
+    gm_sheet_text(&sheet, 1, 0, text, GM_INK, false);
+}
+
+/* What goes on unseen, on the rule above the last row. */
+static void draw_news(struct gm_screen *screen, const struct gm_face *face)
+{
+    char text[GM_MESSAGE] = " ";
+    gm_studies_news(face->studies, text + 1, sizeof text - 2);
+    if (text[1]) {
+        const struct gm_sheet sheet = {&screen->cells,        face, 0, screen->cells.rows - 2,
+                                       screen->cells.columns, 1};
+        strcat(text, " ");
+        gm_sheet_text(&sheet, 2, 0, text, GM_INK, true);
+    }
+}
+
 static void draw_head(const struct gm_sheet *sheet, const struct gm_shot *shot)
 {
     char text[64];
@@ -244,10 +283,30 @@ void gm_screen_draw(struct gm_screen *screen, struct gm_face *face, const struct
         }
         return;
     }
-    int side = side_columns(cells);
-    draw_picture(screen, face, shot, cells->columns - side, rows);
+    const bool study = face->studies && face->studies->shown != GM_STUDY_NONE;
+    int side = study ? 0 : side_columns(cells);
+    if (face->guide) {
+        struct gm_sheet whole = {cells, face, 0, 0, cells->columns, cells->rows};
+        const int told = gm_guide_rows(&whole, face->guide);
+        rows -= told;
+        whole.row = rows;
+        whole.height = told;
+        gm_guide_draw(&whole, face->guide);
+    }
+    if (study) {
+        gm_studies_draw(&(const struct gm_sheet){cells, face, 0, 0, cells->columns, rows}, face->studies);
+    } else {
+        draw_picture(screen, face, shot, cells->columns - side, rows);
+    }
     if (below == 2) {
-        draw_rule(screen, face, side);
+        draw_rule(screen, face, face->guide ? 0 : side);
+        if (face->studies) {
+            draw_news(screen, face);
+        }
+    }
+    if (study) {
+        draw_study_status(screen, face);
+        return;
     }
     if (side) {
         const struct gm_sheet sheet = {cells, face, cells->columns - side + 2, 0, side - 3, rows};

@@ -8,18 +8,23 @@
 /* What is on the screen: the picture at the left, the side panel at the right, a status line below; or a page
    of help. All of it is composed as cells; nothing here knows the terminal. */
 
+struct gm_guide;
+struct gm_studies;
+
 /* What the user has set about the screen itself. */
 struct gm_face {
     enum gm_blocks blocks;
     enum gm_theme theme;
     bool few_colours;
     bool help;
-    int scroll;         /* lines of the help above the screen */
-    bool choosing;      /* a scheme for the selected lane */
-    size_t choice;      /* its number among the schemes that fit */
-    size_t parameter;   /* the one that left and right change */
-    bool explaining;    /* the status line says what that parameter is */
-    unsigned long read; /* the last message that was seen and dismissed */
+    int scroll;                   /* lines of the help above the screen */
+    bool choosing;                /* a scheme for the selected lane */
+    size_t choice;                /* its number among the schemes that fit */
+    size_t parameter;             /* the one that left and right change */
+    bool explaining;              /* the status line says what that parameter is */
+    unsigned long read;           /* the last message that was seen and dismissed */
+    const struct gm_guide *guide; /* through a tour; NULL: there is none */
+    struct gm_studies *studies;
 };
 
 struct gm_screen {
@@ -30,6 +35,8 @@ struct gm_screen {
 };
 
 bool gm_screen_resize(struct gm_screen *screen, int columns, int rows);
+/* Gives cells a size and empties them; false when memory is short. */
+bool gm_cells_resize(struct gm_cells *cells, int columns, int rows, enum gm_theme theme);
 void gm_screen_close(struct gm_screen *screen);
 
 /* Composes the screen. `fresh` says that the shot's picture is a new one. */

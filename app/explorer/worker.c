@@ -11,6 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "app/explorer/agenda.h"
 #include "app/still.h"
 
 enum { QUEUE = 256 };
@@ -47,6 +48,8 @@ struct gm_worker {
     int speed;                  /* number of the speed */
     double clock_t, clock_wall; /* model time and wall time at the last change of pace */
     size_t frozen;              /* lanes that are */
+    struct gm_agenda agenda;    /* of a tour's step */
+    double ahead;               /* model time that is hurried to; -infinity: none */
     char message[GM_MESSAGE];
     unsigned long message_number;
 };
@@ -98,12 +101,22 @@ static void set_clock(struct gm_worker *worker, double t)
  * paused. */
 static double due_time(const struct gm_worker *worker)
 {
-    double together = gm_session_time(&worker->session);
+    double together = gm_session_time(&worker->session), limit = gm_agenda_limit(&worker->agenda);
+    if (together < worker->ahead) {
+        /* in pieces, so that graphs have points enough */
+        const double span = worker->ahead - worker->session.lanes[0]->t0;
+        return fmin(fmin(worker->ahead, limit), together + span / 300);
+    }
     if (worker->paused) {
         return together;
     }
     double due = worker->clock_t + speed_of(worker->speed) * (wall_time() - worker->clock_wall);
-    return fmax(due, together);
+    return fmax(fmin(due, limit), together);
+}
+
+static bool hurries(const struct gm_worker *worker)
+{
+    return isfinite(worker->ahead);
 }
 
 static bool step(struct gm_worker *worker)
@@ -117,7 +130,7 @@ static bool step(struct gm_worker *worker)
         worker->changed = true;
     }
     double next = gm_session_next(&worker->session);
-    if (!worker->paused && isfinite(next)) {
+    if (!worker->paused && isfinite(next) && !hurries(worker)) {
         double lag = (due_time(worker) - next) / speed_of(worker->speed);
         if (lag > LATE) {
             /* the clock goes on from where the slowest lane is; model time is never skipped */
@@ -128,6 +141,41 @@ static bool step(struct gm_worker *worker)
         }
     }
     return worked;
+}
+
+/* ---- a tour's step ---- */
+
+/* Makes the changes that are due, and stops where the step does. */
+static void keep_agenda(struct gm_worker *worker)
+{
+    char message[GM_MESSAGE] = "";
+    const bool stop = gm_agenda_keep(&worker->agenda, &worker->session, message);
+    if (message[0]) {
+        say(worker, message);
+    }
+    if (hurries(worker) && (stop || !(gm_session_next(&worker->session) <= worker->ahead * (1 + 1e-9)))) {
+        worker->ahead = -INFINITY;
+        set_clock(worker, gm_session_time(&worker->session));
+        worker->changed = true;
+    }
+    if (stop) {
+        worker->paused = true;
+        worker->changed = true;
+        set_clock(worker, gm_session_time(&worker->session));
+    }
+}
+
+static void begin_step(struct gm_worker *worker, const struct gm_order *order)
+{
+    const struct gm_tour_step *step = &order->tour->steps[order->step];
+    const double begin = gm_tour_begin(order->tour, order->step), span = step->until - begin;
+    worker->agenda = gm_agenda_of(order->tour, order->step, gm_tour_first(order->tour, order->step));
+    worker->ahead = step->show ? -INFINITY : begin;
+    worker->paused = order->amount != 0;
+    if (span > 0) {
+        const int number = (int)round(3 * log10(span / step->seconds));
+        worker->speed = number < SLOWEST ? SLOWEST : number > FASTEST ? FASTEST : number;
+    }
 }
 
 /* ---- frozen lanes ---- */
@@ -229,6 +277,7 @@ static void obey(struct gm_worker *worker, const struct gm_order *order)
     case GM_ORDER_BACK:
         worker->paused = true;
         ok = gm_session_back(session, message);
+        gm_agenda_rewind(&worker->agenda, gm_session_time(session));
         break;
     case GM_ORDER_RESTART:
         worker->restart = true;
@@ -267,6 +316,12 @@ static void obey(struct gm_worker *worker, const struct gm_order *order)
     case GM_ORDER_SAVE:
         save_picture(worker);
         break;
+    case GM_ORDER_TOUR:
+        begin_step(worker, order);
+        break;
+    case GM_ORDER_RUN:
+        worker->paused = false;
+        break;
     }
     if (!ok) {
         say(worker, message);
@@ -286,6 +341,11 @@ static bool restart_if_due(struct gm_worker *worker)
     worker->restart = false;
     worker->restarted = now;
     worker->frozen = 0;
+    if (worker->agenda.tour) { /* the step is shown again */
+        worker->paused = worker->paused && !worker->agenda.over;
+        worker->ahead = gm_tour_begin(worker->agenda.tour, worker->agenda.step);
+        gm_agenda_rewind(&worker->agenda, -INFINITY);
+    }
     if (!gm_session_restart(&worker->session, message)) {
         say(worker, message);
     }
@@ -355,6 +415,7 @@ static void *work(void *self)
         pthread_mutex_unlock(&worker->lock);
         restart_if_due(worker);
         bool worked = step(worker);
+        keep_agenda(worker);
         watch_frozen(worker);
         pthread_mutex_lock(&worker->lock);
         if (worker->wanted && worker->changed) {
@@ -368,7 +429,7 @@ static void *work(void *self)
 }
 
 struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme theme, int wake,
-                                 char *message)
+                                 const struct gm_order *first, char *message)
 {
     struct gm_worker *worker = calloc(1, sizeof *worker);
     if (!worker || !gm_shot_open(&worker->shots[0]) || !gm_shot_open(&worker->shots[1])) {
@@ -383,6 +444,10 @@ struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme
     worker->changed = worker->wanted = true;
     worker->speed = first_speed(&worker->session);
     worker->restarted = -1e9;
+    worker->ahead = -INFINITY;
+    if (first) {
+        worker->queue[worker->count++] = *first;
+    }
     set_clock(worker, gm_session_time(&worker->session));
     pthread_condattr_t attributes;
     pthread_condattr_init(&attributes);
