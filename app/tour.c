@@ -184,10 +184,26 @@ static bool read_number(struct reader *reader, const struct entry *entry, double
     return true;
 }
 
-static bool read_show(struct reader *reader, const struct entry *entry, struct gm_tour_step *step)
+/* A scene that is told where to stop draws its time axes so far. */
+static bool add_until(struct gm_tour_step *step, const struct entry *until)
 {
-    char message[GM_MESSAGE], *list[MOST_WORDS], *copy = strdup(entry->text);
-    if (!copy) {
+    char *longer = NULL;
+    if (!until || strstr(step->show, " until=") || strstr(step->show, " steps=")) {
+        return true;
+    }
+    if (asprintf(&longer, "%s until=%s", step->show, until->text) < 0) {
+        return false;
+    }
+    free(step->show);
+    step->show = longer;
+    return true;
+}
+
+static bool read_show(struct reader *reader, const struct entry *entry, const struct entry *until,
+                      struct gm_tour_step *step)
+{
+    char message[GM_MESSAGE], *list[MOST_WORDS], *copy = NULL;
+    if (!add_until(step, until) || !(copy = strdup(step->show))) {
         return short_of_memory(reader);
     }
     const int count = gm_tour_words(copy, list, MOST_WORDS);
@@ -372,7 +388,7 @@ static bool read_step(struct reader *reader, const struct entry *entries, size_t
     if (!show && number == 0) {
         return refuse(reader, entries[0].line, "the first step has no show:, so there is nothing to see");
     }
-    if (show && !read_show(reader, show, step)) {
+    if (show && !read_show(reader, show, until, step)) {
         return false;
     }
     const double begin = gm_tour_begin(tour, number);

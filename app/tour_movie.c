@@ -64,19 +64,20 @@ static size_t tell(const struct show *show, struct gm_paragraph *told)
     const struct gm_tour_step *step = show->step;
     const bool asks = step->ask && !show->answered;
     size_t count = 0;
-    told[count++] = (struct gm_paragraph){step->title, GM_SECONDARY, true};
+    told[count++] = (struct gm_paragraph){step->title, GM_INK, true};
     if (asks || !step->ask) {
         told[count++] = (struct gm_paragraph){step->say, GM_INK, false};
     }
     if (asks) {
-        told[count++] = (struct gm_paragraph){step->ask, GM_LANE, true};
+        told[count++] = (struct gm_paragraph){step->ask, GM_INK, true};
         return count;
     }
     if (step->ask) {
         told[count++] = (struct gm_paragraph){step->answer, GM_INK, false};
     }
     if (step->watch) {
-        told[count++] = (struct gm_paragraph){step->watch, GM_LANE, false};
+        const char *watch = gm_picture_text(show->picture, "Watch: %s", step->watch);
+        told[count++] = (struct gm_paragraph){watch, GM_SECONDARY, false};
     }
     return count;
 }

@@ -51,8 +51,8 @@ static int draw_marked(const struct gm_sheet *sheet, int row, const char *mark, 
     if (!text) {
         return 0;
     }
-    gm_sheet_text(sheet, 0, row, mark, GM_LANE, true);
-    return gm_paragraph_draw(sheet, gm_sheet_width(sheet, mark) + 1, row, text, GM_INK, false);
+    gm_sheet_text(sheet, 0, row, mark, GM_SECONDARY, true);
+    return gm_paragraph_draw(sheet, gm_sheet_width(sheet, mark) + 1, row, text, GM_SECONDARY, false);
 }
 
 /* Draws the paragraphs below row 0; returns the row after them. */
@@ -66,7 +66,7 @@ static int draw_texts(const struct gm_sheet *sheet, const struct gm_guide *guide
         row += gm_paragraph_draw(sheet, 0, row, step->say, GM_INK, false);
     }
     if (!guide->answered) {
-        row += gm_paragraph_draw(sheet, 0, row, step->ask, GM_LANE, true);
+        row += gm_paragraph_draw(sheet, 0, row, step->ask, GM_INK, true);
         return row;
     }
     row += draw_marked(sheet, row, "Watch:", step->watch);
@@ -101,10 +101,10 @@ void gm_guide_draw(const struct gm_sheet *sheet, const struct gm_guide *guide)
              tour->steps[guide->step].title);
     struct gm_sheet head = *sheet;
     head.width = begin > 1 ? begin - 1 : 0;
-    gm_sheet_text(&head, 1, 0, text, GM_LANE, true);
+    gm_sheet_text(&head, 1, 0, text, GM_INK, true);
     const struct gm_sheet body = {sheet->cells, sheet->face,      sheet->column + 1,
                                   sheet->row,   sheet->width - 2, sheet->height};
     if (draw_texts(&body, guide) > sheet->height) {
-        gm_sheet_text(&body, body.width - 1, body.height - 1, "…", GM_LANE, true);
+        gm_sheet_text(&body, body.width - 1, body.height - 1, "…", GM_INK, true);
     }
 }
