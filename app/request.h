@@ -2,6 +2,7 @@
 #ifndef GM_APP_REQUEST_H
 #define GM_APP_REQUEST_H
 
+#include "render/message.h"
 #include "scenes/lane.h"
 
 /* What the user asked for: a scene and its lanes, read from `SCENE key=value ...`. */
@@ -40,8 +41,6 @@ enum {
     GM_EXIT_INTERRUPTED = 130,
     GM_EXIT_PIPE = 141,
 };
-
-enum { GM_MESSAGE = 512 };
 
 /* Reads words such as "disc", "scheme=rk4,midpoint", "dt=pi/60,pi/12", "zip=yes" (the scene first).
    `schemes` is how many of the scene's preferred schemes to take where none is named. False with one

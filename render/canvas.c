@@ -24,9 +24,8 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     most = most < viewport[0] ? most : viewport[0];
     if (canvas->width < 1 || canvas->height < 1 || canvas->width > most || canvas->height > most) {
-        snprintf(message, GM_MESSAGE_SIZE,
-                 "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.", canvas->width,
-                 canvas->height, most);
+        snprintf(message, GM_MESSAGE, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
+                 canvas->width, canvas->height, most);
         return false;
     }
     gl->GenFramebuffers(1, &canvas->framebuffer);
@@ -50,7 +49,7 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
             return true;
         }
     }
-    snprintf(message, GM_MESSAGE_SIZE, "This OpenGL gives no framebuffer of %d x %d pixels.", canvas->width,
+    snprintf(message, GM_MESSAGE, "This OpenGL gives no framebuffer of %d x %d pixels.", canvas->width,
              canvas->height);
     return false;
 }
@@ -101,13 +100,13 @@ static void set_sizes(struct gm_canvas *canvas)
 
 static bool gl_open(struct gm_canvas *canvas, char *message)
 {
-    canvas->context = gm_context_open(message, GM_MESSAGE_SIZE);
+    canvas->context = gm_context_open(message, GM_MESSAGE);
     if (canvas->context == NULL) {
         return false;
     }
     const char *missing = gm_gl_load(&canvas->gl, canvas->context);
     if (missing != NULL) {
-        snprintf(message, GM_MESSAGE_SIZE, "This OpenGL lacks the function %s.", missing);
+        snprintf(message, GM_MESSAGE, "This OpenGL lacks the function %s.", missing);
         return false;
     }
     const char *version = (const char *)canvas->gl.GetString(GL_VERSION);
@@ -117,7 +116,7 @@ static bool gl_open(struct gm_canvas *canvas, char *message)
              gm_context_name(canvas->context), version, renderer, mesa != NULL ? ", " : "",
              mesa != NULL ? mesa : "");
     return framebuffer_open(canvas, message) &&
-           gm_batch_open(&canvas->batch, &canvas->gl, message, GM_MESSAGE_SIZE);
+           gm_batch_open(&canvas->batch, &canvas->gl, message, GM_MESSAGE);
 }
 
 struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message)
@@ -127,7 +126,7 @@ struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, cha
         *canvas = (struct gm_canvas){.width = width, .height = height, .theme = theme};
     }
     if (canvas == NULL) {
-        snprintf(message, GM_MESSAGE_SIZE, "There is not enough memory for a picture.");
+        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture.");
         return NULL;
     }
     if (!gl_open(canvas, message)) {
@@ -136,11 +135,11 @@ struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, cha
     }
     set_sizes(canvas);
     textures_open(canvas);
-    canvas->glyphs = gm_glyphs_open(message, GM_MESSAGE_SIZE);
+    canvas->glyphs = gm_glyphs_open(message, GM_MESSAGE);
     canvas->pixels = malloc((size_t)width * (size_t)height * 4);
     if (canvas->glyphs != NULL && canvas->pixels == NULL) {
-        snprintf(message, GM_MESSAGE_SIZE, "There is not enough memory for a picture of %d x %d pixels.",
-                 width, height);
+        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture of %d x %d pixels.", width,
+                 height);
     }
     if (canvas->glyphs == NULL || canvas->pixels == NULL) {
         gm_canvas_close(canvas);

@@ -2,6 +2,7 @@
 #ifndef GM_RENDER_CANVAS_H
 #define GM_RENDER_CANVAS_H
 
+#include "render/message.h"
 #include "render/theme.h"
 
 /* The GL painter: pictures to pixels, without a screen. One canvas has one size and one theme and is used
@@ -9,9 +10,7 @@
 
 struct gm_canvas;
 
-enum { GM_MESSAGE_SIZE = 512 };
-
-/* NULL on failure, with one sentence in message (GM_MESSAGE_SIZE bytes). */
+/* NULL on failure, with one sentence in message (GM_MESSAGE bytes). */
 struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message);
 void gm_canvas_close(struct gm_canvas *canvas);
 

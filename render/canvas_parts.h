@@ -28,7 +28,7 @@ struct gm_canvas {
     size_t texel_capacity;
     unsigned char *pixels; /* as read back, 4 bytes each */
     struct gm_polyline line, piece, dash;
-    char backend[GM_MESSAGE_SIZE];
+    char backend[GM_MESSAGE];
 };
 
 struct gm_ink gm_canvas_ink(const struct gm_canvas *canvas, enum gm_role role, double alpha);

@@ -30,7 +30,7 @@ struct gm_sink {
     bool closing, dropping, failed;
     int worker_count;
     pthread_t *workers;
-    char message[GM_SINK_MESSAGE];
+    char message[GM_MESSAGE];
 };
 
 void gm_texts_free(struct gm_png_text *texts, size_t count)
@@ -83,7 +83,7 @@ static void *work(void *argument)
         bool wanted = !sink->failed && !sink->dropping;
         pthread_mutex_unlock(&sink->lock);
 
-        char message[GM_SINK_MESSAGE] = "";
+        char message[GM_MESSAGE] = "";
         bool done = !wanted ||
                     sink->kind->frame(sink->self, job.frame, job.number, job.texts, job.text_count, message);
         gm_texts_free(job.texts, job.text_count);
@@ -167,7 +167,7 @@ struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int w
         release(sink);
     }
     kind->close(self, false, message);
-    snprintf(message, GM_SINK_MESSAGE, "not enough memory or threads to write frames");
+    snprintf(message, GM_MESSAGE, "not enough memory or threads to write frames");
     return NULL;
 }
 
@@ -216,16 +216,27 @@ bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const 
     return taken;
 }
 
+bool gm_sink_flush(struct gm_sink *sink)
+{
+    pthread_mutex_lock(&sink->lock);
+    while (!sink->failed && sink->idle_count < sink->made) {
+        pthread_cond_wait(&sink->vacant, &sink->lock);
+    }
+    const bool good = !sink->failed;
+    pthread_mutex_unlock(&sink->lock);
+    return good;
+}
+
 bool gm_sink_close(struct gm_sink *sink, bool keep, char *message)
 {
     end_workers(sink, !keep);
-    char late[GM_SINK_MESSAGE] = "";
+    char late[GM_MESSAGE] = "";
     if (!sink->kind->close(sink->self, keep && !sink->failed, late)) {
         note_failure(sink, late);
     }
     bool good = !sink->failed;
     if (!good) {
-        snprintf(message, GM_SINK_MESSAGE, "%s", sink->message);
+        snprintf(message, GM_MESSAGE, "%s", sink->message);
     }
     release(sink);
     return good;

@@ -2,12 +2,11 @@
 #ifndef GM_RENDER_SINK_KIND_H
 #define GM_RENDER_SINK_KIND_H
 
+#include "render/message.h"
 #include "render/sink.h"
 
 /* What the kinds of sink share with sink.c, and with nobody else: the queue is sink.c's, a kind says what
    becomes of a frame. */
-
-enum { GM_SINK_MESSAGE = 512 }; /* as sink.h promises */
 
 struct gm_sink_kind {
     /* Called in a worker thread, with one worker in the order in which frames were put. */

@@ -107,7 +107,7 @@ struct gm_figure {
     const char *arguments; /* of `geomint render SCENE`, separated by blanks */
 };
 
-/* Text sizes that setup may use for a sentence. */
+/* Bytes of a sentence that a scene writes. */
 enum { GM_SENTENCE = 256 };
 
 struct gm_scene {

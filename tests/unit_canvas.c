@@ -32,7 +32,7 @@ static struct gm_picture *plain_picture(struct gm_panel **panel)
 
 static unsigned char *paint(struct gm_picture *picture, const char *backend, int width, int height)
 {
-    char message[GM_MESSAGE_SIZE] = "";
+    char message[GM_MESSAGE] = "";
     setenv("GEOMINT_GL", backend, 1);
     struct gm_canvas *canvas = gm_canvas_open(width, height, GM_THEME_DARK, message);
     if (canvas == NULL) {
@@ -370,7 +370,7 @@ static void a_canvas_paints_the_same_twice(void **state)
 {
     (void)state;
     unsetenv("GEOMINT_GL");
-    char message[GM_MESSAGE_SIZE];
+    char message[GM_MESSAGE];
     struct gm_canvas *canvas = gm_canvas_open(WIDTH, HEIGHT, GM_THEME_LIGHT, message);
     assert_non_null(canvas);
     assert_non_null(strstr(gm_canvas_backend(canvas), "OpenGL"));
@@ -401,7 +401,7 @@ static void odd_sizes_are_painted(void **state)
 static void what_cannot_be_is_said_in_a_sentence(void **state)
 {
     (void)state;
-    char message[GM_MESSAGE_SIZE] = "";
+    char message[GM_MESSAGE] = "";
     setenv("GEOMINT_GL", "vulkan", 1);
     assert_null(gm_canvas_open(64, 64, GM_THEME_DARK, message));
     assert_non_null(strstr(message, "vulkan"));

@@ -89,7 +89,7 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
     const real roundoff = (8 * stages * 2.220446049250313e-16) * norm;
     real negligible = K(constant)(0); /* 2^-60 of the first change: with more, invariants drift */
     real previous = K(constant)(1e300);
-    mask active = K(all)(), solved = K(not )(active);
+    mask active = K(all)(), solved = K(other)(active);
     for (int iteration = 0; iteration < K(IMPLICIT_ITERATIONS); iteration++) {
         const real change = K(implicit_iterate)(row, stages, y, h, parameters, active, f, z);
         if (iteration == 0) {
@@ -103,7 +103,7 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
         mask stagnant = K(both)(K(either)(change >= previous, last), change <= roundoff);
         mask done = K(both)(active, K(either)(change == K(constant)(0), stagnant));
         solved |= done;
-        active &= K(both)(K(not )(done), change < K(constant)(1e100));
+        active &= K(both)(K(other)(done), change < K(constant)(1e100));
         if (!K(somewhere)(active)) {
             break;
         }
@@ -219,7 +219,7 @@ static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_impl
                                                             real f[][GM_COMPONENTS],
                                                             struct K(counts) * counts)
 {
-    mask solved = K(not )(K(all)());
+    mask solved = K(other)(K(all)());
     for (int l = 0; l < GM_LANES; l++) {
         if (!K(mask_lane)(which, l)) {
             continue;
@@ -252,12 +252,12 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
     for (int substep = 0; substep < row->substeps; substep++) {
         const double h = dt * row->fractions[substep];
         real f[GM_IMPLICIT_STAGES][GM_COMPONENTS];
-        mask solved = K(not )(K(all)());
+        mask solved = K(other)(K(all)());
         if (!stiff) {
             solved = K(implicit_fixed_point)(row, stages, block->y, h, parameters, f, counts);
         }
         if (!K(everywhere)(solved)) {
-            solved |= K(implicit_by_newton)(row, K(not )(solved), block->y, h, parameters, f, counts);
+            solved |= K(implicit_by_newton)(row, K(other)(solved), block->y, h, parameters, f, counts);
         }
         good &= solved;
         for (int c = 0; c < GM_COMPONENTS; c++) {

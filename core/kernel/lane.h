@@ -63,7 +63,7 @@ GM_INLINE void K(set_mask_lane)(bool *which, int lane, bool value)
 {
     (void)lane, *which = value;
 }
-GM_INLINE bool K(not )(bool which)
+GM_INLINE bool K(other)(bool which)
 {
     return !which;
 }
@@ -152,7 +152,7 @@ GM_INLINE void K(set_mask_lane)(gm_lanes_mask *which, int lane, bool value)
 {
     (*which)[lane] = value ? -1 : 0;
 }
-GM_INLINE gm_lanes_mask K(not )(gm_lanes_mask which)
+GM_INLINE gm_lanes_mask K(other)(gm_lanes_mask which)
 {
     return ~which;
 }
