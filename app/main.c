@@ -54,7 +54,8 @@ static int help(void)
     printf(
         "  geomint --version | --help\n\n"
         "key=value sets a parameter (geomint list SCENE names them), scheme=a,b,c the schemes; every key takes\n"
-        "a list, and lanes are the product of the lists (zip=yes pairs them). Numbers are typed as 1e-3, pi/60.\n"
+        "a list, and lanes are the product of the lists (zip=yes pairs them, overlay=yes puts all\n"
+        "into one panel). Numbers are typed as 1e-3, pi/60.\n"
         "Exit: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim, 130 interrupted.\n");
     return gm_finish(GM_EXIT_OK);
 }

@@ -14,7 +14,6 @@ struct gm_guide {
 };
 
 enum gm_guide_result {
-    GM_GUIDE_IGNORED,
     GM_GUIDE_OPEN, /* a step is to be shown from its start */
     GM_GUIDE_RUN,  /* its question is answered: let it run */
     GM_GUIDE_END,  /* there is no step there */
@@ -23,7 +22,7 @@ enum gm_guide_result {
 /* A tour at the start of its first step. */
 struct gm_guide gm_guide_open(const struct gm_tour *tour);
 
-/* What a key does to the tour; those that it has no use for are left to others. */
+/* What a key of the tour does: n answers or goes on, N goes back, a shows the step again. */
 enum gm_guide_result gm_guide_press(struct gm_guide *guide, int key);
 
 /* How many rows below the picture the texts take on a screen of this size. */

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app/explorer/studies.h"
 
-#include <curses.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ESCAPE = 27 };
+#include "app/explorer/keys.h"
+
+enum { REDRAW = 'L' - '@' };
+
+static const char keys[GM_STUDY_COUNT] = {[GM_STUDY_WORK] = 'w', [GM_STUDY_STABILITY] = 'm'};
 
 void gm_studies_close(struct gm_studies *studies)
 {
@@ -67,41 +70,38 @@ static void present_words(const struct gm_shot *shot, char *words, size_t size)
     }
 }
 
-static enum gm_study_kind kind_of(int key)
+void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot *shot, int wake)
 {
-    return key == 'w' ? GM_STUDY_WORK : key == 'm' ? GM_STUDY_STABILITY : GM_STUDY_NONE;
+    char words[1024];
+    present_words(shot, words, sizeof words);
+    gm_studies_open(studies, key == 'w' ? GM_STUDY_WORK : GM_STUDY_STABILITY, words, wake);
 }
 
-bool gm_studies_press(struct gm_studies *studies, int key, const struct gm_shot *shot, enum gm_theme theme,
-                      int wake)
+bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)
 {
-    const enum gm_study_kind kind = kind_of(key);
+    static const char others[] = "qbtlnNa?";
     studies->notice[0] = '\0';
-    if (kind != GM_STUDY_NONE && kind != studies->shown) {
-        char words[1024];
-        present_words(shot, words, sizeof words);
-        gm_studies_open(studies, kind, words, wake);
-        return true;
-    }
     if (studies->shown == GM_STUDY_NONE) {
         return false;
     }
     struct gm_study *study = studies->studies[studies->shown];
-    switch (key) {
-    case ESCAPE:
-    case KEY_BACKSPACE:
-    case 'w':
-    case 'm':
+    if (gm_key_is_escape(key) || gm_key_is_erase(key) || key == keys[studies->shown]) {
         studies->shown = GM_STUDY_NONE;
         return true;
+    }
+    switch (key) {
     case 'x':
         gm_study_stop(study);
         return true;
     case 'p':
         gm_study_save(study, theme);
         return true;
+    case 'w':
+    case 'm':
+    case REDRAW:
+        return false;
     default:
-        return key != 'q' && key != 'b' && key != '?' && key != 'L' - '@';
+        return key <= ' ' || key > '~' || !strchr(others, key);
     }
 }
 
@@ -133,14 +133,15 @@ void gm_studies_draw(const struct gm_sheet *sheet, struct gm_studies *studies)
     }
     struct gm_cells *cells = &studies->cells;
     if (!studies->fresh || cells->columns != sheet->width || cells->rows != sheet->height ||
-        studies->blocks != sheet->face->blocks) {
+        studies->blocks != sheet->face->blocks || studies->theme != sheet->face->theme) {
         if (!gm_cells_resize(cells, sheet->width, sheet->height, sheet->face->theme)) {
             return;
         }
-        cells->outlines = sheet->face->few_colours;
+        cells->outlines = sheet->face->few_colours || sheet->face->monochrome;
         gm_cells_paint(cells, look->picture, sheet->face->theme, sheet->face->blocks);
         studies->fresh = true;
         studies->blocks = sheet->face->blocks;
+        studies->theme = sheet->face->theme;
     }
     for (int row = 0; row < sheet->height; row++) {
         memcpy(&sheet->cells->cells[(size_t)(sheet->row + row) * (size_t)sheet->cells->columns +
@@ -172,7 +173,6 @@ void gm_studies_status(const struct gm_studies *studies, char *text, size_t size
 
 void gm_studies_news(const struct gm_studies *studies, char *text, size_t size)
 {
-    static const char keys[GM_STUDY_COUNT] = {[GM_STUDY_WORK] = 'w', [GM_STUDY_STABILITY] = 'm'};
     size_t used = (size_t)snprintf(text, size, "%s", studies->notice);
     for (int i = GM_STUDY_WORK; i < GM_STUDY_COUNT && used == 0; i++) {
         const struct gm_look *look = studies->looks[i];

@@ -14,7 +14,8 @@ struct gm_studies {
     struct gm_cells cells;                 /* the shown picture, kept */
     bool fresh;                            /* they show the last look */
     enum gm_blocks blocks;                 /* and were painted with these */
-    char notice[GM_MESSAGE];               /* what could not be done; "" after the next key */
+    enum gm_theme theme;
+    char notice[GM_MESSAGE]; /* what could not be done; "" after the next key */
 };
 
 void gm_studies_close(struct gm_studies *studies);
@@ -23,9 +24,11 @@ void gm_studies_close(struct gm_studies *studies);
    notice says why. */
 bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const char *words, int wake);
 
-/* What a key does; false: it is for others. */
-bool gm_studies_press(struct gm_studies *studies, int key, const struct gm_shot *shot, enum gm_theme theme,
-                      int wake);
+/* The same for the scene as it is set now, by the key: w work-precision, m the stability map. */
+void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot *shot, int wake);
+
+/* What a key does while a study is shown; false: it is for others. */
+bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme);
 
 /* Takes what is new; true if the screen has to be composed again. */
 bool gm_studies_look(struct gm_studies *studies);
