@@ -184,33 +184,39 @@ static bool read_number(struct reader *reader, const struct entry *entry, double
     return true;
 }
 
-/* A scene that is told where to stop draws its time axes so far. */
-static bool add_until(struct gm_tour_step *step, const struct entry *until)
+/* Reads the words of step->show; false with a sentence. */
+static bool parse_show(struct gm_tour_step *step, char *message)
 {
-    char *longer = NULL;
-    if (!until || strstr(step->show, " until=") || strstr(step->show, " steps=")) {
-        return true;
-    }
-    if (asprintf(&longer, "%s until=%s", step->show, until->text) < 0) {
+    char *list[MOST_WORDS], *copy = strdup(step->show);
+    if (!copy) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
         return false;
     }
-    free(step->show);
-    step->show = longer;
-    return true;
+    const int count = gm_tour_words(copy, list, MOST_WORDS);
+    gm_request_close(&step->request);
+    const bool good = gm_request_parse(&step->request, count, list, MOST_SCHEMES, message);
+    free(copy);
+    return good;
 }
 
 static bool read_show(struct reader *reader, const struct entry *entry, const struct entry *until,
                       struct gm_tour_step *step)
 {
-    char message[GM_MESSAGE], *list[MOST_WORDS], *copy = NULL;
-    if (!add_until(step, until) || !(copy = strdup(step->show))) {
-        return short_of_memory(reader);
-    }
-    const int count = gm_tour_words(copy, list, MOST_WORDS);
-    const bool good = gm_request_parse(&step->request, count, list, MOST_SCHEMES, message);
-    free(copy);
-    if (!good) {
+    char message[GM_MESSAGE];
+    if (!parse_show(step, message)) {
         return refuse(reader, entry->line, "%s", message);
+    }
+    /* a scene that is told where to stop draws its time axes so far */
+    if (until && !strstr(step->show, " until=") && !strstr(step->show, " steps=")) {
+        char *longer = NULL;
+        if (asprintf(&longer, "%s until=%s", step->show, until->text) < 0) {
+            return short_of_memory(reader);
+        }
+        free(step->show);
+        step->show = longer;
+        if (!parse_show(step, message)) {
+            return refuse(reader, until->line, "%s", message);
+        }
     }
     const struct gm_timing *timing = step->request.lanes[0].parameters;
     if (isnan(step->until)) {

@@ -95,6 +95,9 @@ void gm_screen_picture(struct gm_screen *screen, const struct gm_face *face, con
             return;
         }
         screen->picture.outlines = face->few_colours || face->monochrome;
+        if (face->guide) {
+            shot->picture->caption = ""; /* a tour has words of its own, and may ask for a prediction */
+        }
         gm_cells_paint(&screen->picture, shot->picture, face->theme, face->blocks);
         screen->blocks = face->blocks;
         screen->theme = face->theme;

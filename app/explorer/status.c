@@ -99,7 +99,8 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, char *te
         snprintf(text, size, "%s: %s; %s", parameter->row->key, parameter->row->help,
                  parameter->row->live && !parameter->of_scheme ? "acts at once" : "starts again");
     } else {
-        snprintf(text, size, "%s", shot->scene->watch ? shot->scene->watch : "");
+        /* a tour says itself what to watch */
+        snprintf(text, size, "%s", shot->scene->watch && !face->guide ? shot->scene->watch : "");
     }
 }
 
