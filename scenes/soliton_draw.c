@@ -309,7 +309,8 @@ void gm_soliton_draw(const struct gm_lane *const *lanes, size_t count, struct gm
     if (both || soliton->show == GM_SOLITON_MESH) {
         draw_meshes(picture, lanes, count, !both);
     }
-    if (both) {
+    /* three side by side leave no hole */
+    if (both || (panels == 3 && soliton->show != GM_SOLITON_ALL)) {
         picture->state_columns = panels;
     }
     if (soliton->show == GM_SOLITON_ENERGY) {

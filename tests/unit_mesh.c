@@ -50,6 +50,7 @@ static void every_node_of_the_reference(void **unused)
         struct gm_mesh mesh;
         problem.moving_mesh->describe(&problem, &mesh);
         assert_true(fabs(gm_mesh_energy(&mesh, gm_run_state(run)) - reference_soliton[i].energy) < 1e-11);
+        double worst = 0;
         for (size_t s = 0; s < 3; s++) {
             const long steps = lround(reference_soliton[i].snap[s].t / 0.01);
             gm_run_advance(run, steps - run->steps);
@@ -64,7 +65,9 @@ static void every_node_of_the_reference(void **unused)
                 fail_msg("%s at t = %g: %.3g", reference_soliton[i].scheme, reference_soliton[i].snap[s].t,
                          farthest);
             }
+            worst = fmax(worst, farthest);
         }
+        print_message("    %-24s every node within %.1e\n", reference_soliton[i].scheme, worst);
         gm_run_close(run);
     }
 }
@@ -89,6 +92,7 @@ static void symmetric_schemes_come_back(void **unused)
         for (size_t k = 0; k < 30; k++) {
             farthest = fmax(farthest, fabs(gm_run_state(run)[k] - start[k]));
         }
+        print_message("    200 steps there and back, %-22s %.1e\n", names[i], farthest);
         if (!(farthest < 1e-11)) {
             fail_msg("%s: %.3g", names[i], farthest);
         }
@@ -147,6 +151,23 @@ static double error_of(const struct gm_soliton *soliton, const struct gm_run *ru
     return largest;
 }
 
+/* The largest difference of d ell/dt between neighbours over the largest ell: zero where the velocities keep
+   the constraint. */
+static double rate_defect(const struct gm_mesh *mesh, const double *state)
+{
+    struct gm_elements stage;
+    assert_true(gm_elements_open(&stage, mesh));
+    gm_elements_place(&stage, state);
+    assert_true(gm_elements_measure(&stage, mesh));
+    double jump = 0, size = 0;
+    for (size_t e = 1; e < stage.count; e++) {
+        jump = fmax(jump, fabs(stage.rate[e] - stage.rate[e - 1]));
+        size = fmax(size, stage.ell[e]);
+    }
+    gm_elements_close(&stage);
+    return jump / size;
+}
+
 /* In flight from any strategy to any other: the new one starts on its own kind of mesh, near the old field.
  */
 static void strategies_take_over(void **unused)
@@ -171,11 +192,16 @@ static void strategies_take_over(void **unused)
             assert_true(fabs(gm_mesh_energy(&mesh, gm_run_state(next)) / energy - 1) < 0.03);
             if (gm_scheme_mesh(next->scheme) == GM_MESH_MOVING) {
                 assert_true(gm_mesh_constraint_defect(&mesh, gm_run_state(next)) < 1e-10);
+                assert_true(rate_defect(&mesh, gm_run_state(next)) < 1e-10);
             } else {
                 assert_true(fabs(gm_mesh_smallest_cell(&mesh, gm_run_state(next)) - 25. / 64) < 1e-12);
             }
+            const double taken = error_of(&soliton, next),
+                         kept = gm_mesh_energy(&mesh, gm_run_state(next)) / energy - 1;
             assert_int_equal(gm_run_advance(next, 100), GM_OK);
             assert_true(error_of(&soliton, next) < error + 0.4);
+            print_message("    %-22s to %-22s error %.4f to %.4f, energy %+.1e\n", names[a], names[b], error,
+                          taken, kept);
             gm_run_close(run);
             gm_run_close(next);
         }
