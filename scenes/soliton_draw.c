@@ -325,7 +325,7 @@ void gm_soliton_draw(const struct gm_lane *const *lanes, size_t count, struct gm
         gm_draw_graph(picture, lanes, count, &kept, -1, false);
         const struct gm_graph error = {.observable = "solution_error",
                                        .scale = GM_LOG,
-                                       .calm_low = 1e-3,
+                                       .calm_low = 1e-4,
                                        .calm_high = 10,
                                        .floor = 1e-4};
         gm_draw_graph(picture, lanes, count, &error, -1, false);
