@@ -113,6 +113,13 @@ struct gm_figure {
     const char *arguments; /* of `geomint render SCENE`, separated by blanks */
 };
 
+/* A value for one of the scene's parameters, as it would be typed. */
+struct gm_choice {
+    const char *key;
+    char value[40];
+};
+enum { GM_CHOICES = 4 };
+
 /* Bytes of a sentence that a scene writes. */
 enum { GM_SENTENCE = 256 };
 
@@ -152,12 +159,18 @@ struct gm_scene {
                        const struct gm_scheme *scheme, double *y, char *sentence);
     /* Draws the lanes, count >= 1, into an empty picture; looks only. */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    /* The parameters, at most GM_CHOICES, with which a run starts at the point (x, y) of a state's panel; 0 where
+       it cannot. NULL: the scene has no such points. */
+    size_t (*point)(const void *parameters, double x, double y, struct gm_choice *choices);
     /* Writes profiles of a state as rows of CSV, each beginning with `front`; NULL if there are none. The
        columns are GM_PROFILE_COLUMNS. */
     void (*profile)(const struct gm_view *view, const char *front, FILE *stream);
 };
 
 #define GM_PROFILE_COLUMNS "profile,x,y,psi,u,v,theta,omega,reference"
+
+/* A choice of three digits, which is what a place in a picture tells. */
+void gm_choose(struct gm_choice *choice, const char *key, double value);
 
 size_t gm_scene_count(void);
 const struct gm_scene *gm_scene_at(size_t index);
