@@ -268,7 +268,8 @@ static double density(const struct gm_mesh *mesh, const double z[4])
                  right = phi4 ? pow(z[2], 3) - z[2] : sin(z[2]);
     const double bend = mesh->curvature * mesh->curvature * (left * left + right * right) / 2;
     const double reach = mesh->alpha * mesh->alpha * r * r;
-    const double limit = mesh->steepest > 0 ? 1 + pow(r / d / mesh->steepest, 2) : 1;
+    const double w = mesh->reach == GM_REACH_FULL ? 0 : pow(r / d / mesh->steepest, 2);
+    const double limit = mesh->reach == GM_REACH_TEMPERED ? (1 + sqrt(1 + w)) / 2 : 1 + w;
     return reach / limit + d * d * sqrt(1 + bend);
 }
 
@@ -286,13 +287,14 @@ static void derivatives_of_an_element(void **unused)
         {0.3, 1, 1.1, 1.7}, {1, 2, 1 + 1e-9, 2.5}, {-1, 0.5, 3.5, 1.2}, {6, 1, 6.2, 9}};
     static const double rate[4] = {0.4, -0.3, 0.7, 0.9};
     const struct gm_potential *const potentials[] = {&gm_potential_sine_gordon, &gm_potential_phi4};
-    for (size_t which = 0; which < 32; which++) {
+    for (size_t which = 0; which < 48; which++) {
         const struct gm_mesh mesh = {.points = 1,
                                      .length = 12,
                                      .alpha = 1.3,
                                      .curvature = which / 4 % 2 ? 0.7 : 0,
-                                     .steepest = which / 8 % 2 ? 2.5 : 0,
-                                     .potential = potentials[which / 16]};
+                                     .reach = (enum gm_mesh_reach)(which / 8 % 3),
+                                     .steepest = 2.5,
+                                     .potential = potentials[which / 24]};
         const double *z0 = places[which % 4];
         struct gm_elements stage;
         assert_true(gm_elements_open(&stage, &mesh));
@@ -433,7 +435,7 @@ static void other_fields_and_densities(void **unused)
 {
     (void)unused;
     for (int field = 0; field < 2; field++) {
-        for (int which = 0; which < 4; which++) {
+        for (int which = 0; which < 5; which++) {
             const struct gm_soliton soliton = {.field = field,
                                                .density = which,
                                                .solitons = 1,

@@ -5,7 +5,7 @@
    cells' widths, c = 0.208 of their mean: steps shrink with the smallest cells, as the square root, and do
    not grow without bound where all cells are wide. Changing the signs of dt and of the run of time undoes it
    exactly: (q, p, rho) is reversible. It delays the loss of energy on coarse meshes with a strong density; a
-   density with a limit (core/moving_mesh.h) prevents it. E. Hairer & G. Soderlind, SIAM J. Sci. Comput. 26
+   density that is limited (core/moving_mesh.h) prevents it. E. Hairer & G. Soderlind, SIAM J. Sci. Comput. 26
    (2005) 1838; Tyranowski & Desbrun (2019), section 6.3, leave this step open. */
 #include <math.h>
 #include <string.h>

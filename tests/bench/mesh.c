@@ -72,7 +72,7 @@ static double measure(const char *name, long points, long steps, int runs)
 
 static void keep_energy(const char *name, int density, double alpha, double dt)
 {
-    static const char *const densities[] = {"arclength", "curvature", "mix", "limited"};
+    static const char *const densities[] = {"arclength", "curvature", "mix", "limited", "tempered"};
     const struct gm_soliton soliton = {
         .solitons = 2, .density = density, .points = 25, .velocity = 0.9, .length = 25, .alpha = alpha};
     const struct gm_settings settings = {0};
@@ -115,6 +115,9 @@ static int keep_energies(void)
         keep_energy("multiplier-lobatto4", GM_LIMITED, 1.5, dt);
         keep_energy("multiplier-adaptive4", GM_LIMITED, 1.5, dt);
     }
+    keep_energy("multiplier-lobatto4", GM_TEMPERED, 1.5, 0.05);
+    keep_energy("multiplier-lobatto4", GM_TEMPERED, 1.5, 0.045);
+    keep_energy("multiplier-lobatto4", GM_TEMPERED, 1.5, 0.04);
     keep_energy("multiplier-lobatto4", GM_ARCLENGTH, 1, 0.05);
     keep_energy("multiplier-lobatto4", GM_ARCLENGTH, 1.25, 0.05);
     keep_energy("multiplier-lobatto4", GM_ARCLENGTH, 2, 0.05);
