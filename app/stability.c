@@ -86,9 +86,9 @@ bool gm_stability_open(struct gm_stability_table *table, const struct gm_options
         good = table->maps[i].cells != NULL;
         for (size_t k = 0; k < i; k++) {
             if (request->lanes[k].scheme == request->lanes[i].scheme) {
-                gm_stability_close(table);
                 snprintf(message, GM_MESSAGE, "stability varies dt and %s itself: only scheme takes a list",
-                         request->scene->stability->parameter);
+                         table->plan->parameter);
+                gm_stability_close(table);
                 return false;
             }
         }
@@ -107,6 +107,7 @@ void gm_stability_close(struct gm_stability_table *table)
     }
     free(table->maps);
     gm_request_close(&table->request);
+    *table = (struct gm_stability_table){0};
 }
 
 static const struct gm_observable *find(const struct gm_scene *scene, const char *key)
