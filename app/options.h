@@ -26,6 +26,7 @@ enum gm_command {
 struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown, listing;
     const char *csv, *profile, *out, *movie, *measure, *region;
+    const char *name; /* of a chart's files, by `again` alone; NULL: the command's own */
     long every, frames;
     long shard, shards;  /* 0, 0: not given */
     double fps, rate;    /* NAN: not given */
