@@ -17,22 +17,36 @@ static bool counts_in_pi(double dt)
     return false;
 }
 
+/* "3π/4"; NULL where t is no such fraction, or none is expected of steps like dt */
+static const char *in_pi(struct gm_picture *picture, double t, double dt)
+{
+    for (int denominator = 1; counts_in_pi(dt) && denominator <= 24; denominator++) {
+        const double times = round(t * denominator / M_PI);
+        if (fabs(times) > 9999 || fabs(times * M_PI / denominator - t) > 1e-9 * fmax(1, fabs(t))) {
+            continue;
+        }
+        if (times == 0) {
+            return "0";
+        }
+        const char *sign = times < 0 ? "−" : "";
+        const char *front = fabs(times) == 1 ? "" : gm_picture_text(picture, "%.0f", fabs(times));
+        const char *under = denominator == 1 ? "" : gm_picture_text(picture, "/%d", denominator);
+        return gm_picture_text(picture, "%s%sπ%s", sign, front, under);
+    }
+    return NULL;
+}
+
+const char *gm_step_text(struct gm_picture *picture, double dt)
+{
+    const char *fraction = in_pi(picture, dt, dt);
+    return fraction ? fraction : gm_picture_text(picture, "%s%.4g", dt < 0 ? "−" : "", fabs(dt));
+}
+
 const char *gm_time_text(struct gm_picture *picture, double t, double dt)
 {
-    if (counts_in_pi(dt)) {
-        for (int denominator = 1; denominator <= 24; denominator++) {
-            const double times = round(t * denominator / M_PI);
-            if (fabs(times) > 9999 || fabs(times * M_PI / denominator - t) > 1e-9 * fmax(1, fabs(t))) {
-                continue;
-            }
-            if (times == 0) {
-                return "0";
-            }
-            const char *sign = times < 0 ? "−" : "";
-            const char *front = fabs(times) == 1 ? "" : gm_picture_text(picture, "%.0f", fabs(times));
-            const char *under = denominator == 1 ? "" : gm_picture_text(picture, "/%d", denominator);
-            return gm_picture_text(picture, "%s%sπ%s", sign, front, under);
-        }
+    const char *fraction = in_pi(picture, t, dt);
+    if (fraction) {
+        return fraction;
     }
     /* as many decimals as the step moves, so that digits stand still while time runs */
     int decimals = (int)ceil(-log10(fabs(dt)) + 0.5);
