@@ -74,13 +74,19 @@ struct gm_track {
  */
 struct gm_work {
     const char *arguments; /* key=value that differ from the defaults, separated by blanks; "" */
-    const char *measure;   /* key of the observable that is the error; NULL: solution_error */
+    const char *measure;   /* key of the observable that is the error, at the end; NULL: the distance of the
+                              state from the exact one, or from that of a reference run */
     double coarsest;       /* the largest step of the ladder, */
     int halvings;          /* halved so many times */
     const char *reference; /* the scheme of the reference run, where the problem has no exact solution; NULL:
                               the highest order that fits */
     const char *is_exact;  /* name of a scheme that solves the scene exactly where it has an exact solution,
                               and is no  entrant then; NULL: none */
+    const char *resolution; /* key of a parameter that is measured at `resolution_count` values beside the
+                               steps: each scheme is judged by its best pairs; NULL: none */
+    const double *resolutions;
+    size_t resolution_count;
+    const double *errors; /* three, falling, at which prices are compared; NULL: 1e-3, 1e-6, 1e-9 */
 };
 
 /* What `geomint stability` does with a scene: a grid of time steps and of one parameter. */
