@@ -99,6 +99,13 @@ changes() {
     fail "$1: the screen stays as it was" >&2
 }
 
+same() { # NAME SCREEN SCREEN
+    [ "$2" = "$3" ] || {
+        fail "$1: the screens differ"
+        diff <(printf '%s\n' "$2") <(printf '%s\n' "$3")
+    }
+}
+
 # start SIZE [NAME=VALUE ...]: a shell in a pane of that size
 start() {
     local size=$1
