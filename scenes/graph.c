@@ -51,7 +51,8 @@ const char *gm_time_text(struct gm_picture *picture, double t, double dt)
     /* as many decimals as the step moves, so that digits stand still while time runs */
     int decimals = (int)ceil(-log10(fabs(dt)) + 0.5);
     decimals = decimals < 1 ? 1 : decimals > 6 ? 6 : decimals;
-    return gm_picture_text(picture, "%s%.*f", t < 0 ? "−" : "", decimals, fabs(t));
+    const bool below = t < -0.5 * pow(10, -decimals); /* what rounds to zero has no sign */
+    return gm_picture_text(picture, "%s%.*f", below ? "−" : "", decimals, fabs(t));
 }
 
 void gm_draw_clock(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
@@ -59,7 +60,9 @@ void gm_draw_clock(struct gm_picture *picture, const struct gm_lane *const *lane
     /* the lane that has come farthest; one that has failed stands still */
     const struct gm_lane *ahead = lanes[0];
     for (size_t i = 1; i < count; i++) {
-        ahead = fabs(lanes[i]->run->t - lanes[i]->t0) > fabs(ahead->run->t - ahead->t0) ? lanes[i] : ahead;
+        const bool goes = lanes[i]->run->status == GM_OK, went = ahead->run->status == GM_OK;
+        const bool further = fabs(lanes[i]->run->t - lanes[i]->t0) > fabs(ahead->run->t - ahead->t0);
+        ahead = goes != went ? (goes ? lanes[i] : ahead) : further ? lanes[i] : ahead;
     }
     picture->clock = gm_picture_text(picture, "t = %s", gm_time_text(picture, ahead->run->t, ahead->run->dt));
 }

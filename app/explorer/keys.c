@@ -7,7 +7,7 @@
 
 #include "app/explorer/modes.h"
 
-enum { ESCAPE = 27, REDRAW = 'L' - '@', SCRUB_PARTS = 20 };
+enum { ESCAPE = 27, REDRAW = 'L' - '@' };
 
 bool gm_key_is_enter(int key)
 {
@@ -52,24 +52,14 @@ static enum gm_key_result press_speed(const struct gm_press *press)
     return order(press, GM_ORDER_SPEED, press->key == ']' ? 1 : -1);
 }
 
-static enum gm_key_result press_scrub(const struct gm_press *press)
+static enum gm_key_result press_past(const struct gm_press *press)
 {
-    const struct gm_shot *shot = press->shot;
-    double part = shot->reach / SCRUB_PARTS, to = 0;
-    switch (press->key) {
-    case KEY_PPAGE:
-        to = shot->gone - part;
-        break;
-    case KEY_NPAGE:
-        to = shot->gone + part;
-        break;
-    case KEY_END:
-        to = shot->reach;
-        break;
-    default:
-        break;
-    }
-    return gm_key_order(press, (struct gm_order){.kind = GM_ORDER_VISIT, .value = to});
+    bool ends = press->key == KEY_HOME || press->key == KEY_END;
+    return gm_key_order(press, (struct gm_order){.kind = GM_ORDER_VISIT,
+                                                 .amount = ends                      ? 0
+                                                           : press->key == KEY_PPAGE ? -1
+                                                                                     : 1,
+                                                 .value = press->key == KEY_END ? press->shot->reach : 0});
 }
 
 static enum gm_key_result press_turn(const struct gm_press *press)
@@ -242,7 +232,7 @@ const struct gm_key_row gm_key_rows[] = {
      NULL,
      0,
      "through the snapshots of the past; Home, End: the first, the last",
-     press_scrub},
+     press_past},
     {{'B'}, "B", "back in time", 14, "turn time, dt to −dt, and see which scheme returns", press_turn},
     {{'>'}, ">", "ahead", 15, "run ahead to a time, without drawing", press_ahead},
     {{'r'}, "r", "restart", 8, "restart", press_restart},

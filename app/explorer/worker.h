@@ -16,7 +16,7 @@ enum gm_order_kind {
     GM_ORDER_FORWARD,
     GM_ORDER_BACK,
     GM_ORDER_TURN,  /* time the other way */
-    GM_ORDER_VISIT, /* the snapshots at `value` of model time gone through */
+    GM_ORDER_VISIT, /* the snapshots at `value` of model time gone through; amount: or a part up or down */
     GM_ORDER_AHEAD, /* run ahead to the time `text`, without shots */
     GM_ORDER_HALT,  /* no longer */
     GM_ORDER_SAVE,  /* the picture as a PNG */

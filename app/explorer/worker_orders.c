@@ -81,6 +81,15 @@ static bool run_ahead(struct gm_worker *worker, const char *text, char *message)
     return true;
 }
 
+/* Where in the past an order goes; one up or down is a twentieth, or at least to the next snapshot. */
+static double moment_of(const struct gm_session *session, const struct gm_order *order)
+{
+    double gone = gm_session_gone(session), part = gm_session_reach(session) / 20;
+    return order->amount == 0  ? order->value
+           : order->amount < 0 ? gone - part
+                               : fmax(gone + part, gm_session_after(session, gone));
+}
+
 static bool turn(struct gm_worker *worker, char *message)
 {
     struct gm_session *session = &worker->session;
@@ -210,7 +219,7 @@ void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order)
         break;
     case GM_ORDER_VISIT:
         worker->paused = true;
-        ok = gm_session_visit(session, order->value, message);
+        ok = gm_session_visit(session, moment_of(session, order), message);
         gm_agenda_rewind(&worker->agenda, gm_session_time(session));
         break;
     case GM_ORDER_AHEAD:
