@@ -101,6 +101,7 @@ static void offer_keys(const struct stem *stem, const struct gm_scene *scene)
     }
     offer_key(stem, "steps", "number of steps, instead of until");
     offer_key(stem, "zip", "yes: lists are paired");
+    offer_key(stem, "overlay", "yes: all lanes in one panel");
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         if (!gm_scene_parameter(scene, gm_settings_parameters[i].key)) {
             offer_key(stem, gm_settings_parameters[i].key, gm_settings_parameters[i].help);
@@ -128,7 +129,8 @@ static void offer_assignment(const char *word, const struct gm_scene *scene)
     const struct gm_parameter *row = parameter_of(scene, word);
     if (strncmp(word, "scheme=", 7) == 0) {
         offer_schemes(&stem, scene);
-    } else if (strncmp(word, "zip=", 4) == 0 || (row && row->type == GM_BOOLEAN)) {
+    } else if (strncmp(word, "zip=", 4) == 0 || strncmp(word, "overlay=", 8) == 0 ||
+               (row && row->type == GM_BOOLEAN)) {
         offer(&stem, "no", "");
         offer(&stem, "yes", "");
     } else if (row && row->type == GM_CHOICE) {

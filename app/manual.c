@@ -139,6 +139,8 @@ static void put_words(void)
     put_line("instead of until: so many steps");
     put_term("zip=yes", "");
     put_line("pairs lists of equal length instead of multiplying them");
+    put_term("overlay=yes", "");
+    put_line("puts all lanes, at most six, into one panel");
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         put_parameter(&gm_settings_parameters[i]);
     }
