@@ -112,7 +112,8 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, char *te
     } else if (face->explaining && parameter) {
         explain(parameter, text, size);
     } else {
-        snprintf(text, size, "%s", shot->scene->watch ? shot->scene->watch : "");
+        /* a tour says itself what to watch */
+        snprintf(text, size, "%s", shot->scene->watch && !face->guide ? shot->scene->watch : "");
     }
 }
 
