@@ -17,7 +17,8 @@ static bool write_csv(const struct gm_work_table *table, const char *path)
     if (!csv) {
         return false;
     }
-    fprintf(csv, "scene,scheme,order,dt,steps,t,status,%s,seconds,evaluations,solves\n", table->measure);
+    fprintf(csv, "scene,scheme,order,dt,steps,t,status,%s,seconds,evaluations,solves%s%s\n", table->measure,
+            table->ladder ? "," : "", table->ladder ? table->ladder->key : "");
     for (size_t i = 0; i < table->line_count; i++) {
         const struct gm_work_line *line = &table->lines[i];
         for (size_t k = 0; k < line->count; k++) {
@@ -27,7 +28,11 @@ static bool write_csv(const struct gm_work_table *table, const char *path)
             if (isfinite(point->error)) {
                 fprintf(csv, "%.17g", point->error);
             }
-            fprintf(csv, ",%.6g,%.0f,%.0f\n", point->seconds, point->evaluations, point->solves);
+            fprintf(csv, ",%.6g,%.0f,%.0f", point->seconds, point->evaluations, point->solves);
+            if (table->ladder) {
+                fprintf(csv, ",%.17g", point->rung);
+            }
+            fputc('\n', csv);
         }
     }
     const bool failed = ferror(csv) != 0;
@@ -48,6 +53,10 @@ static void print_table(const struct gm_work_table *table)
     const struct gm_timing *timing = table->request.lanes[0].parameters;
     char sentence[512];
     printf("%s, %s at t = %.6g", table->request.scene->name, table->measure, timing->until);
+    if (table->ladder) {
+        printf(", dt = %.6g, %s = %.6g to %.6g", timing->dt, table->ladder->key, table->steps[0],
+               table->steps[table->step_count - 1]);
+    }
     printf(table->reference[0] ? " against %s\n" : "\n", table->reference);
     printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", "evaluations for an error of",
            "least", "scheme");

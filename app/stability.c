@@ -184,13 +184,6 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, struct 
     }
 }
 
-static void set_parameter(const struct gm_parameter *row, void *own, double value)
-{
-    char text[64];
-    snprintf(text, sizeof text, "%.17g", value);
-    gm_parameter_set(row, own, text);
-}
-
 bool gm_stability_measure(struct gm_stability_table *table, char *message)
 {
     const struct gm_stability *plan = table->plan;
@@ -205,7 +198,7 @@ bool gm_stability_measure(struct gm_stability_table *table, char *message)
             }
             for (size_t v = 0; v < plan->value_count && !gm_interrupted; v++) {
                 struct gm_cell *cell = &table->maps[i].cells[s * plan->value_count + v];
-                set_parameter(table->parameter, spec->parameters, plan->values[v]);
+                gm_parameter_set_number(table->parameter, spec->parameters, plan->values[v]);
                 timing->dt = cell->dt = plan->steps[s] * plan->unit(spec->parameters);
                 struct gm_lane *lane = gm_request_open_lane(&table->request, i, message);
                 if (!lane) {

@@ -51,6 +51,14 @@ static bool overridden(const struct gm_options *options, const char *word)
     return false;
 }
 
+/* Whether the user gave this key. */
+static bool names(const struct gm_options *options, const char *key)
+{
+    char word[64];
+    snprintf(word, sizeof word, "%s=", key);
+    return overridden(options, word);
+}
+
 /* The scene, its arguments for this purpose unless overridden, and the user's words. */
 static bool parse(struct gm_request *request, const struct gm_options *options, char *message)
 {
@@ -115,9 +123,14 @@ static bool choose_schemes(struct gm_work_table *table, bool named, char *messag
     }
     for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
         const struct gm_work *work = request->scene->work;
+        bool entrant = !work || !work->schemes;
+        for (size_t k = 0; !entrant && work->schemes[k]; k++) {
+            entrant = strcmp(work->schemes[k], gm_scheme_at(i)->name) == 0;
+        }
         const bool exact = work && work->is_exact && strcmp(work->is_exact, gm_scheme_at(i)->name) == 0 &&
                            strcmp(table->measure, solution_error) != 0;
-        if (!exact && gm_scene_fits(request->scene, request->lanes[0].parameters, gm_scheme_at(i))) {
+        if (entrant && !exact &&
+            gm_scene_fits(request->scene, request->lanes[0].parameters, gm_scheme_at(i))) {
             add_scheme(table, gm_scheme_at(i));
         }
     }
@@ -130,11 +143,14 @@ static int falling(const void *a, const void *b)
     return (*x < *y) - (*x > *y);
 }
 
-static bool choose_steps(struct gm_work_table *table, bool given, char *message)
+static bool choose_steps(struct gm_work_table *table, const struct gm_options *options, char *message)
 {
     const struct gm_request *request = &table->request;
     const struct gm_work *work = request->scene->work;
     const struct gm_timing *timing = timing_of(table);
+    const bool given = overridden(options, "dt=");
+    const struct gm_parameter *ladder =
+        work && work->ladder && !given ? gm_scene_parameter(request->scene, work->ladder) : NULL;
     const size_t most = given ? request->count : 64;
     table->steps = calloc(most, sizeof *table->steps);
     if (!table->steps) {
@@ -154,8 +170,14 @@ static bool choose_steps(struct gm_work_table *table, bool given, char *message)
         qsort(table->steps, table->step_count, sizeof *table->steps, falling);
         return true;
     }
-    const double coarsest = work ? work->coarsest : 4 * timing->dt;
-    const int halvings = work ? work->halvings : 7;
+    if (ladder && !names(options, ladder->key)) {
+        table->ladder = ladder;
+        table->step_count = work->rung_count;
+        memcpy(table->steps, work->rungs, work->rung_count * sizeof *table->steps);
+        return true;
+    }
+    const double coarsest = work && work->coarsest > 0 ? work->coarsest : 4 * timing->dt;
+    const int halvings = work && work->coarsest > 0 ? work->halvings : 7;
     double steps = fmax(1, ceil(timing->until / coarsest - 1e-9));
     for (int i = 0; i <= halvings; i++, steps *= 2) {
         table->steps[table->step_count++] = timing->until / steps;
@@ -227,8 +249,7 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_options *options,
         gm_work_close(table);
         return refuse(message, "until is 0: there is nothing to measure");
     }
-    if (!choose_steps(table, overridden(options, "dt="), message) ||
-        !choose_measure(table, options->measure, message) ||
+    if (!choose_steps(table, options, message) || !choose_measure(table, options->measure, message) ||
         !choose_schemes(table, overridden(options, "scheme="), message)) {
         gm_work_close(table);
         return false;
@@ -248,16 +269,23 @@ void gm_work_close(struct gm_work_table *table)
     *table = (struct gm_work_table){0};
 }
 
-/* A lane of this scheme and step at its start. */
-static struct gm_lane *open_lane(const struct gm_work_table *table, const struct gm_scheme *scheme, double dt,
-                                 char *message)
+/* A lane of this scheme at its start, on this rung of the ladder. */
+static struct gm_lane *open_lane(const struct gm_work_table *table, const struct gm_scheme *scheme,
+                                 double rung, char *message)
 {
     struct gm_timing *timing = timing_of(table);
-    const double usual = timing->dt;
-    timing->dt = dt; /* the lane takes a copy */
-    struct gm_lane *lane =
+    const double dt = timing->dt, usual = table->ladder ? gm_parameter_get(table->ladder, timing) : 0;
+    if (table->ladder) {
+        gm_parameter_set_number(table->ladder, timing, rung);
+    } else {
+        timing->dt = rung;
+    }
+    struct gm_lane *lane = /* takes a copy of the parameters */
         gm_lane_open(table->request.scene, timing, &table->request.lanes[0].settings, scheme, message);
-    timing->dt = usual;
+    if (table->ladder) {
+        gm_parameter_set_number(table->ladder, timing, usual);
+    }
+    timing->dt = dt;
     return lane;
 }
 
@@ -366,17 +394,18 @@ static double error_of(const struct gm_work_table *table, const struct gm_lane *
     return NAN;
 }
 
-/* One scheme with one step. False with a sentence only if no lane could be opened. */
-static bool measure_point(const struct gm_work_table *table, const struct gm_scheme *scheme, double dt,
+/* One scheme on one rung. False with a sentence only if no lane could be opened. */
+static bool measure_point(const struct gm_work_table *table, const struct gm_scheme *scheme, double rung,
                           const double *reference, struct gm_work_point *point, char *message)
 {
     const bool own_time = scheme->family->own_time;
+    const double dt = table->ladder ? timing_of(table)->dt : rung;
     const long steps = own_time ? INT64_MAX : (long)round(timing_of(table)->until / dt);
     const bool follow = table->request.scene->follow > 0 && !reference;
-    *point = (struct gm_work_point){.dt = dt, .error = NAN, .seconds = INFINITY};
+    *point = (struct gm_work_point){.rung = rung, .dt = dt, .error = NAN, .seconds = INFINITY};
     double spent = 0;
     for (int repeat = 0; repeat < REPEATS && spent < enough_seconds && !gm_interrupted; repeat++) {
-        struct gm_lane *lane = open_lane(table, scheme, dt, message);
+        struct gm_lane *lane = open_lane(table, scheme, rung, message);
         if (!lane) {
             return false;
         }
@@ -399,7 +428,7 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
     }
     /* an observable that recalls the past: once more, looking on the way */
     if (follow && point->status == GM_OK && isfinite(point->error) && !gm_interrupted) {
-        struct gm_lane *lane = open_lane(table, scheme, dt, message);
+        struct gm_lane *lane = open_lane(table, scheme, rung, message);
         if (!lane) {
             return false;
         }
@@ -465,7 +494,9 @@ bool gm_work_measure(struct gm_work_table *table, char *message)
 
 double gm_work_cost(const struct gm_work_point *point, enum gm_work_cost cost)
 {
-    return cost == GM_COST_SECONDS ? point->seconds : point->evaluations;
+    return cost == GM_COST_SECONDS       ? point->seconds
+           : cost == GM_COST_EVALUATIONS ? point->evaluations
+                                         : point->rung;
 }
 
 double gm_work_price(const struct gm_work_line *line, double error, enum gm_work_cost cost)

@@ -7,6 +7,7 @@
 /* Work-precision: the error at the end against what it cost, for schemes and a ladder of time steps. */
 
 struct gm_work_point {
+    double rung;  /* of the ladder: the step, or the value of the parameter that it is of */
     double dt, t; /* the step, and the time reached */
     long steps;
     double error;   /* NAN where the run failed */
@@ -25,8 +26,9 @@ struct gm_work_table {
     struct gm_request request; /* its first lane has the parameters that all share */
     const char *measure;       /* "solution_error" or an observable's key */
     const char *measure_title;
-    char reference[96]; /* what the error is measured against, in words */
-    double *steps;      /* the ladder, falling */
+    char reference[96];                /* what the error is measured against, in words */
+    const struct gm_parameter *ladder; /* what the ladder is of; NULL: the step */
+    double *steps;                     /* the ladder: falling steps, or rungs from the coarsest mesh */
     size_t step_count;
     const struct gm_scheme **schemes;
     size_t scheme_count;
@@ -42,7 +44,7 @@ void gm_work_close(struct gm_work_table *table);
    what is finished stays. False with a sentence. */
 bool gm_work_measure(struct gm_work_table *table, char *message);
 
-enum gm_work_cost { GM_COST_SECONDS, GM_COST_EVALUATIONS };
+enum gm_work_cost { GM_COST_SECONDS, GM_COST_EVALUATIONS, GM_COST_RUNG };
 double gm_work_cost(const struct gm_work_point *point, enum gm_work_cost cost);
 
 /* What a scheme pays for this error, interpolated between two steps of its ladder; NAN if it does not reach

@@ -95,16 +95,16 @@ static void draw_cost(const struct gm_work_table *table, struct gm_picture *pict
     if (!points) {
         return;
     }
-    struct gm_panel *panel =
-        gm_panel_add(picture, GM_PLACE_GRAPH,
-                     cost == GM_COST_SECONDS ? "error against run time" : "error against evaluations");
+    const char *titles[] = {"error against run time", "error against evaluations", ""},
+               *labels[] = {"processor time, s", "evaluations of f or force", ""};
+    if (table->ladder) {
+        titles[GM_COST_RUNG] = gm_picture_text(picture, "error against %s", table->ladder->key);
+        labels[GM_COST_RUNG] = table->ladder->key;
+    }
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, titles[cost]);
     panel->axes = true;
     panel->title_role = GM_INK;
-    panel->x =
-        (struct gm_axis){.label = cost == GM_COST_SECONDS ? "processor time, s" : "evaluations of f or force",
-                         .scale = GM_LOG,
-                         .low = 1,
-                         .high = 0};
+    panel->x = (struct gm_axis){.label = labels[cost], .scale = GM_LOG, .low = 1, .high = 0};
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = 1, .high = 0};
     for (size_t i = 0; i < table->line_count; i++) {
         const size_t count = points_of(&table->lines[i], cost, points);
@@ -154,13 +154,18 @@ void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture)
     char sentence[512];
     picture->title = gm_picture_text(picture, "%s: what an accuracy costs", scene->title);
 
-    picture->subtitle =
-        gm_picture_text(picture, "%s at t = %.6g, %zu schemes%s", table->measure_title,
-                        ((const struct gm_timing *)table->request.lanes[0].parameters)->until,
-                        table->line_count, count < table->line_count ? ";  grey: those without a name" : "");
+    const char *ladder = table->ladder
+                             ? gm_picture_text(picture, ";  %s from %.6g to %.6g", table->ladder->key,
+                                               table->steps[0], table->steps[table->step_count - 1])
+                             : "";
+    picture->subtitle = gm_picture_text(picture, "%s at t = %.6g, %zu scheme%s%s%s", table->measure_title,
+                                        ((const struct gm_timing *)table->request.lanes[0].parameters)->until,
+                                        table->line_count, table->line_count == 1 ? "" : "s", ladder,
+                                        count < table->line_count ? ";  grey: those without a name" : "");
 
     picture->clock = "";
     picture->caption = gm_picture_text(picture, "%s", gm_work_sentence(table, sentence, sizeof sentence));
     draw_cost(table, picture, GM_COST_SECONDS, chosen, count);
-    draw_cost(table, picture, GM_COST_EVALUATIONS, chosen, count);
+    /* on every mesh the same steps are made */
+    draw_cost(table, picture, table->ladder ? GM_COST_RUNG : GM_COST_EVALUATIONS, chosen, count);
 }

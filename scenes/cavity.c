@@ -85,6 +85,7 @@ static const struct gm_observable observables[] = {
     GM_FLOWS_CHANGE,
     GM_FLOWS_ENERGY,
     GM_FLOWS_ENSTROPHY,
+    GM_FLOWS_SPEED,
     GM_FLOWS_DIVERGENCE,
     GM_FLOWS_TRIANGLES,
 };
@@ -220,6 +221,28 @@ static const char *const schemes[] = {"steady", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static double courant_time(const void *own)
+{
+    return gm_flows_courant_time(setup, own);
+}
+
+static const double reynolds_numbers[] = {100, 400, 1000, 3200, 10000};
+static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
+static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
+
+static const struct gm_stability stability = {
+    .arguments = "columns=32 rows=0 until=10",
+    .parameter = "reynolds",
+    .values = reynolds_numbers,
+    .value_count = COUNT(reynolds_numbers),
+    .label = "Courant number",
+    .unit = courant_time,
+    .steps = courant_numbers,
+    .step_count = COUNT(courant_numbers),
+    .kept = "speed_max",
+    .schemes = marching,
+};
+
 const struct gm_scene gm_scene_cavity = {
     .name = "cavity",
     .title = "A cavity driven by its lid",
@@ -233,6 +256,7 @@ const struct gm_scene gm_scene_cavity = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = COUNT(observables),
+    .stability = &stability,
     .setup = setup,
     .close = gm_flows_close,
     .start = gm_flows_start,

@@ -382,9 +382,9 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     double *points = gm_picture_memory(picture, 2 * (count + 1) * sizeof *points);
     const struct gm_scene *scene = lanes[0]->scene;
     for (int drawn = 0; points && drawn < 2; drawn++) {
-        for (size_t k = 0; look->errors[k]; k++) {
+        for (size_t k = 0; look->errors[k].observable; k++) {
             size_t series = 0;
-            while (strcmp(scene->observables[series].key, look->errors[k]) != 0) {
+            while (strcmp(scene->observables[series].key, look->errors[k].observable) != 0) {
                 series++;
             }
             size_t made = 0;
@@ -409,9 +409,9 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
                            points, made);
             const double *first = points, *last = points + 2 * (made - 1);
             const double slope = made > 1 ? log(first[1] / last[1]) / log(first[0] / last[0]) : NAN;
-            const char *name =
-                made > 1 ? gm_picture_text(picture, "%s, order %.2f", scene->observables[series].title, slope)
-                         : scene->observables[series].title;
+            const char *name = made > 1
+                                   ? gm_picture_text(picture, "%s, order %.2f", look->errors[k].name, slope)
+                                   : look->errors[k].name;
             gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(k), .alpha = 1, .width = 1},
                          first[0] * 1.04, first[1], GM_ANCHOR_LEFT, name);
         }

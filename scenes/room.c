@@ -144,6 +144,7 @@ static const struct gm_observable observables[] = {
     GM_FLOWS_DIVERGENCE,
     GM_FLOWS_ENERGY,
     GM_FLOWS_ENSTROPHY,
+    GM_FLOWS_SPEED,
     GM_FLOWS_CHANGE,
     GM_FLOWS_TRIANGLES,
 };
@@ -212,6 +213,28 @@ static const struct gm_figure figures[] = {
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static double courant_time(const void *own)
+{
+    return gm_flows_courant_time(setup, own);
+}
+
+static const double reynolds_numbers[] = {10, 30, 100, 300, 1000};
+static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
+static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
+
+static const struct gm_stability stability = {
+    .arguments = "rows=30 columns=0 tracers=0 until=2",
+    .parameter = "reynolds",
+    .values = reynolds_numbers,
+    .value_count = COUNT(reynolds_numbers),
+    .label = "Courant number",
+    .unit = courant_time,
+    .steps = courant_numbers,
+    .step_count = COUNT(courant_numbers),
+    .kept = "speed_max",
+    .schemes = marching,
+};
+
 const struct gm_scene gm_scene_room = {
     .name = "room",
     .title = "A polluted room",
@@ -227,6 +250,7 @@ const struct gm_scene gm_scene_room = {
     .observable_count = COUNT(observables),
     .figures = figures,
     .figure_count = COUNT(figures),
+    .stability = &stability,
     .setup = setup,
     .close = gm_flows_close,
     .start = gm_flows_start,

@@ -78,6 +78,11 @@ struct gm_work {
     const char *measure;   /* key of the observable that is the error; NULL: solution_error */
     double coarsest;       /* the largest step of the ladder, */
     int halvings;          /* halved so many times */
+    const char *ladder;    /* where the error is the mesh's: the key of the parameter that makes it finer, in
+                              place of the step; NULL: none */
+    const double *rungs;   /* its values, rung_count of them, from the coarsest mesh */
+    size_t rung_count;
+    const char *const *schemes; /* the entrants, NULL-terminated; NULL: every scheme that fits */
     const char *reference; /* the scheme of the reference run, where the problem has no exact solution; NULL:
                               the highest order that fits */
     const char *is_exact;  /* name of a scheme that solves the scene exactly where it has an exact solution,

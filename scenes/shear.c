@@ -4,6 +4,25 @@
 
 #include <math.h>
 
+const struct gm_look_error gm_shear_errors[] = {
+    {"psi_error", "ψ"},
+    {"theta_error", "θ"},
+    {"flux_error", "flux"},
+    {"velocity_error", "velocity"},
+    {"pressure_error", "total pressure"},
+    {NULL, NULL},
+};
+
+static const double rungs[] = {6, 9, 12, 18, 24, 36, 48, 72, 96};
+
+const struct gm_work gm_shear_work = {
+    .arguments = "dt=0.05 until=1",
+    .measure = "psi_error",
+    .ladder = "rows",
+    .rungs = rungs,
+    .rung_count = sizeof rungs / sizeof rungs[0],
+};
+
 static bool make(const struct gm_flows *own, const struct gm_shear *shear, struct gm_flow **made,
                  char *sentence)
 {
@@ -33,8 +52,10 @@ static bool make(const struct gm_flows *own, const struct gm_shear *shear, struc
                 drag * complex->length[complex->boundary_edge[b]] / 2;
         }
     }
-    flow->viscosity = flow->diffusivity = 1;
-    flow->reynolds = 1;
+    flow->viscosity = flow->diffusivity = 1 / own->reynolds;
+    flow->reynolds = own->reynolds;
+    flow->time_unit = own->reynolds;
+    flow->speed = 1;
     flow->scalar = true;
     flow->tracers = (size_t)own->tracers;
     *made = flow;

@@ -152,7 +152,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *la
                            own->domain == GM_DOMAIN_TORUS ? "torus" : "walls without friction");
 }
 
-static const char *const errors[] = {"psi_error", NULL};
+static const struct gm_look_error errors[] = {{"psi_error", "ψ"}, {NULL, NULL}};
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
@@ -173,6 +173,14 @@ static const char *const schemes[] = {"crank-nicolson", "semi-implicit", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static const struct gm_work work = {
+    .arguments = "columns=96 viscosity=0.05",
+    .measure = "psi_error",
+    .coarsest = 0.25,
+    .halvings = 6,
+    .schemes = schemes,
+};
+
 const struct gm_scene gm_scene_taylor_green = {
     .name = "taylor-green",
     .title = "Taylor–Green vortices",
@@ -186,6 +194,7 @@ const struct gm_scene gm_scene_taylor_green = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = COUNT(observables),
+    .work = &work,
     .setup = setup,
     .close = gm_flows_close,
     .start = start,
