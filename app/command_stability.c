@@ -12,45 +12,14 @@
 #include "app/region.h"
 #include "app/stability.h"
 
-static bool write_csv(const struct gm_stability_table *table, const char *path)
-{
-    const struct gm_stability *plan = table->plan;
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        return false;
-    }
-    fprintf(csv, "scene,scheme,%s,step,dt,verdict,status,t,ratio,error\n", plan->parameter);
-    for (size_t i = 0; i < table->count; i++) {
-        for (size_t k = 0; k < plan->step_count * plan->value_count; k++) {
-            const struct gm_cell *cell = &table->maps[i].cells[k];
-            if (cell->verdict == GM_UNTRIED) {
-                continue;
-            }
-            fprintf(csv, "%s,%s,%.17g,%.17g,%.17g,%s,%s,%.17g,", table->request.scene->name,
-                    table->maps[i].scheme->name, plan->values[k % plan->value_count],
-                    plan->steps[k / plan->value_count], cell->dt, gm_cell_word(cell),
-                    gm_status_name(cell->status), cell->t);
-            if (isfinite(cell->ratio)) {
-                fprintf(csv, "%.9g", cell->ratio);
-            }
-            fputc(',', csv);
-            if (isfinite(cell->error)) {
-                fprintf(csv, "%.9g", cell->error);
-            }
-            fputc('\n', csv);
-        }
-    }
-    const bool failed = ferror(csv) != 0;
-    return fclose(csv) == 0 && !failed;
-}
-
 static void print_table(const struct gm_stability_table *table)
 {
     const struct gm_stability *plan = table->plan;
     const struct gm_timing *timing = table->request.lanes[0].parameters;
-    printf(
-        "%s after t = %.6g: . bounded, L lost, G gained, W wrong, B blow-up, N no convergence, C step collapse\n",
-        table->request.scene->name, timing->until);
+    char letters[128];
+    gm_stability_letters(table, letters, sizeof letters);
+    printf("%s after t = %.6g: . bounded%s%s\n", table->request.scene->name, timing->until,
+           letters[0] ? ", " : "", letters);
     for (size_t i = 0; i < table->count; i++) {
         const struct gm_stability_map *map = &table->maps[i];
         printf("\n%-20s %s\n%12s", map->scheme->name, plan->parameter, plan->label);
@@ -96,7 +65,9 @@ int gm_command_stability(const struct gm_options *options)
     }
     gm_catch_interrupts();
     int status = GM_EXIT_OK;
-    if (!gm_stability_measure(&table, message)) {
+    const bool measured = gm_stability_measure(&table, &gm_terminal_listener, message);
+    gm_terminal_listener_clear();
+    if (!measured) {
         gm_complain("%s", message);
         status = GM_EXIT_USAGE;
     } else {
@@ -108,7 +79,7 @@ int gm_command_stability(const struct gm_options *options)
             !gm_chart_paint(&chart, &table, draw, message)) {
             gm_complain("%s", message);
             status = GM_EXIT_FILE;
-        } else if (!write_csv(&table, chart.csv)) {
+        } else if (!gm_stability_write(&table, chart.csv)) {
             gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
             status = GM_EXIT_FILE;
         }

@@ -11,34 +11,6 @@
 #include "app/drive.h"
 #include "app/work.h"
 
-static bool write_csv(const struct gm_work_table *table, const char *path)
-{
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        return false;
-    }
-    fprintf(csv, "scene,scheme,order,dt,steps,t,status,%s,seconds,evaluations,solves%s%s\n", table->measure,
-            table->ladder ? "," : "", table->ladder ? table->ladder->key : "");
-    for (size_t i = 0; i < table->line_count; i++) {
-        const struct gm_work_line *line = &table->lines[i];
-        for (size_t k = 0; k < line->count; k++) {
-            const struct gm_work_point *point = &line->points[k];
-            fprintf(csv, "%s,%s,%d,%.17g,%ld,%.17g,%s,", table->request.scene->name, line->scheme->name,
-                    line->scheme->order, point->dt, point->steps, point->t, gm_status_name(point->status));
-            if (isfinite(point->error)) {
-                fprintf(csv, "%.17g", point->error);
-            }
-            fprintf(csv, ",%.6g,%.0f,%.0f", point->seconds, point->evaluations, point->solves);
-            if (table->ladder) {
-                fprintf(csv, ",%.17g", point->rung);
-            }
-            fputc('\n', csv);
-        }
-    }
-    const bool failed = ferror(csv) != 0;
-    return fclose(csv) == 0 && !failed;
-}
-
 static void print_cell(double value)
 {
     if (isfinite(value)) {
@@ -53,16 +25,15 @@ static void print_table(const struct gm_work_table *table)
     const struct gm_timing *timing = table->request.lanes[0].parameters;
     char sentence[512];
     printf("%s, %s at t = %.6g", table->request.scene->name, table->measure, timing->until);
-    if (table->ladder) {
-        printf(", dt = %.6g, %s = %.6g to %.6g", timing->dt, table->ladder->key, table->steps[0],
-               table->steps[table->step_count - 1]);
-    }
     printf(table->reference[0] ? " against %s\n" : "\n", table->reference);
-    printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", "evaluations for an error of",
-           "least", "scheme");
+    const enum gm_work_cost second = gm_work_second_cost(table);
+    char heading[64];
+    snprintf(heading, sizeof heading, "%s for an error of",
+             table->resolution ? table->resolution->key : "evaluations");
+    printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", heading, "least", "scheme");
     for (int cost = 0; cost < 2; cost++) {
         for (size_t i = 0; i < 3; i++) {
-            printf(" %11.0e", gm_work_errors[i]);
+            printf(" %11.0e", table->errors[i]);
         }
     }
     printf(" %9s\n", "error");
@@ -71,10 +42,10 @@ static void print_table(const struct gm_work_table *table)
         double least = INFINITY;
         printf("%-26s", line->scheme->name);
         for (size_t k = 0; k < 3; k++) {
-            print_cell(1e3 * gm_work_price(line, gm_work_errors[k], GM_COST_SECONDS));
+            print_cell(1e3 * gm_work_price(line, table->errors[k], GM_COST_SECONDS));
         }
         for (size_t k = 0; k < 3; k++) {
-            print_cell(gm_work_price(line, gm_work_errors[k], GM_COST_EVALUATIONS));
+            print_cell(gm_work_price(line, table->errors[k], second));
         }
         for (size_t k = 0; k < line->count; k++) {
             least = fmin(least, line->points[k].error);
@@ -103,7 +74,9 @@ int gm_command_work_precision(const struct gm_options *options)
     }
     gm_catch_interrupts();
     int status = GM_EXIT_OK;
-    if (!gm_work_measure(&table, message) && !gm_interrupted) {
+    const bool measured = gm_work_measure(&table, &gm_terminal_listener, message);
+    gm_terminal_listener_clear();
+    if (!measured && !gm_interrupted) {
         gm_complain("%s", message);
         status = GM_EXIT_NUMERICAL;
     }
@@ -116,7 +89,7 @@ int gm_command_work_precision(const struct gm_options *options)
             !gm_chart_paint(&chart, &table, draw, message)) {
             gm_complain("%s", message);
             status = GM_EXIT_FILE;
-        } else if (!write_csv(&table, chart.csv)) {
+        } else if (!gm_work_write(&table, chart.csv)) {
             gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
             status = GM_EXIT_FILE;
         }

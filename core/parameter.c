@@ -257,7 +257,7 @@ enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, cons
     return GM_PARSED;
 }
 
-enum gm_parse gm_parameter_set_number(const struct gm_parameter *row, void *owner, double value)
+enum gm_parse gm_parameter_put(const struct gm_parameter *row, void *owner, double value)
 {
     char text[64];
     snprintf(text, sizeof text, "%.17g", value);

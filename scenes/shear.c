@@ -13,14 +13,17 @@ const struct gm_look_error gm_shear_errors[] = {
     {NULL, NULL},
 };
 
-static const double rungs[] = {6, 9, 12, 18, 24, 36, 48, 72, 96};
+static const double edges[] = {6, 12, 24, 48, 96}, errors[] = {1e-2, 1e-3, 1e-4};
 
 const struct gm_work gm_shear_work = {
-    .arguments = "dt=0.05 until=1",
+    .arguments = "until=1",
     .measure = "psi_error",
-    .ladder = "rows",
-    .rungs = rungs,
-    .rung_count = sizeof rungs / sizeof rungs[0],
+    .coarsest = 0.2,
+    .halvings = 4,
+    .resolution = "rows",
+    .resolutions = edges,
+    .resolution_count = sizeof edges / sizeof edges[0],
+    .errors = errors,
 };
 
 static bool make(const struct gm_flows *own, const struct gm_shear *shear, struct gm_flow **made,

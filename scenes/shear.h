@@ -15,8 +15,7 @@ void gm_shear_draw_profiles(const struct gm_lane *const *lanes, size_t count, st
                             const struct gm_profile *line, double (*velocity)(double),
                             double (*theta)(double));
 
-/* What the convergence pictures of couette and poiseuille show, and how their work is measured: the flows are
-   steady, so the ladder is of meshes. */
+/* What the convergence pictures of couette and poiseuille show, and how their work is measured. */
 extern const struct gm_look_error gm_shear_errors[];
 extern const struct gm_work gm_shear_work;
 

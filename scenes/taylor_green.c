@@ -173,11 +173,17 @@ static const char *const schemes[] = {"crank-nicolson", "semi-implicit", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static const double edges[] = {8, 16, 32, 64, 128}, accuracies[] = {1e-1, 1e-2, 1e-3};
+
 static const struct gm_work work = {
-    .arguments = "columns=96 viscosity=0.05",
+    .arguments = "viscosity=0.02",
     .measure = "psi_error",
     .coarsest = 0.25,
     .halvings = 6,
+    .resolution = "columns",
+    .resolutions = edges,
+    .resolution_count = COUNT(edges),
+    .errors = accuracies,
     .schemes = schemes,
 };
 

@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/eventfd.h>
 #include <sys/ioctl.h>
 #include <time.h>
@@ -14,19 +15,34 @@
 
 #include "app/explorer/console.h"
 #include "app/explorer/keys.h"
+#include "app/explorer/measure.h"
+#include "app/explorer/modes.h"
+#include "app/explorer/mouse.h"
 #include "app/explorer/writer.h"
 
-enum { FRAME_MILLISECONDS = 33, FIRST_SCHEMES = 3 };
+enum { FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66, FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
+
+/* The choice in the list of scenes rests for this long before it is looked at. */
+enum { REST_MILLISECONDS = 150 };
 
 struct explorer {
     struct gm_terminal terminal;
     struct gm_face face;
     struct gm_screen screen;
     struct gm_writer writer;
-    int wake;                 /* the worker's shots and all signals are announced here */
-    struct gm_worker *worker; /* NULL: the list of scenes is shown */
-    struct gm_shot *shot;
-    size_t choice;     /* in the list of scenes */
+    int wake; /* the worker's shots and all signals are announced here */
+    struct gm_worker *worker;
+    const struct gm_scene *scene; /* the worker's */
+    struct gm_shot *shot;         /* NULL: it has given none yet */
+    bool at_start;                /* the list of scenes is shown, and the worker is a look at one */
+    struct gm_start start;
+    char said[GM_MESSAGE]; /* why that look failed, or "" */
+    bool kept;             /* that look is a scene that was left and can be gone back to */
+    int64_t look_due;      /* when the chosen scene is looked at; -1: it is */
+    struct gm_mouse mouse;
+    struct gm_hit held; /* what the button went down on */
+    bool holding;
+    struct gm_measure measure;
     bool dirty;        /* the screen has to be composed again */
     bool fresh;        /* with a new picture */
     bool asked;        /* for a shot */
@@ -49,24 +65,114 @@ static void leave(struct explorer *explorer, int status)
     explorer->status = status;
 }
 
-static bool open_scene(struct explorer *explorer, const struct gm_request *request)
+/* A new worker owes its first shot. */
+static void expect_shot(struct explorer *explorer)
+{
+    explorer->shot = NULL;
+    explorer->asked = true;
+    explorer->next_shot = 0;
+}
+
+static bool open_request(struct explorer *explorer, const struct gm_request *request)
 {
     explorer->worker = gm_worker_open(request, explorer->terminal.theme, explorer->wake, explorer->message);
-    explorer->asked = true; /* a new worker owes its first shot */
-    explorer->next_shot = 0;
+    explorer->scene = request->scene;
+    expect_shot(explorer);
     return explorer->worker != NULL;
 }
 
-static bool open_by_name(struct explorer *explorer, const struct gm_scene *scene)
+static void abandon(struct explorer *explorer)
 {
-    struct gm_request request;
-    char *words[] = {(char *)scene->name};
-    if (!gm_request_parse(&request, 1, words, FIRST_SCHEMES, explorer->message)) {
-        return false;
+    if (explorer->worker) {
+        gm_worker_abandon(explorer->worker);
     }
-    bool ok = open_scene(explorer, &request);
-    gm_request_close(&request);
-    return ok;
+    explorer->worker = NULL;
+    explorer->scene = NULL;
+    explorer->said[0] = '\0';
+    expect_shot(explorer);
+}
+
+static void open_scene(struct explorer *explorer, const struct gm_scene *scene, bool preview)
+{
+    abandon(explorer);
+    explorer->worker = gm_worker_open_scene(scene, preview ? LOOK_SCHEMES : FIRST_SCHEMES, preview,
+                                            explorer->face.theme, explorer->wake, explorer->message);
+    explorer->scene = scene;
+    if (!explorer->worker) {
+        leave(explorer, GM_EXIT_USAGE);
+    }
+}
+
+/* ---- the list of scenes ---- */
+
+static const struct gm_scene *chosen_scene(const struct explorer *explorer)
+{
+    const struct gm_start *start = &explorer->start;
+    return start->choice < start->count ? start->found[start->choice] : NULL;
+}
+
+/* The chosen scene is looked at in a while, unless it is open already. */
+static void look_soon(struct explorer *explorer)
+{
+    explorer->look_due = chosen_scene(explorer) == explorer->scene ? -1 : milliseconds() + REST_MILLISECONDS;
+    explorer->dirty = true;
+}
+
+static void look(struct explorer *explorer)
+{
+    const struct gm_scene *scene = chosen_scene(explorer);
+    explorer->look_due = -1;
+    if (scene) {
+        explorer->kept = false;
+        open_scene(explorer, scene, true);
+    }
+}
+
+static void find_scenes(struct explorer *explorer)
+{
+    struct gm_start *start = &explorer->start;
+    const struct gm_scene *before = chosen_scene(explorer);
+    start->count = start->choice = 0;
+    for (size_t i = 0; i < gm_scene_count() && start->count < GM_START_SCENES; i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        const char *texts[] = {scene->name, scene->title, scene->blurb ? scene->blurb : "",
+                               scene->watch ? scene->watch : "", NULL};
+        if (gm_is_found(start->typed, texts)) {
+            start->choice = scene == before ? start->count : start->choice;
+            start->found[start->count++] = scene;
+        }
+    }
+    look_soon(explorer);
+}
+
+static void show_start(struct explorer *explorer)
+{
+    explorer->at_start = true;
+    explorer->start.typed[0] = '\0';
+    find_scenes(explorer);
+    for (size_t i = 0; i < explorer->start.count; i++) {
+        if (explorer->start.found[i] == explorer->scene) {
+            explorer->start.choice = i;
+        }
+    }
+    explorer->kept = explorer->scene != NULL;
+    look_soon(explorer);
+}
+
+/* Opens the chosen scene, or goes back to it where it was left. */
+static void enter(struct explorer *explorer)
+{
+    const struct gm_scene *scene = chosen_scene(explorer);
+    if (!scene) {
+        return;
+    }
+    explorer->at_start = false;
+    explorer->look_due = -1;
+    explorer->face.parameter = 0;
+    if (scene != explorer->scene || !explorer->kept) {
+        open_scene(explorer, scene, false);
+    }
+    explorer->dirty = explorer->fresh = true;
 }
 
 static void resize(struct explorer *explorer)
@@ -84,54 +190,215 @@ static void resize(struct explorer *explorer)
 
 static void press_at_start(struct explorer *explorer, int key)
 {
-    size_t count = gm_scene_count();
-    switch (key) {
-    case 'q':
-        leave(explorer, GM_EXIT_OK);
-        break;
-    case KEY_UP:
-        explorer->choice = (explorer->choice + count - 1) % count;
-        break;
-    case KEY_DOWN:
-        explorer->choice = (explorer->choice + 1) % count;
-        break;
-    case '\n':
-    case '\r':
-    case KEY_ENTER:
-        if (!open_by_name(explorer, gm_scene_at(explorer->choice))) {
-            leave(explorer, GM_EXIT_USAGE);
-        }
-        break;
-    default:
-        return;
-    }
+    struct gm_start *start = &explorer->start;
+    size_t count = start->count;
     explorer->dirty = true;
+    if (gm_key_is_enter(key)) {
+        enter(explorer);
+    } else if (gm_key_is_escape(key)) {
+        start->typed[0] = '\0';
+        find_scenes(explorer);
+    } else if (key == 'q' && !start->typed[0]) {
+        leave(explorer, GM_EXIT_OK);
+    } else if ((key == KEY_UP || key == KEY_DOWN) && count > 0) {
+        start->choice = (start->choice + (key == KEY_UP ? count - 1 : 1)) % count;
+        look_soon(explorer);
+    } else if ((key == KEY_HOME || key == KEY_END) && count > 0) {
+        start->choice = key == KEY_HOME ? 0 : count - 1;
+        look_soon(explorer);
+    } else if (gm_typed_key(start->typed, key)) {
+        find_scenes(explorer);
+    }
+}
+
+/* In other colours, or none. */
+static void repaint(struct explorer *explorer)
+{
+    struct gm_writer *writer = &explorer->writer;
+    writer->theme = explorer->face.theme;
+    writer->colours = explorer->face.monochrome ? GM_COLOURS_NONE : explorer->terminal.colours;
+    gm_writer_forget(writer);
+    explorer->dirty = explorer->fresh = true;
 }
 
 static void press(struct explorer *explorer, int key)
 {
-    if (!explorer->worker) {
+    if (explorer->at_start) {
         press_at_start(explorer, key);
         return;
     }
     if (!explorer->shot) { /* before the first picture there is only leaving */
         if (key == 'q') {
             leave(explorer, GM_EXIT_OK);
+        } else if (key == 'l') {
+            show_start(explorer);
         }
         return;
     }
-    switch (gm_key_press(key, &explorer->face, explorer->shot, explorer->worker, explorer->terminal.utf8)) {
+    const struct gm_press one = {key, &explorer->face, explorer->shot, explorer->worker,
+                                 explorer->terminal.utf8};
+    switch (gm_key_press(&one)) {
     case GM_KEY_LEAVE:
         leave(explorer, GM_EXIT_OK);
         break;
     case GM_KEY_REPAINT:
         resize(explorer);
         break;
+    case GM_KEY_THEME:
+        repaint(explorer);
+        break;
+    case GM_KEY_SCENES:
+        show_start(explorer);
+        break;
     case GM_KEY_FACE:
     case GM_KEY_ORDER:
         explorer->dirty = true;
         break;
     case GM_KEY_IGNORED:
+        break;
+    }
+}
+
+/* ---- the mouse ---- */
+
+/* The part of a hit's width that a column stands for, 0 to 1. */
+static double part_of(const struct gm_hit *hit, int column)
+{
+    double part = hit->width > 1 ? (double)(column - hit->column) / (hit->width - 1) : 0;
+    return part < 0 ? 0 : part > 1 ? 1 : part;
+}
+
+/* Sliders follow the button while it is down. */
+static void drag(struct explorer *explorer, int column)
+{
+    const struct gm_shot *shot = explorer->shot;
+    struct gm_order order = {.value = part_of(&explorer->held, column)};
+    if (!shot) {
+        return;
+    }
+    if (explorer->held.kind == GM_HIT_PAST) {
+        order.kind = GM_ORDER_VISIT;
+        order.value *= shot->reach;
+    } else if (explorer->held.kind == GM_HIT_SLIDER && explorer->held.index < shot->parameter_count) {
+        order.kind = GM_ORDER_SLIDE;
+        order.row = shot->parameters[explorer->held.index].row;
+        order.of_scheme = shot->parameters[explorer->held.index].of_scheme;
+    } else {
+        return;
+    }
+    gm_worker_order(explorer->worker, order);
+}
+
+static void click_scheme(struct explorer *explorer, const struct gm_scheme *scheme)
+{
+    bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
+    explorer->face.choosing = GM_CHOOSE_NOTHING;
+    gm_worker_order(explorer->worker,
+                    (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
+}
+
+/* A choice has no slider: a click takes the next one. */
+static void click_parameter(struct explorer *explorer, size_t index)
+{
+    const struct gm_shot_parameter *parameter = &explorer->shot->parameters[index];
+    bool again = explorer->face.parameter == index;
+    explorer->face.parameter = index;
+    explorer->face.explaining = true;
+    if (again && parameter->position < 0) {
+        gm_worker_order(explorer->worker, (struct gm_order){.kind = GM_ORDER_MOVE,
+                                                            .amount = 1,
+                                                            .row = parameter->row,
+                                                            .of_scheme = parameter->of_scheme});
+    }
+}
+
+static void click_picture(struct explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_order order = {.kind = GM_ORDER_POINT};
+    const struct gm_screen *screen = &explorer->screen;
+    if (explorer->shot->scene->point &&
+        gm_cells_locate(&screen->picture, explorer->shot->picture, screen->blocks,
+                        event->column - screen->picture_column, event->row - screen->picture_row, &order.x,
+                        &order.y)) {
+        gm_worker_order(explorer->worker, order);
+    }
+}
+
+static void click(struct explorer *explorer, const struct gm_mouse_event *event)
+{
+    const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    explorer->holding = hit != NULL;
+    if (!hit) {
+        return;
+    }
+    explorer->held = *hit;
+    if (hit->kind == GM_HIT_KEY) {
+        press(explorer, (int)hit->index);
+        return;
+    }
+    if (hit->kind == GM_HIT_SCENE) {
+        if (explorer->start.choice == hit->index) {
+            enter(explorer);
+        } else {
+            explorer->start.choice = hit->index;
+            look_soon(explorer);
+        }
+        return;
+    }
+    if (explorer->at_start || !explorer->shot) {
+        return;
+    }
+    explorer->face.read = explorer->shot->message_number;
+    switch (hit->kind) {
+    case GM_HIT_LANE:
+        gm_worker_order(explorer->worker,
+                        (struct gm_order){.kind = GM_ORDER_SELECT, .value = (double)hit->index});
+        break;
+    case GM_HIT_SCHEME:
+        click_scheme(explorer, hit->scheme);
+        break;
+    case GM_HIT_SLIDER:
+        explorer->face.parameter = hit->index;
+        explorer->face.explaining = true;
+        drag(explorer, event->column);
+        break;
+    case GM_HIT_PARAMETER:
+        click_parameter(explorer, hit->index);
+        break;
+    case GM_HIT_PAST:
+        drag(explorer, event->column);
+        break;
+    case GM_HIT_PICTURE:
+        click_picture(explorer, event);
+        break;
+    case GM_HIT_KEY:
+    case GM_HIT_SCENE:
+        break;
+    }
+}
+
+static void point(struct explorer *explorer, const struct gm_mouse_event *event)
+{
+    bool lists = explorer->at_start || explorer->face.page != GM_PAGE_SCENE ||
+                 explorer->face.choosing != GM_CHOOSE_NOTHING;
+    explorer->dirty = true;
+    switch (event->kind) {
+    case GM_MOUSE_PRESS:
+        click(explorer, event);
+        break;
+    case GM_MOUSE_DRAG:
+        if (explorer->holding && !explorer->at_start) {
+            drag(explorer, event->column);
+        }
+        break;
+    case GM_MOUSE_RELEASE:
+        explorer->holding = false;
+        break;
+    case GM_MOUSE_UP:
+        press(explorer, lists ? KEY_UP : ']');
+        break;
+    case GM_MOUSE_DOWN:
+        press(explorer, lists ? KEY_DOWN : '[');
         break;
     }
 }
@@ -144,7 +411,13 @@ static void read_keys(struct explorer *explorer)
         return;
     }
     for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
-        press(explorer, key);
+        struct gm_mouse_event event;
+        enum gm_mouse_result result = gm_mouse_feed(&explorer->mouse, key, &event);
+        if (result == GM_MOUSE_NOT) {
+            press(explorer, key);
+        } else if (result == GM_MOUSE_EVENT) {
+            point(explorer, &event);
+        }
     }
 }
 
@@ -176,40 +449,71 @@ static void read_news(struct explorer *explorer)
     if (shot) {
         explorer->shot = shot;
         explorer->asked = false;
-        explorer->next_shot = milliseconds() + FRAME_MILLISECONDS;
-        explorer->dirty = explorer->fresh = true;
+        explorer->next_shot = milliseconds() + (explorer->at_start ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
+        explorer->dirty = true;
+        explorer->fresh = explorer->fresh || shot->drawn;
+    } else if (explorer->worker && !explorer->shot && !explorer->said[0] &&
+               gm_worker_failed(explorer->worker, explorer->said)) {
+        explorer->dirty = true;
+        if (!explorer->at_start) {
+            show_start(explorer);
+        }
     }
 }
 
 /* ---- output ---- */
 
+/* A page about a scheme wants it measured. */
+static void ask_measure(struct explorer *explorer)
+{
+    struct gm_face *face = &explorer->face;
+    if (face->page == GM_PAGE_HELP) {
+        face->explained = explorer->shot->lanes[explorer->shot->selected].scheme;
+    }
+    if (face->page != GM_PAGE_SCENE) {
+        gm_measure_ask(&explorer->measure, face->explained);
+        face->measured = gm_measure_text(&explorer->measure);
+    }
+}
+
 static void draw(struct explorer *explorer)
 {
-    if (!explorer->worker) {
-        gm_screen_draw_start(&explorer->screen, &explorer->face, explorer->choice);
+    struct gm_screen *screen = &explorer->screen;
+    if (explorer->at_start) {
+        bool looked = chosen_scene(explorer) == explorer->scene;
+        gm_screen_draw_start(screen, &explorer->face, &explorer->start, looked ? explorer->shot : NULL,
+                             explorer->fresh, looked ? explorer->said : "");
     } else if (explorer->shot) {
-        gm_screen_draw(&explorer->screen, &explorer->face, explorer->shot, explorer->fresh);
+        ask_measure(explorer);
+        gm_screen_draw(screen, &explorer->face, explorer->shot, explorer->fresh);
     } else {
         return;
     }
     explorer->dirty = explorer->fresh = false;
-    gm_writer_draw(&explorer->writer, &explorer->screen.cells);
+    gm_writer_draw(&explorer->writer, &screen->cells);
 }
 
 /* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to
    wait for input, in milliseconds; -1: as long as it takes. */
 static int output(struct explorer *explorer)
 {
+    int64_t now = milliseconds();
+    if (explorer->at_start && explorer->look_due >= 0 && explorer->look_due <= now) {
+        look(explorer);
+    }
     if (gm_writer_idle(&explorer->writer) && explorer->dirty) {
         draw(explorer);
     }
     if (!gm_writer_send(&explorer->writer)) {
         leave(explorer, GM_EXIT_FILE);
     }
+    if (explorer->at_start && explorer->look_due >= 0) {
+        return (int)(explorer->look_due - now);
+    }
     if (!explorer->worker || explorer->asked || !gm_writer_idle(&explorer->writer)) {
         return -1;
     }
-    int64_t wait = explorer->next_shot - milliseconds();
+    int64_t wait = explorer->next_shot - now;
     if (wait > 0) {
         return (int)wait;
     }
@@ -220,7 +524,7 @@ static int output(struct explorer *explorer)
 
 static void run(struct explorer *explorer)
 {
-    enum { KEYS, NEWS, SCREEN, COUNT };
+    enum { KEYS, NEWS, SCREEN, MEASURE, COUNT };
     resize(explorer);
     while (!explorer->leave) {
         int wait = output(explorer);
@@ -229,6 +533,7 @@ static void run(struct explorer *explorer)
             [NEWS] = {.fd = explorer->wake, .events = POLLIN},
             [SCREEN] = {.fd = gm_writer_idle(&explorer->writer) ? -1 : explorer->writer.fd,
                         .events = POLLOUT},
+            [MEASURE] = {.fd = explorer->measure.fd, .events = POLLIN},
         };
         if (explorer->leave) {
             break;
@@ -242,6 +547,9 @@ static void run(struct explorer *explorer)
         if (watched[NEWS].revents) {
             read_news(explorer);
         }
+        if (watched[MEASURE].revents && gm_measure_read(&explorer->measure)) {
+            explorer->dirty = true;
+        }
         if (watched[KEYS].revents & POLLIN) {
             read_keys(explorer);
         } else if (watched[KEYS].revents) {
@@ -252,7 +560,7 @@ static void run(struct explorer *explorer)
 
 int gm_explorer(const struct gm_request *request)
 {
-    struct explorer explorer = {.wake = -1};
+    struct explorer explorer = {.wake = -1, .look_due = -1, .measure = {.fd = -1}};
     if (!gm_terminal_detect(&explorer.terminal, explorer.message) ||
         !gm_terminal_serves(&explorer.terminal, explorer.message)) {
         fprintf(stderr, "geomint: %s\n", explorer.message);
@@ -260,16 +568,18 @@ int gm_explorer(const struct gm_request *request)
     }
     explorer.face = (struct gm_face){.blocks = explorer.terminal.blocks,
                                      .theme = explorer.terminal.theme,
-                                     .few_colours = explorer.terminal.colours < GM_COLOURS_256};
+                                     .few_colours = explorer.terminal.colours < GM_COLOURS_256,
+                                     .monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
+                                     .only_monochrome = explorer.terminal.colours == GM_COLOURS_NONE};
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     /* The lanes are opened before the terminal is taken over: a mistake is best read in the shell. */
     bool ok = explorer.wake >= 0;
     if (!ok) {
         snprintf(explorer.message, GM_MESSAGE, "The system has no eventfd to spare.");
     } else if (request && request->scene) {
-        ok = open_scene(&explorer, request);
-    } else if (gm_scene_count() == 1) {
-        ok = open_by_name(&explorer, gm_scene_at(0));
+        ok = open_request(&explorer, request);
+    } else {
+        show_start(&explorer);
     }
     ok = ok && gm_console_open(explorer.wake, explorer.message);
     int number = 0;
@@ -279,6 +589,7 @@ int gm_explorer(const struct gm_request *request)
         gm_writer_close(&explorer.writer);
     }
     gm_console_close();
+    gm_measure_close(&explorer.measure);
     gm_worker_close(explorer.worker);
     gm_screen_close(&explorer.screen);
     if (explorer.wake >= 0) {
