@@ -113,6 +113,7 @@ struct gm_picture {
     const char *clock;    /* top right */
     const char *caption;  /* a sentence along the bottom; "" for none */
     size_t state_columns; /* of the grid of states; 0: as many as make them largest */
+    bool graphs_below;    /* graphs may stand in a row under the states, where these are larger so */
     struct gm_panel *first, *last;
     struct gm_arena *arena;
 };

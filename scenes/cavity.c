@@ -148,10 +148,10 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
 
 /* u along the vertical line and v along the horizontal one; Ghia's points in red. */
 static void draw_line(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                      bool vertical)
+                      enum gm_place place, bool vertical)
 {
     enum { POINTS = 97 };
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+    struct gm_panel *panel = gm_panel_add(picture, place, "");
     panel->axes = true;
     panel->title_role = GM_INK;
     double points[2 * POINTS];
@@ -184,18 +184,20 @@ static void draw_line(struct gm_picture *picture, const struct gm_lane *const *l
     }
 }
 
-static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                     enum gm_place place)
 {
-    draw_line(picture, lanes, count, true);
-    draw_line(picture, lanes, count, false);
+    draw_line(picture, lanes, count, place, true);
+    draw_line(picture, lanes, count, place, false);
     picture->caption = "Red: Ghia, Ghia & Shin (1982).";
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_flows *own = lane->parameters;
-    return gm_picture_text(picture, "Reynolds number %.6g,  %zu triangles,  %s", own->reynolds,
-                           lane->problem.flow->complex->triangles, lane->scheme->title);
+    return gm_picture_text(
+        picture, "%s%s",
+        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
+        gm_flows_mesh_and_scheme(picture, lanes, count));
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)

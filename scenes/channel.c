@@ -167,17 +167,18 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
     gm_flows_write_profile(view, front, &whole, stream);
 }
 
-static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                     enum gm_place place)
 {
-    gm_shear_draw_profiles(lanes, count, picture, &line, velocity, theta);
+    gm_shear_draw_profiles(lanes, count, picture, place, &line, velocity, theta);
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_flows *own = lane->parameters;
-    return gm_picture_text(picture, "viscosity %.6g,  %zu triangles,  %s%s", own->viscosity,
-                           lane->problem.flow->complex->triangles, lane->scheme->title,
-                           own->show == GM_SHOW_PROFILES ? ",  profiles at x = 3 L/4" : "");
+    return gm_picture_text(
+        picture, "%s%s,  profiles at x = 3 L/4",
+        gm_flows_common(picture, lanes, count, "viscosity", offsetof(struct gm_flows, viscosity)),
+        gm_flows_mesh_and_scheme(picture, lanes, count));
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
@@ -189,7 +190,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .scalar_high = hot,
         .vorticity_range = 4,
         .speed_high = 1,
+        .scalar_name = "temperature θ",
         .profiles = profiles,
+        .profiles_below = true,
     };
     gm_flows_draw(lanes, count, picture, &look);
 }

@@ -53,16 +53,18 @@ static double height(double y)
     return y;
 }
 
-static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                     enum gm_place place)
 {
-    gm_shear_draw_profiles(lanes, count, picture, &middle, velocity, height);
+    gm_shear_draw_profiles(lanes, count, picture, place, &middle, velocity, height);
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    return gm_picture_text(picture, "Reynolds number %.6g,  %zu triangles,  %s",
-                           ((const struct gm_flows *)lane->parameters)->reynolds,
-                           lane->problem.flow->complex->triangles, lane->scheme->title);
+    return gm_picture_text(
+        picture, "%s%s",
+        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
+        gm_flows_mesh_and_scheme(picture, lanes, count));
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)

@@ -169,20 +169,31 @@ double gm_flows_mean_edge(const struct gm_view *view);
 /* What a scene's picture shows besides the field. */
 struct gm_look {
     const char *title;
-    const char *(*subtitle)(struct gm_picture *picture, const struct gm_lane *lane);
-    const char *clock_unit; /* after the clock's time; "" */
-    double scalar_high;     /* the scalar's range; 0: inlet_scalar */
-    double vorticity_range; /* what the colours end at */
+    const char *(*subtitle)(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count);
+    const char *clock_unit;  /* after the clock's time; "" */
+    double scalar_high;      /* the scalar's range; 0: inlet_scalar */
+    const char *scalar_name; /* beside its colours; NULL: "concentration θ" */
+    double vorticity_range;  /* what the colours end at */
     double speed_high;
     const double *levels; /* of psi, where they are not chosen by the flow through; NULL */
     size_t level_count;
     const char *graphs[2]; /* observables */
     double graph_low[2], graph_high[2];
-    void (*profiles)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    void (*profiles)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                     enum gm_place place);
+    bool profiles_below; /* the field, where there are no graphs over time */
     const struct gm_look_error {
         const char *observable, *name;
     } * errors; /* of the convergence picture, ended by NULL */
 };
+/* "NAME VALUE,  " of the real parameter at this offset of struct gm_flows; "" where lanes differ in it: then
+   their panels tell. */
+const char *gm_flows_common(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                            const char *name, size_t offset);
+/* "6600 triangles,  semi-implicit"; the scheme where it is the same in all lanes */
+const char *gm_flows_mesh_and_scheme(struct gm_picture *picture, const struct gm_lane *const *lanes,
+                                     size_t count);
+
 void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                    const struct gm_look *look);
 

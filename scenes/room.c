@@ -69,7 +69,11 @@ static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet,
         return NULL;
     }
     const long in = gm_flows_group(&mesh, "inlet", own->inlet, sentence);
-    const long out = in ? gm_flows_group(&mesh, "outlet", outlet, sentence) : 0;
+    long out = in ? gm_flows_group(&mesh, "outlet", outlet, sentence) : 0;
+    if (in && in == out) {
+        snprintf(sentence, GM_SENTENCE, "inlet and outlet are one group, \"%.60s\"", outlet);
+        out = 0;
+    }
     struct gm_flow *flow = NULL;
     if (in && out) {
         const struct gm_complex *complex = mesh.complex;
@@ -167,12 +171,13 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
     }
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_flows *own = lane->parameters;
-    return gm_picture_text(picture, "Reynolds number %.6g,  Schmidt number %.6g,  %zu triangles,  %s",
-                           own->reynolds, own->schmidt, lane->problem.flow->complex->triangles,
-                           lane->scheme->title);
+    return gm_picture_text(
+        picture, "%s%s%s",
+        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
+        gm_flows_common(picture, lanes, count, "Schmidt number", offsetof(struct gm_flows, schmidt)),
+        gm_flows_mesh_and_scheme(picture, lanes, count));
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)

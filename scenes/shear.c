@@ -77,11 +77,11 @@ bool gm_shear_setup(const void *parameters, const struct gm_shear *shear, const 
 }
 
 static void draw_profile(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                         const struct gm_profile *line, bool scalar, double (*exact)(double),
-                         const char *label)
+                         enum gm_place place, const struct gm_profile *line, bool scalar,
+                         double (*exact)(double), const char *label)
 {
     enum { POINTS = 65 };
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+    struct gm_panel *panel = gm_panel_add(picture, place, "");
     double points[2 * POINTS];
     panel->axes = true;
     panel->x = (struct gm_axis){.label = label, .low = 1, .high = 0};
@@ -123,9 +123,10 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
 }
 
 void gm_shear_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
-                            const struct gm_profile *line, double (*velocity)(double),
+                            enum gm_place place, const struct gm_profile *line, double (*velocity)(double),
                             double (*theta)(double))
 {
-    draw_profile(picture, lanes, count, line, false, velocity, "u");
-    draw_profile(picture, lanes, count, line, true, theta, "θ");
+    draw_profile(picture, lanes, count, place, line, false, velocity, "u");
+    draw_profile(picture, lanes, count, place, line, true, theta, "θ");
+    picture->caption = "Grey, dashed: exact.";
 }

@@ -12,7 +12,7 @@ bool gm_shear_setup(const void *parameters, const struct gm_shear *shear, const 
 
 /* Profiles of u and theta along a line, the exact ones thin and grey beneath (NULL: none). */
 void gm_shear_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
-                            const struct gm_profile *line, double (*velocity)(double),
+                            enum gm_place place, const struct gm_profile *line, double (*velocity)(double),
                             double (*theta)(double));
 
 /* What the convergence pictures of couette and poiseuille show, and how their work is measured. */

@@ -144,12 +144,14 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
     gm_flows_write_profile(view, front, &line, stream);
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_flows *own = lane->parameters;
-    return gm_picture_text(picture, "viscosity %.6g,  %zu triangles,  %s", own->viscosity,
-                           lane->problem.flow->complex->triangles,
-                           own->domain == GM_DOMAIN_TORUS ? "torus" : "walls without friction");
+    const struct gm_flows *own = lanes[0]->parameters;
+    return gm_picture_text(
+        picture, "%s%s,  %s",
+        gm_flows_common(picture, lanes, count, "viscosity", offsetof(struct gm_flows, viscosity)),
+        gm_flows_mesh_and_scheme(picture, lanes, count),
+        own->domain == GM_DOMAIN_TORUS ? "torus" : "walls without friction");
 }
 
 static const struct gm_look_error errors[] = {{"psi_error", "ψ"}, {NULL, NULL}};
