@@ -91,9 +91,14 @@ static bool choose_schemes(struct gm_work_table *table, bool named, char *messag
     }
     for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
         const struct gm_work *work = request->scene->work;
+        bool entrant = !work || !work->schemes;
+        for (size_t k = 0; !entrant && work->schemes[k]; k++) {
+            entrant = strcmp(work->schemes[k], gm_scheme_at(i)->name) == 0;
+        }
         const bool exact =
             work && work->is_exact && strcmp(work->is_exact, gm_scheme_at(i)->name) == 0 && table->observed;
-        if (!exact && gm_scene_fits(request->scene, request->lanes[0].parameters, gm_scheme_at(i))) {
+        if (entrant && !exact &&
+            gm_scene_fits(request->scene, request->lanes[0].parameters, gm_scheme_at(i))) {
             add_scheme(table, gm_scheme_at(i));
         }
     }
