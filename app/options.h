@@ -24,11 +24,12 @@ struct gm_options {
     int json, state, maximum, strict, longer, quick;
     const char *csv, *profile, *out, *movie, *measure, *region;
     long every, frames;
-    double fps, rate;    /* NAN: not given */
-    double from, at;     /* NAN: not given */
-    int width, height;   /* 1280 x 720 */
-    enum gm_theme theme; /* light */
-    char **words;        /* what is left: scene, key=value, names */
+    double fps, rate;                      /* NAN: not given */
+    double from, at;                       /* NAN: not given */
+    int width, height;                     /* 1280 x 720 */
+    enum gm_theme theme;                   /* light */
+    const char *graphics, *colours, *look; /* what to believe of the terminal */
+    char **words;                          /* what is left: scene, key=value, names */
     int word_count;
 };
 

@@ -7,6 +7,7 @@
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/eventfd.h>
 #include <sys/ioctl.h>
 #include <time.h>
@@ -14,15 +15,30 @@
 
 #include "app/explorer/console.h"
 #include "app/explorer/keys.h"
+#include "app/explorer/pixels.h"
 #include "app/explorer/writer.h"
 
 enum { FRAME_MILLISECONDS = 33, FIRST_SCHEMES = 3 };
+
+/* A picture of pixels on the screen. */
+struct picture {
+    struct gm_pixels *painter; /* NULL until it is needed */
+    bool stale;                /* the shot has a newer one */
+    bool lost;                 /* the terminal may have lost parts of it */
+    bool painted;              /* `bytes` wait to be shown */
+    enum gm_inline_kind shown; /* what the terminal shows */
+    size_t covered;            /* cells of it that had a glyph in the last screen */
+    struct gm_pixels_job job;  /* the last that was begun */
+    const char *bytes;
+    size_t size;
+};
 
 struct explorer {
     struct gm_terminal terminal;
     struct gm_face face;
     struct gm_screen screen;
     struct gm_writer writer;
+    struct picture picture;
     int wake;                 /* the worker's shots and all signals are announced here */
     struct gm_worker *worker; /* NULL: the list of scenes is shown */
     struct gm_shot *shot;
@@ -77,6 +93,13 @@ static void resize(struct explorer *explorer)
         leave(explorer, GM_EXIT_USAGE);
     }
     gm_writer_forget(&explorer->writer);
+    int width = explorer->terminal.cell_width;
+    gm_terminal_cell(&explorer->terminal.cell_width, &explorer->terminal.cell_height);
+    if (width > 0 && explorer->terminal.cell_width == width && explorer->face.pixels &&
+        gm_writer_idle(&explorer->writer)) {
+        gm_writer_tell(&explorer->writer, GM_ASK_CELL); /* letters may have another size too */
+    }
+    explorer->picture.lost = true;
     explorer->dirty = explorer->fresh = true;
 }
 
@@ -108,6 +131,13 @@ static void press_at_start(struct explorer *explorer, int key)
     explorer->dirty = true;
 }
 
+static void show_graphics(struct explorer *explorer, struct gm_graphics graphics)
+{
+    explorer->face.pixels = graphics.pixels;
+    explorer->face.blocks = graphics.blocks;
+    explorer->picture.stale = explorer->dirty = true;
+}
+
 static void press(struct explorer *explorer, int key)
 {
     if (!explorer->worker) {
@@ -120,7 +150,12 @@ static void press(struct explorer *explorer, int key)
         }
         return;
     }
-    switch (gm_key_press(key, &explorer->face, explorer->shot, explorer->worker, explorer->terminal.utf8)) {
+    switch (gm_key_press(key, &explorer->face, explorer->shot, explorer->worker)) {
+    case GM_KEY_BLOCKS:
+        show_graphics(explorer,
+                      gm_graphics_next(&explorer->terminal,
+                                       (struct gm_graphics){explorer->face.pixels, explorer->face.blocks}));
+        break;
     case GM_KEY_LEAVE:
         leave(explorer, GM_EXIT_OK);
         break;
@@ -136,6 +171,27 @@ static void press(struct explorer *explorer, int key)
     }
 }
 
+static void press_all(struct explorer *explorer)
+{
+    for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
+        press(explorer, key);
+    }
+}
+
+/* Letters may have changed their size, which the system does not always know. */
+static void read_cell_size(struct explorer *explorer)
+{
+    struct gm_terminal *terminal = &explorer->terminal;
+    const struct gm_answers *answers = &terminal->answers;
+    int width = answers->cell_width, height = answers->cell_height;
+    gm_terminal_cell(&width, &height);
+    if (width > 0 && height > 0 && (width != terminal->cell_width || height != terminal->cell_height)) {
+        terminal->cell_width = width;
+        terminal->cell_height = height;
+        explorer->picture.lost = explorer->dirty = true;
+    }
+}
+
 static void read_keys(struct explorer *explorer)
 {
     int waiting = 0;
@@ -143,18 +199,55 @@ static void read_keys(struct explorer *explorer)
         leave(explorer, GM_EXIT_OK); /* readable, yet nothing to read: the terminal is gone */
         return;
     }
-    for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
-        press(explorer, key);
+    press_all(explorer);
+    read_cell_size(explorer);
+}
+
+/* Before the terminal goes back to the shell: sends what is under way, and awaits the answers, which the
+   shell would take for keys. */
+static void come_to_rest(struct explorer *explorer)
+{
+    enum { PATIENCE = 1000 };
+    struct gm_writer *writer = &explorer->writer;
+    int64_t until = milliseconds() + PATIENCE;
+    for (int64_t left = PATIENCE; left > 0; left = until - milliseconds()) {
+        bool good = gm_writer_send(writer);
+        gm_writer_takes(writer, explorer->terminal.answers.ready);
+        if (!good || (gm_writer_idle(writer) && gm_writer_patience(writer) < 0)) {
+            return;
+        }
+        struct pollfd watched[] = {
+            {.fd = STDIN_FILENO, .events = POLLIN},
+            {.fd = gm_writer_idle(writer) ? -1 : writer->fd, .events = POLLOUT},
+        };
+        if (poll(watched, 2, (int)left) < 0 || watched[0].revents & ~POLLIN) {
+            return; /* a signal, or the terminal is gone */
+        }
+        gm_console_key();
     }
 }
 
 static void suspend(struct explorer *explorer)
 {
-    while (!gm_writer_idle(&explorer->writer) && gm_writer_send(&explorer->writer)) {
-        poll(&(struct pollfd){.fd = explorer->writer.fd, .events = POLLOUT}, 1, -1);
-    }
+    come_to_rest(explorer);
     gm_console_stop();
     resize(explorer);
+}
+
+static void read_picture(struct explorer *explorer)
+{
+    struct picture *picture = &explorer->picture;
+    char message[GM_MESSAGE];
+    if (!picture->painter || !gm_pixels_take(picture->painter, &picture->bytes, &picture->size, message)) {
+        return;
+    }
+    explorer->dirty = true;
+    picture->painted = picture->bytes != NULL;
+    if (!picture->painted) { /* there is no GL, or no memory for it: blocks need neither */
+        explorer->terminal.can_pixels[GM_INLINE_KITTY] = explorer->terminal.can_pixels[GM_INLINE_SIXEL] =
+            false;
+        explorer->face.pixels = GM_INLINE_NONE;
+    }
 }
 
 static void read_news(struct explorer *explorer)
@@ -177,36 +270,128 @@ static void read_news(struct explorer *explorer)
         explorer->shot = shot;
         explorer->asked = false;
         explorer->next_shot = milliseconds() + FRAME_MILLISECONDS;
-        explorer->dirty = explorer->fresh = true;
+        explorer->dirty = explorer->fresh = explorer->picture.stale = true;
     }
+    read_picture(explorer);
 }
 
 /* ---- output ---- */
 
-static void draw(struct explorer *explorer)
+static void compose(struct explorer *explorer)
 {
     if (!explorer->worker) {
         gm_screen_draw_start(&explorer->screen, &explorer->face, explorer->choice);
     } else if (explorer->shot) {
         gm_screen_draw(&explorer->screen, &explorer->face, explorer->shot, explorer->fresh);
-    } else {
+    }
+    explorer->fresh = false;
+}
+
+static size_t covered_cells(const struct gm_screen *screen)
+{
+    size_t count = 0;
+    for (int row = 0; row < screen->pixel_rows; row++) {
+        for (int column = 0; column < screen->pixel_columns; column++) {
+            count += screen->cells.cells[row * screen->cells.columns + column].glyph != 0;
+        }
+    }
+    return count;
+}
+
+static void remove_picture(struct explorer *explorer)
+{
+    gm_writer_tell(&explorer->writer, gm_inline_removal(explorer->picture.shown));
+    explorer->picture.shown = GM_INLINE_NONE;
+    explorer->picture.lost = true;
+}
+
+/* Begins the picture that the screen leaves room for, unless it is there. */
+static bool begin_picture(struct explorer *explorer)
+{
+    struct picture *picture = &explorer->picture;
+    const struct gm_screen *screen = &explorer->screen;
+    const struct gm_terminal *terminal = &explorer->terminal;
+    struct gm_pixels_job job = {
+        .kind = explorer->face.pixels,
+        .place = {screen->pixel_columns, screen->pixel_rows, terminal->cell_width, terminal->cell_height},
+        .most_width = terminal->answers.most_width,
+        .most_height = terminal->answers.most_height,
+    };
+    size_t covered = covered_cells(screen);
+    if (job.kind != picture->job.kind || memcmp(&job.place, &picture->job.place, sizeof job.place) != 0) {
+        remove_picture(explorer);
+    }
+    if (covered < picture->covered) { /* what covered it has overwritten it */
+        picture->lost = true;
+    }
+    picture->covered = covered;
+    if (!picture->lost && (picture->painted || !picture->stale)) {
+        return false;
+    }
+    if (!picture->painter) {
+        picture->painter = gm_pixels_open(terminal->theme, explorer->wake, explorer->message);
+        if (!picture->painter) {
+            leave(explorer, GM_EXIT_USAGE);
+            return true;
+        }
+    }
+    job.whole = picture->lost;
+    picture->job = job;
+    picture->painted = picture->stale = picture->lost = false;
+    gm_pixels_paint(picture->painter, explorer->shot->picture, &job);
+    return true;
+}
+
+static bool painting(const struct explorer *explorer)
+{
+    return explorer->picture.painter && gm_pixels_busy(explorer->picture.painter);
+}
+
+/* The picture and what is around it appear together. */
+static void draw(struct explorer *explorer)
+{
+    struct picture *picture = &explorer->picture;
+    if (explorer->worker && !explorer->shot) {
         return;
     }
-    explorer->dirty = explorer->fresh = false;
-    gm_writer_draw(&explorer->writer, &explorer->screen.cells);
+    compose(explorer);
+    const struct gm_screen *screen = &explorer->screen;
+    bool pixels = screen->pixel_columns > 0;
+    if (pixels && begin_picture(explorer)) {
+        return;
+    }
+    if (!pixels && picture->shown) {
+        remove_picture(explorer);
+    }
+    const struct gm_writer_image image = {picture->bytes, picture->size, screen->pixel_columns,
+                                          screen->pixel_rows};
+    gm_writer_draw(&explorer->writer, &screen->cells, pixels && picture->painted ? &image : NULL);
+    if (pixels && picture->painted) {
+        picture->shown = picture->job.kind;
+        picture->painted = false;
+    }
+    explorer->dirty = false;
 }
 
 /* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to
    wait for input, in milliseconds; -1: as long as it takes. */
 static int output(struct explorer *explorer)
 {
-    if (gm_writer_idle(&explorer->writer) && explorer->dirty) {
+    struct gm_writer *writer = &explorer->writer;
+    unsigned long ready = explorer->terminal.answers.ready;
+    bool good = gm_writer_send(writer);
+    /* while a picture is painted it belongs to the painter */
+    if (explorer->dirty && !painting(explorer) && gm_writer_takes(writer, ready)) {
         draw(explorer);
+        good = good && gm_writer_send(writer);
     }
-    if (!gm_writer_send(&explorer->writer)) {
+    if (!good) {
         leave(explorer, GM_EXIT_FILE);
     }
-    if (!explorer->worker || explorer->asked || !gm_writer_idle(&explorer->writer)) {
+    if (!gm_writer_takes(writer, ready)) {
+        return gm_writer_patience(writer);
+    }
+    if (!explorer->worker || explorer->asked || explorer->dirty || painting(explorer)) {
         return -1;
     }
     int64_t wait = explorer->next_shot - milliseconds();
@@ -233,6 +418,10 @@ static void run(struct explorer *explorer)
         if (explorer->leave) {
             break;
         }
+        int patience = gm_console_patience();
+        if (patience >= 0 && (wait < 0 || patience < wait)) {
+            wait = patience;
+        }
         if (poll(watched, COUNT, wait) < 0) {
             if (errno != EINTR) {
                 leave(explorer, GM_EXIT_USAGE);
@@ -242,7 +431,9 @@ static void run(struct explorer *explorer)
         if (watched[NEWS].revents) {
             read_news(explorer);
         }
-        if (watched[KEYS].revents & POLLIN) {
+        if (patience >= 0 && !watched[KEYS].revents) {
+            press_all(explorer);
+        } else if (watched[KEYS].revents & POLLIN) {
             read_keys(explorer);
         } else if (watched[KEYS].revents) {
             leave(explorer, GM_EXIT_OK);
@@ -250,15 +441,16 @@ static void run(struct explorer *explorer)
     }
 }
 
-int gm_explorer(const struct gm_request *request)
+int gm_explorer(const struct gm_request *request, const struct gm_overrides *overrides)
 {
-    struct explorer explorer = {.wake = -1};
-    if (!gm_terminal_detect(&explorer.terminal, explorer.message) ||
+    struct explorer explorer = {.wake = -1, .picture = {.lost = true}};
+    if (!gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
         !gm_terminal_serves(&explorer.terminal, explorer.message)) {
         fprintf(stderr, "geomint: %s\n", explorer.message);
         return GM_EXIT_USAGE;
     }
-    explorer.face = (struct gm_face){.blocks = explorer.terminal.blocks,
+    explorer.face = (struct gm_face){.blocks = explorer.terminal.graphics.blocks,
+                                     .pixels = explorer.terminal.graphics.pixels,
                                      .theme = explorer.terminal.theme,
                                      .few_colours = explorer.terminal.colours < GM_COLOURS_256};
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
@@ -271,14 +463,17 @@ int gm_explorer(const struct gm_request *request)
     } else if (gm_scene_count() == 1) {
         ok = open_by_name(&explorer, gm_scene_at(0));
     }
-    ok = ok && gm_console_open(explorer.wake, explorer.message);
+    ok = ok && gm_console_open(explorer.wake, &explorer.terminal, explorer.message);
     int number = 0;
     if (ok && gm_writer_open(&explorer.writer, &explorer.terminal)) {
         run(&explorer);
         number = gm_console_leaving();
+        remove_picture(&explorer);
+        come_to_rest(&explorer);
         gm_writer_close(&explorer.writer);
     }
     gm_console_close();
+    gm_pixels_close(explorer.picture.painter);
     gm_worker_close(explorer.worker);
     gm_screen_close(&explorer.screen);
     if (explorer.wake >= 0) {

@@ -82,7 +82,7 @@ static void put_keys(struct page *page)
         {"c x", "add a lane to compare; remove the selected one"},
         {"r", "restart"},
         {"p", "save the picture as PNG; `geomint again` redoes it"},
-        {"b", "braille, quadrants, half blocks, ASCII"},
+        {"b", "pixels, braille, quadrants, half blocks, ASCII: what the terminal has"},
         {"?", "this page"},
         {"q", "quit"},
     };

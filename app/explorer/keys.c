@@ -117,7 +117,7 @@ static enum gm_key_result choose_parameter(struct gm_face *face, const struct gm
 }
 
 enum gm_key_result gm_key_press(int key, struct gm_face *face, const struct gm_shot *shot,
-                                struct gm_worker *worker, bool utf8)
+                                struct gm_worker *worker)
 {
     face->read = shot->message_number;
     if (key == REDRAW) {
@@ -138,10 +138,7 @@ enum gm_key_result gm_key_press(int key, struct gm_face *face, const struct gm_s
         face->scroll = 0;
         return GM_KEY_FACE;
     case 'b':
-        if (utf8) {
-            face->blocks = (enum gm_blocks)((face->blocks + 1) % GM_BLOCKS_COUNT);
-        }
-        return GM_KEY_FACE;
+        return GM_KEY_BLOCKS;
     case 's':
         face->choosing = true;
         face->choice = first_choice(shot);

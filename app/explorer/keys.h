@@ -9,12 +9,13 @@ enum gm_key_result {
     GM_KEY_IGNORED,
     GM_KEY_FACE,    /* the screen itself changed */
     GM_KEY_ORDER,   /* an order went to the worker */
+    GM_KEY_BLOCKS,  /* another way to show pictures is wanted */
     GM_KEY_REPAINT, /* everything is to be written again */
     GM_KEY_LEAVE,
 };
 
-/* What a key does while a scene is open. `utf8` allows other blocks than ASCII. */
+/* What a key does while a scene is open. */
 enum gm_key_result gm_key_press(int key, struct gm_face *face, const struct gm_shot *shot,
-                                struct gm_worker *worker, bool utf8);
+                                struct gm_worker *worker);
 
 #endif

@@ -100,9 +100,25 @@ static int status_rows(const struct gm_cells *cells)
     return cells->rows >= SIDE_FROM_ROWS ? 2 : cells->rows >= 4 ? 1 : 0;
 }
 
+static void leave_for_pixels(struct gm_screen *screen, int columns, int rows)
+{
+    screen->pixel_columns = columns;
+    screen->pixel_rows = rows;
+    for (int row = 0; row < rows; row++) {
+        for (int column = 0; column < columns; column++) {
+            screen->cells.cells[(size_t)row * (size_t)screen->cells.columns + (size_t)column].glyph = 0;
+        }
+    }
+}
+
 static void draw_picture(struct gm_screen *screen, const struct gm_face *face, const struct gm_shot *shot,
                          int columns, int rows)
 {
+    if (face->pixels &&
+        rows < screen->cells.rows) { /* in the last row a picture could make the screen scroll */
+        leave_for_pixels(screen, columns, rows);
+        return;
+    }
     if (!screen->fresh || screen->blocks != face->blocks || screen->picture.columns != columns ||
         screen->picture.rows != rows) {
         if (!resize(&screen->picture, columns, rows)) {
@@ -230,6 +246,7 @@ void gm_screen_draw(struct gm_screen *screen, struct gm_face *face, const struct
     struct gm_cells *cells = &screen->cells;
     int below = status_rows(cells), rows = cells->rows - below;
     clear(cells, face->theme);
+    screen->pixel_columns = screen->pixel_rows = 0;
     if (fresh) {
         screen->fresh = false;
     }
@@ -268,6 +285,7 @@ void gm_screen_draw_start(struct gm_screen *screen, const struct gm_face *face, 
 {
     struct gm_cells *cells = &screen->cells;
     clear(cells, face->theme);
+    screen->pixel_columns = screen->pixel_rows = 0;
     int below = status_rows(cells), rows = cells->rows - below;
     const struct gm_sheet sheet = {cells, face, cells->columns > 60 ? 4 : 1, 0, cells->columns - 5, rows};
     int at = 1;

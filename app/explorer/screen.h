@@ -4,6 +4,7 @@
 
 #include "app/explorer/shot.h"
 #include "render/cells.h"
+#include "render/inline_image.h"
 
 /* What is on the screen: the picture at the left, the side panel at the right, a status line below; or a page
    of help. All of it is composed as cells; nothing here knows the terminal. */
@@ -11,6 +12,7 @@
 /* What the user has set about the screen itself. */
 struct gm_face {
     enum gm_blocks blocks;
+    enum gm_inline_kind pixels; /* the picture is not made of blocks */
     enum gm_theme theme;
     bool few_colours;
     bool help;
@@ -27,6 +29,8 @@ struct gm_screen {
     struct gm_cells picture; /* kept, as it changes less often than what is around it */
     bool fresh;              /* the kept picture shows the last shot */
     enum gm_blocks blocks;   /* and was painted with these */
+    /* the upper left part of the screen that is left for a picture of pixels; no columns: none */
+    int pixel_columns, pixel_rows;
 };
 
 bool gm_screen_resize(struct gm_screen *screen, int columns, int rows);
