@@ -1,120 +1,69 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint render: pictures, frames and movies. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "app/checkpoint.h"
 #include "app/commands.h"
 #include "app/drive.h"
-#include "app/provenance.h"
 #include "render/canvas.h"
 #include "render/sink.h"
 
-/* When the frames are, in model time. */
-struct schedule {
-    long count;
-    double first, last;
-};
+/* A render of many frames leaves them as pictures from the first one on, a movie's beside the movie until
+   that is complete, and a checkpoint of its lanes now and then. So a killed one goes on by the same command:
+   frames that are there are looked at and kept, the state comes from the checkpoint or, if there is none that
+   helps, from the start without painting. Both give the same bits as a render that nobody disturbed. */
 
 struct work {
     struct gm_request *request;
     const struct gm_options *options;
     struct gm_drive *drives;
-    const struct gm_lane **lanes;
+    struct gm_lane **lanes;
     struct gm_canvas *canvas;
     struct gm_picture *picture;
-    struct gm_sink *sink;
-    struct schedule schedule;
-    bool still; /* one picture, not a sequence */
+    struct gm_schedule schedule;
+    struct gm_provenance provenance;
+    /* of a sequence */
+    struct gm_frames frames;
+    char *folder;                     /* of the frames */
+    char *checkpoint;                 /* its path; NULL: the lanes cannot be continued from a snapshot */
+    long done;                        /* frames that are there */
+    struct gm_sink *pictures, *movie; /* NULL: not wanted */
 };
 
-static double end_of(const struct gm_request *request)
+static const struct gm_lane *const *lanes_of(const struct work *work)
 {
-    double end = -INFINITY;
-    for (size_t i = 0; i < request->count; i++) {
-        const struct gm_timing *timing = request->lanes[i].parameters;
-        const double t0 = gm_scene_t0(request->scene, timing);
-        end = fmax(end, t0 + (double)request->lanes[i].steps * timing->dt);
-    }
-    return end;
+    return (const struct gm_lane *const *)work->lanes;
 }
 
-static bool make_schedule(struct schedule *schedule, bool *still, const struct gm_request *request,
-                          const struct gm_options *options, char *message)
-{
-    const struct gm_timing *timing = request->lanes[0].parameters;
-    const double end = end_of(request);
-    const double first = isnan(options->from) ? gm_scene_t0(request->scene, timing) : options->from;
-    *still = false;
-    if (!isnan(options->at)) {
-        *schedule = (struct schedule){1, options->at, options->at};
-        *still = true;
-        return true;
-    }
-    if (first > end) {
-        snprintf(message, GM_MESSAGE, "--from %g lies after the end, t = %g", first, end);
-        return false;
-    }
-    const bool paced = options->movie || !isnan(options->rate) || !isnan(options->fps);
-    double count = 1;
-    *schedule = (struct schedule){.first = first, .last = end};
-    if (options->frames) {
-        count = (double)options->frames;
-    } else if (options->every) {
-        const double interval = (double)options->every * timing->dt;
-        count = floor((end - first) / interval * (1 + 1e-12) + 1e-9) + 1;
-        schedule->last = first + (count - 1) * interval;
-    } else if (paced) {
-        const double fps = isnan(options->fps) ? 30 : options->fps;
-        /* ten seconds, unless told otherwise */
-        const double rate = isnan(options->rate) ? (end - first) / 10 : options->rate;
-        count = rate > 0 ? fmax(1, round((end - first) * fps / rate)) + 1 : 2;
-    } else {
-        *still = true;
-    }
-    if (!(count <= 1e7)) {
-        snprintf(message, GM_MESSAGE, "that makes %.3g frames; 1e7 is the most", count);
-        return false;
-    }
-    schedule->count = (long)count;
-    if (schedule->count == 1) {
-        schedule->first = schedule->last;
-    }
-    return true;
-}
-
-static double frame_time(const struct schedule *schedule, long frame)
-{
-    if (frame + 1 >= schedule->count) {
-        return schedule->last;
-    }
-    return schedule->first +
-           (schedule->last - schedule->first) * (double)frame / (double)(schedule->count - 1);
-}
-
-static void show_progress(const struct schedule *schedule, long frame, double started)
+static double seconds_now(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
-    const double elapsed = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec - started;
-    const double rate = (double)(frame + 1) / fmax(elapsed, 1e-9);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void show_progress(const struct work *work, long made, double started)
+{
+    const long count = work->schedule.ours;
+    const double rate = (double)made / fmax(seconds_now() - started, 1e-9);
     enum { WIDTH = 30 };
-    const int filled = (int)((double)WIDTH * (double)(frame + 1) / (double)schedule->count);
+    const int filled = (int)((double)WIDTH * (double)work->done / (double)count);
     char bar[WIDTH + 1];
     for (int i = 0; i < WIDTH; i++) {
         bar[i] = i < filled ? '#' : '.';
     }
     bar[WIDTH] = '\0';
-    fprintf(stderr, "\r%s %ld/%ld frames, %.1f a second, %.0f s left  ", bar, frame + 1, schedule->count,
-            rate, (double)(schedule->count - frame - 1) / rate);
+    fprintf(stderr, "\r%s %ld/%ld frames, %.1f a second, %.0f s left  ", bar, work->done, count, rate,
+            (double)(count - work->done) / fmax(rate, 1e-9));
 }
 
-static bool paint_frame(struct work *work, long frame, char *message)
+/* Drives the lanes to the time of a frame. */
+static bool drive_to(struct work *work, long frame, char *message)
 {
     for (size_t i = 0; i < work->request->count; i++) {
         const long steps = work->request->lanes[i].steps;
@@ -123,35 +72,17 @@ static bool paint_frame(struct work *work, long frame, char *message)
         /* where the scheme chooses its step, one after the other until the time is reached */
         do {
             before = drive->lane->run->steps;
-            due = gm_drive_step_at(drive, frame_time(&work->schedule, frame));
+            due = gm_drive_step_at(drive, gm_schedule_time(&work->schedule, frame));
             if (!gm_drive_to(drive, due < steps ? due : steps, true, message)) {
                 return false;
             }
         } while (drive->lane->scheme->family->own_time && drive->lane->run->steps > before);
     }
-    if (gm_interrupted) {
-        return true;
-    }
-    unsigned char *rgb = gm_sink_frame(work->sink);
-    if (!rgb) {
-        return true; /* the sink tells why when it is closed */
-    }
-    gm_picture_clear(work->picture);
-    work->request->scene->draw(work->lanes, work->request->count, work->picture);
-    char *steps = gm_provenance_steps(work->lanes, work->request->count);
-    if (!steps || !gm_canvas_paint(work->canvas, work->picture, rgb)) {
-        free(steps);
-        snprintf(message, GM_MESSAGE, "not enough memory to paint");
-        return false;
-    }
-    const struct gm_png_text text = {GM_KEY_STEPS, steps};
-    gm_sink_put(work->sink, rgb, frame, &text, 1);
-    free(steps);
     return true;
 }
 
-/* OUT/NAME.png or OUT/NAME-%06ld.png; a % of the name is doubled. */
-static char *pattern_of(const char *out, const char *name, bool still)
+/* A line for each lane that has failed; malloc'ed, NULL when memory is short. */
+static char *failures_of(const struct work *work)
 {
     char *text = NULL;
     size_t size = 0;
@@ -159,65 +90,100 @@ static char *pattern_of(const char *out, const char *name, bool still)
     if (!stream) {
         return NULL;
     }
-    for (const char *at = out; *at; at++) {
-        fputs(*at == '%' ? "%%" : (char[]){*at, '\0'}, stream);
+    for (size_t i = 0; i < work->request->count; i++) {
+        char sentence[GM_MESSAGE];
+        gm_failure_sentence(work->lanes[i], sentence, sizeof sentence);
+        if (sentence[0]) {
+            fprintf(stream, "%s: %s: %s\n", work->lanes[i]->scheme->name,
+                    gm_status_name(work->lanes[i]->run->status), sentence);
+        }
     }
-    fprintf(stream, "/%s%s.png", name, still ? "" : "-%06ld");
     fclose(stream);
     return text;
 }
 
-static bool make_folder(const char *path, char *message)
+/* Hands a painted frame to the pictures, with what it tells of itself. */
+static bool put_picture(struct work *work, unsigned char *rgb, long frame)
 {
-    if (mkdir(path, 0777) == 0 || errno == EEXIST) {
-        return true;
+    struct gm_png_text texts[3];
+    char *steps = gm_provenance_steps(lanes_of(work), work->request->count);
+    char *failures = failures_of(work);
+    char *place = work->schedule.still ? NULL : gm_frames_text(&work->frames, frame);
+    const bool good = steps && failures && (place || work->schedule.still);
+    size_t count = 0;
+    if (good) {
+        texts[count++] = (struct gm_png_text){GM_KEY_STEPS, steps};
+        if (failures[0]) {
+            texts[count++] = (struct gm_png_text){GM_KEY_FAILURES, failures};
+        }
+        if (place) {
+            texts[count++] = (struct gm_png_text){GM_KEY_FRAME, place};
+        }
+        gm_sink_put(work->pictures, rgb, frame, texts, count);
     }
-    snprintf(message, GM_MESSAGE, "%s could not be made: %s", path, strerror(errno));
-    return false;
+    free(steps);
+    free(failures);
+    free(place);
+    return good;
 }
 
-static struct gm_sink *open_sink(const struct work *work, const char *name, char *message)
+static bool paint_frame(struct work *work, long frame, char *message)
 {
-    const struct gm_options *options = work->options;
-    struct gm_provenance provenance;
-    if (!gm_provenance_make(&provenance, work->request, options->width, options->height, options->theme,
-                            gm_canvas_backend(work->canvas))) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return NULL;
+    if (!drive_to(work, frame, message)) {
+        return false;
     }
-    const struct gm_sink_settings settings = {
-        .width = options->width,
-        .height = options->height,
-        .fps = isnan(options->fps) ? 30 : options->fps,
-        .texts = provenance.texts,
-        .text_count = provenance.count,
-    };
-    struct gm_sink *sink = NULL;
-    if (options->movie) {
-        sink = gm_sink_open_movie(options->movie, &settings, message);
-    } else {
-        const char *out = options->out ? options->out : ".";
-        char *pattern = pattern_of(out, name, work->still);
-        if (pattern && make_folder(out, message)) {
-            sink = gm_sink_open_png(pattern, &settings, message);
-        }
-        free(pattern);
+    if (gm_interrupted) {
+        return true;
     }
-    gm_provenance_close(&provenance);
-    return sink;
+    unsigned char *rgb = gm_sink_frame(work->pictures);
+    unsigned char *copy = work->movie && rgb ? gm_sink_frame(work->movie) : NULL;
+    if (!rgb || (work->movie && !copy)) {
+        return true; /* the sink tells why when it is closed */
+    }
+    gm_picture_clear(work->picture);
+    work->request->scene->draw(lanes_of(work), work->request->count, work->picture);
+    if (!gm_canvas_paint(work->canvas, work->picture, rgb)) {
+        snprintf(message, GM_MESSAGE, "not enough memory to paint");
+        return false;
+    }
+    if (copy) {
+        memcpy(copy, rgb, 3 * (size_t)work->options->width * (size_t)work->options->height);
+        gm_sink_put(work->movie, copy, frame, NULL, 0);
+    }
+    if (!put_picture(work, rgb, frame)) {
+        snprintf(message, GM_MESSAGE, "not enough memory for a frame's texts");
+        return false;
+    }
+    return true;
+}
+
+/* A frame that is there already goes into the movie as it is. */
+static bool reuse_frame(struct work *work, long frame, char *message)
+{
+    unsigned char *rgb = work->movie ? gm_sink_frame(work->movie) : NULL;
+    if (!rgb) {
+        return true;
+    }
+    char *path = gm_frames_path(&work->frames, frame);
+    const bool good = path && gm_png_read(path, work->options->width, work->options->height, rgb, message);
+    if (good) {
+        gm_sink_put(work->movie, rgb, frame, NULL, 0);
+    }
+    free(path);
+    return good;
+}
+
+static void close_lanes(struct work *work)
+{
+    for (size_t i = 0; work->lanes && i < work->request->count; i++) {
+        gm_lane_close(work->lanes[i]);
+        work->lanes[i] = NULL;
+    }
 }
 
 static bool open_lanes(struct work *work, char *message)
 {
-    const size_t count = work->request->count;
-    work->drives = calloc(count, sizeof *work->drives);
-    work->lanes = calloc(count, sizeof *work->lanes);
-    work->picture = gm_picture_open();
-    if (!work->drives || !work->lanes || !work->picture) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
-    }
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < work->request->count; i++) {
         struct gm_lane *lane = gm_request_open_lane(work->request, i, message);
         if (!lane) {
             return false;
@@ -228,86 +194,216 @@ static bool open_lanes(struct work *work, char *message)
     return true;
 }
 
-static void close_work(struct work *work)
+/* The state behind the last frame before the first that is missing, where a checkpoint has one. */
+static bool resume(struct work *work, char *message)
 {
-    for (size_t i = 0; work->drives && i < work->request->count; i++) {
-        gm_lane_close(work->drives[i].lane);
+    const long first = gm_frames_first_missing(&work->frames);
+    long frame = -1;
+    bool spoilt = false;
+    if (first < 0 || !work->checkpoint) {
+        return true;
     }
-    free(work->drives);
-    free(work->lanes);
-    gm_picture_close(work->picture);
-    gm_canvas_close(work->canvas);
+    const bool read = gm_checkpoint_read(work->checkpoint, &work->frames, &frame, work->lanes,
+                                         work->request->count, &spoilt);
+    if (read && frame < first) {
+        return true;
+    }
+    if (read || spoilt) {
+        /* a frame before it is missing: all begins at the start again */
+        close_lanes(work);
+        return open_lanes(work, message);
+    }
+    return true;
 }
 
-static void say_failures(const struct work *work)
+/* The lanes as they are behind a frame, when all frames up to there are written. */
+static bool keep_state(struct work *work, long frame, char *message)
 {
-    for (size_t i = 0; i < work->request->count; i++) {
-        char sentence[GM_SENTENCE];
-        gm_failure_sentence(work->lanes[i], sentence, sizeof sentence);
-        if (sentence[0]) {
-            gm_complain("%s: %s: %s", work->lanes[i]->scheme->name,
-                        gm_status_name(work->lanes[i]->run->status), sentence);
+    return !gm_sink_flush(work->pictures) ||
+           gm_checkpoint_write(work->checkpoint, &work->frames, frame, lanes_of(work), work->request->count,
+                               message);
+}
+
+static bool make_frames(struct work *work, char *message)
+{
+    enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; of the time they take themselves */
+    const double started = seconds_now();
+    const bool progress = isatty(STDERR_FILENO);
+    const long last = work->movie ? work->schedule.count - 1 : gm_frames_last_missing(&work->frames);
+    double due = started + INTERVAL;
+    long made = 0, painted = -1;
+    work->done = work->frames.found;
+    for (long frame = 0; frame <= last && !gm_interrupted; frame++) {
+        if (!gm_schedule_is_ours(&work->schedule, frame)) {
+            continue;
         }
-    }
-}
-
-static bool any_failed(const struct work *work)
-{
-    for (size_t i = 0; i < work->request->count; i++) {
-        if (work->lanes[i]->run->status != GM_OK) {
-            return true;
+        if (work->frames.there[frame]) {
+            if (!reuse_frame(work, frame, message)) {
+                return false;
+            }
+            continue;
         }
-    }
-    return false;
-}
-
-static int paint_all(struct work *work, const char *name)
-{
-    char message[GM_MESSAGE];
-    work->canvas = gm_canvas_open(work->options->width, work->options->height, work->options->theme, message);
-    work->sink = work->canvas ? open_sink(work, name, message) : NULL;
-    if (!work->sink) {
-        gm_complain("%s", message);
-        return GM_EXIT_FILE;
-    }
-    struct timespec start;
-    clock_gettime(CLOCK_MONOTONIC, &start);
-    const bool progress = !work->still && isatty(STDERR_FILENO);
-    bool good = true;
-    for (long frame = 0; frame < work->schedule.count && good && !gm_interrupted; frame++) {
-        good = paint_frame(work, frame, message);
+        if (!paint_frame(work, frame, message)) {
+            return false;
+        }
+        if (!gm_interrupted) {
+            made++;
+            work->done++;
+            painted = frame;
+        }
+        const double now = seconds_now();
+        if (work->checkpoint && painted >= 0 && (now > due || (gm_interrupted && made > 0))) {
+            if (!keep_state(work, painted, message)) {
+                return false;
+            }
+            const double after = seconds_now();
+            due = after + fmax(INTERVAL, SHARE * (after - now));
+        }
         if (progress) {
-            show_progress(&work->schedule, frame, (double)start.tv_sec + 1e-9 * (double)start.tv_nsec);
+            show_progress(work, made, started);
         }
     }
     if (progress) {
         fputc('\n', stderr);
     }
-    if (!good) {
-        gm_complain("%s", message);
+    return true;
+}
+
+/* Where the frames go: --out, or beside the movie until it is complete. */
+static char *folder_of(const struct gm_options *options)
+{
+    char *text = NULL;
+    if (options->movie && !options->out) {
+        return asprintf(&text, "%s.frames", options->movie) < 0 ? NULL : text;
     }
+    return strdup(options->out ? options->out : ".");
+}
+
+static bool open_sinks(struct work *work, const char *name, char *message)
+{
+    const struct gm_options *options = work->options;
+    const struct gm_sink_settings settings = {
+        .width = options->width,
+        .height = options->height,
+        .fps = isnan(options->fps) ? 30 : options->fps,
+        .texts = work->provenance.texts,
+        .text_count = work->provenance.count,
+    };
+    /* first what can be known to fail */
+    if (options->movie && !(work->movie = gm_sink_open_movie(options->movie, &settings, message))) {
+        return false;
+    }
+    work->folder = folder_of(options);
+    if (!work->folder ||
+        !gm_frames_open(&work->frames, &work->schedule, work->folder, name, &work->provenance, message)) {
+        return false;
+    }
+    if (!work->schedule.still && gm_checkpoint_fits(work->request)) {
+        work->checkpoint = gm_checkpoint_path(&work->frames);
+    }
+    work->pictures = gm_sink_open_png(work->frames.pattern, &settings, message);
+    return work->pictures != NULL;
+}
+
+/* What the last frame of ours tells of lanes that failed, wherever it was painted. malloc'ed. */
+static char *last_failures(const struct work *work)
+{
+    const long last = gm_schedule_last(&work->schedule);
+    if (last < 0 || !work->frames.there[last]) {
+        return failures_of(work);
+    }
+    char message[GM_MESSAGE];
+    char *path = gm_frames_path(&work->frames, last);
+    char *text = path ? gm_png_read_text(path, GM_KEY_FAILURES, message) : NULL;
+    free(path);
+    return text ? text : strdup("");
+}
+
+/* The exit status of frames that are all written. */
+static int tell_end(const struct work *work)
+{
+    char *failures = last_failures(work), *rest = NULL;
+    const bool failed = failures && failures[0];
+    for (char *line = failures ? strtok_r(failures, "\n", &rest) : NULL; line;
+         line = strtok_r(NULL, "\n", &rest)) {
+        gm_complain("%s", line);
+    }
+    free(failures);
+    return work->options->strict && failed ? GM_EXIT_NUMERICAL : GM_EXIT_OK;
+}
+
+static int close_sinks(struct work *work, bool good, char *message)
+{
     /* an interrupted movie is finished with the frames it has; only an error gives it up */
-    if (!gm_sink_close(work->sink, good, message)) {
+    const bool written = !work->pictures || gm_sink_close(work->pictures, good, message);
+    const bool moving = !work->movie || gm_sink_close(work->movie, good && written, message);
+    work->pictures = work->movie = NULL;
+    return written && moving;
+}
+
+static int paint_all(struct work *work, const char *name)
+{
+    char message[GM_MESSAGE] = "";
+    const struct gm_options *options = work->options;
+    work->canvas = gm_canvas_open(options->width, options->height, options->theme, message);
+    bool good = work->canvas != NULL;
+    if (good && !gm_provenance_make(&work->provenance, work->request, options->width, options->height,
+                                    options->theme, gm_canvas_backend(work->canvas))) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        good = false;
+    }
+    good = good && open_sinks(work, name, message);
+    if (good && work->frames.found > 0) {
+        gm_complain("%ld of %ld frames are there already", work->frames.found, work->schedule.ours);
+    }
+    good = good && resume(work, message) && make_frames(work, message);
+    if (!close_sinks(work, good, message) || !good) {
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
-    if (!good) {
-        return GM_EXIT_FILE;
-    }
-    say_failures(work);
     if (gm_interrupted) {
+        if (!work->schedule.still) {
+            gm_complain("stopped at %ld of %ld frames; the same command goes on from there", work->done,
+                        work->schedule.ours);
+        }
         return GM_EXIT_INTERRUPTED;
     }
-    return work->options->strict && any_failed(work) ? GM_EXIT_NUMERICAL : GM_EXIT_OK;
+    const int status = tell_end(work);
+    if (work->checkpoint) {
+        unlink(work->checkpoint);
+    }
+    if (options->movie && !options->out) {
+        gm_frames_remove(&work->frames);
+    }
+    return status;
+}
+
+static void close_work(struct work *work)
+{
+    close_lanes(work);
+    free(work->drives);
+    free(work->lanes);
+    free(work->folder);
+    free(work->checkpoint);
+    gm_frames_close(&work->frames);
+    gm_provenance_close(&work->provenance);
+    gm_picture_close(work->picture);
+    gm_canvas_close(work->canvas);
 }
 
 int gm_render(struct gm_request *request, const struct gm_options *options, const char *name)
 {
-    char message[GM_MESSAGE];
-    struct work work = {.request = request, .options = options};
+    char message[GM_MESSAGE] = "not enough memory";
+    struct work work = {
+        .request = request,
+        .options = options,
+        .drives = calloc(request->count, sizeof *work.drives),
+        .lanes = calloc(request->count, sizeof *work.lanes),
+        .picture = gm_picture_open(),
+    };
     int status = GM_EXIT_USAGE;
-    if (!make_schedule(&work.schedule, &work.still, request, options, message) ||
-        !open_lanes(&work, message)) {
+    if (!work.drives || !work.lanes || !work.picture ||
+        !gm_schedule_make(&work.schedule, request, options, message) || !open_lanes(&work, message)) {
         gm_complain("%s", message);
     } else {
         status = paint_all(&work, name);

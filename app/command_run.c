@@ -240,7 +240,7 @@ int gm_command_run(const struct gm_options *options)
         if (outcome.drive.lane && options->maximum) {
             outcome.maxima = malloc(request.scene->observable_count * sizeof(double));
             for (size_t k = 0; outcome.maxima && k < request.scene->observable_count; k++) {
-                outcome.maxima[k] = -INFINITY;
+                outcome.maxima[k] = NAN; /* fmax passes over it */
             }
         }
         if (!outcome.drive.lane || !run_lane(&outcome, request.lanes[i].steps, options, csv, message)) {

@@ -12,38 +12,6 @@
 #include "app/region.h"
 #include "app/stability.h"
 
-static bool write_csv(const struct gm_stability_table *table, const char *path)
-{
-    const struct gm_stability *plan = table->plan;
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        return false;
-    }
-    fprintf(csv, "scene,scheme,%s,step,dt,verdict,status,t,ratio,error\n", plan->parameter);
-    for (size_t i = 0; i < table->count; i++) {
-        for (size_t k = 0; k < plan->step_count * plan->value_count; k++) {
-            const struct gm_cell *cell = &table->maps[i].cells[k];
-            if (cell->verdict == GM_UNTRIED) {
-                continue;
-            }
-            fprintf(csv, "%s,%s,%.17g,%.17g,%.17g,%s,%s,%.17g,", table->request.scene->name,
-                    table->maps[i].scheme->name, plan->values[k % plan->value_count],
-                    plan->steps[k / plan->value_count], cell->dt, gm_cell_word(cell),
-                    gm_status_name(cell->status), cell->t);
-            if (isfinite(cell->ratio)) {
-                fprintf(csv, "%.9g", cell->ratio);
-            }
-            fputc(',', csv);
-            if (isfinite(cell->error)) {
-                fprintf(csv, "%.9g", cell->error);
-            }
-            fputc('\n', csv);
-        }
-    }
-    const bool failed = ferror(csv) != 0;
-    return fclose(csv) == 0 && !failed;
-}
-
 static void print_table(const struct gm_stability_table *table)
 {
     const struct gm_stability *plan = table->plan;
@@ -96,7 +64,9 @@ int gm_command_stability(const struct gm_options *options)
     }
     gm_catch_interrupts();
     int status = GM_EXIT_OK;
-    if (!gm_stability_measure(&table, message)) {
+    const bool measured = gm_stability_measure(&table, &gm_terminal_listener, message);
+    gm_terminal_listener_clear();
+    if (!measured) {
         gm_complain("%s", message);
         status = GM_EXIT_USAGE;
     } else {
@@ -108,7 +78,7 @@ int gm_command_stability(const struct gm_options *options)
             !gm_chart_paint(&chart, &table, draw, message)) {
             gm_complain("%s", message);
             status = GM_EXIT_FILE;
-        } else if (!write_csv(&table, chart.csv)) {
+        } else if (!gm_stability_write(&table, chart.csv)) {
             gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
             status = GM_EXIT_FILE;
         }

@@ -11,29 +11,6 @@
 #include "app/drive.h"
 #include "app/work.h"
 
-static bool write_csv(const struct gm_work_table *table, const char *path)
-{
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        return false;
-    }
-    fprintf(csv, "scene,scheme,order,dt,steps,t,status,%s,seconds,evaluations,solves\n", table->measure);
-    for (size_t i = 0; i < table->line_count; i++) {
-        const struct gm_work_line *line = &table->lines[i];
-        for (size_t k = 0; k < line->count; k++) {
-            const struct gm_work_point *point = &line->points[k];
-            fprintf(csv, "%s,%s,%d,%.17g,%ld,%.17g,%s,", table->request.scene->name, line->scheme->name,
-                    line->scheme->order, point->dt, point->steps, point->t, gm_status_name(point->status));
-            if (isfinite(point->error)) {
-                fprintf(csv, "%.17g", point->error);
-            }
-            fprintf(csv, ",%.6g,%.0f,%.0f\n", point->seconds, point->evaluations, point->solves);
-        }
-    }
-    const bool failed = ferror(csv) != 0;
-    return fclose(csv) == 0 && !failed;
-}
-
 static void print_cell(double value)
 {
     if (isfinite(value)) {
@@ -94,7 +71,9 @@ int gm_command_work_precision(const struct gm_options *options)
     }
     gm_catch_interrupts();
     int status = GM_EXIT_OK;
-    if (!gm_work_measure(&table, message) && !gm_interrupted) {
+    const bool measured = gm_work_measure(&table, &gm_terminal_listener, message);
+    gm_terminal_listener_clear();
+    if (!measured && !gm_interrupted) {
         gm_complain("%s", message);
         status = GM_EXIT_NUMERICAL;
     }
@@ -107,7 +86,7 @@ int gm_command_work_precision(const struct gm_options *options)
             !gm_chart_paint(&chart, &table, draw, message)) {
             gm_complain("%s", message);
             status = GM_EXIT_FILE;
-        } else if (!write_csv(&table, chart.csv)) {
+        } else if (!gm_work_write(&table, chart.csv)) {
             gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
             status = GM_EXIT_FILE;
         }

@@ -8,7 +8,7 @@
 
 #include "app/nearest.h"
 
-enum kind { FLAG, TEXT, WHOLE, NUMBER, SIZE, THEME };
+enum kind { FLAG, TEXT, WHOLE, NUMBER, SIZE, THEME, SHARD };
 
 struct row {
     const char *name;
@@ -43,6 +43,7 @@ static const struct row rows[] = {
     {"--theme", TEXT, GM_TUI | GM_TERMINAL, AT(look), "THEME", "light, dark or mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", TEXT, GM_RENDER, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
+    {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},
     {"--strict", FLAG, GM_RENDER, AT(strict), "", "exit 2 if a lane ends in a numerical failure"},
     {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
     {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
@@ -98,6 +99,17 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         }
         options->width = width;
         options->height = height;
+        return true;
+    }
+    case SHARD: {
+        long shard = 0, shards = 0;
+        int used = 0;
+        if (sscanf(value, "%6ld/%6ld%n", &shard, &shards, &used) != 2 || value[used] || shard < 1 ||
+            shard > shards) {
+            return refuse(message, row->name, value, "is not I/N, with I from 1 to N");
+        }
+        options->shard = shard;
+        options->shards = shards;
         return true;
     }
     case THEME:

@@ -24,6 +24,7 @@ struct gm_options {
     int json, state, maximum, strict, longer, quick;
     const char *csv, *profile, *out, *movie, *measure, *region;
     long every, frames;
+    long shard, shards;                    /* 0, 0: not given */
     double fps, rate;                      /* NAN: not given */
     double from, at;                       /* NAN: not given */
     int width, height;                     /* 1280 x 720 */

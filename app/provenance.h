@@ -22,6 +22,9 @@ struct gm_provenance {
 #define GM_KEY_STEPS "geomint:steps"     /* of each lane, separated by blanks */
 #define GM_KEY_PICTURE "geomint:picture" /* WIDTHxHEIGHT theme */
 
+#define GM_KEY_FRAME "geomint:frame"       /* which frame of which render */
+#define GM_KEY_FAILURES "geomint:failures" /* a line for each lane that has failed by then */
+
 /* Everything but the steps. False when memory is short. */
 bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width,
                         int height, enum gm_theme theme, const char *backend);

@@ -2,7 +2,7 @@
 #ifndef GM_APP_REQUEST_H
 #define GM_APP_REQUEST_H
 
-#include "core/sentence.h"
+#include "render/message.h"
 #include "scenes/lane.h"
 
 /* What the user asked for: a scene and its lanes, read from `SCENE key=value ...`. */

@@ -7,9 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
-
-#include "app/drive.h"
 
 enum { MOST_WORDS = 64 };
 
@@ -137,12 +134,14 @@ static double evaluate(const struct gm_lane *lane, const struct gm_observable *o
 
 /* Up to `steps` steps in all, or the end of a scheme that chooses them; one by one where the largest value on
    the way is asked for. */
-static void run_to(struct gm_lane *lane, long steps, const struct gm_observable *observable, double *largest)
+static void run_to(struct gm_lane *lane, long steps, const struct gm_observable *observable, double *largest,
+                   const struct gm_listener *listener)
 {
     const struct gm_timing *timing = lane->parameters;
     const bool own_time = lane->scheme->family->own_time;
     const double started = processor_seconds();
-    while (lane->run->status == GM_OK && !gm_interrupted && processor_seconds() - started < most_seconds) {
+    while (lane->run->status == GM_OK && processor_seconds() - started < most_seconds &&
+           !gm_listener_stops(listener)) {
         const long left = steps - lane->run->steps;
         if (left <= 0 || (own_time && lane->run->t >= timing->until)) {
             return;
@@ -154,7 +153,8 @@ static void run_to(struct gm_lane *lane, long steps, const struct gm_observable 
     }
 }
 
-static void judge(struct gm_lane *lane, const struct gm_stability *plan, struct gm_cell *cell)
+static void judge(struct gm_lane *lane, const struct gm_stability *plan, const struct gm_listener *listener,
+                  struct gm_cell *cell)
 {
     const struct gm_observable *kept = find(lane->scene, plan->kept), *error = find(lane->scene, plan->error);
     const struct gm_timing *timing = lane->parameters;
@@ -162,11 +162,11 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, struct 
         lane->scheme->family->own_time ? INT64_MAX : (long)fmax(1, round(timing->until / timing->dt));
     double before = evaluate(lane, kept), after = -INFINITY;
     if (plan->settle > 0 && all > 2 * plan->settle && all < INT64_MAX) {
-        run_to(lane, plan->settle, kept, &before);
-        run_to(lane, all - plan->settle, NULL, NULL);
-        run_to(lane, all, kept, &after);
+        run_to(lane, plan->settle, kept, &before, listener);
+        run_to(lane, all - plan->settle, NULL, NULL, listener);
+        run_to(lane, all, kept, &after, listener);
     } else {
-        run_to(lane, all, NULL, NULL);
+        run_to(lane, all, NULL, NULL, listener);
         after = evaluate(lane, kept);
     }
     cell->status = lane->run->status;
@@ -191,34 +191,29 @@ static void set_parameter(const struct gm_parameter *row, void *own, double valu
     gm_parameter_set(row, own, text);
 }
 
-bool gm_stability_measure(struct gm_stability_table *table, char *message)
+bool gm_stability_measure(struct gm_stability_table *table, const struct gm_listener *listener, char *message)
 {
     const struct gm_stability *plan = table->plan;
-    const bool bar = isatty(STDERR_FILENO);
+    const size_t each = plan->step_count * plan->value_count;
     for (size_t i = 0; i < table->count; i++) {
         const struct gm_lane_spec *spec = &table->request.lanes[i];
         struct gm_timing *timing = spec->parameters;
-        for (size_t s = 0; s < plan->step_count && !gm_interrupted; s++) {
-            if (bar) {
-                fprintf(stderr, "\r%zu/%zu %-28s step %zu/%zu ", i + 1, table->count, spec->scheme->name,
-                        s + 1, plan->step_count);
+        for (size_t k = 0; k < each; k++) {
+            struct gm_cell *cell = &table->maps[i].cells[k];
+            gm_listener_hears(listener, spec->scheme->name, i * each + k, table->count * each);
+            set_parameter(table->parameter, spec->parameters, plan->values[k % plan->value_count]);
+            timing->dt = cell->dt = plan->steps[k / plan->value_count] * plan->unit(spec->parameters);
+            struct gm_lane *lane = gm_request_open_lane(&table->request, i, message);
+            if (!lane) {
+                return false;
             }
-            for (size_t v = 0; v < plan->value_count && !gm_interrupted; v++) {
-                struct gm_cell *cell = &table->maps[i].cells[s * plan->value_count + v];
-                set_parameter(table->parameter, spec->parameters, plan->values[v]);
-                timing->dt = cell->dt = plan->steps[s] * plan->unit(spec->parameters);
-                struct gm_lane *lane = gm_request_open_lane(&table->request, i, message);
-                if (!lane) {
-                    return false;
-                }
-                judge(lane, plan, cell);
-                cell->verdict = gm_interrupted ? GM_UNTRIED : cell->verdict;
-                gm_lane_close(lane);
+            judge(lane, plan, listener, cell);
+            gm_lane_close(lane);
+            if (gm_listener_stops(listener)) {
+                cell->verdict = GM_UNTRIED;
+                return true;
             }
         }
-    }
-    if (bar) {
-        fprintf(stderr, "\r%60s\r", "");
     }
     return true;
 }
@@ -261,4 +256,36 @@ double gm_stability_limit(const struct gm_stability_table *table, const struct g
         limit = plan->steps[s];
     }
     return limit;
+}
+
+bool gm_stability_write(const struct gm_stability_table *table, const char *path)
+{
+    const struct gm_stability *plan = table->plan;
+    FILE *csv = fopen(path, "w");
+    if (!csv) {
+        return false;
+    }
+    fprintf(csv, "scene,scheme,%s,step,dt,verdict,status,t,ratio,error\n", plan->parameter);
+    for (size_t i = 0; i < table->count; i++) {
+        for (size_t k = 0; k < plan->step_count * plan->value_count; k++) {
+            const struct gm_cell *cell = &table->maps[i].cells[k];
+            if (cell->verdict == GM_UNTRIED) {
+                continue;
+            }
+            fprintf(csv, "%s,%s,%.17g,%.17g,%.17g,%s,%s,%.17g,", table->request.scene->name,
+                    table->maps[i].scheme->name, plan->values[k % plan->value_count],
+                    plan->steps[k / plan->value_count], cell->dt, gm_cell_word(cell),
+                    gm_status_name(cell->status), cell->t);
+            if (isfinite(cell->ratio)) {
+                fprintf(csv, "%.9g", cell->ratio);
+            }
+            fputc(',', csv);
+            if (isfinite(cell->error)) {
+                fprintf(csv, "%.9g", cell->error);
+            }
+            fputc('\n', csv);
+        }
+    }
+    const bool failed = ferror(csv) != 0;
+    return fclose(csv) == 0 && !failed;
 }

@@ -2,6 +2,7 @@
 #ifndef GM_APP_STABILITY_H
 #define GM_APP_STABILITY_H
 
+#include "app/listener.h"
 #include "app/options.h"
 
 /* Which time step keeps which scheme bounded, over a grid of steps and of one parameter. */
@@ -38,8 +39,12 @@ struct gm_stability_table {
 bool gm_stability_open(struct gm_stability_table *table, const struct gm_options *options, char *message);
 void gm_stability_close(struct gm_stability_table *table);
 
-/* Fills the maps; interrupted, what was not tried stays untried. False with a sentence. */
-bool gm_stability_measure(struct gm_stability_table *table, char *message);
+/* Fills the maps; stopped, what was not tried stays untried. False with a sentence. */
+bool gm_stability_measure(struct gm_stability_table *table, const struct gm_listener *listener,
+                          char *message);
+
+/* Writes a row of CSV for every cell tried. False, with errno, if that fails. */
+bool gm_stability_write(const struct gm_stability_table *table, const char *path);
 
 /* "bounded", "lost", ... or the status' name; and a letter for the map. */
 const char *gm_cell_word(const struct gm_cell *cell);

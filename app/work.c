@@ -7,9 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
-#include "app/drive.h"
 #include "app/nearest.h"
 
 enum { MOST_WORDS = 64, REPEATS = 5 };
@@ -261,22 +259,28 @@ static struct gm_lane *open_lane(const struct gm_work_table *table, const struct
     return lane;
 }
 
+static bool stopped(const struct gm_work_table *table)
+{
+    return gm_listener_stops(table->listener);
+}
+
 static bool ended(const struct gm_lane *lane, long steps)
 {
     const struct gm_run *run = lane->run;
     const double until = ((const struct gm_timing *)lane->parameters)->until;
-    return run->status != GM_OK || gm_interrupted ||
+    return run->status != GM_OK ||
            (lane->scheme->family->own_time ? run->t >= until * (1 - 1e-12) : run->steps >= steps);
 }
 
 /* To the end, in bursts that answer an interruption; gives up after `most` seconds. Returns the processor
  * time. */
-static double run_through(struct gm_lane *lane, long steps, bool follow, double most)
+static double run_through(const struct gm_work_table *table, struct gm_lane *lane, long steps, bool follow,
+                          double most)
 {
     const double size = (double)(lane->problem.n * lane->problem.m);
     const long burst = lane->scheme->family->own_time ? 1 : (long)fmax(1, fmin(1e5, 1e6 / size));
     double spent = 0;
-    while (!ended(lane, steps) && spent < most) {
+    while (!ended(lane, steps) && spent < most && !stopped(table)) {
         const long left = steps - lane->run->steps;
         const double started = processor_seconds();
         if (follow) {
@@ -324,9 +328,9 @@ static double *reference_state(struct gm_work_table *table, char *message)
         const long steps = (long)round(timing_of(table)->until / dt);
         if (lane) {
             /* the carried rounding errors are worth their price here */
-            run_through(lane, steps, false, INFINITY);
+            run_through(table, lane, steps, false, INFINITY);
         }
-        if (!lane || lane->run->status != GM_OK || gm_interrupted) {
+        if (!lane || lane->run->status != GM_OK || stopped(table)) {
             if (lane) {
                 snprintf(message, GM_MESSAGE, "the reference, %s, failed: %s", table->reference,
                          gm_status_name(lane->run->status));
@@ -375,12 +379,12 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
     const bool follow = table->request.scene->follow > 0 && !reference;
     *point = (struct gm_work_point){.dt = dt, .error = NAN, .seconds = INFINITY};
     double spent = 0;
-    for (int repeat = 0; repeat < REPEATS && spent < enough_seconds && !gm_interrupted; repeat++) {
+    for (int repeat = 0; repeat < REPEATS && spent < enough_seconds && !stopped(table); repeat++) {
         struct gm_lane *lane = open_lane(table, scheme, dt, message);
         if (!lane) {
             return false;
         }
-        const double seconds = run_through(lane, steps, false, most_seconds);
+        const double seconds = run_through(table, lane, steps, false, most_seconds);
         const struct gm_run *run = lane->run;
         const bool whole = run->status != GM_OK || ended(lane, steps);
         point->seconds = whole ? fmin(point->seconds, seconds) : point->seconds;
@@ -391,19 +395,19 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
             point->steps = run->steps;
             point->evaluations = gm_run_per_member(run, run->evaluations);
             point->solves = gm_run_per_member(run, run->solves);
-            if (run->status == GM_OK && whole && !gm_interrupted && (!reference || !own_time)) {
+            if (run->status == GM_OK && whole && !stopped(table) && (!reference || !own_time)) {
                 point->error = error_of(table, lane, reference);
             }
         }
         gm_lane_close(lane);
     }
     /* an observable that recalls the past: once more, looking on the way */
-    if (follow && point->status == GM_OK && isfinite(point->error) && !gm_interrupted) {
+    if (follow && point->status == GM_OK && isfinite(point->error) && !stopped(table)) {
         struct gm_lane *lane = open_lane(table, scheme, dt, message);
         if (!lane) {
             return false;
         }
-        run_through(lane, steps, true, INFINITY);
+        run_through(table, lane, steps, true, INFINITY);
         point->error = error_of(table, lane, reference);
         gm_lane_close(lane);
     }
@@ -421,10 +425,12 @@ static bool is_enough(const struct gm_work_line *line)
     return round_off || last->seconds > most_seconds / 3 || !isfinite(last->seconds);
 }
 
-bool gm_work_measure(struct gm_work_table *table, char *message)
+bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *listener, char *message)
 {
-    const bool bar = isatty(STDERR_FILENO);
+    const size_t all = table->scheme_count * table->step_count;
     double *reference = NULL;
+    table->listener = listener;
+    gm_listener_hears(listener, "reference", 0, all);
     if (strcmp(table->measure, solution_error) == 0) {
         reference = reference_state(table, message);
         if (!reference) {
@@ -432,7 +438,7 @@ bool gm_work_measure(struct gm_work_table *table, char *message)
         }
     }
     bool good = true;
-    for (size_t i = 0; i < table->scheme_count && good && !gm_interrupted; i++) {
+    for (size_t i = 0; i < table->scheme_count && good && !stopped(table); i++) {
         struct gm_work_line *line = &table->lines[table->line_count];
         *line = (struct gm_work_line){.scheme = table->schemes[i]};
         line->points = calloc(table->step_count, sizeof *line->points);
@@ -441,23 +447,15 @@ bool gm_work_measure(struct gm_work_table *table, char *message)
             break;
         }
         table->line_count++;
-        for (size_t k = 0; k < table->step_count && !is_enough(line) && !gm_interrupted; k++) {
-            if (bar) {
-                fprintf(stderr, "\r%zu/%zu %-28s step %zu/%zu ", i + 1, table->scheme_count,
-                        line->scheme->name, k + 1, table->step_count);
-            }
+        for (size_t k = 0; k < table->step_count && !is_enough(line); k++) {
             struct gm_work_point point;
+            gm_listener_hears(listener, line->scheme->name, i * table->step_count + k, all);
             good = measure_point(table, line->scheme, table->steps[k], reference, &point, message);
-            if (!good) {
+            if (!good || stopped(table)) {
                 break;
             }
-            if (!gm_interrupted) {
-                line->points[line->count++] = point;
-            }
+            line->points[line->count++] = point;
         }
-    }
-    if (bar) {
-        fprintf(stderr, "\r%60s\r", "");
     }
     free(reference);
     return good;
@@ -515,4 +513,27 @@ const char *gm_work_sentence(const struct gm_work_table *table, char *text, size
     }
     snprintf(text + used, size - used, ".");
     return text;
+}
+
+bool gm_work_write(const struct gm_work_table *table, const char *path)
+{
+    FILE *csv = fopen(path, "w");
+    if (!csv) {
+        return false;
+    }
+    fprintf(csv, "scene,scheme,order,dt,steps,t,status,%s,seconds,evaluations,solves\n", table->measure);
+    for (size_t i = 0; i < table->line_count; i++) {
+        const struct gm_work_line *line = &table->lines[i];
+        for (size_t k = 0; k < line->count; k++) {
+            const struct gm_work_point *point = &line->points[k];
+            fprintf(csv, "%s,%s,%d,%.17g,%ld,%.17g,%s,", table->request.scene->name, line->scheme->name,
+                    line->scheme->order, point->dt, point->steps, point->t, gm_status_name(point->status));
+            if (isfinite(point->error)) {
+                fprintf(csv, "%.17g", point->error);
+            }
+            fprintf(csv, ",%.6g,%.0f,%.0f\n", point->seconds, point->evaluations, point->solves);
+        }
+    }
+    const bool failed = ferror(csv) != 0;
+    return fclose(csv) == 0 && !failed;
 }

@@ -2,6 +2,7 @@
 #ifndef GM_APP_WORK_H
 #define GM_APP_WORK_H
 
+#include "app/listener.h"
 #include "app/options.h"
 
 /* Work-precision: the error at the end against what it cost, for schemes and a ladder of time steps. */
@@ -32,15 +33,18 @@ struct gm_work_table {
     size_t scheme_count;
     struct gm_work_line *lines; /* line_count <= scheme_count are finished */
     size_t line_count;
+    const struct gm_listener *listener; /* of gm_work_measure */
 };
 
 /* Reads the words of the command line and settles schemes, steps and measure. False with a sentence. */
 bool gm_work_open(struct gm_work_table *table, const struct gm_options *options, char *message);
 void gm_work_close(struct gm_work_table *table);
 
-/* Measures scheme after scheme, with a line of progress on standard error if that is a terminal. Interrupted,
-   what is finished stays. False with a sentence. */
-bool gm_work_measure(struct gm_work_table *table, char *message);
+/* Measures scheme after scheme. Stopped, what is finished stays. False with a sentence. */
+bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *listener, char *message);
+
+/* Writes a row of CSV for every point measured. False, with errno, if that fails. */
+bool gm_work_write(const struct gm_work_table *table, const char *path);
 
 enum gm_work_cost { GM_COST_SECONDS, GM_COST_EVALUATIONS };
 double gm_work_cost(const struct gm_work_point *point, enum gm_work_cost cost);

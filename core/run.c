@@ -190,16 +190,22 @@ size_t gm_run_snapshot_size(const struct gm_run *run)
 
 void gm_run_save(const struct gm_run *run, void *snapshot)
 {
+    memset(snapshot, 0, head_size()); /* no byte is left to chance: snapshots are written to files */
     memcpy(snapshot, run, sizeof *run);
     memcpy((char *)snapshot + head_size(), half(run, run->current), run->half_size);
 }
 
 void gm_run_load(struct gm_run *run, const void *snapshot)
 {
+    /* what it points to may belong to another run, or to a process that is gone */
+    const struct gm_problem *problem = run->problem;
+    const struct gm_scheme *scheme = run->scheme;
     void *workspace = run->workspace;
     memcpy(run, snapshot, sizeof *run);
-    memcpy(half(run, run->current), (const char *)snapshot + head_size(), run->half_size);
+    run->problem = problem;
+    run->scheme = scheme;
     run->workspace = workspace;
+    memcpy(half(run, run->current), (const char *)snapshot + head_size(), run->half_size);
     if (workspace && run->scheme->family->workspace_reset) {
         run->scheme->family->workspace_reset(workspace);
     }

@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_CANVAS_H
 #define GM_RENDER_CANVAS_H
 
-#include "core/sentence.h"
+#include "render/message.h"
 #include "render/theme.h"
 
 /* The GL painter: pictures to pixels, without a screen. One canvas has one size and one theme and is used

@@ -18,4 +18,10 @@ bool gm_png_write(const char *path, int width, int height, const unsigned char *
 /* Reads one text chunk; malloc'ed, NULL if there is none or the file is no PNG, with a sentence. */
 char *gm_png_read_text(const char *path, const char *key, char *message);
 
+/* Whether path is a whole PNG, every chunk's checksum right, that holds this key with this text (ASCII). */
+bool gm_png_tells(const char *path, const char *key, const char *text);
+
+/* Reads a PNG of this size into rgb (height rows of width * 3 bytes, top first). False with a sentence. */
+bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, char *message);
+
 #endif

@@ -216,6 +216,17 @@ bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const 
     return taken;
 }
 
+bool gm_sink_flush(struct gm_sink *sink)
+{
+    pthread_mutex_lock(&sink->lock);
+    while (!sink->failed && sink->idle_count < sink->made) {
+        pthread_cond_wait(&sink->vacant, &sink->lock);
+    }
+    const bool good = !sink->failed;
+    pthread_mutex_unlock(&sink->lock);
+    return good;
+}
+
 bool gm_sink_close(struct gm_sink *sink, bool keep, char *message)
 {
     end_workers(sink, !keep);

@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_SINK_KIND_H
 #define GM_RENDER_SINK_KIND_H
 
-#include "core/sentence.h"
+#include "render/message.h"
 #include "render/sink.h"
 
 /* What the kinds of sink share with sink.c, and with nobody else: the queue is sink.c's, a kind says what

@@ -368,6 +368,7 @@ static bool open_files(struct movie_sink *self, const char *path, char *message)
                  path);
         return false;
     }
+    gm_temporary_sweep(path);
     self->path = strdup(path);
     self->temporary = gm_temporary_name(path, endings[self->format]);
     if (self->format == GIF) {

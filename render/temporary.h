@@ -14,4 +14,10 @@ bool gm_temporary_fits(const char *path);
 /* A name in path's folder that no other thread or process uses, ending in `ending`; malloc'ed. */
 char *gm_temporary_name(const char *path, const char *ending);
 
+/* Removes the temporaries of path that processes left which are gone. */
+void gm_temporary_sweep(const char *path);
+
+/* Whether a file's name is such a name, of a process that is gone (of this machine's processes). */
+bool gm_temporary_is_stale(const char *name);
+
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/kernel/loops.h"
+#include "scenes/lane_pack.h"
 
 enum { MOST_OBSERVABLES = 64 };
 
@@ -86,7 +87,7 @@ static double intervals(const struct gm_lane *lane, double interval, double t)
     return floor(fabs(t - lane->t0) / interval * (1 + 1e-12) + 1e-9);
 }
 
-static size_t active_count(const struct gm_lane *lane)
+size_t gm_lane_active(const struct gm_lane *lane)
 {
     return (lane->problem.n - 2 * lane->problem.passive) * lane->problem.m;
 }
@@ -101,7 +102,7 @@ static void record_crossing(struct gm_lane *lane, const struct gm_track *track, 
     if (!(before < 0 && after >= 0 && lane->t_behind != view->t)) {
         return;
     }
-    const size_t active = active_count(lane);
+    const size_t active = gm_lane_active(lane);
     double *slopes = lane->behind + active, *between = slopes + 2 * active;
     const double h = view->t - lane->t_behind;
     const struct gm_loops *loops = lane->problem.loops[gm_isa_best()];
@@ -176,7 +177,7 @@ static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
         entries->count++;
     }
     if (lane->behind) {
-        memcpy(lane->behind, view->state, active_count(lane) * sizeof(double));
+        memcpy(lane->behind, view->state, gm_lane_active(lane) * sizeof(double));
         lane->t_behind = view->t;
     }
 }
@@ -263,7 +264,7 @@ static bool open_tracks(struct gm_lane *lane)
         entries->before = NAN;
         if (scene->tracks[i].section && !lane->behind) {
             /* the state before, slopes at both ends, a state between */
-            lane->behind = calloc(4 * active_count(lane), sizeof *lane->behind);
+            lane->behind = calloc(4 * gm_lane_active(lane), sizeof *lane->behind);
             if (!lane->behind) {
                 return false;
             }
@@ -377,37 +378,18 @@ struct gm_lane *gm_lane_copy(const struct gm_lane *lane)
     char sentence[GM_SENTENCE];
     struct gm_lane *copy =
         gm_lane_open(lane->scene, lane->parameters, &lane->settings, lane->scheme, sentence);
-    void *snapshot = malloc(gm_run_snapshot_size(lane->run));
-    if (!copy || !snapshot) {
+    size_t size = gm_lane_pack_size(lane);
+    void *bytes = malloc(size);
+    if (!copy || !bytes) {
         gm_lane_close(copy);
-        free(snapshot);
+        free(bytes);
         return NULL;
     }
-    gm_run_save(lane->run, snapshot);
-    gm_run_load(copy->run, snapshot);
-    copy->run->problem = &copy->problem;
     copy->shown = lane->shown;
-    free(snapshot);
     memcpy(copy->start, lane->start, lane->problem.n * lane->problem.m * sizeof *copy->start);
-    struct gm_bin *bins = copy->history.bins;
-    copy->history = lane->history;
-    copy->history.bins = bins;
-    memcpy(bins, lane->history.bins, lane->history.count * lane->history.series * sizeof *bins);
-    for (size_t i = 0; i < lane->scene->track_count; i++) {
-        const struct gm_entries *from = &lane->entries[i];
-        struct gm_entries *to = &copy->entries[i];
-        to->count = from->count;
-        to->every = from->every;
-        to->before = from->before;
-        to->skipped = from->skipped;
-        memcpy(to->times, from->times, from->count * sizeof(double));
-        memcpy(to->values, from->values, from->count * from->width * sizeof(double));
-    }
-    memcpy(copy->angles, lane->angles, lane->scene->observable_count * sizeof *copy->angles);
-    if (lane->behind) {
-        memcpy(copy->behind, lane->behind, active_count(lane) * sizeof *copy->behind);
-        copy->t_behind = lane->t_behind;
-    }
+    gm_lane_pack(lane, bytes);
+    gm_lane_unpack(copy, bytes, &size);
+    free(bytes);
     return copy;
 }
 

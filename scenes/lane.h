@@ -47,6 +47,9 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
                              char *sentence);
 void gm_lane_close(struct gm_lane *lane);
 
+/* How many numbers of the state are active: all but the passive block. */
+size_t gm_lane_active(const struct gm_lane *lane);
+
 struct gm_view gm_lane_view(const struct gm_lane *lane);
 
 /* The value of an observable now. */

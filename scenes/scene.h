@@ -3,7 +3,6 @@
 #define GM_SCENES_SCENE_H
 
 #include "core/run.h"
-#include "core/sentence.h"
 #include "render/picture.h"
 
 struct gm_lane;
@@ -107,6 +106,9 @@ struct gm_figure {
     const char *statement; /* what the document says it shows */
     const char *arguments; /* of `geomint render SCENE`, separated by blanks */
 };
+
+/* Bytes of a sentence that a scene writes. */
+enum { GM_SENTENCE = 256 };
 
 struct gm_scene {
     const char *name, *title, *blurb, *watch;

@@ -7,11 +7,12 @@
 #include "scenes/vortices.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/problems/problems.h"
+
+extern const struct gm_scene gm_scene_vortices;
 
 static const char *const configurations[] = {"reduced", "square",    "two-turned", "one-turned",
                                              "random",  "collision", NULL};
@@ -24,7 +25,7 @@ static const struct gm_parameter parameters[] = {
         .unit = "",
         .help =
             "start: reduced (two-turned with its symmetry built in), square, two-turned, one-turned, random, "
-            "collision",
+            "collision (with strength 2*pi and dt .5/800, unless given)",
         .type = GM_CHOICE,
         .offset = offsetof(struct gm_vortices, configuration),
         .standard = "reduced",
@@ -94,77 +95,6 @@ static const struct gm_parameter parameters[] = {
     },
 };
 
-/* splitmix64 (Steele, Lea & Flood 2014): a number in [0, 1) */
-static double next_random(uint64_t *state)
-{
-    *state += 0x9e3779b97f4a7c15u;
-    uint64_t z = *state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-static void place(const struct gm_vortices *own, size_t count, double *x, double *y)
-{
-    uint64_t random = (uint64_t)own->seed;
-    static const double pair_x[] = {0.5, -0.5, 1, -1.2}, pair_y[] = {0, 0, 0.3, 0.1};
-    for (size_t i = 0; i < count; i++) {
-        double turn = 2 * M_PI * (double)i / (double)count, radius = 1;
-        switch (own->configuration) {
-        case GM_REDUCED:
-            turn = i == 0 ? 0 : M_PI / 2 + own->angle;
-            break;
-        case GM_TWO_TURNED:
-            turn += i % 2 == 1 ? own->angle : 0;
-            break;
-        case GM_ONE_TURNED:
-            turn += i == 1 ? own->angle : 0;
-            break;
-        case GM_RANDOM:
-            radius = sqrt(next_random(&random));
-            turn = 2 * M_PI * next_random(&random);
-            break;
-        default:
-            break;
-        }
-        x[i] = radius * cos(turn);
-        y[i] = radius * sin(turn);
-        if (own->configuration == GM_COLLISION) {
-            x[i] = i < 2 ? own->distance * pair_x[i] : pair_x[i];
-            y[i] = pair_y[i];
-        }
-    }
-}
-
-size_t gm_vortices_carried(const struct gm_vortices *own)
-{
-    return own->configuration == GM_REDUCED ? 2 : (size_t)own->count;
-}
-
-/* Two vortices in one place have no velocity. Random ones are never so close. */
-static bool coincide(const struct gm_vortices *own)
-{
-    double x[4], y[4];
-    if (own->configuration == GM_RANDOM || own->configuration == GM_SQUARE) {
-        return false;
-    }
-    const size_t carried = gm_vortices_carried(own);
-    place(own, carried, x, y);
-    if (own->configuration == GM_REDUCED) {
-        for (size_t i = 0; i < 2; i++) {
-            x[2 + i] = -x[i];
-            y[2 + i] = -y[i];
-        }
-    }
-    bool close = false;
-    for (size_t i = 0; i < 4; i++) {
-        for (size_t j = i + 1; j < 4; j++) {
-            close |= hypot(x[i] - x[j], y[i] - y[j]) < 1e-9;
-        }
-    }
-    return close;
-}
-
 /* A regular polygon turns as a whole. */
 static void turn_polygon(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
 {
@@ -181,6 +111,33 @@ static void turn_polygon(const struct gm_problem *problem, double t, const doubl
 
 static const struct gm_exact polygon = {.solution = turn_polygon};
 
+static bool is_given(const char *key, const char *const *keys, size_t count)
+{
+    bool given = false;
+    for (size_t i = 0; i < count; i++) {
+        given |= strcmp(keys[i], key) == 0;
+    }
+    return given;
+}
+
+/* A configuration comes with a strength and a step that show its point, unless they are given. */
+static bool settle(void *parameters_, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    struct gm_vortices *own = parameters_;
+    static const struct {
+        const char *key, *in_collision;
+    } follow[] = {{"strength", "2*pi"}, {"dt", ".5/800"}};
+    for (size_t i = 0; i < sizeof follow / sizeof follow[0] && is_given("configuration", keys, count); i++) {
+        const struct gm_parameter *row = gm_scene_parameter(&gm_scene_vortices, follow[i].key);
+        if (!is_given(row->key, keys, count)) {
+            gm_parameter_set(row, own,
+                             own->configuration == GM_COLLISION ? follow[i].in_collision : row->standard);
+        }
+    }
+    return true;
+}
+
 static bool setup(const void *parameters_, struct gm_problem *problem, char *sentence)
 {
     const struct gm_vortices *own = parameters_;
@@ -196,7 +153,7 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
                  configurations[own->configuration]);
         return false;
     }
-    if (coincide(own)) {
+    if (gm_vortices_coincide(own)) {
         snprintf(sentence, GM_SENTENCE, "two vortices coincide at the start: another %s is needed",
                  own->configuration == GM_COLLISION ? "distance" : "angle");
         return false;
@@ -211,20 +168,6 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
     problem->parameters = &own->strength;
     problem->exact = own->configuration == GM_SQUARE && tracers == 0 ? &polygon : NULL;
     return true;
-}
-
-/* Tracers fill a disc evenly: the golden angle. */
-static void start(const void *parameters_, const struct gm_problem *problem, double *y)
-{
-    const struct gm_vortices *own = parameters_;
-    const size_t carried = gm_vortices_carried(own), tracers = problem->passive;
-    place(own, carried, y, y + carried);
-    for (size_t k = 0; k < tracers; k++) {
-        const double radius = 1.6 * sqrt(((double)k + 0.5) / (double)tracers),
-                     turn = 2.3999632297286533 * (double)k;
-        y[2 * carried + k] = radius * cos(turn);
-        y[2 * carried + tracers + k] = radius * sin(turn);
-    }
 }
 
 static double energy(const struct gm_view *view)
@@ -525,7 +468,8 @@ const struct gm_scene gm_scene_vortices = {
     .work = &work,
     .stability = &stability,
     .follow = 1,
+    .settle = settle,
     .setup = setup,
-    .start = start,
+    .start = gm_vortices_start,
     .draw = gm_vortices_draw,
 };

@@ -4,7 +4,7 @@
 
 #include "scenes/graph.h"
 
-/* What scenes/vortices.c and its picture, scenes/vortices_draw.c, share. */
+/* What scenes/vortices.c, scenes/vortices_start.c (where they start) and scenes/vortices_draw.c share. */
 
 enum { GM_REDUCED, GM_SQUARE, GM_TWO_TURNED, GM_ONE_TURNED, GM_RANDOM, GM_COLLISION };
 
@@ -20,6 +20,12 @@ struct gm_vortices {
 
 /* How many vortices the state holds: of the reduced system two, and their images are z -> -z. */
 size_t gm_vortices_carried(const struct gm_vortices *own);
+
+/* Whether two vortices start in one place, where they would have no velocity. */
+bool gm_vortices_coincide(const struct gm_vortices *own);
+
+/* The start of struct gm_scene: vortices as configured, tracers spread over a disc. */
+void gm_vortices_start(const void *parameters, const struct gm_problem *problem, double *y);
 
 void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 

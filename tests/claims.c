@@ -110,6 +110,7 @@ static void properties_that_are_false(void **unused)
         {"impulse2", GM_KEEPS_ENERGY},
         {"wisdom-holman2", GM_KEEPS_ENERGY},
         {"logh2", GM_KEEPS_ENERGY},
+        {"levi-civita", GM_KEEPS_ENERGY},
         {"variational-midpoint", GM_KEEPS_ENERGY},
         {"tao2", GM_KEEPS_QUADRATIC},
         {"energy-conserving", GM_MULTISYMPLECTIC},

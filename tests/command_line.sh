@@ -114,7 +114,7 @@ kill -TERM $pid
 wait $pid
 [ $? = 130 ] || fail 'an interrupted render is not exit 130'
 [ "$(ls frames | wc -l)" -ge 5 ] || fail 'an interrupted render kept no frames'
-ls -A frames | grep -v '^disc-render-[0-9]*\.png$' && fail 'an interrupted render left a temporary file'
+ls -A frames | grep -vE '^disc-render(-[0-9]*\.png|\.checkpoint)$' && fail 'an interrupted render left a temporary file'
 for file in $(ls frames/*.png | tail -n 3); do
     [ "$(tail -c 8 "$file" | od -An -tx1 | tr -d ' \n')" = 49454e44ae426082 ] || fail "$file is cut off"
 done

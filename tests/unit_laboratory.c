@@ -154,6 +154,30 @@ static void refusals(void **unused)
 }
 
 /* A step longer than an orbit: an honest status, or numbers that say how bad it is. */
+/* The near collision comes with a strength and a step, unless they are given. */
+static void a_configuration_brings_its_own(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *words;
+        double strength, dt;
+    } rows[] = {
+        {"vortices configuration=collision steps=0", 2 * M_PI, 0.5 / 800},
+        {"vortices configuration=collision strength=3 steps=0", 3, 0.5 / 800},
+        {"vortices dt=.001 configuration=collision steps=0", 2 * M_PI, 0.001},
+        {"vortices configuration=square steps=0", 150, 5e-3},
+        {"vortices steps=0", 150, 5e-3},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        struct gm_trial trial;
+        gm_trial_run(&trial, rows[i].words, false);
+        const struct gm_parameter *strength = gm_scene_parameter(trial.request.scene, "strength");
+        assert_true(gm_parameter_get(strength, trial.drive.lane->parameters) == rows[i].strength);
+        assert_true(trial.drive.lane->run->dt == rows[i].dt);
+        gm_trial_close(&trial);
+    }
+}
+
 static void step_longer_than_an_orbit(void **unused)
 {
     (void)unused;
@@ -231,7 +255,7 @@ static void verdicts(void **unused)
     struct gm_stability_table table;
     char message[GM_MESSAGE];
     assert_true(gm_stability_open(&table, &options, message));
-    assert_true(gm_stability_measure(&table, message));
+    assert_true(gm_stability_measure(&table, NULL, message));
     const struct gm_stability *plan = table.plan;
     for (size_t s = 0; s < plan->step_count; s++) {
         const size_t fifty = s * plan->value_count + 1;
@@ -260,6 +284,7 @@ int main(void)
         cmocka_unit_test(memory_is_bounded),
         cmocka_unit_test(looking_changes_nothing),
         cmocka_unit_test(refusals),
+        cmocka_unit_test(a_configuration_brings_its_own),
         cmocka_unit_test(step_longer_than_an_orbit),
         cmocka_unit_test(linear_stability),
         cmocka_unit_test(prices),

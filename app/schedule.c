@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/schedule.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static double end_of(const struct gm_request *request)
+{
+    double end = -INFINITY;
+    for (size_t i = 0; i < request->count; i++) {
+        const struct gm_timing *timing = request->lanes[i].parameters;
+        const double t0 = gm_scene_t0(request->scene, timing);
+        end = fmax(end, t0 + (double)request->lanes[i].steps * timing->dt);
+    }
+    return end;
+}
+
+static bool take_shard(struct gm_schedule *schedule, const struct gm_options *options, char *message)
+{
+    schedule->shard = options->shards > 0 ? options->shard : 1;
+    schedule->shards = options->shards > 0 ? options->shards : 1;
+    if (options->shards > 0 && options->movie) {
+        snprintf(message, GM_MESSAGE,
+                 "--shard makes frames: leave --movie to one more run of the same command without --shard, "
+                 "when all shards are done");
+        return false;
+    }
+    if (options->shards > 0 && schedule->still) {
+        snprintf(message, GM_MESSAGE,
+                 "--shard divides frames, and there is one picture; how many? --frames N");
+        return false;
+    }
+    for (long frame = 0; frame < schedule->count; frame++) {
+        schedule->ours += gm_schedule_is_ours(schedule, frame);
+    }
+    return true;
+}
+
+bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *request,
+                      const struct gm_options *options, char *message)
+{
+    const struct gm_timing *timing = request->lanes[0].parameters;
+    const double end = end_of(request);
+    const double first = isnan(options->from) ? gm_scene_t0(request->scene, timing) : options->from;
+    if (!isnan(options->at)) {
+        *schedule = (struct gm_schedule){
+            .count = 1, .first = options->at, .last = options->at, .still = !options->movie};
+        return take_shard(schedule, options, message);
+    }
+    if (first > end) {
+        snprintf(message, GM_MESSAGE, "--from %g lies after the end, t = %g", first, end);
+        return false;
+    }
+    const bool paced = options->movie || !isnan(options->rate) || !isnan(options->fps);
+    double count = 1;
+    *schedule = (struct gm_schedule){.first = first, .last = end};
+    if (options->frames) {
+        count = (double)options->frames;
+    } else if (options->every) {
+        const double interval = (double)options->every * timing->dt;
+        count = floor((end - first) / interval * (1 + 1e-12) + 1e-9) + 1;
+        schedule->last = first + (count - 1) * interval;
+    } else if (paced) {
+        const double fps = isnan(options->fps) ? 30 : options->fps;
+        /* ten seconds, unless told otherwise */
+        const double rate = isnan(options->rate) ? (end - first) / 10 : options->rate;
+        count = rate > 0 ? fmax(1, round((end - first) * fps / rate)) + 1 : 2;
+    } else {
+        schedule->still = true;
+    }
+    if (!(count <= 1e7)) {
+        snprintf(message, GM_MESSAGE, "that makes %.3g frames; 1e7 is the most", count);
+        return false;
+    }
+    schedule->count = (long)count;
+    if (schedule->count == 1) {
+        schedule->first = schedule->last;
+    }
+    return take_shard(schedule, options, message);
+}
+
+double gm_schedule_time(const struct gm_schedule *schedule, long frame)
+{
+    if (frame + 1 >= schedule->count) {
+        return schedule->last;
+    }
+    return schedule->first +
+           (schedule->last - schedule->first) * (double)frame / (double)(schedule->count - 1);
+}
+
+bool gm_schedule_is_ours(const struct gm_schedule *schedule, long frame)
+{
+    /* blocks, so that a shard's last frames need not wait for a whole simulation; short enough for all shards
+       to have the same to do */
+    enum { LONGEST = 16, BLOCKS = 8 };
+    const long fair = schedule->count / (BLOCKS * schedule->shards);
+    const long block = fair < 1 ? 1 : fair < LONGEST ? fair : LONGEST;
+    return frame / block % schedule->shards == schedule->shard - 1;
+}
+
+long gm_schedule_last(const struct gm_schedule *schedule)
+{
+    long frame = schedule->count - 1;
+    while (frame >= 0 && !gm_schedule_is_ours(schedule, frame)) {
+        frame--;
+    }
+    return frame;
+}
