@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "core/sentence.h"
 #include "render/canvas.h"
+#include "render/message.h"
 
 struct gm_pixels {
     pthread_t thread;
