@@ -72,6 +72,9 @@ char *gm_request_format(const struct gm_request *request)
     if (lists > 1) {
         fputs(" zip=yes", stream);
     }
+    if (request->overlay) {
+        fputs(" overlay=yes", stream);
+    }
     fclose(stream);
     return text;
 }

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app/chart.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 
+#include "app/folder.h"
 #include "render/canvas.h"
 #include "render/png.h"
 
@@ -20,11 +18,7 @@ bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, con
         snprintf(message, GM_MESSAGE, "the name of the folder is too long");
         return false;
     }
-    if (options->out && mkdir(options->out, 0777) != 0 && errno != EEXIST) {
-        snprintf(message, GM_MESSAGE, "%.200s could not be made: %s", options->out, strerror(errno));
-        return false;
-    }
-    return true;
+    return gm_folder_make(options->out, message);
 }
 
 bool gm_chart_paint(const struct gm_chart *chart, const void *data,

@@ -1,33 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint list: scenes, schemes, figures, and what one scene takes. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "app/catalogue.h"
 #include "app/commands.h"
 #include "app/drive.h"
-
-static void print_json_text(const char *text)
-{
-    putchar('"');
-    for (; *text; text++) {
-        if (*text == '\n') {
-            fputs("\\n", stdout);
-        } else {
-            if (*text == '"' || *text == '\\') {
-                putchar('\\');
-            }
-            putchar(*text);
-        }
-    }
-    putchar('"');
-}
-
-static void print_json_pair(const char *key, const char *text)
-{
-    printf("\"%s\":", key);
-    print_json_text(text);
-}
+#include "app/json.h"
 
 static void list_scenes(const struct gm_options *options)
 {
@@ -35,13 +14,13 @@ static void list_scenes(const struct gm_options *options)
         const struct gm_scene *scene = gm_scene_at(i);
         if (options->json) {
             printf("{");
-            print_json_pair("scene", scene->name);
+            gm_json_pair("scene", scene->name);
             printf(",");
-            print_json_pair("title", scene->title);
+            gm_json_pair("title", scene->title);
             printf(",");
-            print_json_pair("blurb", scene->blurb);
+            gm_json_pair("blurb", scene->blurb);
             printf(",");
-            print_json_pair("watch", scene->watch);
+            gm_json_pair("watch", scene->watch);
             printf("}\n");
             continue;
         }
@@ -50,17 +29,6 @@ static void list_scenes(const struct gm_options *options)
             printf("  %s\n  %s\n", scene->blurb, scene->watch);
         }
     }
-}
-
-static void claim_letters(const struct gm_scheme *scheme, char *letters)
-{
-    size_t used = 0;
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        if (scheme->claims >> bit & 1) {
-            letters[used++] = gm_claim_letter(bit)[0];
-        }
-    }
-    letters[used] = '\0';
 }
 
 static void print_formula(const char *text)
@@ -75,7 +43,7 @@ static void print_formula(const char *text)
 static void list_scheme(const struct gm_scheme *scheme, const struct gm_options *options)
 {
     char letters[GM_CLAIM_COUNT + 1];
-    claim_letters(scheme, letters);
+    gm_catalogue_letters(scheme, letters);
     if (!options->json) {
         printf("%-26s %d  %-8s %s\n", scheme->name, scheme->order, letters, scheme->title);
         if (options->longer) {
@@ -85,11 +53,11 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
         return;
     }
     printf("{");
-    print_json_pair("scheme", scheme->name);
+    gm_json_pair("scheme", scheme->name);
     printf(",");
-    print_json_pair("title", scheme->title);
+    gm_json_pair("title", scheme->title);
     printf(",\"order\":%d,", scheme->order);
-    print_json_pair("family", scheme->family->title);
+    gm_json_pair("family", scheme->family->title);
     printf(",\"claims\":[");
     const char *comma = "";
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
@@ -99,9 +67,9 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
         }
     }
     printf("],");
-    print_json_pair("formula", scheme->formula);
+    gm_json_pair("formula", scheme->formula);
     printf(",");
-    print_json_pair("reference", scheme->reference);
+    gm_json_pair("reference", scheme->reference);
     printf("}\n");
 }
 
@@ -113,13 +81,13 @@ static void list_figures(const struct gm_options *options)
             const struct gm_figure *figure = &scene->figures[f];
             if (options->json) {
                 printf("{");
-                print_json_pair("figure", figure->name);
+                gm_json_pair("figure", figure->name);
                 printf(",");
-                print_json_pair("scene", scene->name);
+                gm_json_pair("scene", scene->name);
                 printf(",");
-                print_json_pair("arguments", figure->arguments);
+                gm_json_pair("arguments", figure->arguments);
                 printf(",");
-                print_json_pair("statement", figure->statement);
+                gm_json_pair("statement", figure->statement);
                 printf("}\n");
             } else {
                 printf("%-22s %s\n", figure->name, figure->statement);
@@ -131,62 +99,37 @@ static void list_figures(const struct gm_options *options)
     }
 }
 
-static void range_text(const struct gm_parameter *row, char *text, size_t size)
-{
-    if (row->type == GM_TEXT) {
-        snprintf(text, size, "a word");
-        return;
-    }
-    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
-        size_t used = 0;
-        text[0] = '\0';
-        for (size_t i = 0; row->type == GM_CHOICE && row->choices[i] && used < size; i++) {
-            used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", row->choices[i]);
-        }
-        if (row->type == GM_BOOLEAN) {
-            snprintf(text, size, "no, yes");
-        }
-        return;
-    }
-    char low[40], high[40];
-    snprintf(text, size, "%s to %s", gm_number_format(row->lowest, low, sizeof low),
-             gm_number_format(row->highest, high, sizeof high));
-}
-
 static void list_parameter(const struct gm_parameter *row, bool json, const char *comma)
 {
     char range[128];
-    range_text(row, range, sizeof range);
+    gm_catalogue_range(row, range, sizeof range);
     if (!json) {
         printf("  %-14s %-12s %-24s %s%s%s\n", row->key, row->standard, range, row->help,
                row->unit[0] ? ", in " : "", row->unit);
         return;
     }
     printf("%s{", comma);
-    print_json_pair("key", row->key);
+    gm_json_pair("key", row->key);
     printf(",");
-    print_json_pair("default", row->standard);
+    gm_json_pair("default", row->standard);
     printf(",");
-    print_json_pair("range", range);
+    gm_json_pair("range", range);
     printf(",\"live\":%s,", row->live ? "true" : "false");
-    print_json_pair("help", row->help);
+    gm_json_pair("help", row->help);
     printf("}");
 }
 
 static void list_scene(const struct gm_scene *scene, const struct gm_options *options)
 {
-    void *standard = calloc(1, scene->size);
-    if (!standard) {
-        return;
-    }
-    gm_parameters_reset(scene->parameters, scene->parameter_count, standard);
+    const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
+    const size_t count = gm_catalogue_fitting(scene, fitting);
     if (options->json) {
         printf("{");
-        print_json_pair("scene", scene->name);
+        gm_json_pair("scene", scene->name);
         printf(",");
-        print_json_pair("title", scene->title);
+        gm_json_pair("title", scene->title);
         printf(",");
-        print_json_pair("watch", scene->watch);
+        gm_json_pair("watch", scene->watch);
         printf(",\"parameters\":[");
     } else {
         printf("%s\n%s\n%s\n\nparameter        default      range                    meaning\n", scene->title,
@@ -207,20 +150,27 @@ static void list_scene(const struct gm_scene *scene, const struct gm_options *op
                scene->observables[i].key);
     }
     printf(options->json ? "],\"schemes\":[" : "\n\nschemes that fit           order claims\n");
-    const char *comma = "";
-    for (size_t i = 0; i < gm_scheme_count(); i++) {
-        if (!gm_scene_fits(scene, standard, gm_scheme_at(i))) {
-            continue;
-        }
+    for (size_t i = 0; i < count; i++) {
         if (options->json) {
-            printf("%s\"%s\"", comma, gm_scheme_at(i)->name);
-            comma = ",";
+            printf("%s\"%s\"", i ? "," : "", fitting[i]->name);
         } else {
-            list_scheme(gm_scheme_at(i), options);
+            list_scheme(fitting[i], options);
         }
     }
     printf(options->json ? "]}\n" : "");
-    free(standard);
+}
+
+static int list_markdown(const char *what)
+{
+    if (strcmp(what, "scenes") == 0) {
+        gm_catalogue_scenes_markdown();
+    } else if (strcmp(what, "schemes") == 0) {
+        gm_catalogue_schemes_markdown();
+    } else {
+        gm_complain("--markdown lists scenes or schemes");
+        return GM_EXIT_USAGE;
+    }
+    return gm_finish(GM_EXIT_OK);
 }
 
 int gm_command_list(const struct gm_options *options)
@@ -230,6 +180,9 @@ int gm_command_list(const struct gm_options *options)
         return GM_EXIT_USAGE;
     }
     const char *what = options->word_count ? options->words[0] : "scenes";
+    if (options->markdown) {
+        return list_markdown(what);
+    }
     if (strcmp(what, "scenes") == 0) {
         list_scenes(options);
     } else if (strcmp(what, "schemes") == 0) {

@@ -8,36 +8,12 @@
 
 #include "app/commands.h"
 #include "app/drive.h"
+#include "app/json.h"
 
 struct outcome {
     struct gm_drive drive;
     double *maxima; /* one per observable; NULL without --max */
 };
-
-static void print_json_number(double value)
-{
-    if (isfinite(value)) {
-        printf("%.17g", value);
-    } else {
-        fputs("null", stdout);
-    }
-}
-
-static void print_json_text(const char *text)
-{
-    putchar('"');
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\') {
-            putchar('\\');
-        }
-        if ((unsigned char)*text < ' ') {
-            printf("\\u%04x", (unsigned)*text);
-        } else {
-            putchar(*text);
-        }
-    }
-    putchar('"');
-}
 
 static void print_json_parameters(const struct gm_lane *lane)
 {
@@ -48,11 +24,11 @@ static void print_json_parameters(const struct gm_lane *lane)
         const struct gm_parameter *row = &scene->parameters[i];
         printf("%s\"%s\":", i ? "," : "", row->key);
         if (row->type == GM_TEXT) {
-            print_json_text(gm_parameter_format(row, lane->parameters, text, sizeof text));
+            gm_json_text(gm_parameter_format(row, lane->parameters, text, sizeof text));
         } else if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
             printf("\"%s\"", gm_parameter_format(row, lane->parameters, text, sizeof text));
         } else {
-            print_json_number(gm_parameter_get(row, lane->parameters));
+            gm_json_number(gm_parameter_get(row, lane->parameters));
         }
     }
     for (const struct gm_parameter *const *row = lane->scheme->family->parameters; row && *row; row++) {
@@ -70,17 +46,17 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     printf("{\"scene\":\"%s\",\"scheme\":\"%s\",", lane->scene->name, lane->scheme->name);
     print_json_parameters(lane);
     printf(",\"status\":\"%s\",\"message\":\"%s\",\"t\":", gm_status_name(run->status), sentence);
-    print_json_number(run->t);
+    gm_json_number(run->t);
     printf(",\"steps\":%ld,\"evaluations\":%.0f,\"solves\":%.0f,\"seconds\":%.6g,\"observables\":{",
            run->steps, gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves),
            outcome->drive.seconds);
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         printf("%s\"%s\":", i ? "," : "", lane->scene->observables[i].key);
-        print_json_number(gm_lane_observe(lane, i));
+        gm_json_number(gm_lane_observe(lane, i));
     }
     for (size_t i = 0; outcome->maxima && i < lane->scene->observable_count; i++) {
         printf(",\"%s_max\":", lane->scene->observables[i].key);
-        print_json_number(outcome->maxima[i]);
+        gm_json_number(outcome->maxima[i]);
     }
     printf("}");
     if (options->state) {
@@ -89,7 +65,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
                lane->problem.n, lane->problem.m);
         for (size_t i = 0; i < lane->problem.n * lane->problem.m; i++) {
             fputs(i ? "," : "", stdout);
-            print_json_number(y[i]); /* null: a tracer that was lost */
+            gm_json_number(y[i]); /* null: a tracer that was lost */
         }
         printf("]");
     }

@@ -16,9 +16,10 @@ static void print_table(const struct gm_stability_table *table)
 {
     const struct gm_stability *plan = table->plan;
     const struct gm_timing *timing = table->request.lanes[0].parameters;
-    printf(
-        "%s after t = %.6g: . bounded, L lost, G gained, W wrong, B blow-up, N no convergence, C step collapse\n",
-        table->request.scene->name, timing->until);
+    char letters[128];
+    gm_stability_letters(table, letters, sizeof letters);
+    printf("%s after t = %.6g: . bounded%s%s\n", table->request.scene->name, timing->until,
+           letters[0] ? ", " : "", letters);
     for (size_t i = 0; i < table->count; i++) {
         const struct gm_stability_map *map = &table->maps[i];
         printf("\n%-20s %s\n%12s", map->scheme->name, plan->parameter, plan->label);

@@ -26,11 +26,14 @@ static void print_table(const struct gm_work_table *table)
     char sentence[512];
     printf("%s, %s at t = %.6g", table->request.scene->name, table->measure, timing->until);
     printf(table->reference[0] ? " against %s\n" : "\n", table->reference);
-    printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", "evaluations for an error of",
-           "least", "scheme");
+    const enum gm_work_cost second = gm_work_second_cost(table);
+    char heading[64];
+    snprintf(heading, sizeof heading, "%s for an error of",
+             table->resolution ? table->resolution->key : "evaluations");
+    printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", heading, "least", "scheme");
     for (int cost = 0; cost < 2; cost++) {
         for (size_t i = 0; i < 3; i++) {
-            printf(" %11.0e", gm_work_errors[i]);
+            printf(" %11.0e", table->errors[i]);
         }
     }
     printf(" %9s\n", "error");
@@ -39,10 +42,10 @@ static void print_table(const struct gm_work_table *table)
         double least = INFINITY;
         printf("%-26s", line->scheme->name);
         for (size_t k = 0; k < 3; k++) {
-            print_cell(1e3 * gm_work_price(line, gm_work_errors[k], GM_COST_SECONDS));
+            print_cell(1e3 * gm_work_price(line, table->errors[k], GM_COST_SECONDS));
         }
         for (size_t k = 0; k < 3; k++) {
-            print_cell(gm_work_price(line, gm_work_errors[k], GM_COST_EVALUATIONS));
+            print_cell(gm_work_price(line, table->errors[k], second));
         }
         for (size_t k = 0; k < line->count; k++) {
             least = fmin(least, line->points[k].error);

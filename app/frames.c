@@ -2,14 +2,13 @@
 #include "app/frames.h"
 
 #include <dirent.h>
-#include <errno.h>
 #include <libdeflate.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "app/folder.h"
 #include "render/temporary.h"
 
 /* The checksum of the running program: frames of another build are not ours, whatever its version says. */
@@ -127,8 +126,7 @@ bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule
         .pattern = pattern_of(folder, name, schedule->still),
         .identity = identify(schedule, provenance),
     };
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be made: %s", folder, strerror(errno));
+    if (!gm_folder_make(folder, message)) {
         gm_frames_close(frames);
         return false;
     }

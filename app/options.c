@@ -24,6 +24,7 @@ struct row {
 static const struct row rows[] = {
     {"--json", FLAG, GM_RUN | GM_LIST | GM_CERTIFY, AT(json), "", "one JSON object a line"},
     {"--long", FLAG, GM_LIST, AT(longer), "", "with formulas and references"},
+    {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
     {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
     {"--max", FLAG, GM_RUN, AT(maximum), "", "with NAME_max, the maximum over all steps"},
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},
@@ -36,7 +37,8 @@ static const struct row rows[] = {
     {"--from", NUMBER, GM_RENDER, AT(from), "T", "first frame at model time T"},
     {"--at", NUMBER, GM_RENDER, AT(at), "T", "one picture at model time T"},
     {"--size", SIZE, PAINTS, AT(width), "WxH", "pixels (1280x720)"},
-    {"--theme", THEME, PAINTS, AT(theme), "light|dark", "colours for paper or for a screen"},
+    {"--theme", THEME, PAINTS & ~(unsigned)GM_FIGURES, AT(theme), "light|dark",
+     "colours for paper or for a screen"},
     {"--graphics", TEXT, GM_TUI | GM_TERMINAL, AT(graphics), "KIND",
      "kitty, sixel, braille, quadrants, half or ascii"},
     {"--colours", TEXT, GM_TUI | GM_TERMINAL, AT(colours), "HOWMANY", "truecolor, 256, 16 or none"},
@@ -48,7 +50,7 @@ static const struct row rows[] = {
     {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
     {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
      "the linear stability region of a scheme, no scene"},
-    {"--quick", FLAG, GM_FIGURES, AT(quick), "", "few steps and small pictures"},
+    {"--quick", FLAG, GM_FIGURES, AT(quick), "", "shorter runs and smaller pictures; nothing long is judged"},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -99,6 +101,7 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         }
         options->width = width;
         options->height = height;
+        options->sized = true;
         return true;
     }
     case SHARD: {
@@ -185,6 +188,17 @@ void gm_options_close(struct gm_options *options)
 {
     free(options->words);
     options->words = NULL;
+}
+
+size_t gm_option_count(void)
+{
+    return ROWS;
+}
+
+struct gm_option gm_option_at(size_t index)
+{
+    const struct row *row = &rows[index];
+    return (struct gm_option){row->name, row->value, row->help, row->commands};
 }
 
 void gm_options_help(enum gm_command command)

@@ -17,17 +17,20 @@ enum gm_command {
     GM_TERMINAL = 1 << 7,
     GM_WORK_PRECISION = 1 << 8,
     GM_STABILITY = 1 << 9,
+    GM_MANUAL = 1 << 29,
+    GM_COMPLETE = 1 << 30,
 };
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
-    int json, state, maximum, strict, longer, quick;
+    int json, state, maximum, strict, longer, quick, markdown;
     const char *csv, *profile, *out, *movie, *measure, *region;
     long every, frames;
     long shard, shards;                    /* 0, 0: not given */
     double fps, rate;                      /* NAN: not given */
     double from, at;                       /* NAN: not given */
     int width, height;                     /* 1280 x 720 */
+    bool sized;                            /* these were given */
     enum gm_theme theme;                   /* light */
     const char *graphics, *colours, *look; /* what to believe of the terminal */
     char **words;                          /* what is left: scene, key=value, names */
@@ -38,6 +41,16 @@ struct gm_options {
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message);
 void gm_options_close(struct gm_options *options);
+
+/* What is known of an option. */
+struct gm_option {
+    const char *name;  /* "--size" */
+    const char *value; /* "WxH"; "" if it takes none */
+    const char *help;
+    unsigned commands; /* those that take it */
+};
+size_t gm_option_count(void);
+struct gm_option gm_option_at(size_t index);
 
 /* Writes the options of a command for --help. */
 void gm_options_help(enum gm_command command);

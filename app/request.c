@@ -22,6 +22,7 @@ struct lists {
     struct list list[MOST_LISTS];
     size_t count;
     bool zip;
+    bool overlay;
 };
 
 __attribute__((format(printf, 2, 3))) static bool refuse(char *message, const char *format, ...)
@@ -43,8 +44,8 @@ static const char *scheme_name(size_t i, const void *data)
     return (void)data, gm_scheme_at(i)->name;
 }
 
-static const char *const app_keys[] = {"scheme", "steps", "zip"};
-enum { APP_KEYS = 3 };
+static const char *const app_keys[] = {"scheme", "steps", "zip", "overlay"};
+enum { APP_KEYS = 4 };
 
 static const char *key_name(size_t i, const void *data)
 {
@@ -209,7 +210,7 @@ static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, 
     return true;
 }
 
-/* Applies value `index` of a list to a lane. steps and zip are not the lane's. */
+/* Applies value `index` of a list to a lane. steps, zip and overlay are not the lane's. */
 static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const struct list *list,
                   size_t index, char *message)
 {
@@ -217,7 +218,7 @@ static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const
     if (strcmp(list->key, "scheme") == 0) {
         return set_scheme(scene, spec, text, message);
     }
-    if (strcmp(list->key, "zip") == 0) {
+    if (strcmp(list->key, "zip") == 0 || strcmp(list->key, "overlay") == 0) {
         return true;
     }
     if (strcmp(list->key, "steps") == 0) {
@@ -256,6 +257,20 @@ static size_t choice(const struct lists *lists, size_t i, size_t lane)
         lane /= lists->list[k].count;
     }
     return lane % lists->list[i].count;
+}
+
+void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay)
+{
+    char name[sizeof shown->panel_name];
+    const char *own = shown->colour_name[0] ? shown->colour_name : shown->panel_name;
+    snprintf(name, sizeof name, "%s", strcmp(own, scheme->title) == 0 ? "" : own);
+    *shown = (struct gm_shown){.panel = overlay ? 0 : lane, .colour = lane};
+    if (overlay) {
+        snprintf(shown->panel_name, sizeof shown->panel_name, "all lanes");
+        snprintf(shown->colour_name, sizeof shown->colour_name, "%s", name[0] ? name : scheme->title);
+    } else {
+        memcpy(shown->panel_name, name, sizeof name);
+    }
 }
 
 /* The first list of several values gives the panels, the others the colours. */
@@ -356,6 +371,10 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
     if (!count_lanes(lists, &count, message)) {
         return false;
     }
+    if (lists->overlay && count > GM_LANE_COLOURS) {
+        return refuse(message, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
+                      GM_LANE_COLOURS, count);
+    }
     request->lanes = calloc(count, sizeof *request->lanes);
     if (!request->lanes) {
         return refuse(message, "not enough memory");
@@ -383,6 +402,9 @@ static bool make_lanes(struct gm_request *request, struct lists *lists, char *me
             }
         }
         show(lists, k, spec);
+        if (lists->overlay) {
+            gm_show_in_order(&spec->shown, k, spec->scheme, true);
+        }
         if (scene->settle && !scene->settle(spec->parameters, keys, lists->count, message)) {
             return false;
         }
@@ -426,6 +448,15 @@ static bool prefer(struct lists *lists, const struct gm_scene *scene, size_t sch
     return good || refuse(message, "not enough memory");
 }
 
+/* A yes or no that is not a lane's. */
+static bool read_yes(struct lists *lists, const char *key, bool *value, char *message)
+{
+    const struct list *list = find_list(lists, key);
+    *value = list && strcmp(list->values[0], "yes") == 0;
+    return !list || (list->count == 1 && (*value || strcmp(list->values[0], "no") == 0)) ||
+           refuse(message, "%s= is one of: no, yes", key);
+}
+
 static char *join(const struct gm_scene *scene, const struct lists *lists)
 {
     char *text = NULL;
@@ -464,13 +495,9 @@ bool gm_request_parse(struct gm_request *request, int count, char *const words[]
     for (int i = 1; i < count && good; i++) {
         good = read_word(&lists, request->scene, words[i], message);
     }
-    const struct list *zip = find_list(&lists, "zip");
-    if (good && zip) {
-        lists.zip = strcmp(zip->values[0], "yes") == 0;
-        if (zip->count > 1 || (!lists.zip && strcmp(zip->values[0], "no") != 0)) {
-            good = refuse(message, "zip= is one of: no, yes");
-        }
-    }
+    good = good && read_yes(&lists, "zip", &lists.zip, message) &&
+           read_yes(&lists, "overlay", &lists.overlay, message);
+    request->overlay = lists.overlay;
     good = good && prefer(&lists, request->scene, schemes, message) && make_lanes(request, &lists, message);
     if (good) {
         request->arguments = join(request->scene, &lists);

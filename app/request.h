@@ -28,6 +28,7 @@ struct gm_request {
     size_t count;
     struct gm_change *changes; /* in order of step */
     size_t change_count;
+    bool overlay;    /* all lanes in one panel */
     char *arguments; /* what it was read from, schemes named; NULL: gm_request_format finds out */
 };
 
@@ -42,7 +43,8 @@ enum {
     GM_EXIT_PIPE = 141,
 };
 
-/* Reads words such as "disc", "scheme=rk4,midpoint", "dt=pi/60,pi/12", "zip=yes" (the scene first).
+/* Reads words such as "disc", "scheme=rk4,midpoint", "dt=pi/60,pi/12", "zip=yes",
+   "overlay=yes" (the scene first).
    `schemes` is how many of the scene's preferred schemes to take where none is named. False with one
    sentence in message (GM_MESSAGE bytes); the request is then empty. */
 bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
@@ -56,6 +58,9 @@ char *gm_request_format(const struct gm_request *request);
 /* The changes as text, one "lane step key=value" a line, and back. */
 char *gm_changes_format(const struct gm_request *request);
 bool gm_changes_parse(struct gm_request *request, const char *text);
+/* A colour for lane number `lane`, and a panel of its own or one for all; the lane keeps its name. */
+void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay);
+
 /* Appends one; false when memory is short. */
 bool gm_change_add(struct gm_request *request, size_t lane, long step, const char *text);
 

@@ -184,13 +184,6 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, const s
     }
 }
 
-static void set_parameter(const struct gm_parameter *row, void *own, double value)
-{
-    char text[64];
-    snprintf(text, sizeof text, "%.17g", value);
-    gm_parameter_set(row, own, text);
-}
-
 bool gm_stability_measure(struct gm_stability_table *table, const struct gm_listener *listener, char *message)
 {
     const struct gm_stability *plan = table->plan;
@@ -201,7 +194,7 @@ bool gm_stability_measure(struct gm_stability_table *table, const struct gm_list
         for (size_t k = 0; k < each; k++) {
             struct gm_cell *cell = &table->maps[i].cells[k];
             gm_listener_hears(listener, spec->scheme->name, i * each + k, table->count * each);
-            set_parameter(table->parameter, spec->parameters, plan->values[k % plan->value_count]);
+            gm_parameter_put(table->parameter, spec->parameters, plan->values[k % plan->value_count]);
             timing->dt = cell->dt = plan->steps[k / plan->value_count] * plan->unit(spec->parameters);
             struct gm_lane *lane = gm_request_open_lane(&table->request, i, message);
             if (!lane) {
@@ -240,7 +233,33 @@ char gm_cell_letter(const struct gm_cell *cell)
     case GM_FAILED:
         break;
     }
-    return cell->status == GM_BLOW_UP ? 'B' : cell->status == GM_NO_CONVERGENCE ? 'N' : 'C';
+    switch (cell->status) {
+    case GM_BLOW_UP:
+        return 'B';
+    case GM_NO_CONVERGENCE:
+        return 'N';
+    case GM_MESH_CROSSING:
+        return 'M';
+    default:
+        return 'C';
+    }
+}
+
+const char *gm_stability_letters(const struct gm_stability_table *table, char *text, size_t size)
+{
+    const size_t each = table->plan->step_count * table->plan->value_count;
+    bool told[128] = {['.'] = true};
+    size_t used = (size_t)snprintf(text, size, "%s", "");
+    for (size_t i = 0; i < table->count * each; i++) {
+        const struct gm_cell *cell = &table->maps[i / each].cells[i % each];
+        const char letter = gm_cell_letter(cell);
+        if (!told[(size_t)letter] && used < size) {
+            used += (size_t)snprintf(text + used, size - used, "%s%c %s", used ? ", " : "", letter,
+                                     gm_cell_word(cell));
+            told[(size_t)letter] = true;
+        }
+    }
+    return text;
 }
 
 double gm_stability_limit(const struct gm_stability_table *table, const struct gm_stability_map *map)

@@ -50,6 +50,9 @@ bool gm_stability_write(const struct gm_stability_table *table, const char *path
 const char *gm_cell_word(const struct gm_cell *cell);
 char gm_cell_letter(const struct gm_cell *cell);
 
+/* The letters in use, but that of bounded: "W wrong, M mesh-crossing". Returns text. */
+const char *gm_stability_letters(const struct gm_stability_table *table, char *text, size_t size);
+
 /* The largest step, in the plan's unit, up to which a scheme is bounded for all values; 0: none. */
 double gm_stability_limit(const struct gm_stability_table *table, const struct gm_stability_map *map);
 

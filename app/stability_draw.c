@@ -94,7 +94,9 @@ void gm_stability_draw(const struct gm_stability_table *table, struct gm_picture
         gm_picture_text(picture, "%s: which time step keeps which scheme", table->request.scene->title);
     picture->subtitle =
         gm_picture_text(picture, "up: %s;  after t = %.6g", table->plan->label, timing->until);
-    picture->caption = "Empty: bounded.  L lost, G gained, W wrong, B blow-up, N no convergence.";
+    char letters[128];
+    gm_stability_letters(table, letters, sizeof letters);
+    picture->caption = gm_picture_text(picture, "Empty: bounded.  %s%s", letters, letters[0] ? "." : "");
     picture->clock = "";
     for (size_t i = 0; i < table->count; i++) {
         draw_map(table, &table->maps[i], picture);

@@ -15,7 +15,7 @@ enum { MOST_WORDS = 64, REPEATS = 5 };
 /* A measurement is repeated until it has taken so long, and given up when one run takes longer. */
 static const double enough_seconds = 0.1, most_seconds = 4;
 
-const double gm_work_errors[3] = {1e-3, 1e-6, 1e-9};
+static const double usual_errors[3] = {1e-3, 1e-6, 1e-9};
 
 static const char solution_error[] = "solution_error";
 
@@ -72,16 +72,18 @@ static bool parse(struct gm_request *request, const struct gm_options *options, 
     return gm_request_parse(request, count, words, 1, message);
 }
 
-/* Lanes may differ in scheme and dt alone. */
-static bool alike(const struct gm_request *request)
+/* Lanes may differ in scheme, dt and resolution alone. */
+static bool alike(const struct gm_request *request, const struct gm_parameter *resolution)
 {
     const struct gm_scene *scene = request->scene;
     for (size_t i = 1; i < request->count; i++) {
         for (size_t k = 0; k < scene->parameter_count; k++) {
             const struct gm_parameter *row = &scene->parameters[k];
-            const bool varies = row->offset == offsetof(struct gm_timing, dt);
-            if (!varies && gm_parameter_get(row, request->lanes[0].parameters) !=
-                               gm_parameter_get(row, request->lanes[i].parameters)) {
+            const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == resolution;
+            const double first = gm_parameter_get(row, request->lanes[0].parameters);
+            const double other = gm_parameter_get(row, request->lanes[i].parameters);
+            const bool left_to_itself = isnan(first) && isnan(other);
+            if (!varies && first != other && !left_to_itself) {
                 return false;
             }
         }
@@ -113,8 +115,8 @@ static bool choose_schemes(struct gm_work_table *table, bool named, char *messag
     }
     for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
         const struct gm_work *work = request->scene->work;
-        const bool exact = work && work->is_exact && strcmp(work->is_exact, gm_scheme_at(i)->name) == 0 &&
-                           strcmp(table->measure, solution_error) != 0;
+        const bool exact =
+            work && work->is_exact && strcmp(work->is_exact, gm_scheme_at(i)->name) == 0 && table->observed;
         if (!exact && gm_scene_fits(request->scene, request->lanes[0].parameters, gm_scheme_at(i))) {
             add_scheme(table, gm_scheme_at(i));
         }
@@ -161,6 +163,37 @@ static bool choose_steps(struct gm_work_table *table, bool given, char *message)
     return true;
 }
 
+/* The values of the plan, or those of the words if they give more than one; a single one is no ladder. */
+static bool choose_resolutions(struct gm_work_table *table, const struct gm_options *options, char *message)
+{
+    const struct gm_work *work = table->request.scene->work;
+    const struct gm_parameter *row = table->resolution;
+    char word[64];
+    snprintf(word, sizeof word, "%s=", row ? row->key : "");
+    const bool given = row && overridden(options, word);
+    const size_t most = given ? table->request.count : row ? work->resolution_count : 0;
+    table->resolutions = calloc(most + 1, sizeof *table->resolutions);
+    if (!table->resolutions) {
+        return refuse(message, "not enough memory");
+    }
+    for (size_t i = 0; i < most; i++) {
+        const double value =
+            given ? gm_parameter_get(row, table->request.lanes[i].parameters) : work->resolutions[i];
+        bool known = false;
+        for (size_t k = 0; k < table->resolution_count; k++) {
+            known |= table->resolutions[k] == value;
+        }
+        if (!known) {
+            table->resolutions[table->resolution_count++] = value;
+        }
+    }
+    if (table->resolution_count < 2) {
+        table->resolution = NULL;
+        table->resolution_count = 1;
+    }
+    return true;
+}
+
 static const char *observable_name(size_t i, const void *scene)
 {
     return ((const struct gm_scene *)scene)->observables[i].key;
@@ -184,7 +217,10 @@ static bool choose_measure(struct gm_work_table *table, const char *asked, char 
                      : scene->work && scene->work->measure ? scene->work->measure
                                                            : solution_error;
     table->measure_title = "largest difference from the true solution";
-    if (strcmp(table->measure, solution_error) == 0) {
+    table->observed =
+        strcmp(table->measure, solution_error) != 0 ||
+        (scene->work && scene->work->measure && strcmp(scene->work->measure, solution_error) == 0);
+    if (!table->observed) {
         return true;
     }
     for (size_t i = 0; i < scene->observable_count; i++) {
@@ -197,6 +233,7 @@ static bool choose_measure(struct gm_work_table *table, const char *asked, char 
         }
         if (!asked) {
             table->measure = solution_error;
+            table->observed = false;
             return true;
         }
         snprintf(message, GM_MESSAGE, "%s says nothing with these parameters", asked);
@@ -217,16 +254,23 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_options *options,
     if (!parse(&table->request, options, message)) {
         return false;
     }
-    if (!alike(&table->request)) {
+    const struct gm_work *work = table->request.scene->work;
+    table->resolution =
+        work && work->resolution ? gm_scene_parameter(table->request.scene, work->resolution) : NULL;
+    table->errors = work && work->errors ? work->errors : usual_errors;
+    if (!alike(&table->request, table->resolution)) {
+        snprintf(message, GM_MESSAGE,
+                 "work-precision compares on one problem: only scheme%s%s and dt take a list",
+                 table->resolution ? ", " : "", table->resolution ? table->resolution->key : "");
         gm_work_close(table);
-        return refuse(message, "work-precision compares on one problem: only scheme and dt take a list");
+        return false;
     }
     if (!(timing_of(table)->until > 0)) {
         gm_work_close(table);
         return refuse(message, "until is 0: there is nothing to measure");
     }
     if (!choose_steps(table, overridden(options, "dt="), message) ||
-        !choose_measure(table, options->measure, message) ||
+        !choose_resolutions(table, options, message) || !choose_measure(table, options->measure, message) ||
         !choose_schemes(table, overridden(options, "scheme="), message)) {
         gm_work_close(table);
         return false;
@@ -238,10 +282,14 @@ void gm_work_close(struct gm_work_table *table)
 {
     for (size_t i = 0; i < table->line_count; i++) {
         free(table->lines[i].points);
+        for (size_t cost = 0; cost < GM_COST_COUNT; cost++) {
+            free(table->lines[i].best[cost]);
+        }
     }
     free(table->lines);
     free(table->schemes);
     free(table->steps);
+    free(table->resolutions);
     gm_request_close(&table->request);
     *table = (struct gm_work_table){0};
 }
@@ -414,24 +462,84 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
     return true;
 }
 
-/* Shorter steps than this are of no use: round-off rules, or it takes too long. */
-static bool is_enough(const struct gm_work_line *line)
+/* Shorter steps than this are of no use: round-off rules, or it takes too long; or, where the resolution
+   varies, the resolution rules. `count` points of this resolution were measured, the last ones of the line.
+ */
+static bool is_enough(const struct gm_work_table *table, const struct gm_work_line *line, size_t count)
 {
-    if (line->count < 2) {
+    if (count < 2) {
         return false;
     }
     const struct gm_work_point *last = &line->points[line->count - 1], *before = last - 1;
+    const bool resolved = table->resolution && fabs(last->error - before->error) < 0.03 * before->error;
     const bool round_off = last->error < 1e-9 && last->error > 0.7 * before->error;
-    return round_off || last->seconds > most_seconds / 3 || !isfinite(last->seconds);
+    const bool long_enough = last->status == GM_OK && last->seconds > most_seconds / 3;
+    return resolved || round_off || long_enough || !isfinite(last->seconds);
+}
+
+static bool measure_line(struct gm_work_table *table, struct gm_work_line *line, const double *reference,
+                         char *message)
+{
+    const size_t all = table->scheme_count * table->step_count * table->resolution_count;
+    const size_t each = table->step_count * table->resolution_count;
+    void *own = timing_of(table);
+    for (size_t r = 0; r < table->resolution_count; r++) {
+        const size_t first = line->count;
+        if (table->resolution) {
+            gm_parameter_put(table->resolution, own, table->resolutions[r]);
+        }
+        for (size_t k = 0; k < table->step_count && !is_enough(table, line, line->count - first); k++) {
+            struct gm_work_point point;
+            gm_listener_hears(table->listener, line->scheme->name,
+                              table->line_count * each - each + r * table->step_count + k, all);
+            if (!measure_point(table, line->scheme, table->steps[k], reference, &point, message)) {
+                return false;
+            }
+            if (stopped(table)) {
+                return true;
+            }
+            point.resolution = table->resolution ? table->resolutions[r] : 0;
+            line->points[line->count++] = point;
+        }
+    }
+    return true;
+}
+
+/* The best points by each cost, where resolution and step vary. Errors of both may cancel by chance: a point
+   is credited with the largest error of its resolution at its step and all shorter ones. */
+static bool choose_best(const struct gm_work_table *table, struct gm_work_line *line, char *message)
+{
+    if (!table->resolution) {
+        return true;
+    }
+    struct gm_work_point *earned = calloc(line->count + 1, sizeof *earned);
+    bool good = earned != NULL;
+    for (size_t k = line->count; good && k-- > 0;) {
+        earned[k] = line->points[k];
+        if (k + 1 < line->count && earned[k + 1].resolution == earned[k].resolution &&
+            earned[k + 1].error > earned[k].error) {
+            earned[k].error = earned[k + 1].error;
+        }
+    }
+    for (int cost = 0; good && cost < GM_COST_COUNT; cost++) {
+        line->best[cost] = calloc(line->count + 1, sizeof *line->best[cost]);
+        good = line->best[cost] != NULL;
+        if (good) {
+            line->best_count[cost] =
+                gm_work_keep_best(earned, line->count, (enum gm_work_cost)cost, line->best[cost]);
+        }
+    }
+    free(earned);
+    return good || refuse(message, "not enough memory");
 }
 
 bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *listener, char *message)
 {
-    const size_t all = table->scheme_count * table->step_count;
     double *reference = NULL;
     table->listener = listener;
-    gm_listener_hears(listener, "reference", 0, all);
-    if (strcmp(table->measure, solution_error) == 0) {
+    gm_listener_hears(listener, "reference", 0,
+                      table->scheme_count * table->step_count * table->resolution_count);
+    if (!table->observed) {
         reference = reference_state(table, message);
         if (!reference) {
             return false;
@@ -441,99 +549,14 @@ bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *list
     for (size_t i = 0; i < table->scheme_count && good && !stopped(table); i++) {
         struct gm_work_line *line = &table->lines[table->line_count];
         *line = (struct gm_work_line){.scheme = table->schemes[i]};
-        line->points = calloc(table->step_count, sizeof *line->points);
+        line->points = calloc(table->step_count * table->resolution_count, sizeof *line->points);
         if (!line->points) {
             good = refuse(message, "not enough memory");
             break;
         }
         table->line_count++;
-        for (size_t k = 0; k < table->step_count && !is_enough(line); k++) {
-            struct gm_work_point point;
-            gm_listener_hears(listener, line->scheme->name, i * table->step_count + k, all);
-            good = measure_point(table, line->scheme, table->steps[k], reference, &point, message);
-            if (!good || stopped(table)) {
-                break;
-            }
-            line->points[line->count++] = point;
-        }
+        good = measure_line(table, line, reference, message) && choose_best(table, line, message);
     }
     free(reference);
     return good;
-}
-
-double gm_work_cost(const struct gm_work_point *point, enum gm_work_cost cost)
-{
-    return cost == GM_COST_SECONDS ? point->seconds : point->evaluations;
-}
-
-double gm_work_price(const struct gm_work_line *line, double error, enum gm_work_cost cost)
-{
-    for (size_t k = 0; k < line->count; k++) {
-        const struct gm_work_point *here = &line->points[k];
-        if (!(here->error <= error)) {
-            continue;
-        }
-        const struct gm_work_point *before = here - 1;
-        /* the coarsest step is good enough, or the one before says nothing */
-        if (k == 0 || !isfinite(before->error) || before->error <= here->error) {
-            return gm_work_cost(here, cost);
-        }
-        const double low = log(fmax(here->error, 1e-300)), high = log(before->error);
-        const double part = (log(error) - low) / (high - low);
-        const double from = gm_work_cost(here, cost), to = gm_work_cost(before, cost);
-        return from > 0 && to > 0 ? from * pow(to / from, part) : from;
-    }
-    return NAN;
-}
-
-const struct gm_work_line *gm_work_cheapest(const struct gm_work_table *table, double error,
-                                            enum gm_work_cost cost)
-{
-    const struct gm_work_line *best = NULL;
-    double least = INFINITY;
-    for (size_t i = 0; i < table->line_count; i++) {
-        const double price = gm_work_price(&table->lines[i], error, cost);
-        if (price < least) {
-            least = price;
-            best = &table->lines[i];
-        }
-    }
-    return best;
-}
-
-const char *gm_work_sentence(const struct gm_work_table *table, char *text, size_t size)
-{
-    static const char *const words[] = {"10⁻³", "10⁻⁶", "10⁻⁹"};
-    size_t used = (size_t)snprintf(text, size, "Cheapest by run time:");
-    for (size_t i = 0; i < 3; i++) {
-        const struct gm_work_line *line = gm_work_cheapest(table, gm_work_errors[i], GM_COST_SECONDS);
-        used += (size_t)snprintf(text + used, used < size ? size - used : 0, "%s %s at %s", i ? "," : "",
-                                 line ? line->scheme->title : "none", words[i]);
-        used = used < size ? used : size - 1;
-    }
-    snprintf(text + used, size - used, ".");
-    return text;
-}
-
-bool gm_work_write(const struct gm_work_table *table, const char *path)
-{
-    FILE *csv = fopen(path, "w");
-    if (!csv) {
-        return false;
-    }
-    fprintf(csv, "scene,scheme,order,dt,steps,t,status,%s,seconds,evaluations,solves\n", table->measure);
-    for (size_t i = 0; i < table->line_count; i++) {
-        const struct gm_work_line *line = &table->lines[i];
-        for (size_t k = 0; k < line->count; k++) {
-            const struct gm_work_point *point = &line->points[k];
-            fprintf(csv, "%s,%s,%d,%.17g,%ld,%.17g,%s,", table->request.scene->name, line->scheme->name,
-                    line->scheme->order, point->dt, point->steps, point->t, gm_status_name(point->status));
-            if (isfinite(point->error)) {
-                fprintf(csv, "%.17g", point->error);
-            }
-            fprintf(csv, ",%.6g,%.0f,%.0f\n", point->seconds, point->evaluations, point->solves);
-        }
-    }
-    const bool failed = ferror(csv) != 0;
-    return fclose(csv) == 0 && !failed;
 }

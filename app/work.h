@@ -8,7 +8,8 @@
 /* Work-precision: the error at the end against what it cost, for schemes and a ladder of time steps. */
 
 struct gm_work_point {
-    double dt, t; /* the step, and the time reached */
+    double dt, t;      /* the step, and the time reached */
+    double resolution; /* value of the plan's parameter, where that varies; else 0 */
     long steps;
     double error;   /* NAN where the run failed */
     double seconds; /* processor time, best of several */
@@ -16,19 +17,29 @@ struct gm_work_point {
     enum gm_status status;
 };
 
-struct gm_work_line { /* one scheme, from the longest step to the shortest */
+enum gm_work_cost { GM_COST_SECONDS, GM_COST_EVALUATIONS, GM_COST_RESOLUTION, GM_COST_COUNT };
+
+struct gm_work_line { /* one scheme, from the longest step to the shortest, at each resolution */
     const struct gm_scheme *scheme;
     struct gm_work_point *points;
     size_t count;
+    /* where the resolution varies: those that no other beats in error and cost, by rising cost; else NULL */
+    struct gm_work_point *best[GM_COST_COUNT];
+    size_t best_count[GM_COST_COUNT];
 };
 
 struct gm_work_table {
     struct gm_request request; /* its first lane has the parameters that all share */
     const char *measure;       /* "solution_error" or an observable's key */
+    bool observed;             /* it is the observable, not the distance of the states */
     const char *measure_title;
     char reference[96]; /* what the error is measured against, in words */
     double *steps;      /* the ladder, falling */
     size_t step_count;
+    const struct gm_parameter *resolution; /* what varies beside the step; NULL: nothing does */
+    double *resolutions;                   /* in the order of the plan */
+    size_t resolution_count;               /* 1 where nothing varies */
+    const double *errors;                  /* 3, falling: at which schemes are compared */
     const struct gm_scheme **schemes;
     size_t scheme_count;
     struct gm_work_line *lines; /* line_count <= scheme_count are finished */
@@ -46,10 +57,21 @@ bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *list
 /* Writes a row of CSV for every point measured. False, with errno, if that fails. */
 bool gm_work_write(const struct gm_work_table *table, const char *path);
 
-enum gm_work_cost { GM_COST_SECONDS, GM_COST_EVALUATIONS };
 double gm_work_cost(const struct gm_work_point *point, enum gm_work_cost cost);
 
-/* What a scheme pays for this error, interpolated between two steps of its ladder; NAN if it does not reach
+/* Copies to `best`, of `count` places, the points that are cheaper than all that are as accurate, by rising
+   cost. Returns their number. */
+size_t gm_work_keep_best(const struct gm_work_point *points, size_t count, enum gm_work_cost cost,
+                         struct gm_work_point *best);
+
+/* The points that a line is drawn and priced by. */
+const struct gm_work_point *gm_work_front(const struct gm_work_line *line, enum gm_work_cost cost,
+                                          size_t *count);
+
+/* The second cost that schemes are compared by, beside the run time. */
+enum gm_work_cost gm_work_second_cost(const struct gm_work_table *table);
+
+/* What a scheme pays for this error, interpolated between two points of its front; NAN if it does not reach
  * it. */
 double gm_work_price(const struct gm_work_line *line, double error, enum gm_work_cost cost);
 
@@ -63,6 +85,7 @@ const char *gm_work_sentence(const struct gm_work_table *table, char *text, size
 /* Fills an empty picture: error against run time, error against evaluations. */
 void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture);
 
-extern const double gm_work_errors[3]; /* at which schemes are compared */
+/* "10⁻³" */
+const char *gm_work_error_text(double error, char text[24]);
 
 #endif

@@ -25,10 +25,10 @@ static size_t choose(const struct gm_work_table *table, const struct gm_work_lin
     for (size_t i = 0; table->line_count <= NAMED && i < table->line_count; i++) {
         chosen[count++] = &table->lines[i];
     }
-    for (int cost = GM_COST_SECONDS; cost <= GM_COST_EVALUATIONS; cost++) {
+    const enum gm_work_cost costs[] = {GM_COST_SECONDS, gm_work_second_cost(table)};
+    for (int which = 0; which < 2; which++) {
         for (size_t i = 0; i < 3 && count < NAMED; i++) {
-            const struct gm_work_line *line =
-                gm_work_cheapest(table, gm_work_errors[i], (enum gm_work_cost)cost);
+            const struct gm_work_line *line = gm_work_cheapest(table, table->errors[i], costs[which]);
             if (line && !holds(chosen, count, line)) {
                 chosen[count++] = line;
             }
@@ -48,9 +48,10 @@ static size_t choose(const struct gm_work_table *table, const struct gm_work_lin
 
 static size_t points_of(const struct gm_work_line *line, enum gm_work_cost cost, double *points)
 {
-    size_t count = 0;
-    for (size_t k = 0; k < line->count; k++) {
-        const double price = gm_work_cost(&line->points[k], cost), error = line->points[k].error;
+    size_t count = 0, all;
+    const struct gm_work_point *front = gm_work_front(line, cost, &all);
+    for (size_t k = 0; k < all; k++) {
+        const double price = gm_work_cost(&front[k], cost), error = front[k].error;
         if (isfinite(error) && error > 0 && price > 0 && isfinite(price)) {
             points[2 * count] = price;
             points[2 * count + 1] = error;
@@ -91,20 +92,20 @@ static size_t free_point(const struct gm_panel *panel, const double *points, siz
 static void draw_cost(const struct gm_work_table *table, struct gm_picture *picture, enum gm_work_cost cost,
                       const struct gm_work_line *const *chosen, size_t chosen_count)
 {
-    double *points = gm_picture_memory(picture, 2 * table->step_count * sizeof *points);
+    const char *const titles[] = {
+        "error against run time", "error against evaluations",
+        gm_picture_text(picture, "error against %s", table->resolution ? table->resolution->key : "")};
+    const char *const labels[] = {"processor time, s", "evaluations of f or force",
+                                  table->resolution ? table->resolution->key : ""};
+    double *points =
+        gm_picture_memory(picture, 2 * table->step_count * table->resolution_count * sizeof *points);
     if (!points) {
         return;
     }
-    struct gm_panel *panel =
-        gm_panel_add(picture, GM_PLACE_GRAPH,
-                     cost == GM_COST_SECONDS ? "error against run time" : "error against evaluations");
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, titles[cost]);
     panel->axes = true;
     panel->title_role = GM_INK;
-    panel->x =
-        (struct gm_axis){.label = cost == GM_COST_SECONDS ? "processor time, s" : "evaluations of f or force",
-                         .scale = GM_LOG,
-                         .low = 1,
-                         .high = 0};
+    panel->x = (struct gm_axis){.label = labels[cost], .scale = GM_LOG, .low = 1, .high = 0};
     panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = 1, .high = 0};
     for (size_t i = 0; i < table->line_count; i++) {
         const size_t count = points_of(&table->lines[i], cost, points);
@@ -162,5 +163,5 @@ void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture)
     picture->clock = "";
     picture->caption = gm_picture_text(picture, "%s", gm_work_sentence(table, sentence, sizeof sentence));
     draw_cost(table, picture, GM_COST_SECONDS, chosen, count);
-    draw_cost(table, picture, GM_COST_EVALUATIONS, chosen, count);
+    draw_cost(table, picture, gm_work_second_cost(table), chosen, count);
 }

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 struct gm_problem;
+struct gm_faces; /* core/multisymplectic.h */
 
 /* Fields on a line: Hamiltonian partial differential equations in one space dimension on a periodic grid, in
    their multisymplectic form M s_t + K s_x = grad S(s),     M, K skew, (Bridges & Reich, Phys. Lett. A 284
@@ -52,6 +53,14 @@ struct gm_dispersive {
     bool complex_valued;
     void (*nonlinear)(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
                       double *g_im, size_t count); /* g */
+    /* The derivative of g at `base` along f; all arrays hold `count` real parts, then the imaginary ones. */
+    void (*linearised)(const struct gm_problem *problem, const double *base, const double *f, double *g,
+                       size_t count);
+    /* The multisymplectic variables of a tangent on the faces of the cells between two levels of it (real
+       parts, then imaginary ones), from the linearised box equations that are not the field's own; `base`
+       holds the means of the solution in the cells. */
+    void (*complete)(const struct gm_problem *problem, double dt, const double *base, const double *now,
+                     const double *next, struct gm_faces *faces);
 };
 
 /* State of a wave problem, 2 points + 1 numbers: u at the present time t, u at another time, and the second

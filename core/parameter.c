@@ -257,6 +257,13 @@ enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, cons
     return GM_PARSED;
 }
 
+enum gm_parse gm_parameter_put(const struct gm_parameter *row, void *owner, double value)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%.17g", value);
+    return gm_parameter_set(row, owner, text);
+}
+
 double gm_parameter_get(const struct gm_parameter *row, const void *owner)
 {
     const char *place = (const char *)owner + row->offset;

@@ -75,6 +75,10 @@ struct gm_family {
     bool own_time;
     bool doubled; /* the memory is a second copy of phase space, and the scheme is symplectic on both together
                    */
+    /* The residual of the discrete multisymplectic law at the state y, for gm_form_residual; by differences
+       of the scheme's own steps, or by the linearised scheme. NULL: the family has no such law. */
+    double (*form)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                   const double *y, const double *memory, bool by_differences);
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 

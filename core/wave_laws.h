@@ -17,21 +17,11 @@ double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_sche
 /* -dx sum (u - o)/dt (u_{i+1} - u_{i-1} + o_{i+1} - o_{i-1}) / (4 dx) */
 double gm_wave_momentum(const struct gm_problem *problem, const double *y);
 
-/* The largest residual over the grid of the scheme's local law of energy, of momentum, and of the
-   multisymplectic form with two tangent solutions that start from unit waves at the last two levels and make
-   one step of the linearised scheme. A scheme of nodes is held to [a^n (b^{n+1} - 2 b^n + b^{n-1}) - b^n
-   (...)] / dt^2 = [a^n (b_{i+1} - 2 b_i + b_{i-1}) - b^n (...)] / dx^2, a difference of fluxes; a scheme of
-   cells to the form formula of the cell's Lagrangian (Marsden, Patrick & Shkoller, Commun. Math. Phys. 199
-   (1998) 351). NaN where the scheme has other laws, memory is short or the next step fails. */
+/* The largest residual over the grid of the scheme's local law of energy and of momentum. NaN where the
+   scheme has other laws, memory is short or the next step fails. */
 double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                                const double *y);
 double gm_wave_momentum_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                                  const double *y);
-double gm_wave_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                             const double *y);
-/* The same with tangents that are extrapolated differences of the scheme's own steps, so that nothing but the
-   step itself is held to the law; accurate to about 1e-9. */
-double gm_wave_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                           const double *y);
 
 #endif

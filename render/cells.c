@@ -299,20 +299,25 @@ static bool paint_blocks(struct gm_cells *cells, const struct gm_layout *layout,
     return ok;
 }
 
-bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
-                    enum gm_blocks blocks)
+static struct gm_metrics metrics_of(const struct gm_cells *cells, const bool *ascii)
 {
-    bool ascii = blocks == GM_ASCII;
     struct gm_metrics metrics = {.width = (double)cells->columns * CELL_WIDTH,
                                  .height = (double)cells->rows * CELL_HEIGHT,
                                  .measure = measure,
-                                 .self = &ascii,
+                                 .self = ascii,
                                  .terse = cells->columns < ROOMY_COLUMNS || cells->rows < ROOMY_ROWS};
     metrics.scale = metrics.height / 720;
     for (int size = 0; size < GM_TEXT_SIZE_COUNT; size++) {
         metrics.line[size] = CELL_HEIGHT;
     }
+    return metrics;
+}
 
+bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
+                    enum gm_blocks blocks)
+{
+    bool ascii = blocks == GM_ASCII;
+    struct gm_metrics metrics = metrics_of(cells, &ascii);
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
     struct painter painter = {.cells = cells, .theme = theme, .ascii = ascii};
     painter.taken = calloc((size_t)cells->columns * (size_t)cells->rows, sizeof *painter.taken);
@@ -327,4 +332,25 @@ bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_
     }
     free(painter.taken);
     return ok;
+}
+
+const struct gm_panel *gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
+                                       enum gm_blocks blocks, int column, int row, double *x, double *y)
+{
+    bool ascii = blocks == GM_ASCII;
+    struct gm_metrics metrics = metrics_of(cells, &ascii);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    double across = (column + 0.5) * CELL_WIDTH, down = (row + 0.5) * CELL_HEIGHT;
+    for (size_t i = 0; layout && i < layout->frame_count; i++) {
+        const struct gm_frame *frame = &layout->frames[i];
+        const struct gm_box *box = &frame->box;
+        if (frame->panel->place == GM_PLACE_STATE && across >= box->x && across <= box->x + box->width &&
+            down >= box->y && down <= box->y + box->height && frame->panel->x.scale != GM_LOG &&
+            frame->panel->y.scale != GM_LOG) {
+            *x = (across - frame->x_origin) / frame->x_factor;
+            *y = (down - frame->y_origin) / frame->y_factor;
+            return frame->panel;
+        }
+    }
+    return NULL;
 }

@@ -26,4 +26,9 @@ struct gm_cells {
 bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
                     enum gm_blocks blocks);
 
+/* The panel of a state that lies under a cell of a painted picture, as the point (x, y) of its axes in the
+   middle of the cell; NULL where there is none. */
+const struct gm_panel *gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
+                                       enum gm_blocks blocks, int column, int row, double *x, double *y);
+
 #endif

@@ -204,6 +204,13 @@ static struct patch changed_part(const struct gm_inline *image, const unsigned c
     return bottom > top ? (struct patch){left, top, right - left, bottom - top} : (struct patch){0};
 }
 
+/* Moves the cursor to the patch's first cell. */
+static void put_place(struct gm_inline *image, const struct patch *patch)
+{
+    put_format(image, "\033[%d;%dH", image->place.row + patch->row + 1,
+               image->place.column + patch->column + 1);
+}
+
 /* ---- sixels ---- */
 
 static void put_sixel(struct gm_inline *image, const unsigned char *rgb, const struct patch *patch)
@@ -220,7 +227,7 @@ static void put_sixel(struct gm_inline *image, const unsigned char *rgb, const s
         image->failed = true;
         return;
     }
-    put_format(image, "\033[%d;%dH", patch->row + 1, patch->column + 1);
+    put_place(image, patch);
     put(image, bytes, size);
 }
 
@@ -269,7 +276,7 @@ static void put_tile(struct gm_inline *image, const unsigned char *rgb, const st
     size_t packed = libdeflate_zlib_compress(image->compressor, image->raw, line * (size_t)height,
                                              image->packed, image->packed_size);
     const size_t step = CHUNK / 4 * 3;
-    put_format(image, "\033[%d;%dH", patch->row + 1, patch->column + 1);
+    put_place(image, patch);
     for (size_t at = 0; at < packed; at += step) {
         bool more = at + step < packed;
         if (at == 0) {

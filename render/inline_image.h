@@ -11,7 +11,8 @@
 enum gm_inline_kind { GM_INLINE_NONE, GM_INLINE_KITTY, GM_INLINE_SIXEL, GM_INLINE_COUNT };
 
 struct gm_inline_place {
-    int columns, rows;           /* the cells that it fills, from the screen's upper left corner on */
+    int column, row;             /* of its upper left cell, from 0 on */
+    int columns, rows;           /* the cells that it fills */
     int cell_width, cell_height; /* in pixels */
 };
 

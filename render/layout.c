@@ -284,6 +284,30 @@ static void align_graph(const struct gm_label_list *list, const struct group *st
     graphs->area.height = bottom - top;
 }
 
+/* Where there is little room, and more height than a page has, the graph goes below the states if they are
+   larger so: a part of the height is the states'. */
+static const double below_share = 0.56, narrow_aspect = 1.3, below_gain = 1.1;
+
+static void try_below(const struct gm_label_list *list, const struct gm_box *area, struct group *states,
+                      struct group *graphs)
+{
+    const struct gm_metrics *metrics = list->metrics;
+    if (!metrics->terse || metrics->width > narrow_aspect * metrics->height) {
+        return;
+    }
+    struct group beside = *states, below = *states, graph = *graphs;
+    below.area = graph.area = *area;
+    below.area.height *= below_share;
+    graph.area.y += below.area.height + row_gap * metrics->scale;
+    graph.area.height -= below.area.height + row_gap * metrics->scale;
+    choose_grid(list, &beside, beside.count);
+    choose_grid(list, &below, below.count);
+    if (below.detail <= beside.detail && data_size(list, &below) > below_gain * data_size(list, &beside)) {
+        states->area = below.area;
+        graphs->area = graph.area;
+    }
+}
+
 static size_t graph_columns(const struct group *states, const struct group *graphs)
 {
     return states->count == 0 ? graphs->count : 1;
@@ -325,6 +349,7 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
             fmin(area.width, (metrics->terse ? terse_graph_share : graph_share) * metrics->width);
         graphs.area.x = area.x + area.width - graphs.area.width;
         states.area.width = fmax(0.0, area.width - graphs.area.width - gap);
+        try_below(&list, &area, &states, &graphs);
     }
     if (states.count > 0) {
         choose_grid(&list, &states, states.count);
@@ -332,7 +357,7 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     }
     if (graphs.count > 0) {
         choose_grid(&list, &graphs, graph_columns(&states, &graphs));
-        if (states.rows == 1 && graphs.count == 1) {
+        if (states.rows == 1 && graphs.count == 1 && graphs.area.x > area.x) {
             align_graph(&list, &states, &graphs);
         }
         place_group(&list, &graphs, margin, false);

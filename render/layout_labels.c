@@ -75,11 +75,34 @@ static const char *ellipsised(struct gm_label_list *list, const char *text, size
     return gm_picture_text(list->picture, "%.*s…", (int)length, text);
 }
 
+/* The longest front of a text that fits and says something whole: up to a comma, a bracket, or the two blanks
+   that stand before a formula. NULL if there is none. */
+static const char *whole_front(const struct gm_label_list *list, enum gm_text_size size, const char *text,
+                               double width)
+{
+    static const char *const breaks[] = {"  ", ", ", " (", ": "};
+    const char *longest = NULL;
+    for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
+        for (const char *at = strstr(text, breaks[i]); at != NULL; at = strstr(at + 1, breaks[i])) {
+            const char *front = gm_picture_text(list->picture, "%.*s", (int)(at - text), text);
+            if (*front != '\0' && gm_labels_width(list, size, front) <= width &&
+                (longest == NULL || strlen(front) > strlen(longest))) {
+                longest = front;
+            }
+        }
+    }
+    return longest;
+}
+
 const char *gm_labels_shorten(struct gm_label_list *list, enum gm_text_size size, const char *text,
                               double width)
 {
     if (text == NULL || gm_labels_width(list, size, text) <= width) {
         return text != NULL ? text : "";
+    }
+    const char *front = whole_front(list, size, text, width);
+    if (front != NULL) {
+        return front;
     }
     size_t fits = 0, too_long = strlen(text);
     while (too_long - fits > 1) {

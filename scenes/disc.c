@@ -399,6 +399,15 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
+/* The centre of the disc is put there. */
+static size_t point(const void *own, double x, double y, struct gm_choice *choices)
+{
+    (void)own;
+    gm_choose(&choices[0], "q0", x);
+    gm_choose(&choices[1], "p0", y);
+    return 2;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct disc *disc = lanes[0]->parameters;
@@ -502,4 +511,5 @@ const struct gm_scene gm_scene_disc = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };

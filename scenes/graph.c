@@ -231,6 +231,17 @@ static double divisor_of(const struct gm_lane *lane, size_t series, bool relativ
     return observable->evaluate(&view);
 }
 
+/* The only lane of its panel: nothing to be told from. */
+static bool is_alone(const struct gm_lane *const *lanes, size_t count, size_t lane)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (i != lane && lanes[i]->shown.panel == lanes[lane]->shown.panel) {
+            return false;
+        }
+    }
+    return true;
+}
+
 void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                    const struct gm_graph *graph, long only, bool named)
 {
@@ -287,11 +298,13 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
         if (graph->floor > 0) {
             cut(points, made, graph->floor);
         }
-        gm_mark_line(picture, panel, gm_lane_style(lanes[i], 1, 2.4), points, made, false);
+        struct gm_style style = gm_lane_style(lanes[i], 1, 2.4);
+        style.dash = only >= 0 && is_alone(lanes, count, i) ? GM_SOLID : style.dash;
+        gm_mark_line(picture, panel, style, points, made, false);
         if (named) {
             const char *name =
                 lanes[i]->shown.colour_name[0] ? lanes[i]->shown.colour_name : gm_lane_title(lanes[i]);
-            gm_panel_key(picture, panel, gm_lane_style(lanes[i], 1, 2.4), name);
+            gm_panel_key(picture, panel, style, name);
         }
     }
 }

@@ -148,6 +148,18 @@ static void draw_border(struct gm_picture *picture, struct gm_panel *panel, doub
     gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, points, 2 * POINTS + 2, true);
 }
 
+/* The orbit through that point of the section; there is none where the energy does not reach. */
+static size_t point(const void *own, double x, double y, struct gm_choice *choices)
+{
+    const struct henon_heiles *parameters = own;
+    if (!(y * y / 2 + potential(0, x) < parameters->energy) || fabs(x) > 1) {
+        return 0;
+    }
+    gm_choose(&choices[0], "q2", x);
+    gm_choose(&choices[1], "p2", y);
+    return 2;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct henon_heiles *orbit = lanes[0]->parameters;
@@ -236,4 +248,5 @@ const struct gm_scene gm_scene_henon_heiles = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };

@@ -19,9 +19,9 @@ void gm_history_close(struct gm_history *history)
 
 void gm_history_clear(struct gm_history *history)
 {
-    history->count = 0;
+    history->count = history->kept = 0;
     history->per_bin = 1;
-    history->in_last = 0;
+    history->in_last = history->in_kept = 0;
 }
 
 static void merge_pairs(struct gm_history *history)
@@ -32,6 +32,7 @@ static void merge_pairs(struct gm_history *history)
             const struct gm_bin *second = &history->bins[(2 * pair + 1) * history->series + s];
             history->bins[pair * history->series + s] = (struct gm_bin){
                 .t = second->t,
+                .step = second->step,
                 .low = first->low < second->low ? first->low : second->low,
                 .high = first->high > second->high ? first->high : second->high,
                 .last = second->last,
@@ -43,7 +44,7 @@ static void merge_pairs(struct gm_history *history)
     history->in_last = history->per_bin;
 }
 
-void gm_history_add(struct gm_history *history, double t, const double *values)
+void gm_history_add(struct gm_history *history, double t, long step, const double *values)
 {
     if (history->count == GM_HISTORY_BINS && history->in_last == history->per_bin) {
         merge_pairs(history);
@@ -60,21 +61,24 @@ void gm_history_add(struct gm_history *history, double t, const double *values)
             bin[s] = (struct gm_bin){.low = value, .high = value};
         }
         bin[s].t = t;
+        bin[s].step = step;
         bin[s].low = value < bin[s].low ? value : bin[s].low;
         bin[s].high = value > bin[s].high ? value : bin[s].high;
         bin[s].last = value;
     }
-    history->in_last++;
+    history->in_kept = ++history->in_last;
+    history->kept = history->count;
 }
 
-void gm_history_cut(struct gm_history *history, double t, double dt)
+void gm_history_show(struct gm_history *history, long step)
 {
     if (history->series == 0) {
         return;
     }
-    while (history->count > 0 && (history->bins[(history->count - 1) * history->series].t - t) * dt > 0) {
+    history->count = history->kept;
+    while (history->count > 0 && history->bins[(history->count - 1) * history->series].step > step) {
         history->count--;
-        /* the bin before is full by construction, unless it is the one that was just cut into */
-        history->in_last = history->per_bin;
     }
+    /* a bin is full by construction, unless it is the last one */
+    history->in_last = history->count == history->kept ? history->in_kept : history->per_bin;
 }

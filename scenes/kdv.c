@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/multisymplectic.h"
 #include "core/problems/dispersive.h"
 #include "scenes/field.h"
 
@@ -190,6 +191,11 @@ static double solution_error(const struct gm_view *view)
     return largest;
 }
 
+static double form_residual(const struct gm_view *view)
+{
+    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
+}
+
 static const struct gm_observable observables[] = {
     {.key = "mass_error",
      .title = "error of the mass ∫u",
@@ -216,6 +222,11 @@ static const struct gm_observable observables[] = {
      .title = "largest error of u",
      .unit = "",
      .evaluate = solution_error,
+     .logarithmic = true},
+    {.key = "multisymplectic_residual",
+     .title = "residual of the multisymplectic law",
+     .unit = "",
+     .evaluate = form_residual,
      .logarithmic = true},
 };
 

@@ -246,6 +246,14 @@ static void draw_orbits(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
+/* The orbit that has its pericentre or its apocentre as far from the centre as that. */
+static size_t point(const void *own, double x, double y, struct gm_choice *choices)
+{
+    (void)own;
+    gm_choose(&choices[0], "eccentricity", fmin(fabs(1 - hypot(x, y)), 0.99));
+    return 1;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct kepler *kepler = lanes[0]->parameters;
@@ -374,4 +382,5 @@ const struct gm_scene gm_scene_kepler = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };

@@ -66,6 +66,7 @@ static void thin(struct gm_entries *entries)
     size_t kept = 0;
     for (size_t i = 0; i < entries->count; i += 2, kept++) {
         entries->times[kept] = entries->times[i];
+        entries->steps[kept] = entries->steps[i];
         memmove(entry_values(entries, kept), entry_values(entries, i), entries->width * sizeof(double));
     }
     entries->count = kept;
@@ -77,6 +78,7 @@ static void forget(struct gm_entries *entries)
 {
     const size_t kept = entries->count / 2, gone = entries->count - kept;
     memmove(entries->times, entries->times + gone, kept * sizeof(double));
+    memmove(entries->steps, entries->steps + gone, kept * sizeof *entries->steps);
     memmove(entries->values, entry_values(entries, gone), kept * entries->width * sizeof(double));
     entries->count = kept;
 }
@@ -142,8 +144,9 @@ static void record_crossing(struct gm_lane *lane, const struct gm_track *track, 
     }
     entries->skipped = entries->every - 1;
     entries->times[entries->count] = there.t;
+    entries->steps[entries->count] = lane->run->steps;
     track->record(&there, entry_values(entries, entries->count));
-    entries->count++;
+    entries->kept = ++entries->count;
 }
 
 static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
@@ -151,6 +154,7 @@ static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
     for (size_t i = 0; i < lane->scene->track_count; i++) {
         const struct gm_track *track = &lane->scene->tracks[i];
         struct gm_entries *entries = &lane->entries[i];
+        entries->kept = entries->count; /* the lane goes on from here */
         if (track->section) {
             record_crossing(lane, track, entries, view);
             continue;
@@ -173,8 +177,9 @@ static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
             }
         }
         entries->times[entries->count] = view->t;
+        entries->steps[entries->count] = lane->run->steps;
         track->record(view, entry_values(entries, entries->count));
-        entries->count++;
+        entries->kept = ++entries->count;
     }
     if (lane->behind) {
         memcpy(lane->behind, view->state, gm_lane_active(lane) * sizeof(double));
@@ -223,7 +228,7 @@ void gm_lane_record(struct gm_lane *lane)
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         values[i] = observe(&lane->scene->observables[i], &view, lane->angles[i]);
     }
-    gm_history_add(&lane->history, view.t, values);
+    gm_history_add(&lane->history, view.t, view.run->steps, values);
     record_tracks(lane, &view);
 }
 
@@ -234,6 +239,7 @@ void gm_lane_close(struct gm_lane *lane)
     }
     for (size_t i = 0; lane->entries && i < lane->scene->track_count; i++) {
         free(lane->entries[i].times);
+        free(lane->entries[i].steps);
         free(lane->entries[i].values);
     }
     free(lane->entries);
@@ -271,8 +277,9 @@ static bool open_tracks(struct gm_lane *lane)
         }
         entries->width = scene->tracks[i].width(&view);
         entries->times = malloc(scene->tracks[i].bound * sizeof(double));
+        entries->steps = malloc(scene->tracks[i].bound * sizeof *entries->steps);
         entries->values = malloc(scene->tracks[i].bound * entries->width * sizeof(double));
-        if (!entries->times || !entries->values) {
+        if (!entries->times || !entries->steps || !entries->values) {
             return false;
         }
     }
@@ -376,8 +383,13 @@ bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *
 struct gm_lane *gm_lane_copy(const struct gm_lane *lane)
 {
     char sentence[GM_SENTENCE];
-    struct gm_lane *copy =
-        gm_lane_open(lane->scene, lane->parameters, &lane->settings, lane->scheme, sentence);
+    struct gm_timing *forwards = copy_of(lane->parameters, lane->scene->size);
+    if (!forwards) {
+        return NULL;
+    }
+    forwards->dt = fabs(forwards->dt); /* the start is one of a run that goes forwards */
+    struct gm_lane *copy = gm_lane_open(lane->scene, forwards, &lane->settings, lane->scheme, sentence);
+    free(forwards);
     size_t size = gm_lane_pack_size(lane);
     void *bytes = malloc(size);
     if (!copy || !bytes) {
@@ -387,6 +399,7 @@ struct gm_lane *gm_lane_copy(const struct gm_lane *lane)
     }
     copy->shown = lane->shown;
     memcpy(copy->start, lane->start, lane->problem.n * lane->problem.m * sizeof *copy->start);
+    ((struct gm_timing *)copy->parameters)->dt = lane->run->dt;
     gm_lane_pack(lane, bytes);
     gm_lane_unpack(copy, bytes, &size);
     free(bytes);
@@ -422,14 +435,15 @@ void gm_lane_load(struct gm_lane *lane, const void *snapshot)
         lane->run = run;
     }
     gm_run_load(lane->run, snapshot);
-    const double t = lane->run->t, dt = lane->run->dt;
+    const long step = lane->run->steps;
     lane->scheme = lane->run->scheme;
-    ((struct gm_timing *)lane->parameters)->dt = dt;
-    gm_history_cut(&lane->history, t, dt);
+    ((struct gm_timing *)lane->parameters)->dt = lane->run->dt;
+    gm_history_show(&lane->history, step);
     for (size_t i = 0; i < lane->scene->track_count; i++) {
         struct gm_entries *entries = &lane->entries[i];
         const size_t kept = lane->scene->tracks[i].section ? 0 : 1;
-        while (entries->count > kept && (entries->times[entries->count - 1] - t) * dt > 0) {
+        entries->count = entries->kept;
+        while (entries->count > kept && entries->steps[entries->count - 1] > step) {
             entries->count--;
         }
         /* what the step before was is not known; it is again after the next one */

@@ -9,8 +9,10 @@
 
 struct gm_entries { /* the record of one track */
     size_t width, count;
+    size_t kept;    /* entries in memory; count is less while an earlier step is looked at */
     long every;     /* of the intervals, this many make one entry (doubled by thinning) */
     double *times;  /* count */
+    long *steps;    /* count: after how many steps each was made */
     double *values; /* count * width */
     long skipped;   /* of a section: so many crossings more go unrecorded (after thinning) */
     double before;  /* of a section: its value after the step before; NAN: not known */
@@ -73,8 +75,9 @@ struct gm_lane *gm_lane_copy(const struct gm_lane *lane);
 /* A change of a live parameter; acts on the present state. */
 void gm_lane_set_step(struct gm_lane *lane, double dt);
 
-/* Snapshot and return to it: history and tracks later than its time are cut. The snapshot is
-   gm_lane_snapshot_size bytes; it belongs to this lane and this scheme. */
+/* Snapshot and return to it: history and tracks then show what was recorded up to its step; later records
+   stay in memory until the lane records again, so that it can also go forward to a later snapshot. The
+   snapshot is gm_lane_snapshot_size bytes; it serves this lane and its copies. */
 size_t gm_lane_snapshot_size(const struct gm_lane *lane);
 void gm_lane_save(const struct gm_lane *lane, void *snapshot);
 void gm_lane_load(struct gm_lane *lane, const void *snapshot);

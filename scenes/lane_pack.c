@@ -70,6 +70,10 @@ static void pass_history(struct walk *walk, struct gm_history *history)
     pass(walk, &history->per_bin, sizeof history->per_bin);
     pass(walk, &history->in_last, sizeof history->in_last);
     pass(walk, history->bins, history->count * history->series * sizeof *history->bins);
+    if (walk->direction == UNPACK) {
+        history->kept = history->count;
+        history->in_kept = history->in_last;
+    }
 }
 
 static void pass_entries(struct walk *walk, struct gm_entries *entries, size_t bound)
@@ -79,7 +83,11 @@ static void pass_entries(struct walk *walk, struct gm_entries *entries, size_t b
     pass(walk, &entries->skipped, sizeof entries->skipped);
     pass(walk, &entries->before, sizeof entries->before);
     pass(walk, entries->times, entries->count * sizeof *entries->times);
+    pass(walk, entries->steps, entries->count * sizeof *entries->steps);
     pass(walk, entries->values, entries->count * entries->width * sizeof *entries->values);
+    if (walk->direction == UNPACK) {
+        entries->kept = entries->count;
+    }
 }
 
 static void walk_lane(struct walk *walk, struct gm_lane *lane)

@@ -3,6 +3,7 @@
    Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic integrators". */
 #include <math.h>
 
+#include "core/multisymplectic.h"
 #include "core/problems/dispersive.h"
 #include "scenes/field.h"
 
@@ -159,6 +160,11 @@ static double modulus_error(const struct gm_view *view)
     return largest;
 }
 
+static double form_residual(const struct gm_view *view)
+{
+    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
+}
+
 static const struct gm_observable observables[] = {
     {.key = "charge_error",
      .title = "error of the charge ∫|Aψ|²",
@@ -190,6 +196,11 @@ static const struct gm_observable observables[] = {
      .title = "largest error of |ψ|",
      .unit = "",
      .evaluate = modulus_error,
+     .logarithmic = true},
+    {.key = "multisymplectic_residual",
+     .title = "residual of the multisymplectic law",
+     .unit = "",
+     .evaluate = form_residual,
      .logarithmic = true},
 };
 

@@ -252,9 +252,7 @@ static const char *const schemes[] = {"variational-rectangle",
 static const struct gm_figure figures[] = {
     {
         .name = "razafindralandy-16",
-        .statement =
-            "the rectangle-rule variational integrator is very close to the sine; as printed it stops before the "
-            "first turning point, with restarts it goes on",
+        .statement = "the solution of the rectangle-rule variational integrator is very close to the sine",
         .arguments = "scheme=variational-rectangle,variational-rectangle-restart until=20",
     },
     {

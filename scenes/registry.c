@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
 #include <string.h>
 
 #include "scenes/scene.h"
@@ -46,4 +47,10 @@ const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, cons
         }
     }
     return NULL;
+}
+
+void gm_choose(struct gm_choice *choice, const char *key, double value)
+{
+    choice->key = key;
+    snprintf(choice->value, sizeof choice->value, "%.3g", value == 0 ? 0.0 : value);
 }

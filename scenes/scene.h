@@ -74,13 +74,19 @@ struct gm_track {
  */
 struct gm_work {
     const char *arguments; /* key=value that differ from the defaults, separated by blanks; "" */
-    const char *measure;   /* key of the observable that is the error; NULL: solution_error */
+    const char *measure;   /* key of the observable that is the error, at the end; NULL: the distance of the
+                              state from the exact one, or from that of a reference run */
     double coarsest;       /* the largest step of the ladder, */
     int halvings;          /* halved so many times */
     const char *reference; /* the scheme of the reference run, where the problem has no exact solution; NULL:
                               the highest order that fits */
     const char *is_exact;  /* name of a scheme that solves the scene exactly where it has an exact solution,
                               and is no  entrant then; NULL: none */
+    const char *resolution; /* key of a parameter that is measured at `resolution_count` values beside the
+                               steps: each scheme is judged by its best pairs; NULL: none */
+    const double *resolutions;
+    size_t resolution_count;
+    const double *errors; /* three, falling, at which prices are compared; NULL: 1e-3, 1e-6, 1e-9 */
 };
 
 /* What `geomint stability` does with a scene: a grid of time steps and of one parameter. */
@@ -106,6 +112,13 @@ struct gm_figure {
     const char *statement; /* what the document says it shows */
     const char *arguments; /* of `geomint render SCENE`, separated by blanks */
 };
+
+/* A value for one of the scene's parameters, as it would be typed. */
+struct gm_choice {
+    const char *key;
+    char value[40];
+};
+enum { GM_CHOICES = 4 };
 
 /* Bytes of a sentence that a scene writes. */
 enum { GM_SENTENCE = 256 };
@@ -146,12 +159,18 @@ struct gm_scene {
                        const struct gm_scheme *scheme, double *y, char *sentence);
     /* Draws the lanes, count >= 1, into an empty picture; looks only. */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    /* The parameters, at most GM_CHOICES, with which a run starts at the point (x, y) of a state's panel; 0 where
+       it cannot. NULL: the scene has no such points. */
+    size_t (*point)(const void *parameters, double x, double y, struct gm_choice *choices);
     /* Writes profiles of a state as rows of CSV, each beginning with `front`; NULL if there are none. The
        columns are GM_PROFILE_COLUMNS. */
     void (*profile)(const struct gm_view *view, const char *front, FILE *stream);
 };
 
 #define GM_PROFILE_COLUMNS "profile,x,y,psi,u,v,theta,omega,reference"
+
+/* A choice of three digits, which is what a place in a picture tells. */
+void gm_choose(struct gm_choice *choice, const char *key, double value);
 
 size_t gm_scene_count(void);
 const struct gm_scene *gm_scene_at(size_t index);

@@ -3,6 +3,7 @@
    Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic integrators", figures 11 to 13. */
 #include <math.h>
 
+#include "core/multisymplectic.h"
 #include "core/problems/problems.h"
 #include "core/problems/sine_gordon.h"
 #include "core/wave_laws.h"
@@ -162,7 +163,7 @@ static double momentum_residual(const struct gm_view *view)
 
 static double form_residual(const struct gm_view *view)
 {
-    return gm_wave_form_residual(view->problem, view->scheme, view->dt, view->state);
+    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
 }
 
 static const struct gm_observable observables[] = {

@@ -407,10 +407,7 @@ static const struct gm_figure figures[] = {
     },
     {
         .name = "razafindralandy-10",
-        .statement =
-            "RK4 loses quasi-periodicity, RK4sym keeps it; not so with the printed start, where both lose it to "
-            "rounding at the same time: the orbit is unstable beyond 35.12 degrees. What sets them apart is the "
-            "angular impulse, and the section of the reduced system (configuration=reduced)",
+        .statement = "with two opposite vortices turned by π/5, RK4 loses quasi-periodicity, RK4sym keeps it",
         .arguments =
             "scheme=rk4,rk4sym configuration=two-turned angle=pi/5 strength=150 dt=5e-3 steps=500000",
     },

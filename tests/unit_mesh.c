@@ -241,7 +241,9 @@ static double density(const struct gm_mesh *mesh, const double z[4])
     const double left = phi4 ? pow(z[0], 3) - z[0] : sin(z[0]),
                  right = phi4 ? pow(z[2], 3) - z[2] : sin(z[2]);
     const double bend = mesh->curvature * mesh->curvature * (left * left + right * right) / 2;
-    return mesh->alpha * mesh->alpha * r * r + d * d * sqrt(1 + bend);
+    const double reach = mesh->alpha * mesh->alpha * r * r;
+    const double limit = mesh->steepest > 0 ? 1 + pow(r / d / mesh->steepest, 2) : 1;
+    return reach / limit + d * d * sqrt(1 + bend);
 }
 
 static void expect_near(const char *what, double got, double wanted)
@@ -258,12 +260,13 @@ static void derivatives_of_an_element(void **unused)
         {0.3, 1, 1.1, 1.7}, {1, 2, 1 + 1e-9, 2.5}, {-1, 0.5, 3.5, 1.2}, {6, 1, 6.2, 9}};
     static const double rate[4] = {0.4, -0.3, 0.7, 0.9};
     const struct gm_potential *const potentials[] = {&gm_potential_sine_gordon, &gm_potential_phi4};
-    for (size_t which = 0; which < 8; which++) {
+    for (size_t which = 0; which < 32; which++) {
         const struct gm_mesh mesh = {.points = 1,
                                      .length = 12,
                                      .alpha = 1.3,
-                                     .curvature = which % 2 ? 0.7 : 0,
-                                     .potential = potentials[which / 4]};
+                                     .curvature = which / 4 % 2 ? 0.7 : 0,
+                                     .steepest = which / 8 % 2 ? 2.5 : 0,
+                                     .potential = potentials[which / 16]};
         const double *z0 = places[which % 4];
         struct gm_elements stage;
         assert_true(gm_elements_open(&stage, &mesh));
@@ -404,7 +407,7 @@ static void other_fields_and_densities(void **unused)
 {
     (void)unused;
     for (int field = 0; field < 2; field++) {
-        for (int which = 0; which < 3; which++) {
+        for (int which = 0; which < 4; which++) {
             const struct gm_soliton soliton = {.field = field,
                                                .density = which,
                                                .solitons = 1,

@@ -14,6 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "app/explorer/mouse.h"
 #include "app/request.h"
 
 static SCREEN *screen;
@@ -28,6 +29,7 @@ static struct termios before; /* as the shell had it */
 static char parting[256];     /* what restores the terminal, for handlers that may call hardly anything */
 static size_t parting_size;
 static volatile sig_atomic_t active, leaving, resized, stopping;
+static bool reports_mouse;
 
 /* ---- signals ---- */
 
@@ -150,6 +152,9 @@ static bool has_other_screen(void)
 static void prepare_parting(bool modern)
 {
     parting_size = 0;
+    if (reports_mouse) {
+        add_parting(GM_MOUSE_OFF);
+    }
     if (modern) {
         add_parting("\030\033[?2026l"); /* cancels what may be half written */
     }
@@ -159,16 +164,26 @@ static void prepare_parting(bool modern)
     add_parting(tigetstr(has_other_screen() ? "rmcup" : "clear"));
 }
 
+static void say_mouse(const char *mode)
+{
+    if (reports_mouse) {
+        fputs(mode, stdout);
+        fflush(stdout);
+    }
+}
+
 static void take_over(void)
 {
     /* Draws one blank screen: this is where ncurses switches to the alternate one. It never draws again. */
     clearok(stdscr, TRUE);
     refresh();
+    say_mouse(GM_MOUSE_ON);
     active = 1;
 }
 
 static void give_back(void)
 {
+    say_mouse(GM_MOUSE_OFF);
     if (!has_other_screen()) {
         clearok(stdscr, TRUE);
         refresh();
@@ -250,6 +265,8 @@ bool gm_console_open(int wake, struct gm_terminal *terminal, char *message)
     keypad(keys, TRUE);
     define_ordinary_arrows();
     nodelay(keys, TRUE);
+    reports_mouse = tigetnum("colors") >= 8; /* terminals of old would show the letters */
+    define_key(GM_MOUSE_FRONT, GM_KEY_MOUSE);
     prepare_parting(tigetnum("colors") >= 256);
     take_over();
     static bool registered;

@@ -14,35 +14,35 @@
 #include <unistd.h>
 
 #include "app/explorer/console.h"
+#include "app/explorer/display.h"
 #include "app/explorer/keys.h"
-#include "app/explorer/pixels.h"
-#include "app/explorer/writer.h"
+#include "app/explorer/measure.h"
+#include "app/explorer/modes.h"
+#include "app/explorer/mouse.h"
 
-enum { FRAME_MILLISECONDS = 33, FIRST_SCHEMES = 3 };
+enum { FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66, FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
 
-/* A picture of pixels on the screen. */
-struct picture {
-    struct gm_pixels *painter; /* NULL until it is needed */
-    bool stale;                /* the shot has a newer one */
-    bool lost;                 /* the terminal may have lost parts of it */
-    bool painted;              /* `bytes` wait to be shown */
-    enum gm_inline_kind shown; /* what the terminal shows */
-    size_t covered;            /* cells of it that had a glyph in the last screen */
-    struct gm_pixels_job job;  /* the last that was begun */
-    const char *bytes;
-    size_t size;
-};
+/* The choice in the list of scenes rests for this long before it is looked at. */
+enum { REST_MILLISECONDS = 150 };
 
 struct explorer {
     struct gm_terminal terminal;
     struct gm_face face;
     struct gm_screen screen;
-    struct gm_writer writer;
-    struct picture picture;
-    int wake;                 /* the worker's shots and all signals are announced here */
-    struct gm_worker *worker; /* NULL: the list of scenes is shown */
-    struct gm_shot *shot;
-    size_t choice;     /* in the list of scenes */
+    struct gm_display display;
+    int wake; /* the worker's shots and all signals are announced here */
+    struct gm_worker *worker;
+    const struct gm_scene *scene; /* the worker's */
+    struct gm_shot *shot;         /* NULL: it has given none yet */
+    bool at_start;                /* the list of scenes is shown, and the worker is a look at one */
+    struct gm_start start;
+    char said[GM_MESSAGE]; /* why that look failed, or "" */
+    bool kept;             /* that look is a scene that was left and can be gone back to */
+    int64_t look_due;      /* when the chosen scene is looked at; -1: it is */
+    struct gm_mouse mouse;
+    struct gm_hit held; /* what the button went down on */
+    bool holding;
+    struct gm_measure measure;
     bool dirty;        /* the screen has to be composed again */
     bool fresh;        /* with a new picture */
     bool asked;        /* for a shot */
@@ -65,24 +65,115 @@ static void leave(struct explorer *explorer, int status)
     explorer->status = status;
 }
 
-static bool open_scene(struct explorer *explorer, const struct gm_request *request)
+/* A new worker owes its first shot. */
+static void expect_shot(struct explorer *explorer)
+{
+    explorer->shot = NULL;
+    explorer->asked = true;
+    explorer->next_shot = 0;
+}
+
+static bool open_request(struct explorer *explorer, const struct gm_request *request)
 {
     explorer->worker = gm_worker_open(request, explorer->terminal.theme, explorer->wake, explorer->message);
-    explorer->asked = true; /* a new worker owes its first shot */
-    explorer->next_shot = 0;
+    explorer->scene = request->scene;
+    expect_shot(explorer);
     return explorer->worker != NULL;
 }
 
-static bool open_by_name(struct explorer *explorer, const struct gm_scene *scene)
+static void abandon(struct explorer *explorer)
 {
-    struct gm_request request;
-    char *words[] = {(char *)scene->name};
-    if (!gm_request_parse(&request, 1, words, FIRST_SCHEMES, explorer->message)) {
-        return false;
+    gm_display_finish(&explorer->display); /* it may be painting a picture of this worker's */
+    if (explorer->worker) {
+        gm_worker_abandon(explorer->worker);
     }
-    bool ok = open_scene(explorer, &request);
-    gm_request_close(&request);
-    return ok;
+    explorer->worker = NULL;
+    explorer->scene = NULL;
+    explorer->said[0] = '\0';
+    expect_shot(explorer);
+}
+
+static void open_scene(struct explorer *explorer, const struct gm_scene *scene, bool preview)
+{
+    abandon(explorer);
+    explorer->worker = gm_worker_open_scene(scene, preview ? LOOK_SCHEMES : FIRST_SCHEMES, preview,
+                                            explorer->face.theme, explorer->wake, explorer->message);
+    explorer->scene = scene;
+    if (!explorer->worker) {
+        leave(explorer, GM_EXIT_USAGE);
+    }
+}
+
+/* ---- the list of scenes ---- */
+
+static const struct gm_scene *chosen_scene(const struct explorer *explorer)
+{
+    const struct gm_start *start = &explorer->start;
+    return start->choice < start->count ? start->found[start->choice] : NULL;
+}
+
+/* The chosen scene is looked at in a while, unless it is open already. */
+static void look_soon(struct explorer *explorer)
+{
+    explorer->look_due = chosen_scene(explorer) == explorer->scene ? -1 : milliseconds() + REST_MILLISECONDS;
+    explorer->dirty = true;
+}
+
+static void look(struct explorer *explorer)
+{
+    const struct gm_scene *scene = chosen_scene(explorer);
+    explorer->look_due = -1;
+    if (scene) {
+        explorer->kept = false;
+        open_scene(explorer, scene, true);
+    }
+}
+
+static void find_scenes(struct explorer *explorer)
+{
+    struct gm_start *start = &explorer->start;
+    const struct gm_scene *before = chosen_scene(explorer);
+    start->count = start->choice = 0;
+    for (size_t i = 0; i < gm_scene_count() && start->count < GM_START_SCENES; i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        const char *texts[] = {scene->name, scene->title, scene->blurb ? scene->blurb : "",
+                               scene->watch ? scene->watch : "", NULL};
+        if (gm_is_found(start->typed, texts)) {
+            start->choice = scene == before ? start->count : start->choice;
+            start->found[start->count++] = scene;
+        }
+    }
+    look_soon(explorer);
+}
+
+static void show_start(struct explorer *explorer)
+{
+    explorer->at_start = true;
+    explorer->start.typed[0] = '\0';
+    find_scenes(explorer);
+    for (size_t i = 0; i < explorer->start.count; i++) {
+        if (explorer->start.found[i] == explorer->scene) {
+            explorer->start.choice = i;
+        }
+    }
+    explorer->kept = explorer->scene != NULL;
+    look_soon(explorer);
+}
+
+/* Opens the chosen scene, or goes back to it where it was left. */
+static void enter(struct explorer *explorer)
+{
+    const struct gm_scene *scene = chosen_scene(explorer);
+    if (!scene) {
+        return;
+    }
+    explorer->at_start = false;
+    explorer->look_due = -1;
+    explorer->face.parameter = 0;
+    if (scene != explorer->scene || !explorer->kept) {
+        open_scene(explorer, scene, false);
+    }
+    explorer->dirty = explorer->fresh = true;
 }
 
 static void resize(struct explorer *explorer)
@@ -92,14 +183,11 @@ static void resize(struct explorer *explorer)
     if (!gm_screen_resize(&explorer->screen, columns, rows)) {
         leave(explorer, GM_EXIT_USAGE);
     }
-    gm_writer_forget(&explorer->writer);
-    int width = explorer->terminal.cell_width;
+    gm_display_forget(&explorer->display);
     gm_terminal_cell(&explorer->terminal.cell_width, &explorer->terminal.cell_height);
-    if (width > 0 && explorer->terminal.cell_width == width && explorer->face.pixels &&
-        gm_writer_idle(&explorer->writer)) {
-        gm_writer_tell(&explorer->writer, GM_ASK_CELL); /* letters may have another size too */
+    if (explorer->face.pixels) {
+        gm_writer_tell(&explorer->display.writer, GM_ASK_CELL); /* letters may have another size too */
     }
-    explorer->picture.lost = true;
     explorer->dirty = explorer->fresh = true;
 }
 
@@ -107,60 +195,77 @@ static void resize(struct explorer *explorer)
 
 static void press_at_start(struct explorer *explorer, int key)
 {
-    size_t count = gm_scene_count();
-    switch (key) {
-    case 'q':
-        leave(explorer, GM_EXIT_OK);
-        break;
-    case KEY_UP:
-        explorer->choice = (explorer->choice + count - 1) % count;
-        break;
-    case KEY_DOWN:
-        explorer->choice = (explorer->choice + 1) % count;
-        break;
-    case '\n':
-    case '\r':
-    case KEY_ENTER:
-        if (!open_by_name(explorer, gm_scene_at(explorer->choice))) {
-            leave(explorer, GM_EXIT_USAGE);
-        }
-        break;
-    default:
-        return;
-    }
+    struct gm_start *start = &explorer->start;
+    size_t count = start->count;
     explorer->dirty = true;
+    if (gm_key_is_enter(key)) {
+        enter(explorer);
+    } else if (gm_key_is_escape(key)) {
+        start->typed[0] = '\0';
+        find_scenes(explorer);
+    } else if (key == 'q' && !start->typed[0]) {
+        leave(explorer, GM_EXIT_OK);
+    } else if ((key == KEY_UP || key == KEY_DOWN) && count > 0) {
+        start->choice = (start->choice + (key == KEY_UP ? count - 1 : 1)) % count;
+        look_soon(explorer);
+    } else if ((key == KEY_HOME || key == KEY_END) && count > 0) {
+        start->choice = key == KEY_HOME ? 0 : count - 1;
+        look_soon(explorer);
+    } else if (gm_typed_key(start->typed, key)) {
+        find_scenes(explorer);
+    }
 }
 
-static void show_graphics(struct explorer *explorer, struct gm_graphics graphics)
+/* In other colours, or none. */
+static void repaint(struct explorer *explorer)
 {
-    explorer->face.pixels = graphics.pixels;
-    explorer->face.blocks = graphics.blocks;
-    explorer->picture.stale = explorer->dirty = true;
+    struct gm_writer *writer = &explorer->display.writer;
+    writer->theme = explorer->face.theme;
+    writer->colours = explorer->face.monochrome ? GM_COLOURS_NONE : explorer->terminal.colours;
+    gm_display_forget(&explorer->display);
+    explorer->dirty = explorer->fresh = true;
+}
+
+static void next_graphics(struct explorer *explorer)
+{
+    struct gm_face *face = &explorer->face;
+    struct gm_graphics graphics =
+        gm_graphics_next(&explorer->terminal, (struct gm_graphics){face->pixels, face->blocks});
+    face->pixels = graphics.pixels;
+    face->blocks = graphics.blocks;
+    explorer->dirty = true;
 }
 
 static void press(struct explorer *explorer, int key)
 {
-    if (!explorer->worker) {
+    if (explorer->at_start) {
         press_at_start(explorer, key);
         return;
     }
     if (!explorer->shot) { /* before the first picture there is only leaving */
         if (key == 'q') {
             leave(explorer, GM_EXIT_OK);
+        } else if (key == 'l') {
+            show_start(explorer);
         }
         return;
     }
-    switch (gm_key_press(key, &explorer->face, explorer->shot, explorer->worker)) {
-    case GM_KEY_BLOCKS:
-        show_graphics(explorer,
-                      gm_graphics_next(&explorer->terminal,
-                                       (struct gm_graphics){explorer->face.pixels, explorer->face.blocks}));
-        break;
+    const struct gm_press one = {key, &explorer->face, explorer->shot, explorer->worker};
+    switch (gm_key_press(&one)) {
     case GM_KEY_LEAVE:
         leave(explorer, GM_EXIT_OK);
         break;
+    case GM_KEY_BLOCKS:
+        next_graphics(explorer);
+        break;
     case GM_KEY_REPAINT:
         resize(explorer);
+        break;
+    case GM_KEY_THEME:
+        repaint(explorer);
+        break;
+    case GM_KEY_SCENES:
+        show_start(explorer);
         break;
     case GM_KEY_FACE:
     case GM_KEY_ORDER:
@@ -171,10 +276,147 @@ static void press(struct explorer *explorer, int key)
     }
 }
 
-static void press_all(struct explorer *explorer)
+/* ---- the mouse ---- */
+
+/* The part of a hit's width that a column stands for, 0 to 1. */
+static double part_of(const struct gm_hit *hit, int column)
 {
-    for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
-        press(explorer, key);
+    double part = hit->width > 1 ? (double)(column - hit->column) / (hit->width - 1) : 0;
+    return part < 0 ? 0 : part > 1 ? 1 : part;
+}
+
+/* Sliders follow the button while it is down. */
+static void drag(struct explorer *explorer, int column)
+{
+    const struct gm_shot *shot = explorer->shot;
+    struct gm_order order = {.value = part_of(&explorer->held, column)};
+    if (!shot) {
+        return;
+    }
+    if (explorer->held.kind == GM_HIT_PAST) {
+        order.kind = GM_ORDER_VISIT;
+        order.value *= shot->reach;
+    } else if (explorer->held.kind == GM_HIT_SLIDER && explorer->held.index < shot->parameter_count) {
+        order.kind = GM_ORDER_SLIDE;
+        order.row = shot->parameters[explorer->held.index].row;
+        order.of_scheme = shot->parameters[explorer->held.index].of_scheme;
+    } else {
+        return;
+    }
+    gm_worker_order(explorer->worker, order);
+}
+
+static void click_scheme(struct explorer *explorer, const struct gm_scheme *scheme)
+{
+    bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
+    explorer->face.choosing = GM_CHOOSE_NOTHING;
+    gm_worker_order(explorer->worker,
+                    (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
+}
+
+/* A choice has no slider: a click takes the next one. */
+static void click_parameter(struct explorer *explorer, size_t index)
+{
+    const struct gm_shot_parameter *parameter = &explorer->shot->parameters[index];
+    bool again = explorer->face.parameter == index;
+    explorer->face.parameter = index;
+    explorer->face.explaining = true;
+    if (again && parameter->position < 0) {
+        gm_worker_order(explorer->worker, (struct gm_order){.kind = GM_ORDER_MOVE,
+                                                            .amount = 1,
+                                                            .row = parameter->row,
+                                                            .of_scheme = parameter->of_scheme});
+    }
+}
+
+static void click_picture(struct explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_order order = {.kind = GM_ORDER_POINT};
+    const struct gm_screen *screen = &explorer->screen;
+    if (explorer->shot->scene->point &&
+        gm_cells_locate(&screen->picture, explorer->shot->picture, screen->blocks,
+                        event->column - screen->picture_column, event->row - screen->picture_row, &order.x,
+                        &order.y)) {
+        gm_worker_order(explorer->worker, order);
+    }
+}
+
+static void click(struct explorer *explorer, const struct gm_mouse_event *event)
+{
+    const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    explorer->holding = hit != NULL;
+    if (!hit) {
+        return;
+    }
+    explorer->held = *hit;
+    if (hit->kind == GM_HIT_KEY) {
+        press(explorer, (int)hit->index);
+        return;
+    }
+    if (hit->kind == GM_HIT_SCENE) {
+        if (explorer->start.choice == hit->index) {
+            enter(explorer);
+        } else {
+            explorer->start.choice = hit->index;
+            look_soon(explorer);
+        }
+        return;
+    }
+    if (explorer->at_start || !explorer->shot) {
+        return;
+    }
+    explorer->face.read = explorer->shot->message_number;
+    switch (hit->kind) {
+    case GM_HIT_LANE:
+        gm_worker_order(explorer->worker,
+                        (struct gm_order){.kind = GM_ORDER_SELECT, .value = (double)hit->index});
+        break;
+    case GM_HIT_SCHEME:
+        click_scheme(explorer, hit->scheme);
+        break;
+    case GM_HIT_SLIDER:
+        explorer->face.parameter = hit->index;
+        explorer->face.explaining = true;
+        drag(explorer, event->column);
+        break;
+    case GM_HIT_PARAMETER:
+        click_parameter(explorer, hit->index);
+        break;
+    case GM_HIT_PAST:
+        drag(explorer, event->column);
+        break;
+    case GM_HIT_PICTURE:
+        click_picture(explorer, event);
+        break;
+    case GM_HIT_KEY:
+    case GM_HIT_SCENE:
+        break;
+    }
+}
+
+static void point(struct explorer *explorer, const struct gm_mouse_event *event)
+{
+    bool lists = explorer->at_start || explorer->face.page != GM_PAGE_SCENE ||
+                 explorer->face.choosing != GM_CHOOSE_NOTHING;
+    explorer->dirty = true;
+    switch (event->kind) {
+    case GM_MOUSE_PRESS:
+        click(explorer, event);
+        break;
+    case GM_MOUSE_DRAG:
+        if (explorer->holding && !explorer->at_start) {
+            drag(explorer, event->column);
+        }
+        break;
+    case GM_MOUSE_RELEASE:
+        explorer->holding = false;
+        break;
+    case GM_MOUSE_UP:
+        press(explorer, lists ? KEY_UP : ']');
+        break;
+    case GM_MOUSE_DOWN:
+        press(explorer, lists ? KEY_DOWN : '[');
+        break;
     }
 }
 
@@ -182,68 +424,49 @@ static void press_all(struct explorer *explorer)
 static void read_cell_size(struct explorer *explorer)
 {
     struct gm_terminal *terminal = &explorer->terminal;
-    const struct gm_answers *answers = &terminal->answers;
-    int width = answers->cell_width, height = answers->cell_height;
+    int width = terminal->answers.cell_width, height = terminal->answers.cell_height;
     gm_terminal_cell(&width, &height);
     if (width > 0 && height > 0 && (width != terminal->cell_width || height != terminal->cell_height)) {
         terminal->cell_width = width;
         terminal->cell_height = height;
-        explorer->picture.lost = explorer->dirty = true;
+        explorer->dirty = true;
     }
 }
 
 static void read_keys(struct explorer *explorer)
 {
-    int waiting = 0;
-    if (ioctl(STDIN_FILENO, FIONREAD, &waiting) == 0 && waiting == 0) {
-        leave(explorer, GM_EXIT_OK); /* readable, yet nothing to read: the terminal is gone */
-        return;
+    for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
+        struct gm_mouse_event event;
+        enum gm_mouse_result result = gm_mouse_feed(&explorer->mouse, key, &event);
+        if (result == GM_MOUSE_NOT) {
+            press(explorer, key);
+        } else if (result == GM_MOUSE_EVENT) {
+            point(explorer, &event);
+        }
     }
-    press_all(explorer);
-    read_cell_size(explorer);
 }
 
-/* Before the terminal goes back to the shell: sends what is under way, and awaits the answers, which the
-   shell would take for keys. */
-static void come_to_rest(struct explorer *explorer)
+/* Whether there is something to read; if not, the terminal that seemed to have it is gone. */
+static bool has_keys(void)
 {
-    enum { PATIENCE = 1000 };
-    struct gm_writer *writer = &explorer->writer;
-    int64_t until = milliseconds() + PATIENCE;
-    for (int64_t left = PATIENCE; left > 0; left = until - milliseconds()) {
-        bool good = gm_writer_send(writer);
-        gm_writer_takes(writer, explorer->terminal.answers.ready);
-        if (!good || (gm_writer_idle(writer) && gm_writer_patience(writer) < 0)) {
-            return;
-        }
-        struct pollfd watched[] = {
-            {.fd = STDIN_FILENO, .events = POLLIN},
-            {.fd = gm_writer_idle(writer) ? -1 : writer->fd, .events = POLLOUT},
-        };
-        if (poll(watched, 2, (int)left) < 0 || watched[0].revents & ~POLLIN) {
-            return; /* a signal, or the terminal is gone */
-        }
-        gm_console_key();
-    }
+    int waiting = 0;
+    return ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting > 0;
 }
 
 static void suspend(struct explorer *explorer)
 {
-    come_to_rest(explorer);
+    gm_display_rest(&explorer->display);
     gm_console_stop();
     resize(explorer);
 }
 
 static void read_picture(struct explorer *explorer)
 {
-    struct picture *picture = &explorer->picture;
-    char message[GM_MESSAGE];
-    if (!picture->painter || !gm_pixels_take(picture->painter, &picture->bytes, &picture->size, message)) {
+    if (!gm_display_read(&explorer->display)) {
         return;
     }
     explorer->dirty = true;
-    picture->painted = picture->bytes != NULL;
-    if (!picture->painted) { /* there is no GL, or no memory for it: blocks need neither */
+    if (explorer->display.failed) { /* there is no GL: blocks do not need it */
         explorer->terminal.can_pixels[GM_INLINE_KITTY] = explorer->terminal.can_pixels[GM_INLINE_SIXEL] =
             false;
         explorer->face.pixels = GM_INLINE_NONE;
@@ -265,136 +488,85 @@ static void read_news(struct explorer *explorer)
     if (gm_console_resized()) {
         resize(explorer);
     }
+    read_picture(explorer);
     struct gm_shot *shot = explorer->worker ? gm_worker_take(explorer->worker) : NULL;
     if (shot) {
         explorer->shot = shot;
         explorer->asked = false;
-        explorer->next_shot = milliseconds() + FRAME_MILLISECONDS;
-        explorer->dirty = explorer->fresh = explorer->picture.stale = true;
+        explorer->next_shot = milliseconds() + (explorer->at_start ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
+        explorer->dirty = true;
+        explorer->fresh = explorer->fresh || shot->drawn;
+        if (shot->drawn) {
+            gm_display_renew(&explorer->display);
+        }
+    } else if (explorer->worker && !explorer->shot && !explorer->said[0] &&
+               gm_worker_failed(explorer->worker, explorer->said)) {
+        explorer->dirty = true;
+        if (!explorer->at_start) {
+            show_start(explorer);
+        }
     }
-    read_picture(explorer);
 }
 
 /* ---- output ---- */
 
-static void compose(struct explorer *explorer)
+/* A page about a scheme wants it measured. */
+static void ask_measure(struct explorer *explorer)
 {
-    if (!explorer->worker) {
-        gm_screen_draw_start(&explorer->screen, &explorer->face, explorer->choice);
-    } else if (explorer->shot) {
-        gm_screen_draw(&explorer->screen, &explorer->face, explorer->shot, explorer->fresh);
+    struct gm_face *face = &explorer->face;
+    if (face->page == GM_PAGE_HELP) {
+        face->explained = explorer->shot->lanes[explorer->shot->selected].scheme;
     }
-    explorer->fresh = false;
+    if (face->page != GM_PAGE_SCENE) {
+        gm_measure_ask(&explorer->measure, face->explained);
+        face->measured = gm_measure_text(&explorer->measure);
+    }
 }
 
-static size_t covered_cells(const struct gm_screen *screen)
-{
-    size_t count = 0;
-    for (int row = 0; row < screen->pixel_rows; row++) {
-        for (int column = 0; column < screen->pixel_columns; column++) {
-            count += screen->cells.cells[row * screen->cells.columns + column].glyph != 0;
-        }
-    }
-    return count;
-}
-
-static void remove_picture(struct explorer *explorer)
-{
-    gm_writer_tell(&explorer->writer, gm_inline_removal(explorer->picture.shown));
-    explorer->picture.shown = GM_INLINE_NONE;
-    explorer->picture.lost = true;
-}
-
-/* Begins the picture that the screen leaves room for, unless it is there. */
-static bool begin_picture(struct explorer *explorer)
-{
-    struct picture *picture = &explorer->picture;
-    const struct gm_screen *screen = &explorer->screen;
-    const struct gm_terminal *terminal = &explorer->terminal;
-    struct gm_pixels_job job = {
-        .kind = explorer->face.pixels,
-        .place = {screen->pixel_columns, screen->pixel_rows, terminal->cell_width, terminal->cell_height},
-        .most_width = terminal->answers.most_width,
-        .most_height = terminal->answers.most_height,
-    };
-    size_t covered = covered_cells(screen);
-    if (job.kind != picture->job.kind || memcmp(&job.place, &picture->job.place, sizeof job.place) != 0) {
-        remove_picture(explorer);
-    }
-    if (covered < picture->covered) { /* what covered it has overwritten it */
-        picture->lost = true;
-    }
-    picture->covered = covered;
-    if (!picture->lost && (picture->painted || !picture->stale)) {
-        return false;
-    }
-    if (!picture->painter) {
-        picture->painter = gm_pixels_open(terminal->theme, explorer->wake, explorer->message);
-        if (!picture->painter) {
-            leave(explorer, GM_EXIT_USAGE);
-            return true;
-        }
-    }
-    job.whole = picture->lost;
-    picture->job = job;
-    picture->painted = picture->stale = picture->lost = false;
-    gm_pixels_paint(picture->painter, explorer->shot->picture, &job);
-    return true;
-}
-
-static bool painting(const struct explorer *explorer)
-{
-    return explorer->picture.painter && gm_pixels_busy(explorer->picture.painter);
-}
-
-/* The picture and what is around it appear together. */
 static void draw(struct explorer *explorer)
 {
-    struct picture *picture = &explorer->picture;
-    if (explorer->worker && !explorer->shot) {
+    struct gm_screen *screen = &explorer->screen;
+    struct gm_picture *picture = explorer->shot ? explorer->shot->picture : NULL;
+    if (explorer->at_start) {
+        bool looked = chosen_scene(explorer) == explorer->scene;
+        gm_screen_draw_start(screen, &explorer->face, &explorer->start, looked ? explorer->shot : NULL,
+                             explorer->fresh, looked ? explorer->said : "");
+    } else if (explorer->shot) {
+        ask_measure(explorer);
+        gm_screen_draw(screen, &explorer->face, explorer->shot, explorer->fresh);
+    } else {
         return;
     }
-    compose(explorer);
-    const struct gm_screen *screen = &explorer->screen;
-    bool pixels = screen->pixel_columns > 0;
-    if (pixels && begin_picture(explorer)) {
-        return;
-    }
-    if (!pixels && picture->shown) {
-        remove_picture(explorer);
-    }
-    const struct gm_writer_image image = {picture->bytes, picture->size, screen->pixel_columns,
-                                          screen->pixel_rows};
-    gm_writer_draw(&explorer->writer, &screen->cells, pixels && picture->painted ? &image : NULL);
-    if (pixels && picture->painted) {
-        picture->shown = picture->job.kind;
-        picture->painted = false;
-    }
-    explorer->dirty = false;
+    explorer->fresh = false;
+    explorer->dirty = !gm_display_show(&explorer->display, screen, &explorer->face, picture);
 }
 
 /* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to
    wait for input, in milliseconds; -1: as long as it takes. */
 static int output(struct explorer *explorer)
 {
-    struct gm_writer *writer = &explorer->writer;
-    unsigned long ready = explorer->terminal.answers.ready;
-    bool good = gm_writer_send(writer);
-    /* while a picture is painted it belongs to the painter */
-    if (explorer->dirty && !painting(explorer) && gm_writer_takes(writer, ready)) {
+    int64_t now = milliseconds();
+    if (explorer->at_start && explorer->look_due >= 0 && explorer->look_due <= now) {
+        look(explorer);
+    }
+    bool good = gm_display_send(&explorer->display);
+    if (explorer->dirty && gm_display_takes(&explorer->display)) {
         draw(explorer);
-        good = good && gm_writer_send(writer);
+        good = good && gm_display_send(&explorer->display);
     }
     if (!good) {
         leave(explorer, GM_EXIT_FILE);
     }
-    if (!gm_writer_takes(writer, ready)) {
-        return gm_writer_patience(writer);
+    if (explorer->at_start && explorer->look_due >= 0) {
+        return (int)(explorer->look_due - now);
     }
-    if (!explorer->worker || explorer->asked || explorer->dirty || painting(explorer)) {
+    if (!gm_display_takes(&explorer->display)) {
+        return gm_display_patience(&explorer->display);
+    }
+    if (!explorer->worker || explorer->asked || explorer->dirty) {
         return -1;
     }
-    int64_t wait = explorer->next_shot - milliseconds();
+    int64_t wait = explorer->next_shot - now;
     if (wait > 0) {
         return (int)wait;
     }
@@ -405,15 +577,16 @@ static int output(struct explorer *explorer)
 
 static void run(struct explorer *explorer)
 {
-    enum { KEYS, NEWS, SCREEN, COUNT };
+    enum { KEYS, NEWS, SCREEN, MEASURE, COUNT };
+    const struct gm_writer *writer = &explorer->display.writer;
     resize(explorer);
     while (!explorer->leave) {
         int wait = output(explorer);
         struct pollfd watched[COUNT] = {
             [KEYS] = {.fd = STDIN_FILENO, .events = POLLIN},
             [NEWS] = {.fd = explorer->wake, .events = POLLIN},
-            [SCREEN] = {.fd = gm_writer_idle(&explorer->writer) ? -1 : explorer->writer.fd,
-                        .events = POLLOUT},
+            [SCREEN] = {.fd = gm_writer_idle(writer) ? -1 : writer->fd, .events = POLLOUT},
+            [MEASURE] = {.fd = explorer->measure.fd, .events = POLLIN},
         };
         if (explorer->leave) {
             break;
@@ -431,10 +604,12 @@ static void run(struct explorer *explorer)
         if (watched[NEWS].revents) {
             read_news(explorer);
         }
-        if (patience >= 0 && !watched[KEYS].revents) {
-            press_all(explorer);
-        } else if (watched[KEYS].revents & POLLIN) {
+        if (watched[MEASURE].revents && gm_measure_read(&explorer->measure)) {
+            explorer->dirty = true;
+        }
+        if (watched[KEYS].revents & POLLIN ? has_keys() : patience >= 0 && !watched[KEYS].revents) {
             read_keys(explorer);
+            read_cell_size(explorer);
         } else if (watched[KEYS].revents) {
             leave(explorer, GM_EXIT_OK);
         }
@@ -443,7 +618,7 @@ static void run(struct explorer *explorer)
 
 int gm_explorer(const struct gm_request *request, const struct gm_overrides *overrides)
 {
-    struct explorer explorer = {.wake = -1, .picture = {.lost = true}};
+    struct explorer explorer = {.wake = -1, .look_due = -1, .measure = {.fd = -1}};
     if (!gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
         !gm_terminal_serves(&explorer.terminal, explorer.message)) {
         fprintf(stderr, "geomint: %s\n", explorer.message);
@@ -452,28 +627,29 @@ int gm_explorer(const struct gm_request *request, const struct gm_overrides *ove
     explorer.face = (struct gm_face){.blocks = explorer.terminal.graphics.blocks,
                                      .pixels = explorer.terminal.graphics.pixels,
                                      .theme = explorer.terminal.theme,
-                                     .few_colours = explorer.terminal.colours < GM_COLOURS_256};
+                                     .few_colours = explorer.terminal.colours < GM_COLOURS_256,
+                                     .monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
+                                     .only_monochrome = explorer.terminal.colours == GM_COLOURS_NONE};
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     /* The lanes are opened before the terminal is taken over: a mistake is best read in the shell. */
     bool ok = explorer.wake >= 0;
     if (!ok) {
         snprintf(explorer.message, GM_MESSAGE, "The system has no eventfd to spare.");
     } else if (request && request->scene) {
-        ok = open_scene(&explorer, request);
-    } else if (gm_scene_count() == 1) {
-        ok = open_by_name(&explorer, gm_scene_at(0));
+        ok = open_request(&explorer, request);
+    } else {
+        show_start(&explorer);
     }
     ok = ok && gm_console_open(explorer.wake, &explorer.terminal, explorer.message);
     int number = 0;
-    if (ok && gm_writer_open(&explorer.writer, &explorer.terminal)) {
+    if (ok && gm_display_open(&explorer.display, &explorer.terminal, explorer.wake)) {
         run(&explorer);
         number = gm_console_leaving();
-        remove_picture(&explorer);
-        come_to_rest(&explorer);
-        gm_writer_close(&explorer.writer);
+        gm_display_rest(&explorer.display);
+        gm_display_close(&explorer.display);
     }
     gm_console_close();
-    gm_pixels_close(explorer.picture.painter);
+    gm_measure_close(&explorer.measure);
     gm_worker_close(explorer.worker);
     gm_screen_close(&explorer.screen);
     if (explorer.wake >= 0) {

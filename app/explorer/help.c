@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page that explains everything: the scene, the keys, the letters of the claims, the selected scheme. */
+/* Pages that explain: the scene, the keys, the letters of the claims, a scheme. */
 #include <stdio.h>
 #include <string.h>
 
+#include "app/explorer/keys.h"
 #include "app/explorer/screen.h"
 
 /* A column of the page that grows downwards, scrolled by the sheet's face. */
@@ -19,34 +20,7 @@ static void put(struct page *page, int column, const char *text, enum gm_role ro
 /* Breaks a text at its blanks; lines after the first begin at `column` too. */
 static void put_wrapped(struct page *page, int column, const char *text, enum gm_role role)
 {
-    int room = page->sheet.width - column;
-    while (*text && room > 0) {
-        char line[512];
-        size_t fits = 0;
-        for (size_t i = 1; i < sizeof line; i++) {
-            bool end = text[i] == '\0' || text[i] == '\n', blank = end || text[i] == ' ';
-            if (blank) {
-                snprintf(line, sizeof line, "%.*s", (int)i, text);
-                if (gm_sheet_width(&page->sheet, line) > room && fits > 0) {
-                    break;
-                }
-                fits = i;
-            }
-            if (end) {
-                break;
-            }
-        }
-        if (fits == 0) {
-            fits = strlen(text) < sizeof line ? strlen(text) : sizeof line - 1;
-        }
-        snprintf(line, sizeof line, "%.*s", (int)fits, text);
-        put(page, column, line, role, false);
-        page->row++;
-        text += fits;
-        while (*text == ' ' || *text == '\n') {
-            text++;
-        }
-    }
+    page->row += gm_sheet_wrapped(&page->sheet, column, page->row - page->scroll, 100, text, role);
 }
 
 static void put_heading(struct page *page, const char *text)
@@ -66,31 +40,24 @@ static void put_scene(struct page *page, const struct gm_scene *scene)
     put_wrapped(page, 0, scene->watch ? scene->watch : "", GM_SECONDARY);
 }
 
+enum { KEY_COLUMNS = 11 };
+
 static void put_keys(struct page *page)
 {
-    static const struct {
-        const char *key, *text;
-    } keys[] = {
-        {"space", "pause and go on"},
-        {". ,", "one step forward, one step back; this pauses"},
-        {"[ ]", "slower, faster"},
-        {"↑ ↓", "choose a parameter"},
-        {"← →", "change it; live ones act at once, others start again"},
-        {"⌫", "set it to its default"},
-        {"tab", "select a lane"},
-        {"s", "switch its scheme in flight, from the present state on"},
-        {"c x", "add a lane to compare; remove the selected one"},
-        {"r", "restart"},
-        {"p", "save the picture as PNG; `geomint again` redoes it"},
-        {"b", "pixels, braille, quadrants, half blocks, ASCII: what the terminal has"},
-        {"?", "this page"},
-        {"q", "quit"},
-    };
     put_heading(page, "KEYS");
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        put(page, 0, keys[i].key, GM_INK, true);
-        put_wrapped(page, 8, keys[i].text, GM_INK);
+    for (size_t i = 0; i < gm_key_row_count; i++) {
+        if (gm_key_rows[i].text) {
+            put(page, 0, gm_key_rows[i].label, GM_INK, true);
+            put_wrapped(page, KEY_COLUMNS, gm_key_rows[i].text, GM_INK);
+        }
     }
+    put_heading(page, "MOUSE");
+    put_wrapped(
+        page, 0,
+        "Never needed. Click a lane, a scheme, a parameter or a word of the last line; drag a slider, or the "
+        "line under the picture through the past; the wheel changes the speed; in the picture of a phase "
+        "plane a click is a new start.",
+        GM_INK);
 }
 
 static void put_claims(struct page *page)
@@ -103,29 +70,53 @@ static void put_claims(struct page *page)
     put_wrapped(page, 0, "`geomint certify` measures every one of them.", GM_SECONDARY);
 }
 
-static void put_scheme(struct page *page, const struct gm_shot_lane *lane)
+/* Lines as they are. */
+static void put_lines(struct page *page, int column, const char *text, enum gm_role role)
 {
-    const struct gm_scheme *scheme = lane->scheme;
-    char text[32];
-    put_heading(page, "THE SELECTED SCHEME");
-    put(page, 0, scheme->title, gm_lane_role(lane->shown.colour), true);
-    snprintf(text, sizeof text, "order %d", scheme->order);
-    put(page, gm_sheet_width(&page->sheet, scheme->title) + 2, text, GM_SECONDARY, false);
-    page->row++;
-    for (const char *at = scheme->formula; at && *at;) {
+    for (const char *at = text; at && *at;) {
         char line[256];
         size_t length = strcspn(at, "\n");
         snprintf(line, sizeof line, "%.*s", (int)length, at);
-        put(page, 2, line, GM_INK, false);
+        put(page, column, line, role, false);
         page->row++;
         at += length + (at[length] == '\n');
     }
+}
+
+static void put_scheme(struct page *page, const struct gm_scheme *scheme, enum gm_role role)
+{
+    char text[32];
+    put(page, 0, scheme->title, role, true);
+    snprintf(text, sizeof text, scheme->order > 0 ? "order %d" : "chooses its order", scheme->order);
+    put(page, gm_sheet_width(&page->sheet, scheme->title) + 2, text, GM_SECONDARY, false);
+    page->row++;
+    put_lines(page, 2, scheme->formula, GM_INK);
     put_wrapped(page, 0, scheme->reference ? scheme->reference : "", GM_SECONDARY);
+}
+
+static void put_measured(struct page *page)
+{
+    const char *measured = page->sheet.face->measured;
+    put_heading(page, "AS MEASURED");
+    if (measured) {
+        put_lines(page, 0, measured, GM_INK);
+    } else {
+        put(page, 0, "measuring …", GM_SECONDARY, false);
+        page->row++;
+    }
+}
+
+static int draw_scheme(const struct gm_sheet *sheet, int scroll)
+{
+    struct page page = {.sheet = *sheet, .scroll = scroll};
+    put_scheme(&page, sheet->face->explained, GM_INK);
+    put_measured(&page);
+    return page.row;
 }
 
 enum { TWO_COLUMNS = 110, COLUMN_GAP = 4 };
 
-static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
+static int draw_help(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
 {
     bool two = sheet->width >= TWO_COLUMNS;
     struct page left = {.sheet = *sheet, .scroll = scroll};
@@ -141,12 +132,20 @@ static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *
     if (!two) {
         right.row = left.row;
     }
+    const struct gm_shot_lane *lane = &shot->lanes[shot->selected];
     put_claims(&right);
-    put_scheme(&right, &shot->lanes[shot->selected]);
+    put_heading(&right, "THE SELECTED SCHEME");
+    put_scheme(&right, lane->scheme, gm_lane_role(lane->shown.colour));
+    put_measured(&right);
     return left.row > right.row ? left.row : right.row;
 }
 
-void gm_help_draw(const struct gm_sheet *sheet, struct gm_face *face, const struct gm_shot *shot)
+static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
+{
+    return sheet->face->page == GM_PAGE_SCHEME ? draw_scheme(sheet, scroll) : draw_help(sheet, scroll, shot);
+}
+
+void gm_page_draw(const struct gm_sheet *sheet, struct gm_face *face, const struct gm_shot *shot)
 {
     /* Measured first on no rows at all, so that scrolling stops at the last line. */
     struct gm_sheet nothing = *sheet;

@@ -9,6 +9,7 @@
 
 struct gm_moment {
     long steps;
+    double gone; /* model time that the lane has gone through, forwards and backwards */
     const struct gm_scheme *scheme;
     size_t size;
     void *memory; /* the lane's parameters, then its snapshot */
@@ -24,13 +25,20 @@ struct gm_past {
 /* An empty past is {.every = 1}. This sets how many snapshots it may hold. */
 void gm_past_limit(struct gm_past *past, size_t bound);
 void gm_past_close(struct gm_past *past);
+/* A copy for a fork of the lane; an empty one if memory is short. */
+struct gm_past gm_past_copy(const struct gm_past *past);
 
-/* Keeps the lane as it is now, if it is far enough from the last snapshot; with `always` in any case, and in
-   place of one at the same step. */
-void gm_past_note(struct gm_past *past, const struct gm_lane *lane, bool always);
+/* Keeps the lane as it is now, `gone` after its start, if it is far enough from the last snapshot; with
+   `always` in any case, and in place of one at the same step. Forgets snapshots of later steps: the lane has
+   gone back, and on from there. */
+void gm_past_note(struct gm_past *past, const struct gm_lane *lane, double gone, bool always);
 
-/* Takes the lane back to the last snapshot at or before `steps`, and forgets all later ones. False if there
-   is none. */
-bool gm_past_return(struct gm_past *past, struct gm_lane *lane, long steps);
+/* Takes the lane to the last snapshot at or before `steps`, or at or before `gone`, and returns it; NULL if
+   there is none. Later ones are kept. */
+const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, long steps);
+const struct gm_moment *gm_past_visit(const struct gm_past *past, struct gm_lane *lane, double gone);
+
+/* Forgets what is later than `steps`. */
+void gm_past_forget(struct gm_past *past, long steps);
 
 #endif

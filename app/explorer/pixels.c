@@ -14,7 +14,6 @@
 
 struct gm_pixels {
     pthread_t thread;
-    enum gm_theme theme;
     int wake;
 
     /* shared, under the lock */
@@ -50,7 +49,7 @@ static void forget(struct gm_pixels *pixels)
 
 static bool same_place(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
 {
-    return a->kind == b->kind && memcmp(&a->place, &b->place, sizeof a->place) == 0;
+    return a->kind == b->kind && a->theme == b->theme && memcmp(&a->place, &b->place, sizeof a->place) == 0;
 }
 
 /* Makes sure of a canvas of the right size. */
@@ -64,7 +63,7 @@ static bool prepare(struct gm_pixels *pixels)
     forget(pixels);
     pixels->made_for = *job;
     gm_inline_size(&job->place, job->kind, &width, &height);
-    pixels->canvas = gm_canvas_open(width, height, pixels->theme, pixels->message);
+    pixels->canvas = gm_canvas_open(width, height, job->theme, pixels->message);
     if (!pixels->canvas) {
         return false;
     }
@@ -111,14 +110,13 @@ static void *work(void *self)
     return NULL;
 }
 
-struct gm_pixels *gm_pixels_open(enum gm_theme theme, int wake, char *message)
+struct gm_pixels *gm_pixels_open(int wake, char *message)
 {
     struct gm_pixels *pixels = calloc(1, sizeof *pixels);
     if (!pixels) {
         snprintf(message, GM_MESSAGE, "There is not enough memory.");
         return NULL;
     }
-    pixels->theme = theme;
     pixels->wake = wake;
     pthread_mutex_init(&pixels->lock, NULL);
     pthread_cond_init(&pixels->news, NULL);

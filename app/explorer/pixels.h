@@ -12,6 +12,7 @@ struct gm_pixels;
 
 struct gm_pixels_job {
     enum gm_inline_kind kind;
+    enum gm_theme theme;
     struct gm_inline_place place;
     int most_width, most_height; /* as for gm_inline_open */
     bool whole;                  /* the terminal may have lost what was sent before */
@@ -19,7 +20,7 @@ struct gm_pixels_job {
 
 /* `wake` is an eventfd that is written to when a picture is ready. NULL with a sentence (GM_MESSAGE bytes).
  */
-struct gm_pixels *gm_pixels_open(enum gm_theme theme, int wake, char *message);
+struct gm_pixels *gm_pixels_open(int wake, char *message);
 void gm_pixels_close(struct gm_pixels *pixels);
 
 /* Begins a picture, which stays the painter's until gm_pixels_take tells of it. Not while it is busy. */

@@ -2,35 +2,22 @@
 #ifndef GM_APP_EXPLORER_SCREEN_H
 #define GM_APP_EXPLORER_SCREEN_H
 
+#include "app/explorer/sheet.h"
 #include "app/explorer/shot.h"
-#include "render/cells.h"
 #include "render/inline_image.h"
 
 /* What is on the screen: the picture at the left, the side panel at the right, a status line below; or a page
    of help. All of it is composed as cells; nothing here knows the terminal. */
-
-/* What the user has set about the screen itself. */
-struct gm_face {
-    enum gm_blocks blocks;
-    enum gm_inline_kind pixels; /* the picture is not made of blocks */
-    enum gm_theme theme;
-    bool few_colours;
-    bool help;
-    int scroll;         /* lines of the help above the screen */
-    bool choosing;      /* a scheme for the selected lane */
-    size_t choice;      /* its number among the schemes that fit */
-    size_t parameter;   /* the one that left and right change */
-    bool explaining;    /* the status line says what that parameter is */
-    unsigned long read; /* the last message that was seen and dismissed */
-};
 
 struct gm_screen {
     struct gm_cells cells;
     struct gm_cells picture; /* kept, as it changes less often than what is around it */
     bool fresh;              /* the kept picture shows the last shot */
     enum gm_blocks blocks;   /* and was painted with these */
-    /* the upper left part of the screen that is left for a picture of pixels; no columns: none */
-    int pixel_columns, pixel_rows;
+    enum gm_theme theme;
+    int picture_column, picture_row; /* where it is */
+    struct gm_inline_place pixels;   /* the cells left for a picture of pixels; no columns: none */
+    struct gm_hits hits;             /* what can be clicked */
 };
 
 bool gm_screen_resize(struct gm_screen *screen, int columns, int rows);
@@ -39,30 +26,46 @@ void gm_screen_close(struct gm_screen *screen);
 /* Composes the screen. `fresh` says that the shot's picture is a new one. */
 void gm_screen_draw(struct gm_screen *screen, struct gm_face *face, const struct gm_shot *shot, bool fresh);
 
-/* The list of scenes, `choice` of them marked. */
-void gm_screen_draw_start(struct gm_screen *screen, const struct gm_face *face, size_t choice);
+/* The start: the scenes found, number `choice` of them marked; `shot` is a look at that one, or NULL where
+   there is none yet, and `said` why it cannot be looked at, or "". */
+enum { GM_START_SCENES = 64 };
+struct gm_start {
+    const struct gm_scene *found[GM_START_SCENES];
+    size_t count, choice;
+    char typed[GM_TYPED];
+};
+void gm_screen_draw_start(struct gm_screen *screen, const struct gm_face *face, const struct gm_start *start,
+                          const struct gm_shot *shot, bool fresh, const char *said);
+
+/* The schemes that fit and in which everything typed is found, those of the scene first. Returns how many. */
+size_t gm_schemes_found(const struct gm_face *face, const struct gm_shot *shot,
+                        const struct gm_scheme *found[GM_SHOT_SCHEMES]);
+/* Whether every typed word is somewhere in one of the texts (NULL ends them), capitals or not. */
+bool gm_is_found(const char *typed, const char *const *texts);
 
 /* ---- shared by the files that compose ---- */
 
-/* A rectangle to write in. */
-struct gm_sheet {
-    struct gm_cells *cells;
-    const struct gm_face *face;
-    int column, row, width, height;
+/* A hint in the status line: a key and a word. */
+struct gm_hint {
+    const char *key, *word;
+    int code; /* of the key, for a click */
 };
+/* As many hints as fit at the right of row 0; returns the column where they begin. */
+int gm_hints_draw(const struct gm_sheet *sheet, int from, const struct gm_hint *hints);
 
-/* Writes in the sheet's own coordinates and stays in it; returns the cells that the text takes. */
-int gm_sheet_text(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
-                  bool bold);
-/* The same, with the text's end at `column` (exclusive). */
-void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
-                    bool bold);
-void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t glyph, enum gm_role role,
-                    bool bold);
-int gm_sheet_width(const struct gm_sheet *sheet, const char *text);
+/* The whole screen, blank; the rows of the status line, and its rule. */
+struct gm_sheet gm_screen_clear(struct gm_screen *screen, const struct gm_face *face);
+int gm_screen_status_rows(const struct gm_cells *cells);
+void gm_screen_rule(const struct gm_sheet *whole, int side);
+/* Paints the shot's picture, or copies it where it was painted before. */
+void gm_screen_picture(struct gm_screen *screen, const struct gm_face *face, const struct gm_shot *shot,
+                       int column, int row, int columns, int rows);
 
+void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, int side);
+void gm_speed_text(const struct gm_shot *shot, char *text, size_t size);
 void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot);
 void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot);
-void gm_help_draw(const struct gm_sheet *sheet, struct gm_face *face, const struct gm_shot *shot);
+/* The page of help, or of a scheme. */
+void gm_page_draw(const struct gm_sheet *sheet, struct gm_face *face, const struct gm_shot *shot);
 
 #endif

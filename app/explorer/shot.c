@@ -71,12 +71,38 @@ static bool has_effect(const struct gm_parameter *row)
     return row->offset != offsetof(struct gm_timing, until);
 }
 
-void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected)
+/* The end that the scene suggests, or twice as far where that is past. */
+static double suggested_end(const struct gm_session *session)
+{
+    const struct gm_lane *lane = session->lanes[0];
+    const struct gm_timing *timing = lane->parameters;
+    double t = gm_session_time(session), end = timing->until;
+    return end > t + fabs(lane->run->dt) && end < GM_NEVER ? end : t + fabs(t - lane->t0);
+}
+
+bool gm_shot_uses(const struct gm_shot *shot, const struct gm_scheme *scheme)
+{
+    for (size_t i = 0; i < shot->lane_count; i++) {
+        if (shot->lanes[i].scheme == scheme) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected, bool draw)
 {
     shot->scene = session->scene;
     shot->lane_count = session->count;
     shot->selected = selected;
     shot->t = gm_session_time(session);
+    shot->ahead = suggested_end(session);
+    shot->gone = gm_session_gone(session);
+    shot->reach = gm_session_reach(session);
+    shot->backwards = gm_session_direction(session) < 0;
+    shot->turned = session->turned;
+    shot->overlaid = session->overlaid;
+    shot->drawn = draw;
     shot->observable_count = session->scene->observable_count;
     if (shot->observable_count > GM_SHOT_OBSERVABLES) {
         shot->observable_count = GM_SHOT_OBSERVABLES;
@@ -88,6 +114,7 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
         copy->scheme = lane->scheme;
         copy->status = lane->run->status;
         copy->t = lane->run->t;
+        copy->from_start = session->turned ? gm_session_from_start(session, i) : 0;
         for (size_t k = 0; k < shot->observable_count; k++) {
             copy->values[k] = gm_lane_observe(lane, k);
         }
@@ -105,6 +132,8 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
         }
     }
     shot->scheme_count = gm_session_fits(session, shot->schemes, GM_SHOT_SCHEMES);
-    gm_picture_clear(shot->picture);
-    session->scene->draw((const struct gm_lane *const *)session->lanes, session->count, shot->picture);
+    if (draw) {
+        gm_picture_clear(shot->picture);
+        session->scene->draw((const struct gm_lane *const *)session->lanes, session->count, shot->picture);
+    }
 }

@@ -24,6 +24,7 @@ struct gm_shot_lane {
     const struct gm_scheme *scheme;
     enum gm_status status;
     double t;
+    double from_start; /* largest difference from the start's components */
     double values[GM_SHOT_OBSERVABLES];
     struct gm_spark sparks[GM_SHOT_OBSERVABLES];
 };
@@ -47,6 +48,14 @@ struct gm_shot {
     size_t scheme_count;
     const struct gm_scheme *schemes[GM_SHOT_SCHEMES]; /* all that fit */
     double t, speed;
+    double ahead;       /* where to run ahead is of use */
+    double gone, reach; /* model time gone through, and up to the last snapshot */
+    bool backwards;     /* time runs */
+    bool turned;        /* or has run */
+    bool overlaid;      /* all lanes are in one panel */
+    bool drawn;         /* the picture is a new one */
+    bool running_ahead; /* nothing is drawn meanwhile */
+    double progress;    /* of that, 0 to 1 */
     bool paused;
     bool behind; /* the steps cost more than the speed allows */
     char message[GM_MESSAGE];
@@ -56,7 +65,10 @@ struct gm_shot {
 bool gm_shot_open(struct gm_shot *shot);
 void gm_shot_close(struct gm_shot *shot);
 
-/* Fills in what comes from the session; looks only. */
-void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected);
+/* Fills in what comes from the session; looks only. The picture is drawn, or left as it was. */
+void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t selected, bool draw);
+
+/* Whether a lane has the scheme. */
+bool gm_shot_uses(const struct gm_shot *shot, const struct gm_scheme *scheme);
 
 #endif

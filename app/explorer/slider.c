@@ -4,15 +4,33 @@
 #include <math.h>
 #include <stdio.h>
 
+/* The value; of a step that runs backwards its size. */
+static double size_of(const struct gm_parameter *row, const void *owner)
+{
+    double value = gm_parameter_get(row, owner);
+    return value < 0 && row->lowest >= 0 ? -value : value;
+}
+
+/* The ends of a slider; false where there is none. */
+static bool slider_range(const struct gm_parameter *row, double *low, double *high)
+{
+    *low = row->lowest;
+    *high = row->highest;
+    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN || row->type == GM_TEXT || !(*high > *low) ||
+        !isfinite(*high - *low)) {
+        return false;
+    }
+    if (row->logarithmic && *low <= 0) { /* a range from 0 on has no logarithm; ten decades stand for it */
+        *low = *high * 1e-10;
+    }
+    return true;
+}
+
 double gm_slider_position(const struct gm_parameter *row, const void *owner)
 {
-    double value = gm_parameter_get(row, owner), low = row->lowest, high = row->highest;
-    if (row->type == GM_CHOICE || row->type == GM_BOOLEAN || row->type == GM_TEXT || !(high > low) ||
-        !isfinite(high - low)) {
+    double value = size_of(row, owner), low, high;
+    if (!slider_range(row, &low, &high)) {
         return -1;
-    }
-    if (row->logarithmic && low <= 0) { /* a range from 0 on has no logarithm; ten decades stand for it */
-        low = high * 1e-10;
     }
     double position =
         row->logarithmic ? log(fmax(value, low) / low) / log(high / low) : (value - low) / (high - low);
@@ -84,7 +102,7 @@ bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direc
     if (row->type == GM_TEXT) {
         return false;
     }
-    double value = gm_parameter_get(row, owner), next;
+    double value = size_of(row, owner), next;
     if (row->logarithmic && value > 0) {
         next = next_by_ratio(value, direction);
     } else if (row->logarithmic) {
@@ -100,5 +118,25 @@ bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direc
         return false;
     }
     snprintf(text, GM_VALUE_TEXT, row->type == GM_INTEGER ? "%.0f" : "%.10g", next == 0 ? 0.0 : next);
+    return true;
+}
+
+bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_VALUE_TEXT])
+{
+    double low, high;
+    if (!slider_range(row, &low, &high)) {
+        return false;
+    }
+    position = fmin(fmax(position, 0), 1);
+    double value = row->logarithmic ? low * pow(high / low, position) : low + position * (high - low);
+    if (row->type == GM_INTEGER) {
+        value = round(value);
+    } else if (position > 0 && position < 1) {
+        /* two digits of the value, or of the range where that is all a slider can tell */
+        double unit = pow(10, floor(log10(row->logarithmic ? fabs(value) : high - low)) - 1);
+        value = round(value / unit) * unit;
+    }
+    value = fmin(fmax(value, row->lowest), row->highest);
+    snprintf(text, GM_VALUE_TEXT, row->type == GM_INTEGER ? "%.0f" : "%.6g", value == 0 ? 0.0 : value);
     return true;
 }

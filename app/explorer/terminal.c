@@ -400,7 +400,8 @@ static void report_answers(const struct gm_terminal *terminal)
         snprintf(text, sizeof text, "%d colours", answers->registers);
         line("", answers->registers > 0 ? text : "any colours", limit);
     }
-    line("synchronised", answers->synchronised ? "yes" : "no", "whether frames are shown at once (mode 2026)");
+    line("synchronised", answers->synchronised ? "yes" : "no",
+         "whether frames are shown at once (mode 2026)");
 }
 
 static const char *theme_name(const struct gm_terminal *terminal)

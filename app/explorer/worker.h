@@ -10,23 +10,37 @@
    it sleeps without a deadline. */
 
 enum gm_order_kind {
+    /* the clock starts anew after these */
     GM_ORDER_PAUSE, /* or go on */
     GM_ORDER_FORWARD,
     GM_ORDER_BACK,
-    GM_ORDER_RESTART,
-    GM_ORDER_SPEED,    /* amount: up or down by one */
-    GM_ORDER_SELECT,   /* amount: up or down by one lane */
-    GM_ORDER_MOVE,     /* a parameter to its next value; amount: up or down */
-    GM_ORDER_STANDARD, /* a parameter to its default */
-    GM_ORDER_SWITCH,   /* the selected lane to `scheme` */
+    GM_ORDER_TURN,  /* time the other way */
+    GM_ORDER_VISIT, /* the snapshots at `value` of model time gone through */
+    GM_ORDER_AHEAD, /* run ahead to the time `text`, without shots */
+    GM_ORDER_HALT,  /* no longer */
+    GM_ORDER_SAVE,  /* the picture as a PNG */
+    /* it goes on */
+    GM_ORDER_SELECT, /* amount: up or down by one lane; 0: lane number `value` */
+    GM_ORDER_SWITCH, /* the selected lane to `scheme` */
+    GM_ORDER_FORK,   /* the selected lane, with `scheme` */
     GM_ORDER_ADD,
     GM_ORDER_REMOVE,
-    GM_ORDER_SAVE, /* the picture as a PNG */
+    GM_ORDER_OVERLAY,
+    /* these may come together with a restart that is due */
+    GM_ORDER_SPEED,    /* amount: up or down by one */
+    GM_ORDER_MOVE,     /* a parameter to its next value; amount: up or down */
+    GM_ORDER_STANDARD, /* a parameter to its default */
+    GM_ORDER_TYPE,     /* a parameter to `text` */
+    GM_ORDER_SLIDE,    /* a parameter to the part `value` of its range */
+    GM_ORDER_POINT,    /* start again from the point (x, y) of a state's panel, where the scene knows how */
+    GM_ORDER_RESTART,
 };
 
 struct gm_order {
     enum gm_order_kind kind;
     int amount;
+    double value, x, y;
+    char text[GM_VALUE_TEXT];
     const struct gm_parameter *row;
     bool of_scheme; /* the row is one of the schemes' parameters */
     const struct gm_scheme *scheme;
@@ -39,6 +53,15 @@ struct gm_worker;
 struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme theme, int wake,
                                  char *message);
 void gm_worker_close(struct gm_worker *worker);
+
+/* The same for a scene by its name, with its first `schemes` schemes, that the thread opens itself: this
+   never waits. A preview stops at the scene's own end. */
+struct gm_worker *gm_worker_open_scene(const struct gm_scene *scene, size_t schemes, bool preview,
+                                       enum gm_theme theme, int wake, char *message);
+/* Whether opening failed; then with a sentence. */
+bool gm_worker_failed(struct gm_worker *worker, char *message);
+/* Lets the thread end by itself, whenever that will be; the worker is gone. */
+void gm_worker_abandon(struct gm_worker *worker);
 
 void gm_worker_order(struct gm_worker *worker, struct gm_order order);
 

@@ -277,8 +277,8 @@ static void put_image(struct gm_writer *writer, const struct gm_cells *cells,
 {
     put(writer, image->bytes, image->size);
     writer->row = -1;
-    for (int row = 0; row < image->rows && row < cells->rows; row++) {
-        for (int column = 0; column < image->columns && column < cells->columns; column++) {
+    for (int row = image->row; row < image->row + image->rows; row++) {
+        for (int column = image->column; column < image->column + image->columns; column++) {
             if (cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column].glyph) {
                 move_to(writer, column, row);
                 put_cell(writer, cells, column, row);

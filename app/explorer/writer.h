@@ -57,7 +57,7 @@ int gm_writer_patience(const struct gm_writer *writer);
 struct gm_writer_image {
     const char *bytes;
     size_t size;
-    int columns, rows;
+    int column, row, columns, rows;
 };
 
 /* Takes a screen; what differs from the last one is put in line, and the image with it (NULL: none is to be

@@ -13,8 +13,10 @@
 
 #include "core/clones.h"
 #include "core/families/dispersive_box.h"
+#include "core/families/dispersive_form.h"
 #include "core/families/families.h"
 #include "core/families/two_step.h"
+#include "core/families/wave_form.h"
 
 GM_CLONES static void cell_means(const double *restrict a, const double *restrict b, double *restrict cells,
                                  size_t count)
@@ -112,7 +114,7 @@ enum gm_status gm_box_step(struct gm_two_step_work *work, const struct gm_proble
     return GM_NO_CONVERGENCE;
 }
 
-static const struct gm_two_step_row row = {gm_box_step, gm_wave_start, GM_LAW_CELLS, false};
+static const struct gm_two_step_row row = {.step = gm_box_step, .start = gm_wave_start, .law = GM_LAW_CELLS};
 
 static bool is_wave(const struct gm_problem *problem)
 {
@@ -127,6 +129,13 @@ static struct gm_progress advance(const struct gm_task *task)
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     return is_wave(problem) ? gm_two_step_open(problem, scheme) : gm_dispersive_open(problem);
+}
+
+static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                   const double *y, const double *memory, bool by_differences)
+{
+    return is_wave(problem) ? gm_wave_form(problem, scheme, dt, y, memory, by_differences)
+                            : gm_dispersive_form(problem, scheme, dt, y, by_differences);
 }
 
 static const struct gm_scheme schemes[] = {
@@ -151,5 +160,6 @@ const struct gm_family gm_family_box = {
     .count = sizeof schemes / sizeof schemes[0],
     .loop = advance,
     .workspace_open = workspace_open,
+    .form = form,
     .workspace_close = gm_two_step_close, /* both kinds of work are closed alike */
 };

@@ -56,9 +56,10 @@ static void add_power(double *out, const double *f, size_t points, int power, do
     }
 }
 
-/* One step from NOW to NEXT. */
+/* One step from NOW to NEXT; with `base`, means of a solution in the cells, of the linearised scheme. */
 static enum gm_status make_step(const struct gm_two_step_work *work, const struct gm_problem *problem,
-                                const struct gm_ring_roots *ring, double dt, struct gm_progress *progress)
+                                const struct gm_ring_roots *ring, double dt, const double *base,
+                                struct gm_progress *progress)
 {
     enum { MOST = 500 };
     const struct gm_dispersive *equation = problem->dispersive;
@@ -76,7 +77,11 @@ static enum gm_status make_step(const struct gm_two_step_work *work, const struc
         memset(mean, 0, count * sizeof *mean);
         add_power(mean, now, points, 1, 1, 0.25, 0);
         add_power(mean, next, points, 1, 1, 0.25, 0);
-        equation->nonlinear(problem, mean, mean + points, force, force + points, points);
+        if (base) {
+            equation->linearised(problem, base, mean, force, points);
+        } else {
+            equation->nonlinear(problem, mean, mean + points, force, force + points, points);
+        }
         memcpy(mean, right, count * sizeof *mean);
         if (equation->derivative) {
             /* A D: (f_{i+2} - f_i) / (2 dx) */
@@ -118,6 +123,30 @@ static bool within(const double *f, size_t count, double limit)
     return true;
 }
 
+/* The circulant part of the scheme. */
+static bool make_ring(struct gm_ring_roots *ring, const struct gm_problem *problem, double dt)
+{
+    const struct gm_dispersive *equation = problem->dispersive;
+    return gm_ring_roots_make(ring, problem->line.points, equation->power,
+                              (equation->factor[0] + I * equation->factor[1]) / dt,
+                              equation->dispersion(problem) / 2, problem->line.dx);
+}
+
+enum gm_status gm_dispersive_tangent(struct gm_two_step_work *work, const struct gm_problem *problem,
+                                     double dt, const double *base, const double *now, double *next)
+{
+    const size_t size = 2 * work->points * sizeof(double);
+    struct gm_ring_roots ring;
+    struct gm_progress progress = {.status = GM_OK};
+    if (!make_ring(&ring, problem, dt)) {
+        return GM_NO_CONVERGENCE;
+    }
+    memcpy(array(work, NOW), now, size);
+    const enum gm_status status = make_step(work, problem, &ring, dt, base, &progress);
+    memcpy(next, array(work, NEXT), size);
+    return status;
+}
+
 struct gm_progress gm_dispersive_advance(const struct gm_task *task)
 {
     const struct gm_two_step_work *work = task->workspace;
@@ -126,9 +155,7 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
     struct gm_progress progress = {.status = GM_OK};
     double *now = array(work, NOW), *next = array(work, NEXT);
     struct gm_ring_roots ring;
-    if (!gm_ring_roots_make(&ring, points, equation->power,
-                            (equation->factor[0] + I * equation->factor[1]) / task->dt,
-                            equation->dispersion(task->problem) / 2, task->problem->line.dx)) {
+    if (!make_ring(&ring, task->problem, task->dt)) {
         progress.status = GM_NO_CONVERGENCE;
         return progress;
     }
@@ -139,7 +166,7 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
     }
     for (long k = 0; k < task->steps; k++) {
         memcpy(now, next, 2 * size);
-        progress.status = make_step(work, task->problem, &ring, task->dt, &progress);
+        progress.status = make_step(work, task->problem, &ring, task->dt, NULL, &progress);
         if (!equation->complex_valued) {
             /* what rounding leaves of an imaginary part */
             memset(next + points, 0, size);

@@ -11,6 +11,7 @@
 
 #include "core/families/families.h"
 #include "core/families/two_step.h"
+#include "core/families/wave_form.h"
 
 struct work {
     size_t points;
@@ -153,8 +154,7 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-/* The laws of this scheme are those of the coarse grid: the scenes have no measure of them. */
-static const struct gm_two_step_row row = {.law = GM_LAW_NONE};
+static const struct gm_two_step_row row = {.law = GM_LAW_CENTRED};
 
 static const struct gm_scheme schemes[] = {
     {
@@ -167,6 +167,7 @@ static const struct gm_scheme schemes[] = {
         .coefficients = &row,
         .order = 2,
         .needs = GM_NEEDS_WAVE,
+        .claims = GM_MULTISYMPLECTIC,
     },
 };
 
@@ -180,4 +181,5 @@ const struct gm_family gm_family_midpoint_box = {
     .start = start,
     .workspace_open = workspace_open,
     .workspace_close = free,
+    .form = gm_wave_form,
 };

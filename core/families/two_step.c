@@ -13,11 +13,12 @@
 
 #include "core/clones.h"
 #include "core/families/families.h"
+#include "core/families/wave_form.h"
 
 void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     (void)scheme;
-    enum { ARRAYS = 7 };
+    enum { ARRAYS = 8 };
     const size_t points = problem->line.points, length = points + 2;
     struct gm_two_step_work *work = calloc(1, sizeof *work);
     double *memory = calloc(ARRAYS * length, sizeof *memory);
@@ -29,7 +30,7 @@ void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme 
     work->points = points;
     work->memory = memory;
     double **const arrays[ARRAYS] = {&work->level[0], &work->level[1], &work->level[2], &work->force,
-                                     &work->right,    &work->guess,    &work->cells};
+                                     &work->right,    &work->guess,    &work->cells,    &work->change};
     for (size_t i = 0; i < ARRAYS; i++) {
         *arrays[i] = memory + i * length + 1;
     }
@@ -73,39 +74,44 @@ static enum gm_status leapfrog(struct gm_two_step_work *work, const struct gm_pr
     return GM_OK;
 }
 
-/* x + dt^2 Q(x, past) = right, from the guess x; NaN if Newton's method does not settle */
-static double solve_node(const struct gm_wave *wave, double square, double past, double right, double x,
-                         unsigned long *iterations)
+/* c + dt^2 Q(now + c, past) = right, from the guess c; NaN if Newton's method does not settle */
+static double solve_node(const struct gm_wave *wave, double square, double past, double now, double right,
+                         double c, unsigned long *iterations)
 {
     enum { MOST = 50 };
     double last = INFINITY;
     for (int k = 0; k < MOST; k++) {
+        const double x = now + c;
         const double change =
-            (x + square * wave->quotient(x, past) - right) / (1 + square * wave->quotient_slope(x, past));
+            (c + square * wave->quotient(x, past) - right) / (1 + square * wave->quotient_slope(x, past));
         const double size = fabs(change);
         ++*iterations;
         if (size >= last && size <= 1e-14 * fmax(1, fabs(x))) {
-            return x;
+            return c;
         }
-        x -= change;
+        c -= change;
         if (!(size > 1e-17 * fabs(x))) {
-            return x;
+            return c;
         }
         last = size;
     }
     return NAN;
 }
 
+/* Solved for the change from level to level, which is kept apart from the levels: there it would be rounded
+   as they are, and the energy would wander twenty times as far. */
 static enum gm_status energy_conserving(struct gm_two_step_work *work, const struct gm_problem *problem,
                                         double dt, const double *past, const double *now, double *next,
                                         struct gm_progress *progress)
 {
     const double square = dt * dt, ratio = square / (problem->line.dx * problem->line.dx);
     for (size_t i = 0; i < work->points; i++) {
-        const double curvature = (now + i)[1] - 2 * now[i] + (now + i)[-1];
-        const double right = 2 * now[i] - past[i] + ratio * curvature;
-        next[i] =
-            solve_node(problem->wave, square, past[i], right, 2 * now[i] - past[i], &progress->iterations);
+        const double before = work->change[i];
+        const double curvature = ((now + i)[1] - now[i]) - (now[i] - (now + i)[-1]);
+        const double right = before + ratio * curvature;
+        work->change[i] =
+            solve_node(problem->wave, square, past[i], now[i], right, before, &progress->iterations);
+        next[i] = now[i] + work->change[i];
         if (isnan(next[i])) {
             return isfinite(right) ? GM_NO_CONVERGENCE : GM_BLOW_UP;
         }
@@ -148,12 +154,44 @@ void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *probl
     }
 }
 
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct gm_two_step_row *row = scheme->coefficients;
+    return row->keeps_change ? problem->line.points : 0;
+}
+
+static void subtract(double *change, const double *level, const double *before, size_t points)
+{
+    for (size_t i = 0; i < points; i++) {
+        change[i] = level[i] - before[i];
+    }
+}
+
+/* Of no use to a first step that is none of the scheme's own, which begins the change anew. */
+static enum gm_status start(const struct gm_task *task)
+{
+    const size_t points = task->problem->line.points;
+    if (memory(task->problem, task->scheme) > 0) {
+        subtract(task->memory_out, task->y, task->y + points, points);
+    }
+    return GM_OK;
+}
+
 static double *rotate(double *level[3])
 {
     double *past = level[0];
     level[0] = level[1];
     level[1] = level[2];
     return level[2] = past;
+}
+
+enum gm_wave_law gm_wave_law_of(const struct gm_scheme *scheme)
+{
+    const struct gm_two_step_row *row = scheme->coefficients;
+    const enum gm_family_id family = scheme->family->id;
+    const bool has_row =
+        family == GM_FAMILY_two_step || family == GM_FAMILY_box || family == GM_FAMILY_midpoint_box;
+    return has_row ? row->law : GM_LAW_NONE;
 }
 
 struct gm_progress gm_two_step_advance(const struct gm_task *task)
@@ -168,15 +206,25 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
     memcpy(work->level[0], task->y + points, size);
     gm_line_close(work->level[1], points, jump);
     gm_line_close(work->level[0], points, jump);
-    const bool regular = gap == -task->dt;
+    const bool regular = gap == -task->dt, remembers = row->keeps_change && task->memory;
+    if (remembers) {
+        memcpy(work->change, task->memory, size);
+    } else if (row->keeps_change) {
+        subtract(work->change, task->y, task->y + points, points);
+    }
     for (long k = 0; k < task->steps; k++) {
         if (k > 0 || regular) {
             progress.status =
                 row->step(work, task->problem, task->dt, work->level[0], work->level[1], next, &progress);
-        } else if (gap == task->dt) {
-            memcpy(next, work->level[0], size);
         } else {
-            row->start(work, task->problem, task->dt, gap, work->level[1], work->level[0], next);
+            if (gap == task->dt) {
+                memcpy(next, work->level[0], size);
+            } else {
+                row->start(work, task->problem, task->dt, gap, work->level[1], work->level[0], next);
+            }
+            if (row->keeps_change) {
+                subtract(work->change, next, work->level[1], points);
+            }
         }
         if (progress.status == GM_OK && !within(next, points, task->limit)) {
             progress.status = GM_BLOW_UP;
@@ -191,13 +239,20 @@ struct gm_progress gm_two_step_advance(const struct gm_task *task)
     memcpy(task->out, work->level[1], size);
     memcpy(task->out + points, work->level[0], size);
     task->out[2 * points] = -task->dt;
+    if (remembers) {
+        memcpy(task->memory_out, work->change, size);
+    }
     return progress;
 }
 
 static const struct gm_two_step_row rows[] = {
-    {leapfrog, gm_wave_start, GM_LAW_NODES, false},
-    {energy_conserving, gm_wave_start, GM_LAW_NODES, true},
-    {euler_box, gm_wave_start, GM_LAW_NODES, false},
+    {.step = leapfrog, .start = gm_wave_start, .law = GM_LAW_NODES},
+    {.step = energy_conserving,
+     .start = gm_wave_start,
+     .law = GM_LAW_NODES,
+     .average = true,
+     .keeps_change = true},
+    {.step = euler_box, .start = gm_wave_start, .law = GM_LAW_NODES},
 };
 
 static const struct gm_scheme schemes[] = {
@@ -245,6 +300,9 @@ const struct gm_family gm_family_two_step = {
     .schemes = schemes,
     .count = sizeof schemes / sizeof schemes[0],
     .loop = gm_two_step_advance,
+    .memory = memory,
+    .start = start,
     .workspace_open = gm_two_step_open,
     .workspace_close = gm_two_step_close,
+    .form = gm_wave_form,
 };

@@ -11,6 +11,7 @@ struct gm_two_step_work {
     double *level[3];              /* past, present, next */
     double *force;                 /* points + 2, from [-1] */
     double *right, *guess, *cells; /* of implicit schemes */
+    double *change;                /* from the past to the present level, of schemes that keep it */
     struct gm_ring ring;
     double *memory;
 };
@@ -25,16 +26,21 @@ typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_pr
                                double gap, const double *now, const double *other, double *next);
 gm_two_step_start gm_wave_start;
 
-/* Whose discrete conservation laws a scheme has: those of nodes, those of cells, or others. */
-enum gm_wave_law { GM_LAW_NODES, GM_LAW_CELLS, GM_LAW_NONE };
+/* Whose discrete conservation laws a scheme has: those of nodes, those of nodes at twice the distance in time
+   and space, those of cells, or others. */
+enum gm_wave_law { GM_LAW_NODES, GM_LAW_CENTRED, GM_LAW_CELLS, GM_LAW_NONE };
 
 /* What a row of such a scheme points to. */
 struct gm_two_step_row {
     gm_two_step *step;
     gm_two_step_start *start;
     enum gm_wave_law law;
-    bool average; /* the force is the quotient of V, not V' at the present level */
+    bool average;      /* the force is the quotient of V, not V' at the present level */
+    bool keeps_change; /* work->change is the scheme's memory */
 };
+
+/* GM_LAW_NONE for schemes of other families. */
+enum gm_wave_law gm_wave_law_of(const struct gm_scheme *scheme);
 
 /* Advances a wave problem by a scheme of two steps. */
 struct gm_progress gm_two_step_advance(const struct gm_task *task);

@@ -50,7 +50,7 @@ static void start(struct gm_two_step_work *work, const struct gm_problem *proble
     }
 }
 
-static const struct gm_two_step_row row = {step, start, GM_LAW_NODES, false};
+static const struct gm_two_step_row row = {.step = step, .start = start, .law = GM_LAW_NONE};
 
 static const struct gm_scheme schemes[] = {
     {

@@ -123,6 +123,47 @@ static struct bending bending(const struct gm_mesh *mesh, const double y[2])
     return made;
 }
 
+/* alpha^2 r^2 / (1 + (r / (steepest d))^2) with its derivatives by r and d. */
+struct reach {
+    double value, by_r, by_d, rr, rd, dd;
+};
+
+static inline struct reach reach(double square, double limit, double r, double d)
+{
+    /* s = d^2 + r^2 / steepest^2 */
+    const double r2 = r * r, d2 = d * d, s = d2 + limit * r2;
+    const double front = 2 * square / (s * s), last = front / s;
+    return (struct reach){
+        .value = square * r2 * d2 / s,
+        .by_r = front * r * d2 * d2,
+        .by_d = front * limit * d * r2 * r2,
+        .rr = last * d2 * d2 * (d2 - 3 * limit * r2),
+        .rd = 4 * last * limit * r2 * r * d2 * d,
+        .dd = last * limit * r2 * r2 * (limit * r2 - 3 * d2),
+    };
+}
+
+/* What the limit takes off the part of ell that grows with the rise. */
+static void regularise(struct gm_elements *stage, const struct gm_mesh *mesh)
+{
+    const double square = mesh->alpha * mesh->alpha, limit = 1 / (mesh->steepest * mesh->steepest);
+    const double *u = stage->u, *v = stage->v;
+    for (size_t e = 0; e < stage->count; e++) {
+        const double d = stage->width[e], r = stage->rise[e], r_rate = u[e + 1] - u[e],
+                     d_rate = v[e + 1] - v[e];
+        const struct reach at = reach(square, limit, r, d);
+        const double by_r = at.by_r - 2 * square * r, rr = at.rr - 2 * square;
+        stage->ell[e] += at.value - square * r * r;
+        stage->ell_y1[e] += by_r;
+        stage->ell_y0[e] -= by_r;
+        stage->ell_d[e] += at.by_d;
+        stage->rate[e] += by_r * r_rate + at.by_d * d_rate;
+        stage->bend_y1[e] += rr * r_rate + at.rd * d_rate;
+        stage->bend_y0[e] -= rr * r_rate + at.rd * d_rate;
+        stage->bend_d[e] += at.rd * r_rate + at.dd * d_rate;
+    }
+}
+
 void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh)
 {
     const size_t count = stage->count;
@@ -142,6 +183,9 @@ void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh
         bend_y1[e] = 2 * square * r_rate;
         bend_y0[e] = -bend_y1[e];
         bend_d[e] = 2 * d_rate;
+    }
+    if (mesh->steepest > 0) {
+        regularise(stage, mesh);
     }
     if (mesh->curvature == 0) {
         return;
@@ -219,7 +263,9 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
     if (!constrained) {
         return;
     }
-    spread(0, 0, 0, 2 * mesh->alpha * mesh->alpha, 0, 2, matrices->hessian);
+    const double limit = mesh->steepest > 0 ? 1 / (mesh->steepest * mesh->steepest) : 0;
+    const struct reach ell = reach(mesh->alpha * mesh->alpha, limit, r, d);
+    spread(0, 0, 0, ell.rr, ell.rd, 2 + ell.dd, matrices->hessian);
     if (mesh->curvature != 0) {
         const struct bending bent = bending(mesh, &stage->y[e]);
         static const double sign[2] = {-1, 1};

@@ -4,7 +4,9 @@
    second. */
 #include <math.h>
 
+#include "core/multisymplectic.h"
 #include "core/problems/dispersive.h"
+#include "core/ring.h"
 
 static const double m[16] = {0, 0.5, 0, 0, -0.5, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 static const double k[16] = {0, 0, 0, 1, 0, 0, -1, 0, 0, 1, 0, 0, -1, 0, 0, 0};
@@ -31,6 +33,67 @@ static void nonlinear(const struct gm_problem *problem, const double *re, const 
     for (size_t i = 0; i < count; i++) {
         g_re[i] = half * re[i] * re[i];
         g_im[i] = 0;
+    }
+}
+
+static void linearised(const struct gm_problem *problem, const double *base, const double *f, double *g,
+                       size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        g[i] = problem->kdv->eta * base[i] * f[i];
+        g[count + i] = 0;
+    }
+}
+
+enum { PHI, U, V, W, DIMENSION };
+
+/* phi from D_x phi = A_x u, 0 at the first node of every level: its constant in x is free, and w goes with
+   it. v from D_x u = A_x v / mu, w from D_t A_x u/2 + D_x w = 0 and the mean over the ring of the last
+   equation, -D_t phi/2 - D_x v = -A_x w + eta m u, which else is the scheme. (To take w from the latter would
+   invert A_x twice and rounding with it.) */
+static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
+                     const double *next, struct gm_faces *faces)
+{
+    const size_t points = problem->line.points;
+    const double dx = problem->line.dx;
+    double phi_now = 0, phi_next = 0;
+    double *sides = faces->sides;
+    for (size_t i = 0; i <= points; i++) {
+        const size_t here = i < points ? i : 0, r = i + 1 < points ? i + 1 : 0;
+        double *side = sides + i * DIMENSION;
+        side[PHI] = (phi_now + phi_next) / 2;
+        side[U] = (now[here] + next[here]) / 2;
+        if (i < points) {
+            double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
+            lower[U] = (now[here] + now[r]) / 2;
+            upper[U] = (next[here] + next[r]) / 2;
+            lower[PHI] = phi_now + dx / 2 * lower[U];
+            upper[PHI] = phi_next + dx / 2 * upper[U];
+            phi_now += dx * lower[U];
+            phi_next += dx * upper[U];
+        }
+    }
+    double *slope = faces->scratch;
+    for (size_t i = 0; i < points; i++) {
+        slope[i] = problem->kdv->mu * (sides[(i + 1) * DIMENSION + U] - sides[i * DIMENSION + U]) / dx;
+    }
+    gm_ring_unaverage(slope, points);
+    for (size_t i = 0; i <= points; i++) {
+        sides[i * DIMENSION + V] = slope[i < points ? i : 0];
+    }
+    double w = 0, mean = 0;
+    for (size_t i = 0; i <= points; i++) {
+        sides[i * DIMENSION + W] = w;
+        if (i < points) {
+            const double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
+            const double change = dx * (upper[U] - lower[U]) / (2 * dt);
+            mean += (upper[PHI] - lower[PHI]) / (2 * dt) +
+                    problem->kdv->eta * base[i] * (lower[U] + upper[U]) / 2 - (w - change / 2);
+            w -= change;
+        }
+    }
+    for (size_t i = 0; i <= points; i++) {
+        sides[i * DIMENSION + W] += mean / (double)points;
     }
 }
 
@@ -124,8 +187,13 @@ double gm_kdv_energy(const struct gm_problem *problem, const double *y)
 }
 
 static const struct gm_field field = {4, m, k, gradient};
-static const struct gm_dispersive dispersive = {
-    .power = 3, .factor = {1, 0}, .dispersion = dispersion, .derivative = true, .nonlinear = nonlinear};
+static const struct gm_dispersive dispersive = {.power = 3,
+                                                .factor = {1, 0},
+                                                .dispersion = dispersion,
+                                                .derivative = true,
+                                                .nonlinear = nonlinear,
+                                                .linearised = linearised,
+                                                .complete = complete};
 
 const struct gm_problem gm_problem_kdv = {
     .name = "Korteweg-de Vries", .m = 1, .bound = 1e3, .field = &field, .dispersive = &dispersive};

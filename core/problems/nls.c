@@ -3,7 +3,9 @@
    S = (p^2 + q^2)^2/4 + (v^2 + w^2)/2.   Islas, Karpeev & Schober, J. Comput. Phys. 173 (2001) 116. */
 #include <math.h>
 
+#include "core/multisymplectic.h"
 #include "core/problems/dispersive.h"
+#include "core/ring.h"
 
 static const double m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
 static const double k[16] = {0, 0, -1, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, 1, 0, 0};
@@ -31,6 +33,45 @@ static void nonlinear(const struct gm_problem *problem, const double *re, const 
         const double square = re[i] * re[i] + im[i] * im[i];
         g_re[i] = square * re[i];
         g_im[i] = square * im[i];
+    }
+}
+
+/* 2 |m|^2 f + m^2 conj f */
+static void linearised(const struct gm_problem *problem, const double *base, const double *f, double *g,
+                       size_t count)
+{
+    (void)problem;
+    for (size_t i = 0; i < count; i++) {
+        const double re = base[i], im = base[count + i], f_re = f[i], f_im = f[count + i];
+        const double square = 2 * (re * re + im * im), twice_re = re * re - im * im, twice_im = 2 * re * im;
+        g[i] = square * f_re + twice_re * f_re + twice_im * f_im;
+        g[count + i] = square * f_im + twice_im * f_re - twice_re * f_im;
+    }
+}
+
+enum { P, Q, V, W, DIMENSION };
+
+/* A_x v = D_x p and A_x w = D_x q at the sides; the other two equations are the scheme. */
+static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
+                     const double *next, struct gm_faces *faces)
+{
+    (void)dt, (void)base;
+    const size_t points = problem->line.points;
+    for (size_t part = 0; part < 2; part++) {
+        const double *f = now + part * points, *g = next + part * points;
+        double *slope = faces->scratch;
+        for (size_t i = 0; i < points; i++) {
+            const size_t r = i + 1 < points ? i + 1 : 0;
+            faces->lower[i * DIMENSION + P + part] = (f[i] + f[r]) / 2;
+            faces->upper[i * DIMENSION + P + part] = (g[i] + g[r]) / 2;
+            slope[i] = (f[r] + g[r] - f[i] - g[i]) / (2 * problem->line.dx);
+        }
+        gm_ring_unaverage(slope, points);
+        for (size_t i = 0; i <= points; i++) {
+            const size_t at = i < points ? i : 0;
+            faces->sides[i * DIMENSION + P + part] = (f[at] + g[at]) / 2;
+            faces->sides[i * DIMENSION + V + part] = slope[at];
+        }
     }
 }
 
@@ -93,8 +134,13 @@ double gm_nls_node_charge(const struct gm_problem *problem, const double *y)
 }
 
 static const struct gm_field field = {4, m, k, gradient};
-static const struct gm_dispersive dispersive = {
-    .power = 2, .factor = {0, 1}, .dispersion = dispersion, .complex_valued = true, .nonlinear = nonlinear};
+static const struct gm_dispersive dispersive = {.power = 2,
+                                                .factor = {0, 1},
+                                                .dispersion = dispersion,
+                                                .complex_valued = true,
+                                                .nonlinear = nonlinear,
+                                                .linearised = linearised,
+                                                .complete = complete};
 
 const struct gm_problem gm_problem_nls = {
     .name = "nonlinear Schrödinger", .m = 1, .bound = 1e3, .field = &field, .dispersive = &dispersive};

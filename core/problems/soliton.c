@@ -44,6 +44,12 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
                              : 1,
         .potential = sine_gordon ? &gm_potential_sine_gordon : &gm_potential_phi4,
     };
+    if (soliton->density == GM_LIMITED) {
+        /* nothing has to be resolved that is steeper than a soliton in its middle */
+        mesh->steepest = lorentz(soliton) * (sine_gordon ? 2 : M_SQRT1_2);
+        mesh->alpha = alpha;
+        return;
+    }
     const double share = soliton->density == GM_MIX ? sqrt(0.5) : 1;
     if (soliton->density != GM_CURVATURE) {
         mesh->alpha = share * alpha;

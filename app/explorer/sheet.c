@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/explorer/sheet.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "render/cells_text.h"
+
+struct gm_sheet gm_sheet_part(const struct gm_sheet *sheet, int column, int row, int width, int height)
+{
+    struct gm_sheet part = *sheet;
+    part.column += column;
+    part.row += row;
+    part.width = width;
+    part.height = height;
+    return part;
+}
+
+int gm_sheet_text(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
+                  bool bold)
+{
+    if (row < 0 || row >= sheet->height || column >= sheet->width) {
+        return 0;
+    }
+    return gm_cells_text(sheet->cells, sheet->column + column, sheet->row + row, sheet->width - column, text,
+                         sheet->face->blocks == GM_ASCII, sheet->face->theme, role, bold);
+}
+
+int gm_sheet_width(const struct gm_sheet *sheet, const char *text)
+{
+    return gm_text_width(text, sheet->face->blocks == GM_ASCII);
+}
+
+void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
+                    bool bold)
+{
+    gm_sheet_text(sheet, column - gm_sheet_width(sheet, text), row, text, role, bold);
+}
+
+void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t glyph, enum gm_role role,
+                    bool bold)
+{
+    if (column < 0 || row < 0 || column >= sheet->width || row >= sheet->height) {
+        return;
+    }
+    if (sheet->face->blocks == GM_ASCII && glyph >= 0x7F) {
+        glyph = (unsigned char)gm_text_ascii(glyph)[0];
+    }
+    size_t at = (size_t)(sheet->row + row) * (size_t)sheet->cells->columns + (size_t)(sheet->column + column);
+    struct gm_cell *cell = &sheet->cells->cells[at];
+    cell->glyph = glyph;
+    cell->role = role;
+    cell->foreground = gm_theme_colour(sheet->face->theme, role);
+    cell->bold = bold;
+}
+
+void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, double position, bool chosen)
+{
+    int at = from + (int)(position * (to - from - 1) + 0.5);
+    for (int i = from; i < to; i++) {
+        gm_sheet_glyph(sheet, i, row,
+                       i == at  ? 0x25CF
+                       : i < at ? 0x2501
+                                : 0x2500,
+                       chosen && i <= at ? GM_INK
+                       : i <= at         ? GM_SECONDARY
+                                         : GM_GRID,
+                       false);
+    }
+}
+
+int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows, const char *text,
+                     enum gm_role role)
+{
+    int room = sheet->width - column, taken = 0;
+    while (*text && room > 0 && taken < rows) {
+        char line[512];
+        size_t fits = 0;
+        for (size_t i = 1; i < sizeof line; i++) {
+            bool end = text[i] == '\0' || text[i] == '\n', blank = end || text[i] == ' ';
+            if (blank) {
+                snprintf(line, sizeof line, "%.*s", (int)i, text);
+                if (gm_sheet_width(sheet, line) > room && fits > 0) {
+                    break;
+                }
+                fits = i;
+            }
+            if (end) {
+                break;
+            }
+        }
+        if (fits == 0) {
+            fits = strlen(text) < sizeof line ? strlen(text) : sizeof line - 1;
+        }
+        snprintf(line, sizeof line, "%.*s", (int)fits, text);
+        gm_sheet_text(sheet, column, row + taken, line, role, false);
+        taken++;
+        text += fits;
+        while (*text == ' ' || *text == '\n') {
+            text++;
+        }
+    }
+    return taken;
+}
+
+void gm_sheet_hit(const struct gm_sheet *sheet, int column, int row, int width, struct gm_hit hit)
+{
+    if (!sheet->hits || sheet->hits->count == GM_MOST_HITS || row < 0 || row >= sheet->height) {
+        return;
+    }
+    hit.column = sheet->column + column;
+    hit.row = sheet->row + row;
+    hit.width = width;
+    hit.height = 1;
+    sheet->hits->hits[sheet->hits->count++] = hit;
+}
+
+const struct gm_hit *gm_hits_at(const struct gm_hits *hits, int column, int row)
+{
+    for (size_t i = hits->count; i-- > 0;) {
+        const struct gm_hit *hit = &hits->hits[i];
+        if (column >= hit->column && column < hit->column + hit->width && row >= hit->row &&
+            row < hit->row + hit->height) {
+            return hit;
+        }
+    }
+    return NULL;
+}

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The schemes in the side panel: those of the lanes, those that fit beside them, and the list to choose from.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include "app/explorer/side_parts.h"
+
+/* ---- schemes ---- */
+
+/* Only the claims that some scheme here makes take a column. */
+static unsigned claims_here(const struct gm_shot *shot)
+{
+    unsigned claims = 0;
+    for (size_t i = 0; i < shot->scheme_count; i++) {
+        claims |= shot->schemes[i]->claims;
+    }
+    for (size_t i = 0; i < shot->lane_count; i++) {
+        claims |= shot->lanes[i].scheme->claims;
+    }
+    return claims;
+}
+
+static void claims_text(unsigned claims, unsigned columns, char *text, size_t size)
+{
+    size_t at = 0;
+    text[0] = '\0';
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT && at + 1 < size; bit++) {
+        if (columns >> bit & 1) {
+            at +=
+                (size_t)snprintf(text + at, size - at, "%s", claims >> bit & 1 ? gm_claim_letter(bit) : " ");
+        }
+    }
+}
+
+static bool is_narrow(const struct gm_sheet *sheet)
+{
+    return sheet->width < 40;
+}
+
+/* Where a lane's title begins, after the mark of the selected one and the lane's line. */
+static int title_column(const struct gm_sheet *sheet)
+{
+    return is_narrow(sheet) ? 5 : 6;
+}
+
+static void scheme_facts(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme,
+                         unsigned columns, enum gm_role role)
+{
+    char text[64], order[16];
+    claims_text(scheme->claims, columns, text, sizeof text);
+    snprintf(order, sizeof order, "%d", scheme->order);
+    int right = sheet->width - (is_narrow(sheet) ? 0 : 2);
+    gm_sheet_right(sheet, right - (is_narrow(sheet) ? 3 : 4), row, text, role, false);
+    gm_sheet_right(sheet, right, row, order, role, false);
+}
+
+static int title_width(const struct gm_sheet *sheet, unsigned columns)
+{
+    int width = sheet->width - (is_narrow(sheet) ? 4 : 7);
+    for (; columns; columns &= columns - 1) {
+        width--;
+    }
+    return width;
+}
+
+static void scheme_title(const struct gm_sheet *sheet, int column, int row, const char *text,
+                         unsigned columns, enum gm_role role, bool bold)
+{
+    const struct gm_sheet left = gm_sheet_part(sheet, 0, 0, title_width(sheet, columns), sheet->height);
+    gm_sheet_text(&left, column, row, text, role, bold);
+}
+
+static void lane_name(const struct gm_shot_lane *lane, char *text, size_t size)
+{
+    const char *panel = lane->shown.panel_name, *colour = lane->shown.colour_name,
+               *title = lane->scheme->title;
+    if (strcmp(colour, title) == 0) {
+        colour = "";
+    }
+    snprintf(text, size, "%s%s%s%s%s", title, panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
+}
+
+static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot_lane *lane, bool selected,
+                     unsigned columns)
+{
+    char text[160];
+    enum gm_role role = gm_side_role(lane);
+    if (selected) {
+        gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
+    }
+    gm_sheet_text(sheet, title_column(sheet) - 4, row, gm_side_dash(lane), role, false);
+    lane_name(lane, text, sizeof text);
+    if (lane->status == GM_OK) {
+        scheme_title(sheet, title_column(sheet), row, text, columns, role, selected);
+        scheme_facts(sheet, row, lane->scheme, columns, GM_INK);
+        return;
+    }
+    gm_sheet_text(sheet, title_column(sheet), row, text, role, selected);
+    snprintf(text, sizeof text, "  ✕ %s, t = %.4g", gm_status_name(lane->status), lane->t);
+    gm_sheet_right(sheet, sheet->width, row, text, GM_INITIAL, true);
+}
+
+int gm_side_schemes(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
+                    const struct gm_side_plan *plan)
+{
+    if (!plan->lanes) {
+        return row;
+    }
+    unsigned columns = claims_here(shot);
+    char text[64];
+    gm_side_heading(sheet, row, "SCHEMES");
+    gm_sheet_right(sheet, sheet->width, row, sheet->width > 34 ? "claims order" : "order", GM_SECONDARY,
+                   false);
+    row++;
+    for (size_t i = 0; i < shot->lane_count; i++) {
+        gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_LANE, .index = i});
+        lane_row(sheet, row++, &shot->lanes[i], i == shot->selected, columns);
+    }
+    int shown = 0, unused = 0;
+    for (size_t i = 0; i < shot->scheme_count; i++) {
+        if (gm_shot_uses(shot, shot->schemes[i])) {
+            continue;
+        }
+        unused++;
+        if (shown < plan->schemes - plan->more) {
+            shown++;
+            gm_sheet_hit(sheet, 0, row, sheet->width,
+                         (struct gm_hit){.kind = GM_HIT_SCHEME, .scheme = shot->schemes[i]});
+            scheme_title(sheet, title_column(sheet), row, shot->schemes[i]->title, columns, GM_SECONDARY,
+                         false);
+            scheme_facts(sheet, row++, shot->schemes[i], columns, GM_SECONDARY);
+        }
+    }
+    if (plan->more && plan->schemes > 0) {
+        snprintf(text, sizeof text, "… %d more fit", unused - shown);
+        gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_KEY, .index = 's'});
+        gm_sheet_text(sheet, title_column(sheet), row++, text, GM_SECONDARY, false);
+    }
+    return row;
+}
+
+/* ---- a scheme's formula ---- */
+
+int gm_side_formula_rows(const struct gm_scheme *scheme)
+{
+    int rows = 1; /* the reference */
+    for (const char *at = scheme->formula; at && *at; rows++) {
+        at += strcspn(at, "\n");
+        at += *at == '\n';
+    }
+    return rows;
+}
+
+void gm_side_formula(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme)
+{
+    for (const char *at = scheme->formula; at && *at; row++) {
+        char line[256];
+        size_t length = strcspn(at, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, at);
+        gm_sheet_text(sheet, 0, row, line, GM_INK, false);
+        at += length + (at[length] == '\n');
+    }
+    gm_sheet_text(sheet, 0, row, scheme->reference ? scheme->reference : "", GM_SECONDARY, false);
+}
+
+/* ---- choosing a scheme ---- */
+
+size_t gm_schemes_found(const struct gm_face *face, const struct gm_shot *shot,
+                        const struct gm_scheme *found[GM_SHOT_SCHEMES])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < shot->scheme_count; i++) {
+        const struct gm_scheme *scheme = shot->schemes[i];
+        const char *texts[] = {scheme->name,
+                               scheme->title,
+                               scheme->family->title,
+                               scheme->reference ? scheme->reference : "",
+                               scheme->alias ? scheme->alias : "",
+                               NULL};
+        if (gm_is_found(face->typed, texts)) {
+            found[count++] = scheme;
+        }
+    }
+    return count;
+}
+
+void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
+{
+    unsigned columns = claims_here(shot);
+    const struct gm_face *face = sheet->face;
+    const struct gm_scheme *found[GM_SHOT_SCHEMES];
+    int count = (int)gm_schemes_found(face, shot, found), row = 0, at = 0;
+    for (int i = 0; i < count; i++) {
+        at = found[i] == face->choice ? i : at;
+    }
+    int below = face->choice ? gm_side_formula_rows(face->choice) + 1 : 0;
+    int rows = sheet->height > 16 + below ? sheet->height - 3 - below : sheet->height - 2;
+    int first = at >= rows ? at - rows + 1 : 0;
+    char text[GM_TYPED + 16];
+    gm_side_heading(sheet, row, face->choosing == GM_CHOOSE_FORK ? "FORK WITH" : "SWITCH TO");
+    gm_sheet_right(sheet, sheet->width, row++, sheet->width > 34 ? "claims order" : "order", GM_SECONDARY,
+                   false);
+    snprintf(text, sizeof text, face->typed[0] ? "search: %s_" : "type to search%s", face->typed);
+    gm_sheet_text(sheet, 4, row++, text, face->typed[0] ? GM_INK : GM_SECONDARY, false);
+    for (int i = first; i < count && i < first + rows; i++, row++) {
+        bool chosen = found[i] == face->choice;
+        enum gm_role role = chosen ? GM_INK : GM_SECONDARY;
+        if (chosen) {
+            gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
+        }
+        for (size_t k = 0; k < shot->lane_count; k++) {
+            if (shot->lanes[k].scheme == found[i]) {
+                role = gm_side_role(&shot->lanes[k]);
+                gm_sheet_text(sheet, 2, row, "●", role, false);
+                break;
+            }
+        }
+        gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_SCHEME, .scheme = found[i]});
+        scheme_title(sheet, 4, row, found[i]->title, columns, role, chosen);
+        scheme_facts(sheet, row, found[i], columns, role);
+    }
+    if (face->choice && sheet->height - row >= below) {
+        gm_side_formula(sheet, row + 1, face->choice);
+    }
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The last row: what there is to say, to answer or to watch at the left, keys at the right. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/explorer/keys.h"
+#include "app/explorer/screen.h"
+
+enum { MOST_HINTS = 40 };
+
+int gm_hints_draw(const struct gm_sheet *sheet, int from, const struct gm_hint *hints)
+{
+    int widths = 0, count = 0;
+    for (; hints[count].key; count++) {
+        int width =
+            gm_sheet_width(sheet, hints[count].key) + 1 + gm_sheet_width(sheet, hints[count].word) + 3;
+        if (from + widths + width > sheet->width) {
+            break;
+        }
+        widths += width;
+    }
+    int begin = sheet->width - widths + 2, column = begin;
+    for (int i = 0; i < count; i++) {
+        int first = column;
+        column += gm_sheet_text(sheet, column, 0, hints[i].key, GM_INK, true) + 1;
+        column += gm_sheet_text(sheet, column, 0, hints[i].word, GM_SECONDARY, false) + 3;
+        if (hints[i].code) {
+            gm_sheet_hit(sheet, first, 0, column - first - 2,
+                         (struct gm_hit){.kind = GM_HIT_KEY, .index = (size_t)hints[i].code});
+        }
+    }
+    return begin;
+}
+
+static int by_rank(const void *a, const void *b)
+{
+    const struct gm_key_row *const *first = a, *const *second = b;
+    return (*first)->rank - (*second)->rank;
+}
+
+/* The hints of the table of keys. */
+static void key_hints(const struct gm_shot *shot, struct gm_hint hints[MOST_HINTS])
+{
+    const struct gm_key_row *rows[MOST_HINTS];
+    size_t count = 0;
+    for (size_t i = 0; i < gm_key_row_count && count + 1 < MOST_HINTS; i++) {
+        if (gm_key_rows[i].hint) {
+            rows[count++] = &gm_key_rows[i];
+        }
+    }
+    qsort(rows, count, sizeof *rows, by_rank);
+    for (size_t i = 0; i < count; i++) {
+        bool go = rows[i]->codes[0] == ' ' && shot->paused;
+        hints[i] = (struct gm_hint){rows[i]->label, go ? "go on" : rows[i]->hint, rows[i]->codes[0]};
+    }
+    hints[count] = (struct gm_hint){NULL, NULL, 0};
+}
+
+static const struct gm_hint chooser_hints[] = {{"enter", "take it", '\n'},
+                                               {"↑↓", "choose", 0},
+                                               {"?", "formula", '?'},
+                                               {"esc", "back", 27},
+                                               {NULL, NULL, 0}};
+static const struct gm_hint prompt_hints[] = {{"enter", "do", '\n'}, {"esc", "back", 27}, {NULL, NULL, 0}};
+static const struct gm_hint ahead_hints[] = {{"any key", "stop", ' '}, {NULL, NULL, 0}};
+
+void gm_speed_text(const struct gm_shot *shot, char *text, size_t size)
+{
+    snprintf(text, size, "%s %s%g×%s",
+             shot->paused      ? "‖"
+             : shot->backwards ? "◂"
+                               : "▸",
+             shot->backwards ? "−" : "", shot->speed,
+             shot->paused   ? " paused"
+             : shot->behind ? " late"
+                            : "");
+}
+
+/* What stands at the left. */
+static void say(const struct gm_face *face, const struct gm_shot *shot, char *text, size_t size)
+{
+    const char *lane = shot->lanes[shot->selected].scheme->title;
+    const struct gm_shot_parameter *parameter =
+        face->parameter < shot->parameter_count ? &shot->parameters[face->parameter] : NULL;
+    if (shot->running_ahead) {
+        snprintf(text, size, "Running ahead: %.0f %%", 100 * shot->progress);
+    } else if (face->choosing == GM_CHOOSE_SWITCH) {
+        snprintf(text, size, "Another scheme for %s, from its present state on", lane);
+    } else if (face->choosing == GM_CHOOSE_FORK) {
+        snprintf(text, size, "%s goes on, and from its present state with another scheme too", lane);
+    } else if (face->prompt == GM_PROMPT_AHEAD) {
+        snprintf(text, size, "Run ahead to t = %s_", face->typed);
+    } else if (face->prompt == GM_PROMPT_VALUE && parameter) {
+        snprintf(text, size, "%s = %s_   (%s)", parameter->row->key, face->typed, parameter->row->help);
+    } else if (shot->message[0] && shot->message_number != face->read) {
+        snprintf(text, size, "%s", shot->message);
+    } else if (face->explaining && parameter) {
+        snprintf(text, size, "%s: %s; %s", parameter->row->key, parameter->row->help,
+                 parameter->row->live && !parameter->of_scheme ? "acts at once" : "starts again");
+    } else {
+        snprintf(text, size, "%s", shot->scene->watch ? shot->scene->watch : "");
+    }
+}
+
+void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, int side)
+{
+    const struct gm_face *face = whole->face;
+    const struct gm_sheet sheet = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
+    struct gm_hint keys[MOST_HINTS];
+    char text[GM_MESSAGE];
+    int column = 1;
+    if (!side) { /* the side panel has it otherwise */
+        gm_speed_text(shot, text, sizeof text);
+        column += gm_sheet_text(&sheet, column, 0, text, GM_INK, true) + 2;
+    }
+    say(face, shot, text, sizeof text);
+    key_hints(shot, keys);
+    bool asks = face->prompt != GM_PROMPT_NONE;
+    bool news = asks || shot->running_ahead || (shot->message[0] && shot->message_number != face->read);
+    const struct gm_hint *hints = shot->running_ahead                   ? ahead_hints
+                                  : face->choosing != GM_CHOOSE_NOTHING ? chooser_hints
+                                  : asks                                ? prompt_hints
+                                                                        : keys;
+    /* the first hint, help, is always there if it fits at all */
+    int from = column + gm_sheet_width(&sheet, text) + 3, most = sheet.width - 10;
+    int begin = gm_hints_draw(&sheet, from < most ? from : most > column ? most : column, hints);
+    if (begin > column) {
+        const struct gm_sheet left = gm_sheet_part(&sheet, 0, 0, begin - 2, 1);
+        gm_sheet_text(&left, column, 0, text, news ? GM_INK : GM_SECONDARY, news);
+    }
+}

@@ -1,0 +1,369 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The multisymplectic law of schemes for u_tt - u_xx + V'(u) = 0, s = (u, v, w), v = u_t, w = u_x. The
+   schemes have u alone, or u and v; what else the law asks for follows from their equations, linearised:
+       Euler box   v = D_t^- u, w = D_x^- u;  midpoint   w = D0 u
+       box         A_x W = D_x A_t u for W = A_t w at the sides of the cells, and for V = A_x v at their
+                   levels A_t V = D_t A_x u in the first row of cells, D_t V = D_x W - V'' u in both: so V at
+                   the last level is right only if the step was one of the box. */
+#include "core/families/wave_form.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/differences.h"
+#include "core/families/two_step.h"
+#include "core/multisymplectic.h"
+#include "core/ring.h"
+#include "core/wave_levels.h"
+
+enum { U, V, W, DIMENSION };
+
+/* A tangent at three levels: u, and u_t where the scheme keeps it. */
+struct tangent {
+    double *past, *now, *next, *v_past, *v_now, *v_next;
+};
+
+enum { ARRAYS = 6 };
+
+static struct tangent tangent_at(double *memory, size_t points)
+{
+    return (struct tangent){memory,
+                            memory + points,
+                            memory + 2 * points,
+                            memory + 3 * points,
+                            memory + 4 * points,
+                            memory + 5 * points};
+}
+
+static void tangent_start(const struct tangent *tangent, size_t points, double waves, double phase)
+{
+    gm_tangent_start(tangent->past, points, waves, phase);
+    gm_tangent_start(tangent->now, points, waves, 2 * phase - M_PI / 2);
+    gm_tangent_start(tangent->v_past, points, waves, 3 * phase);
+    gm_tangent_start(tangent->v_now, points, waves, 5 * phase);
+}
+
+struct base {
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    double dt;
+    struct gm_levels levels;
+    double *earlier, *later; /* V'' in the cells of both rows */
+    void *work;
+};
+
+static size_t left_of(size_t i, size_t points)
+{
+    return i ? i - 1 : points - 1;
+}
+
+static size_t right_of(size_t i, size_t points)
+{
+    return i + 1 < points ? i + 1 : 0;
+}
+
+static void linearised_nodes(const struct base *base, const struct tangent *a)
+{
+    const struct gm_wave *wave = base->problem->wave;
+    const struct gm_two_step_row *row = base->scheme->coefficients;
+    const struct gm_levels *levels = &base->levels;
+    const size_t points = base->problem->line.points;
+    const double dt = base->dt, ratio = dt / base->problem->line.dx;
+    for (size_t i = 0; i < points; i++) {
+        const double change = a->now[right_of(i, points)] - 2 * a->now[i] + a->now[left_of(i, points)];
+        const double free_motion = 2 * a->now[i] + ratio * ratio * change;
+        if (row->average) {
+            const double in_next = wave->quotient_slope(levels->next[i], levels->past[i]);
+            const double in_past = wave->quotient_slope(levels->past[i], levels->next[i]);
+            a->next[i] = (free_motion - (1 + dt * dt * in_past) * a->past[i]) / (1 + dt * dt * in_next);
+        } else {
+            a->next[i] = free_motion - a->past[i] - dt * dt * wave->curvature(levels->now[i]) * a->now[i];
+        }
+    }
+}
+
+static void linearised_centred(const struct base *base, const struct tangent *a)
+{
+    const size_t points = base->problem->line.points;
+    const double dt = base->dt, dx = base->problem->line.dx;
+    for (size_t i = 0; i < points; i++) {
+        const size_t right = right_of(right_of(i, points), points),
+                     left = left_of(left_of(i, points), points);
+        const double second = (a->now[right] - 2 * a->now[i] + a->now[left]) / (4 * dx * dx);
+        const double force = base->problem->wave->curvature(base->levels.now[i]) * a->now[i];
+        a->next[i] = a->past[i] + 2 * dt * a->v_now[i];
+        a->v_next[i] = a->v_past[i] + 2 * dt * (second - force);
+    }
+}
+
+/* The linearised nine-point scheme at node i: A_x' D_t A_x and D_x' A_t D_x of three levels, and V'' in four
+   cells. */
+static double nine_points(const struct base *base, const struct tangent *a, size_t i)
+{
+    const size_t points = base->problem->line.points, l = left_of(i, points), r = right_of(i, points);
+    const double dt = base->dt, dx = base->problem->line.dx;
+    const double *p = a->past, *n = a->now, *f = a->next;
+    const double in_time = f[r] + 2 * f[i] + f[l] - 2 * (n[r] + 2 * n[i] + n[l]) + p[r] + 2 * p[i] + p[l];
+    const double in_space = f[r] - 2 * f[i] + f[l] + 2 * (n[r] - 2 * n[i] + n[l]) + p[r] - 2 * p[i] + p[l];
+    const double force =
+        base->later[i] * (n[i] + n[r] + f[i] + f[r]) + base->later[l] * (n[i] + n[l] + f[i] + f[l]) +
+        base->earlier[i] * (p[i] + p[r] + n[i] + n[r]) + base->earlier[l] * (p[i] + p[l] + n[i] + n[l]);
+    return in_time / (4 * dt * dt) - in_space / (4 * dx * dx) + force / 16;
+}
+
+/* Iterated with the circulant part. */
+static bool linearised_box(const struct base *base, const struct tangent *a)
+{
+    enum { MOST = 200 };
+    const size_t points = base->problem->line.points;
+    const double dx = base->problem->line.dx;
+    const double in_time = 1 / (4 * base->dt * base->dt), in_space = 1 / (4 * dx * dx);
+    const struct gm_ring solver = gm_ring_make(points, 2 * (in_time + in_space), in_time - in_space);
+    double *residual = malloc(points * sizeof *residual), last = INFINITY;
+    bool good = false;
+    for (size_t i = 0; i < points; i++) {
+        a->next[i] = 2 * a->now[i] - a->past[i];
+    }
+    for (int k = 0; residual && k < MOST && !good; k++) {
+        double largest = 0;
+        for (size_t i = 0; i < points; i++) {
+            residual[i] = nine_points(base, a, i);
+        }
+        gm_ring_solve(&solver, residual);
+        for (size_t i = 0; i < points; i++) {
+            a->next[i] -= residual[i];
+            largest = fmax(largest, fabs(residual[i]));
+        }
+        good = largest >= last && largest < 1e-11;
+        last = largest;
+    }
+    free(residual);
+    return good;
+}
+
+/* gm_map: u at two levels, with u_t if the scheme keeps it, to the next level of the same. */
+static bool one_step(const void *context, const double *from, double *to)
+{
+    const struct base *base = context;
+    const size_t points = base->problem->line.points, size = gm_wave_size(points);
+    double *y = malloc((2 * size + 2 * points) * sizeof *y);
+    if (!y) {
+        return false;
+    }
+    double *out = y + size, *memory_out = out + size;
+    memcpy(y, from, 2 * points * sizeof *y);
+    y[2 * points] = -base->dt;
+    const bool keeps = base->levels.v_now != NULL;
+    const struct gm_task task = {
+        .problem = base->problem,
+        .scheme = base->scheme,
+        .dt = base->dt,
+        .steps = 1,
+        .limit = INFINITY,
+        .y = y,
+        .out = out,
+        .memory = keeps ? from + 2 * points : NULL,
+        .memory_out = keeps ? memory_out : NULL,
+        .workspace = base->work,
+    };
+    const bool good = base->scheme->family->loop(&task).status == GM_OK;
+    memcpy(to, out, points * sizeof *to);
+    memcpy(to + points, memory_out, keeps ? points * sizeof *to : 0);
+    free(y);
+    return good;
+}
+
+static bool by_own_steps(const struct base *base, const struct tangent *a)
+{
+    const size_t points = base->problem->line.points, size = points * sizeof(double);
+    const bool keeps = base->levels.v_now != NULL;
+    const size_t levels = keeps ? 4 : 2;
+    double *from = malloc((2 * levels + 2) * size);
+    if (!from) {
+        return false;
+    }
+    double *direction = from + levels * points, *slope = direction + levels * points;
+    memcpy(from, base->levels.now, size);
+    memcpy(from + points, base->levels.past, size);
+    memcpy(direction, a->now, size);
+    memcpy(direction + points, a->past, size);
+    if (keeps) {
+        memcpy(from + 2 * points, base->levels.v_now, size);
+        memcpy(from + 3 * points, base->levels.v_past, size);
+        memcpy(direction + 2 * points, a->v_now, size);
+        memcpy(direction + 3 * points, a->v_past, size);
+    }
+    const bool good =
+        gm_differentiate(one_step, base, levels * points, from, direction, (keeps ? 2 : 1) * points, slope);
+    if (good) {
+        memcpy(a->next, slope, size);
+        memcpy(a->v_next, slope + points, keeps ? size : 0);
+    }
+    free(from);
+    return good;
+}
+
+/* All components at the nodes of the three levels. */
+static void complete_nodes(const struct base *base, bool centred, const struct tangent *a, double *levels[3])
+{
+    const size_t points = base->problem->line.points;
+    const double dx = base->problem->line.dx;
+    const double *u[3] = {a->past, a->now, a->next}, *v[3] = {a->v_past, a->v_now, a->v_next};
+    for (size_t n = 0; n < 3; n++) {
+        for (size_t i = 0; i < points; i++) {
+            double *s = levels[n] + i * DIMENSION;
+            const double left = u[n][left_of(i, points)], right = u[n][right_of(i, points)];
+            s[U] = u[n][i];
+            /* that of the first level occurs in no flux */
+            s[V] = centred ? v[n][i] : n ? (u[n][i] - u[n - 1][i]) / base->dt : 0;
+            s[W] = centred ? (right - left) / (2 * dx) : (u[n][i] - left) / dx;
+        }
+    }
+}
+
+static double law_of_nodes(const struct base *base, bool centred, const struct tangent *a,
+                           const struct tangent *b)
+{
+    const size_t points = base->problem->line.points, size = points * DIMENSION;
+    double *memory = malloc(6 * size * sizeof *memory), law = NAN;
+    if (memory) {
+        double *of_a[3] = {memory, memory + size, memory + 2 * size};
+        double *of_b[3] = {memory + 3 * size, memory + 4 * size, memory + 5 * size};
+        complete_nodes(base, centred, a, of_a);
+        complete_nodes(base, centred, b, of_b);
+        law = gm_nodes_law(base->problem->field, centred, points, base->problem->line.dx, base->dt,
+                           (const double *const *)of_a, (const double *const *)of_b);
+    }
+    free(memory);
+    return law;
+}
+
+/* W at the sides of the cells between two levels. */
+static void side_slopes(const struct gm_line *line, const double *before, const double *after, double *w)
+{
+    for (size_t i = 0; i < line->points; i++) {
+        const size_t r = right_of(i, line->points);
+        w[i] = (before[r] + after[r] - before[i] - after[i]) / (2 * line->dx);
+    }
+    gm_ring_unaverage(w, line->points);
+}
+
+/* D_t V in cell i */
+static double acceleration(const struct gm_line *line, const double *before, const double *after,
+                           const double *curvature, const double *w, size_t i)
+{
+    const size_t r = right_of(i, line->points);
+    return (w[r] - w[i]) / line->dx - curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
+}
+
+static bool complete_cells(const struct base *base, const struct tangent *a, struct gm_faces *faces)
+{
+    const struct gm_line *line = &base->problem->line;
+    const size_t points = line->points;
+    double *w = malloc(2 * points * sizeof *w);
+    if (!w) {
+        return false;
+    }
+    double *w_later = w + points;
+    side_slopes(line, a->past, a->now, w);
+    side_slopes(line, a->now, a->next, w_later);
+    for (size_t i = 0; i < points; i++) {
+        const size_t r = right_of(i, points);
+        double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
+        lower[U] = (a->now[i] + a->now[r]) / 2;
+        upper[U] = (a->next[i] + a->next[r]) / 2;
+        lower[V] = (lower[U] - (a->past[i] + a->past[r]) / 2) / base->dt +
+                   base->dt / 2 * acceleration(line, a->past, a->now, base->earlier, w, i);
+        upper[V] = lower[V] + base->dt * acceleration(line, a->now, a->next, base->later, w_later, i);
+    }
+    for (size_t i = 0; i <= points; i++) {
+        const size_t at = i < points ? i : 0;
+        double *side = faces->sides + i * DIMENSION;
+        side[U] = (a->now[at] + a->next[at]) / 2;
+        side[W] = w_later[at];
+    }
+    free(w);
+    return true;
+}
+
+static double law_of_cells(const struct base *base, const struct tangent *a, const struct tangent *b)
+{
+    static const double one = 1;
+    const struct gm_line *line = &base->problem->line;
+    const struct gm_cells cells = {line->points, 1, 1, &one, &one, line->dx, base->dt};
+    struct gm_faces of_a, of_b;
+    double law = NAN;
+    if (gm_faces_open(&of_a, base->problem->field, &cells)) {
+        if (gm_faces_open(&of_b, base->problem->field, &cells)) {
+            if (complete_cells(base, a, &of_a) && complete_cells(base, b, &of_b)) {
+                law = gm_cells_law(base->problem->field, &cells, &of_a, &of_b);
+            }
+            gm_faces_close(&of_b);
+        }
+        gm_faces_close(&of_a);
+    }
+    return law;
+}
+
+/* V'' in the cells between two levels. */
+static void cell_curvatures(const struct gm_problem *problem, const double *p, const double *q,
+                            double *curvature)
+{
+    const struct gm_line *line = &problem->line;
+    for (size_t i = 0; i < line->points; i++) {
+        const size_t r = right_of(i, line->points);
+        const double jump = r == 0 ? line->jump : 0;
+        curvature[i] = problem->wave->curvature((p[i] + p[r] + q[i] + q[r] + 2 * jump) / 4);
+    }
+}
+
+static bool advance_tangent(const struct base *base, enum gm_wave_law law, bool by_differences,
+                            const struct tangent *a)
+{
+    if (by_differences) {
+        return by_own_steps(base, a);
+    }
+    if (law == GM_LAW_CELLS) {
+        return linearised_box(base, a);
+    }
+    if (law == GM_LAW_CENTRED) {
+        linearised_centred(base, a);
+    } else {
+        linearised_nodes(base, a);
+    }
+    return true;
+}
+
+double gm_wave_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                    const double *y, const double *memory, bool by_differences)
+{
+    const size_t points = problem->line.points;
+    const enum gm_wave_law law = gm_wave_law_of(scheme);
+    struct base base = {.problem = problem, .scheme = scheme, .dt = dt};
+    double residual = NAN;
+    double *arrays = calloc((2 * ARRAYS + 2) * points, sizeof *arrays);
+    if (law == GM_LAW_NONE || !arrays || !gm_levels_open(&base.levels, problem, scheme, dt, y, memory)) {
+        free(arrays);
+        return NAN;
+    }
+    const struct tangent a = tangent_at(arrays, points), b = tangent_at(arrays + ARRAYS * points, points);
+    base.earlier = arrays + 2 * ARRAYS * points;
+    base.later = base.earlier + points;
+    base.work = scheme->family->workspace_open(problem, scheme);
+    tangent_start(&a, points, 2, 0.3);
+    tangent_start(&b, points, 3, 0.7);
+    cell_curvatures(problem, base.levels.past, base.levels.now, base.earlier);
+    cell_curvatures(problem, base.levels.now, base.levels.next, base.later);
+    if (base.work && advance_tangent(&base, law, by_differences, &a) &&
+        advance_tangent(&base, law, by_differences, &b)) {
+        residual = law == GM_LAW_CELLS ? law_of_cells(&base, &a, &b)
+                                       : law_of_nodes(&base, law == GM_LAW_CENTRED, &a, &b);
+    }
+    if (base.work) {
+        scheme->family->workspace_close(base.work);
+    }
+    gm_levels_close(&base.levels);
+    free(arrays);
+    return residual;
+}
