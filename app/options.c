@@ -39,6 +39,7 @@ static const struct row rows[] = {
     {"--size", SIZE, PAINTS, AT(width), "WxH", "pixels (1280x720)"},
     {"--theme", THEME, PAINTS & ~(unsigned)GM_FIGURES, AT(theme), "light|dark",
      "colours for paper or for a screen"},
+    {"--changes", TEXT, GM_RENDER, AT(changes), "LIST", "LANE:STEP:KEY=VALUE,...: changes in flight (key y)"},
     {"--graphics", TEXT, GM_TUI | GM_TERMINAL, AT(graphics), "KIND",
      "kitty, sixel, braille, quadrants, half or ascii"},
     {"--colours", TEXT, GM_TUI | GM_TERMINAL, AT(colours), "HOWMANY", "truecolor, 256, 16 or none"},

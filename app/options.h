@@ -24,7 +24,7 @@ enum gm_command {
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown;
-    const char *csv, *profile, *out, *movie, *measure, *region;
+    const char *csv, *profile, *out, *movie, *measure, *region, *changes;
     long every, frames;
     long shard, shards;                    /* 0, 0: not given */
     double fps, rate;                      /* NAN: not given */

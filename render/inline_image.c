@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/base64.h"
 #include "render/sixel.h"
 
 enum {
@@ -249,17 +250,12 @@ static void put_sixels(struct gm_inline *image, const unsigned char *rgb, const 
 
 /* ---- Kitty ---- */
 
+/* Up to CHUNK characters of it. */
 static void put_base64(struct gm_inline *image, const unsigned char *bytes, size_t size)
 {
-    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < size; i += 3) {
-        unsigned group = (unsigned)bytes[i] << 16 | (i + 1 < size ? (unsigned)bytes[i + 1] << 8 : 0) |
-                         (i + 2 < size ? (unsigned)bytes[i + 2] : 0);
-        char four[4] = {letters[group >> 18], letters[group >> 12 & 63],
-                        i + 1 < size ? letters[group >> 6 & 63] : '=',
-                        i + 2 < size ? letters[group & 63] : '='};
-        put(image, four, 4);
-    }
+    char text[CHUNK];
+    gm_base64(bytes, size, text);
+    put(image, text, gm_base64_size(size));
 }
 
 /* A tile under a number of its own replaces the one that was there before. q=2: the terminal answers nothing;

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the explorer shows in terminals with pixels is the picture that `geomint render` paints.
 Usage: pixels.py GEOMINT"""
+import base64
 import os
+import shlex
+import signal
 import subprocess
 import sys
 import tempfile
@@ -189,6 +192,59 @@ late.run(3)
 check(late.images == 0 and not late.shows('KEYS') and not late.shows('three') and late.shows('▸ dt'),
       'a late answer is taken for keys')
 leave(late)
+
+# y: the command line that redoes the view, also after changes in flight
+told = Terminal([geomint, *SCENE], columns=100, rows=30, kind='kitty', cell=(8, 16))
+paused_at(told, 3)
+told.keys('\x1b[C' '..')  # another step: at once
+told.settle()
+told.keys('\t' 's' '\x1b[B' '\r')  # another scheme for the second lane, from here on
+told.settle()
+told.keys('..')
+told.settle()
+shown = told.picture()
+told.keys('y')
+check(told.run(5, lambda: told.shows('THIS VIEW')), 'y shows no command line')
+copied = [text for text in told.questions if text.startswith('52;c;')]
+if check(len(copied) == 1, 'y copies nothing'):
+    command = base64.b64decode(copied[0][5:]).decode()
+    check(command.startswith('geomint render disc ') and command[15:40] in ''.join(map(told.line, range(30))),
+          f'y copies something else: {command}')
+    check('--changes' in command, f'the changes are not in it: {command}')
+    words = [geomint] + shlex.split(command)[1:] + ['--size', '480x448', '--out', 'told']
+    subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
+    worst, mean, missing = compare(shown, read_png('told/disc-render.png'))
+    print(f'redone by "{command}": greatest difference {worst}, {missing} pixels missing')
+    check(worst == 0 and missing == 0, 'the command line makes another picture')
+told.keys('y')
+check(told.run(5, lambda: told.shows('SCHEMES')), 'the command line stays')
+
+# R: a movie of what is seen, finished when it is ended, and on leaving
+told.keys(' R')
+check(told.run(10, lambda: told.shows('Recording disc-0001.mp4')), 'R does not begin a movie')
+told.run(2)
+check(told.shows('●'), 'the status does not show the movie')
+told.keys('R')
+check(told.run(30, lambda: told.shows('Saved disc-0001.mp4')), 'R does not end the movie')
+
+
+def seconds_of(path):
+    probe = subprocess.run(['ffprobe', '-v', 'error', '-show_entries', 'format=duration', '-of', 'csv=p=0', path],
+                           capture_output=True, text=True)
+    return float(probe.stdout or 0)
+
+
+length = seconds_of('disc-0001.mp4')
+check(2 <= length <= 8, f'the movie of some 2 s, whose last frame stands for one, is {length} s long')
+told.keys('R')
+told.run(1.5)
+os.kill(told.pid, signal.SIGTERM)
+told.run(30, lambda: told.status is not None)
+check(told.status is not None and os.WTERMSIG(told.status) == signal.SIGTERM, f'after SIGTERM its status is {told.status}')
+check(seconds_of('disc-0002.mp4') > 1, 'the movie is lost with the signal')
+check(sorted(f for f in os.listdir('.') if f.startswith('disc-0')) == ['disc-0001.mp4', 'disc-0002.mp4'],
+      f'the movies leave files behind: {os.listdir(".")}')
+told.close()
 
 # a terminal at the end of a long line: frames are dropped and do not pile up
 slow = Terminal([geomint, *SCENE], kind='sixel', delay=0.4)

@@ -159,6 +159,18 @@ bool gm_display_show(struct gm_display *display, const struct gm_screen *screen,
     return true;
 }
 
+const struct gm_panel *gm_display_locate(struct gm_display *display, struct gm_picture *picture, int column,
+                                         int row, double *x, double *y)
+{
+    const struct gm_inline_place *place = &display->job.place;
+    if (!display->painter) {
+        return NULL;
+    }
+    gm_display_finish(display);
+    return gm_pixels_locate(display->painter, picture, (column - place->column + 0.5) * place->cell_width,
+                            (row - place->row + 0.5) * place->cell_height, x, y);
+}
+
 static int64_t milliseconds(void)
 {
     struct timespec now;

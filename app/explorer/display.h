@@ -50,6 +50,11 @@ bool gm_display_read(struct gm_display *display);
 /* Waits until no picture is in use: before what it belongs to is closed. */
 void gm_display_finish(struct gm_display *display);
 
+/* The panel of a state that a cell of the shown picture of pixels is in, and the place in its own units; NULL
+   if there is none. */
+const struct gm_panel *gm_display_locate(struct gm_display *display, struct gm_picture *picture, int column,
+                                         int row, double *x, double *y);
+
 /* Before the terminal goes back to the shell: removes what text does not cover, sends what is under way, and
    awaits the answers that the shell would take for keys. */
 void gm_display_rest(struct gm_display *display);

@@ -43,10 +43,11 @@ struct explorer {
     struct gm_hit held; /* what the button went down on */
     bool holding;
     struct gm_measure measure;
-    bool dirty;        /* the screen has to be composed again */
-    bool fresh;        /* with a new picture */
-    bool asked;        /* for a shot */
-    int64_t next_shot; /* in milliseconds: no shot is asked for earlier */
+    bool dirty;         /* the screen has to be composed again */
+    bool fresh;         /* with a new picture */
+    bool asked;         /* for a shot */
+    unsigned long told; /* number of the last command line that was shown */
+    int64_t next_shot;  /* in milliseconds: no shot is asked for earlier */
     bool leave;
     int status;
     char message[GM_MESSAGE]; /* said when the terminal is the shell's again */
@@ -69,6 +70,7 @@ static void leave(struct explorer *explorer, int status)
 static void expect_shot(struct explorer *explorer)
 {
     explorer->shot = NULL;
+    explorer->told = 0;
     explorer->asked = true;
     explorer->next_shot = 0;
 }
@@ -333,10 +335,17 @@ static void click_picture(struct explorer *explorer, const struct gm_mouse_event
 {
     struct gm_order order = {.kind = GM_ORDER_POINT};
     const struct gm_screen *screen = &explorer->screen;
-    if (explorer->shot->scene->point &&
-        gm_cells_locate(&screen->picture, explorer->shot->picture, screen->blocks,
-                        event->column - screen->picture_column, event->row - screen->picture_row, &order.x,
-                        &order.y)) {
+    if (!explorer->shot->scene->point) {
+        return;
+    }
+    struct gm_picture *picture = explorer->shot->picture;
+    const struct gm_panel *panel =
+        screen->pixels.columns > 0
+            ? gm_display_locate(&explorer->display, picture, event->column, event->row, &order.x, &order.y)
+            : gm_cells_locate(&screen->picture, picture, screen->blocks,
+                              event->column - screen->picture_column, event->row - screen->picture_row,
+                              &order.x, &order.y);
+    if (panel) {
         gm_worker_order(explorer->worker, order);
     }
 }
@@ -473,6 +482,21 @@ static void read_picture(struct explorer *explorer)
     }
 }
 
+/* A command line that was asked for is shown, and offered to the clipboard. */
+static void read_command(struct explorer *explorer)
+{
+    const struct gm_shot *shot = explorer->shot;
+    if (shot->command_number == explorer->told) {
+        return;
+    }
+    explorer->told = shot->command_number;
+    explorer->face.page = GM_PAGE_COMMAND;
+    explorer->face.scroll = 0;
+    if (shot->command) {
+        gm_writer_copy(&explorer->display.writer, shot->command);
+    }
+}
+
 static void read_news(struct explorer *explorer)
 {
     uint64_t count;
@@ -492,6 +516,7 @@ static void read_news(struct explorer *explorer)
     struct gm_shot *shot = explorer->worker ? gm_worker_take(explorer->worker) : NULL;
     if (shot) {
         explorer->shot = shot;
+        read_command(explorer);
         explorer->asked = false;
         explorer->next_shot = milliseconds() + (explorer->at_start ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
         explorer->dirty = true;
@@ -517,7 +542,7 @@ static void ask_measure(struct explorer *explorer)
     if (face->page == GM_PAGE_HELP) {
         face->explained = explorer->shot->lanes[explorer->shot->selected].scheme;
     }
-    if (face->page != GM_PAGE_SCENE) {
+    if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
         gm_measure_ask(&explorer->measure, face->explained);
         face->measured = gm_measure_text(&explorer->measure);
     }

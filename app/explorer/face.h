@@ -8,7 +8,7 @@
 
 /* What the user has set about the screen itself. */
 
-enum gm_page { GM_PAGE_SCENE, GM_PAGE_HELP, GM_PAGE_SCHEME };
+enum gm_page { GM_PAGE_SCENE, GM_PAGE_HELP, GM_PAGE_SCHEME, GM_PAGE_COMMAND };
 
 /* What the chosen one of the list of schemes is for. */
 enum gm_choosing { GM_CHOOSE_NOTHING, GM_CHOOSE_SWITCH, GM_CHOOSE_FORK };

@@ -185,7 +185,17 @@ static enum gm_key_result press_blocks(const struct gm_press *press)
 
 static enum gm_key_result press_save(const struct gm_press *press)
 {
-    return order(press, GM_ORDER_SAVE, 0);
+    return order(press, GM_ORDER_SAVE, (int)press->face->theme);
+}
+
+static enum gm_key_result press_record(const struct gm_press *press)
+{
+    return order(press, GM_ORDER_RECORD, (int)press->face->theme);
+}
+
+static enum gm_key_result press_tell(const struct gm_press *press)
+{
+    return order(press, GM_ORDER_TELL, (int)press->face->theme);
 }
 
 static enum gm_key_result press_help(const struct gm_press *press)
@@ -256,6 +266,8 @@ const struct gm_key_row gm_key_rows[] = {
      "pixels, braille, quadrants, half blocks, ASCII: what the terminal has",
      press_blocks},
     {{'p'}, "p", "save", 11, "save the picture as PNG; `geomint again` redoes it", press_save},
+    {{'R'}, "R", "record", 20, "begin a movie of what is seen; again: end it", press_record},
+    {{'y'}, "y", "command", 21, "the command line that redoes this view; copied too", press_tell},
     {{'l'}, "l", "scenes", 19, "back to the list of scenes", press_scenes},
     {{'?'}, "?", "help", 1, "this page; in a list of schemes, the page of the chosen one", press_help},
     {{REDRAW}, "ctrl-L", NULL, 0, "draw the screen again", press_redraw},

@@ -179,3 +179,9 @@ bool gm_pixels_take(struct gm_pixels *pixels, const char **bytes, size_t *size, 
     }
     return ready;
 }
+
+const struct gm_panel *gm_pixels_locate(struct gm_pixels *pixels, struct gm_picture *picture, double across,
+                                        double down, double *x, double *y)
+{
+    return pixels->canvas ? gm_canvas_locate(pixels->canvas, picture, across, down, x, y) : NULL;
+}

@@ -28,6 +28,11 @@ void gm_pixels_paint(struct gm_pixels *pixels, struct gm_picture *picture, const
 /* Whether a picture was begun and not yet taken. */
 bool gm_pixels_busy(const struct gm_pixels *pixels);
 
+/* The panel of a state that a pixel of the picture painted last is in, as gm_canvas_locate. Not while busy.
+ */
+const struct gm_panel *gm_pixels_locate(struct gm_pixels *pixels, struct gm_picture *picture, double across,
+                                        double down, double *x, double *y);
+
 /* Once for each picture, when it is ready: its bytes, which stay until the next is begun. With them NULL it
    failed, for the reason in `message` (GM_MESSAGE bytes). */
 bool gm_pixels_take(struct gm_pixels *pixels, const char **bytes, size_t *size, char *message);

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "app/explorer/palette.h"
+#include "render/base64.h"
 
 /* ---- the line of bytes ---- */
 
@@ -369,6 +370,19 @@ int gm_writer_patience(const struct gm_writer *writer)
     }
     int64_t left = writer->asked_at + LOST - milliseconds();
     return left > 0 ? (int)left : 0;
+}
+
+void gm_writer_copy(struct gm_writer *writer, const char *text)
+{
+    size_t size = gm_base64_size(strlen(text));
+    char *coded = malloc(size);
+    if (coded) {
+        gm_base64((const unsigned char *)text, strlen(text), coded);
+        put_text(writer, "\033]52;c;");
+        put(writer, coded, size);
+        put_text(writer, "\a");
+    }
+    free(coded);
 }
 
 void gm_writer_tell(struct gm_writer *writer, const char *text)

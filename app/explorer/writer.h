@@ -64,6 +64,9 @@ struct gm_writer_image {
    sent). Cells without a glyph are the image's; the others are seen above it. Only when idle. */
 void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
                     const struct gm_writer_image *image);
+/* Offers a text to the clipboard of the terminal (OSC 52); most ask the user first, or need to be told that
+   they may. Only when idle, or after something else was put in line. */
+void gm_writer_copy(struct gm_writer *writer, const char *text);
 /* Puts something in line that is not seen on the screen. Only when idle. */
 void gm_writer_tell(struct gm_writer *writer, const char *text);
 /* Sends what the terminal takes now. False when it is gone. */
