@@ -14,6 +14,7 @@ int gm_command_work_precision(const struct gm_options *options);
 int gm_command_stability(const struct gm_options *options);
 int gm_command_certify(const struct gm_options *options);
 int gm_command_again(const struct gm_options *options);
+int gm_command_tour(const struct gm_options *options);
 int gm_command_terminal(const struct gm_options *options);
 
 /* --version: the program, the OpenGL context and the libraries. Returns the exit status. */

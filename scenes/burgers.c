@@ -222,6 +222,15 @@ static double overshoot(const struct gm_view *view)
     return largest;
 }
 
+static double amplitude(const struct gm_view *view)
+{
+    double largest = 0;
+    for (size_t j = 0; j < view->problem->line.points; j++) {
+        largest = fmax(largest, fabs(view->state[j] - view->problem->burgers->lambda));
+    }
+    return largest;
+}
+
 /* The companion's value as many nodes back as the frame has moved: between nodes, by a line. */
 static double galilean_defect(const struct gm_view *view)
 {
@@ -264,6 +273,7 @@ static const struct gm_observable observables[] = {
     {.key = "sup_error", .title = "largest error", .unit = "", .evaluate = sup_error, .logarithmic = true},
     {.key = "l1_error", .title = "mean error, h Σ|e|", .unit = "", .evaluate = l1_error, .logarithmic = true},
     {.key = "overshoot", .title = "overshoot", .unit = "", .evaluate = overshoot},
+    {.key = "amplitude", .title = "largest |u − λ|", .unit = "", .evaluate = amplitude},
     {.key = "galilean_defect",
      .title = "difference from the run at λ = 0",
      .unit = "",
@@ -428,6 +438,31 @@ static const struct gm_figure figures[] = {
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static const struct gm_work work = {
+    .arguments = "viscosity=0.05 until=1", .measure = "sup_error", .coarsest = 0.01, .halvings = 5};
+
+/* A Courant number of 1. */
+static double crossing_time(const void *own)
+{
+    return ((const struct scene *)own)->dx;
+}
+
+static const double viscosities[] = {0.001, 0.0025, 0.005, 0.01, 0.02, 0.05};
+static const double courant_numbers[] = {0.1, 0.25, 0.5, 0.75, 0.95, 1.05, 1.5, 2, 4};
+
+static const struct gm_stability stability = {
+    .arguments = "dx=0.02 until=1",
+    .parameter = "viscosity",
+    .values = viscosities,
+    .value_count = COUNT(viscosities),
+    .label = "Δt / Δx",
+    .unit = crossing_time,
+    .steps = courant_numbers,
+    .step_count = COUNT(courant_numbers),
+    .kept = "amplitude",
+    .error = "overshoot",
+};
+
 const struct gm_scene gm_scene_burgers = {
     .name = "burgers",
     .title = "Burgers' equation from moving frames",
@@ -446,6 +481,8 @@ const struct gm_scene gm_scene_burgers = {
     .figures = figures,
     .figure_count = COUNT(figures),
     .t0 = t0,
+    .work = &work,
+    .stability = &stability,
     .settle = settle,
     .setup = setup,
     .start = start,

@@ -279,6 +279,35 @@ static const char *const schemes[] = {"box", "zabusky-kruskal", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static const struct gm_work work = {.arguments = "initial=soliton points=401 until=4",
+                                    .measure = "solution_error",
+                                    .coarsest = 0.2,
+                                    .halvings = 10};
+
+/* What leapfrog can take: 0.385 dx^3/mu (Zabusky & Kruskal). */
+static double dispersion_time(const void *own)
+{
+    const struct scene *scene = own;
+    const double dx = 2 * scene->half_length / (double)scene->points;
+    return dx * dx * dx / scene->kdv.mu;
+}
+
+/* The amplitude of a soliton is 3 times its velocity. */
+static const double velocities[] = {0.25, 0.5, 1, 2};
+static const double steps[] = {0.1, 0.2, 0.3, 0.37, 0.4, 0.5, 1, 4, 16};
+
+static const struct gm_stability stability = {
+    .arguments = "initial=soliton points=101 until=10",
+    .parameter = "velocity",
+    .values = velocities,
+    .value_count = COUNT(velocities),
+    .label = "Δt μ / Δx³",
+    .unit = dispersion_time,
+    .steps = steps,
+    .step_count = COUNT(steps),
+    .kept = "square_error",
+};
+
 const struct gm_scene gm_scene_kdv = {
     .name = "kdv",
     .title = "Solitons of the Korteweg-de Vries equation",
@@ -296,6 +325,8 @@ const struct gm_scene gm_scene_kdv = {
     .observable_count = COUNT(observables),
     .tracks = tracks,
     .track_count = COUNT(tracks),
+    .work = &work,
+    .stability = &stability,
     .settle = settle,
     .setup = setup,
     .start = start,

@@ -248,6 +248,33 @@ static const char *const schemes[] = {"box", "split-step2", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static const struct gm_work work = {.arguments = "initial=soliton points=512 until=4",
+                                    .measure = "solution_error",
+                                    .coarsest = 0.1,
+                                    .halvings = 7};
+
+static double dispersion_time(const void *own)
+{
+    const struct scene *scene = own;
+    const double dx = 2 * scene->half_length / (double)scene->points;
+    return dx * dx;
+}
+
+static const double amplitudes[] = {0.5, 1, 1.5, 2};
+static const double steps[] = {0.1, 0.3, 0.5, 1, 2, 4, 8, 16};
+
+static const struct gm_stability stability = {
+    .arguments = "initial=soliton points=200 until=10",
+    .parameter = "amplitude",
+    .values = amplitudes,
+    .value_count = COUNT(amplitudes),
+    .label = "Δt / Δx²",
+    .unit = dispersion_time,
+    .steps = steps,
+    .step_count = COUNT(steps),
+    .kept = "energy_error",
+};
+
 const struct gm_scene gm_scene_nls = {
     .name = "nls",
     .title = "Solitons of the nonlinear Schrödinger equation",
@@ -263,6 +290,8 @@ const struct gm_scene gm_scene_nls = {
     .observable_count = COUNT(observables),
     .tracks = tracks,
     .track_count = COUNT(tracks),
+    .work = &work,
+    .stability = &stability,
     .setup = setup,
     .start = start,
     .draw = draw,

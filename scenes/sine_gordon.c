@@ -254,8 +254,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_graph(picture, lanes, count, &kept, -1, false);
 }
 
-static const char *const schemes[] = {"leapfrog",  "energy-conserving", "box",
-                                      "euler-box", "midpoint-box",      NULL};
+static const char *const schemes[] = {"leapfrog",     "energy-conserving", "box",        "euler-box",
+                                      "midpoint-box", "gauss-box2",        "gauss-box3", NULL};
 
 static const struct gm_figure figures[] = {
     {
@@ -279,6 +279,34 @@ static const struct gm_figure figures[] = {
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static const struct gm_work work = {.arguments = "until=10 half_length=30 points=1200",
+                                    .measure = "solution_error",
+                                    .coarsest = 0.2,
+                                    .halvings = 5};
+
+/* A Courant number of 1. */
+static double crossing_time(const void *own)
+{
+    const struct scene *scene = own;
+    return 2 * scene->half_length / (double)scene->points;
+}
+
+/* The lower its frequency, the higher a breather: up to 4 atan(sqrt(1 - w^2) / w). */
+static const double frequencies[] = {0.1, 0.3, 0.5, 0.7, 0.9};
+static const double courant_numbers[] = {0.25, 0.5, 0.9, 0.99, 1, 1.01, 1.5, 2, 4, 8};
+
+static const struct gm_stability stability = {
+    .arguments = "until=60 points=200",
+    .parameter = "frequency",
+    .values = frequencies,
+    .value_count = COUNT(frequencies),
+    .label = "Δt / Δx",
+    .unit = crossing_time,
+    .steps = courant_numbers,
+    .step_count = COUNT(courant_numbers),
+    .kept = "energy_error",
+};
+
 const struct gm_scene gm_scene_sine_gordon = {
     .name = "sine-gordon",
     .title = "Solitons of the sine-Gordon equation",
@@ -299,6 +327,8 @@ const struct gm_scene gm_scene_sine_gordon = {
     .track_count = COUNT(tracks),
     .figures = figures,
     .figure_count = COUNT(figures),
+    .work = &work,
+    .stability = &stability,
     .setup = setup,
     .start = start,
     .draw = draw,

@@ -320,6 +320,30 @@ static const char *const schemes[] = {"leapfrog", "box", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static const struct gm_work work = {
+    .arguments = "points=512 until=2*pi", .measure = "solution_error", .coarsest = 0.1, .halvings = 6};
+
+/* A Courant number of 1. */
+static double crossing_time(const void *own)
+{
+    return 2 * M_PI / (double)((const struct scene *)own)->points;
+}
+
+static const double sharpnesses[] = {2, 8, 32, 128};
+static const double courant_numbers[] = {0.25, 0.5, 0.9, 0.99, 1, 1.01, 1.1, 2, 4};
+
+static const struct gm_stability stability = {
+    .arguments = "until=4*pi",
+    .parameter = "sharpness",
+    .values = sharpnesses,
+    .value_count = COUNT(sharpnesses),
+    .label = "Δt / Δx",
+    .unit = crossing_time,
+    .steps = courant_numbers,
+    .step_count = COUNT(courant_numbers),
+    .kept = "energy_error",
+};
+
 const struct gm_scene gm_scene_wave = {
     .name = "wave",
     .title = "The wave equation, varied in time and space",
@@ -337,6 +361,8 @@ const struct gm_scene gm_scene_wave = {
     .observable_count = COUNT(observables),
     .tracks = tracks,
     .track_count = COUNT(tracks),
+    .work = &work,
+    .stability = &stability,
     .settle = settle,
     .setup = setup,
     .start = start,

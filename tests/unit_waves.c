@@ -160,7 +160,8 @@ static void the_step_may_change(void **unused)
 static void bits_do_not_depend_on_bursts(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"leapfrog", "energy-conserving", "box", "euler-box", "midpoint-box"};
+    static const char *const names[] = {"leapfrog",     "energy-conserving", "box",       "euler-box",
+                                        "midpoint-box", "gauss-box2",        "gauss-box3"};
     for (size_t s = 0; s < sizeof names / sizeof names[0]; s++) {
         struct gm_problem problem[3];
         struct gm_run *one = breather_run(&problem[0], names[s], 97, 0.1);
@@ -295,6 +296,10 @@ static struct gm_progress rub(const struct gm_task *task)
     for (size_t i = 0; progress.status == GM_OK && i < task->problem->line.points; i++) {
         task->out[i] -= 1e-4 * (task->out[i] - task->y[i]);
     }
+    /* what is remembered begins with the field or its velocity */
+    for (size_t i = 0; progress.status == GM_OK && task->memory && i < task->problem->line.points; i++) {
+        task->memory_out[i] -= 1e-4 * (task->memory_out[i] - task->memory[i]);
+    }
     return progress;
 }
 
@@ -316,7 +321,7 @@ static void expect_law(const struct gm_problem *problem, const char *name, doubl
     family.loop = rub;
     wrong.family = &family;
     const double friction = gm_form_defect(problem, &wrong, dt, state, memory);
-    if (kept ? !(residual < 1e-12 && defect < 1e-8 && friction > 1e-6)
+    if (kept ? !(residual < 1e-11 && defect < 1e-8 && friction > 1e-6)
              : !(residual > 1e-4 && defect > 1e-4)) {
         fail_msg("%s, %s: residual %.2e, by differences %.2e, with friction %.2e", problem->name, name,
                  residual, defect, friction);
@@ -330,10 +335,8 @@ static void the_form_is_kept_or_not(void **unused)
     static const struct {
         const char *name;
         bool kept;
-    } of_waves[] = {{"leapfrog", true},
-                    {"euler-box", true},
-                    {"box", true},
-                    {"midpoint-box", true},
+    } of_waves[] = {{"leapfrog", true},          {"euler-box", true},  {"box", true},
+                    {"midpoint-box", true},      {"gauss-box2", true}, {"gauss-box3", true},
                     {"energy-conserving", false}};
     enum { POINTS = 101 };
     static double y[2 * POINTS + 1];
@@ -354,6 +357,36 @@ static void the_form_is_kept_or_not(void **unused)
     struct gm_run *run = gm_run_open(&nls, gm_scheme_find("split-step2"), &no_settings, 0, 0.02, y);
     assert_true(isnan(gm_form_residual(&nls, run->scheme, 0.02, y, NULL)));
     gm_run_close(run);
+}
+
+/* Collocation at one point is the box, whatever solves it; with an even number of points as well. At two
+   points it comes closer, by its order. */
+static void collocation_at_one_point_is_the_box(void **unused)
+{
+    (void)unused;
+    for (size_t points = 200; points <= 201; points++) {
+        struct gm_problem problem[2];
+        struct gm_run *box = breather_run(&problem[0], "box", points, 0.1);
+        struct gm_run *gauss = breather_run(&problem[1], "gauss-box2", points, 0.1);
+        assert_int_equal(gm_run_advance(box, 100), GM_OK);
+        assert_int_equal(gm_run_advance(gauss, 100), GM_OK);
+        for (size_t i = 0; i < points; i++) {
+            assert_true(fabs(gm_run_state(box)[i] - gm_run_state(gauss)[i]) < 1e-8);
+        }
+        gm_run_close(box);
+        gm_run_close(gauss);
+    }
+    double error[2];
+    for (size_t k = 0; k < 2; k++) {
+        struct gm_problem problem;
+        struct gm_run *run = breather_run(&problem, "gauss-box3", 200u << k, 0.1 / (double)(1u << k));
+        assert_int_equal(gm_run_advance(run, 50l << k), GM_OK);
+        error[k] = breather_error(run);
+        gm_run_close(run);
+    }
+    if (!(error[0] < 1.25e-3 && error[0] / error[1] > 8)) {
+        fail_msg("errors %.3g, %.3g", error[0], error[1]);
+    }
 }
 
 /* The box for Korteweg-de Vries and nonlinear Schroedinger, and leapfrog for the former. */
@@ -498,6 +531,7 @@ int main(void)
         cmocka_unit_test(bits_do_not_depend_on_bursts),
         cmocka_unit_test(the_box_solves_the_whole_system),
         cmocka_unit_test(the_form_is_kept_or_not),
+        cmocka_unit_test(collocation_at_one_point_is_the_box),
         cmocka_unit_test(dispersive_levels_agree),
         cmocka_unit_test(matrices_are_skew),
         cmocka_unit_test(sines_are_sines),
