@@ -131,8 +131,8 @@ static void save(struct gm_study *study, enum gm_theme theme)
     options.height = 1080;
     options.theme = theme;
     free_name(study, name, sizeof name);
-    bool good =
-        gm_chart_open(&chart, &options, name, message) && gm_chart_paint(&chart, study, draw, message);
+    bool good = gm_chart_open(&chart, &options, gm_study_name(study->kind), name, message) &&
+                gm_chart_paint(&chart, study, draw, message);
     if (good) {
         good = study->kind == GM_STUDY_WORK ? gm_work_write(&study->work, chart.csv)
                                             : gm_stability_write(&study->stability, chart.csv);
