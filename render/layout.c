@@ -448,3 +448,20 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
                                  .label_count = list.count};
     return layout;
 }
+
+const struct gm_panel *gm_layout_locate(const struct gm_layout *layout, double across, double down, double *x,
+                                        double *y)
+{
+    for (size_t i = 0; layout && i < layout->frame_count; i++) {
+        const struct gm_frame *frame = &layout->frames[i];
+        const struct gm_box *box = &frame->box;
+        if (frame->panel->place == GM_PLACE_STATE && across >= box->x && across <= box->x + box->width &&
+            down >= box->y && down <= box->y + box->height && frame->panel->x.scale != GM_LOG &&
+            frame->panel->y.scale != GM_LOG) {
+            *x = (across - frame->x_origin) / frame->x_factor;
+            *y = (down - frame->y_origin) / frame->y_factor;
+            return frame->panel;
+        }
+    }
+    return NULL;
+}

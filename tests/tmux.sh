@@ -9,7 +9,7 @@ socket=geomint-test-$$
 servers=0
 failures=0
 pane=main
-unset TMUX COLORTERM NO_COLOR GEOMINT_COLOURS GEOMINT_BLOCKS GEOMINT_THEME
+unset TMUX COLORTERM NO_COLOR GEOMINT_COLOURS GEOMINT_GRAPHICS GEOMINT_THEME
 export LC_ALL=C.UTF-8
 
 tm() { tmux -L "$socket" -f /dev/null "$@"; }

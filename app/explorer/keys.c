@@ -169,15 +169,23 @@ static enum gm_key_result press_theme(const struct gm_press *press)
 
 static enum gm_key_result press_blocks(const struct gm_press *press)
 {
-    if (press->utf8) {
-        press->face->blocks = (enum gm_blocks)((press->face->blocks + 1) % GM_BLOCKS_COUNT);
-    }
-    return GM_KEY_FACE;
+    (void)press;
+    return GM_KEY_BLOCKS;
 }
 
 static enum gm_key_result press_save(const struct gm_press *press)
 {
-    return order(press, GM_ORDER_SAVE, 0);
+    return order(press, GM_ORDER_SAVE, (int)press->face->theme);
+}
+
+static enum gm_key_result press_record(const struct gm_press *press)
+{
+    return order(press, GM_ORDER_RECORD, (int)press->face->theme);
+}
+
+static enum gm_key_result press_tell(const struct gm_press *press)
+{
+    return order(press, GM_ORDER_TELL, (int)press->face->theme);
 }
 
 static enum gm_key_result press_study(const struct gm_press *press)
@@ -253,8 +261,15 @@ const struct gm_key_row gm_key_rows[] = {
     {{KEY_BACKSPACE, 127, 8}, "⌫", NULL, 0, "set it to its default", press_default},
     {{'v'}, "v", "view", 16, "more room for: schemes, parameters, observables, the picture", press_side},
     {{'t'}, "t", "theme", 18, "dark, light, monochrome", press_theme},
-    {{'b'}, "b", "blocks", 17, "braille, quadrants, half blocks, ASCII", press_blocks},
+    {{'b'},
+     "b",
+     "blocks",
+     17,
+     "pixels, braille, quadrants, half blocks, ASCII: what the terminal has",
+     press_blocks},
     {{'p'}, "p", "save", 11, "save the picture as PNG; `geomint again` redoes it", press_save},
+    {{'R'}, "R", "record", 20, "begin a movie of what is seen; again: end it", press_record},
+    {{'y'}, "y", "command", 21, "the command line that redoes this view; copied too", press_tell},
     {{'w', 'm'},
      "w m",
      "diagrams",
