@@ -495,6 +495,13 @@ bool gm_request_parse(struct gm_request *request, int count, char *const words[]
     for (int i = 1; i < count && good; i++) {
         good = read_word(&lists, request->scene, words[i], message);
     }
+    if (count == 1 && schemes > 1 && request->scene->lanes) {
+        char shown[256], *rest = NULL;
+        snprintf(shown, sizeof shown, "%s", request->scene->lanes);
+        for (char *word = strtok_r(shown, " ", &rest); word && good; word = strtok_r(NULL, " ", &rest)) {
+            good = read_word(&lists, request->scene, word, message);
+        }
+    }
     good = good && read_yes(&lists, "zip", &lists.zip, message) &&
            read_yes(&lists, "overlay", &lists.overlay, message);
     request->overlay = lists.overlay;
