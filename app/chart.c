@@ -5,13 +5,17 @@
 #include <stdlib.h>
 
 #include "app/folder.h"
+#include "app/provenance.h"
 #include "render/canvas.h"
 #include "render/png.h"
 
-bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, const char *name, char *message)
+bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, const char *command,
+                   const char *name, char *message)
 {
     const char *folder = options->out ? options->out : ".";
+    name = options->name ? options->name : name;
     chart->options = options;
+    chart->command = command;
     const int png = snprintf(chart->png, sizeof chart->png, "%s/%s.png", folder, name);
     const int csv = snprintf(chart->csv, sizeof chart->csv, "%s/%s.csv", folder, name);
     if (png >= (int)sizeof chart->png || csv >= (int)sizeof chart->csv) {
@@ -31,16 +35,20 @@ bool gm_chart_paint(const struct gm_chart *chart, const void *data,
     }
     struct gm_picture *picture = gm_picture_open();
     unsigned char *rgb = malloc((size_t)width * (size_t)height * 3);
-    bool good = picture && rgb;
+    struct gm_provenance provenance = {0};
+    bool good =
+        picture && rgb &&
+        gm_provenance_of_command(&provenance, chart->command, chart->options, gm_canvas_backend(canvas));
     if (good) {
         draw(data, picture);
         good = gm_canvas_paint(canvas, picture, rgb);
     }
     if (good) {
-        good = gm_png_write(chart->png, width, height, rgb, NULL, 0, message);
+        good = gm_png_write(chart->png, width, height, rgb, provenance.texts, provenance.count, message);
     } else {
         snprintf(message, GM_MESSAGE, "not enough memory for a picture of %dx%d", width, height);
     }
+    gm_provenance_close(&provenance);
     free(rgb);
     gm_picture_close(picture);
     gm_canvas_close(canvas);

@@ -8,13 +8,16 @@
 
 struct gm_chart {
     const struct gm_options *options;
+    const char *command; /* "stability" */
     char png[4096], csv[4096];
 };
 
-/* Settles the paths and makes the folder. False with a sentence. */
-bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, const char *name, char *message);
+/* Settles the paths, from `name` unless the options have one, and makes the folder. False with a sentence. */
+bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, const char *command,
+                   const char *name, char *message);
 
-/* Lets `draw` fill a picture from `data` and writes it as PNG. False with a sentence. */
+/* Lets `draw` fill a picture from `data` and writes it as PNG, with the command that `again` needs. False
+   with a sentence. */
 bool gm_chart_paint(const struct gm_chart *chart, const void *data,
                     void (*draw)(const void *data, struct gm_picture *picture), char *message);
 

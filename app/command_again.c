@@ -43,14 +43,22 @@ static bool need(const char *path, const char *key, char **text, char *message)
     return *text != NULL;
 }
 
-static bool parse(struct gm_request *request, char *arguments, const char *changes, char *message)
+/* Cuts text at its blanks. */
+static int split(char *text, char *words[MOST_WORDS])
 {
-    char *words[MOST_WORDS], *rest = NULL;
+    char *rest = NULL;
     int count = 0;
-    for (char *word = strtok_r(arguments, " ", &rest); word && count < MOST_WORDS;
+    for (char *word = strtok_r(text, " ", &rest); word && count < MOST_WORDS;
          word = strtok_r(NULL, " ", &rest)) {
         words[count++] = word;
     }
+    return count;
+}
+
+static bool parse(struct gm_request *request, char *arguments, const char *changes, char *message)
+{
+    char *words[MOST_WORDS];
+    const int count = split(arguments, words);
     if (!gm_request_parse(request, count, words, 1, message)) {
         return false;
     }
@@ -62,8 +70,8 @@ static bool parse(struct gm_request *request, char *arguments, const char *chang
     return true;
 }
 
-/* OUT/NAME-again.png */
-static char *output_name(const char *path, const char *out)
+/* NAME-again, with `end` after it; malloc'ed */
+static char *output_name(const char *path, const char *end)
 {
     char *copy = strdup(path), *name = NULL;
     if (!copy) {
@@ -74,25 +82,66 @@ static char *output_name(const char *path, const char *out)
     if (dot) {
         *dot = '\0';
     }
-    if (asprintf(&name, "%s/%s-again.png", out ? out : ".", base) < 0) {
+    if (asprintf(&name, "%s-again%s", base, end) < 0) {
         name = NULL;
     }
     free(copy);
     return name;
 }
 
-int gm_command_again(const struct gm_options *options)
+static const struct chart {
+    const char *name;
+    enum gm_command bit;
+    int (*function)(const struct gm_options *options);
+} charts[] = {
+    {"work-precision", GM_WORK_PRECISION, gm_command_work_precision},
+    {"stability", GM_STABILITY, gm_command_stability},
+};
+
+static const struct chart *chart_of(const char *name)
 {
-    if (options->word_count != 1) {
-        gm_complain("again which picture? A PNG file that geomint made");
-        return GM_EXIT_USAGE;
+    for (size_t i = 0; i < sizeof charts / sizeof charts[0]; i++) {
+        if (strcmp(charts[i].name, name) == 0) {
+            return &charts[i];
+        }
     }
+    return NULL;
+}
+
+/* Measures a chart once more: the run times are those of now. */
+static int chart_again(const struct gm_options *options, char *command)
+{
+    char *words[MOST_WORDS], message[GM_MESSAGE] = "its command is damaged";
+    const int count = split(command, words);
+    const struct chart *chart = count > 0 ? chart_of(words[0]) : NULL;
+    struct gm_options again = {0};
+    char *name = output_name(options->words[0], "");
+    int status = GM_EXIT_FILE;
+    if (name && chart && gm_options_parse(&again, chart->bit, count, words, 1, message)) {
+        again.out = options->out;
+        again.name = name;
+        status = chart->function(&again);
+    } else {
+        gm_complain("%s cannot be made again: %s", options->words[0], message);
+    }
+    gm_options_close(&again);
+    free(name);
+    return status;
+}
+
+/* Draws a picture of lanes once more. */
+static int picture_again(const struct gm_options *options)
+{
     const char *path = options->words[0];
     char message[GM_MESSAGE] = "";
     char *arguments = NULL, *changes = NULL, *steps = NULL, *kind = NULL;
     struct gm_request request = {0};
     struct gm_lane **lanes = NULL;
-    char *name = output_name(path, options->out);
+    char *base = output_name(path, ".png"), *name = NULL;
+    if (!base || asprintf(&name, "%s/%s", options->out ? options->out : ".", base) < 0) {
+        name = NULL;
+    }
+    free(base);
     int width = 0, height = 0, status = GM_EXIT_FILE;
     char theme[8] = "";
     if (!name || !need(path, GM_KEY_ARGUMENTS, &arguments, message) ||
@@ -129,4 +178,17 @@ int gm_command_again(const struct gm_options *options)
     free(kind);
     free(name);
     return gm_finish(status);
+}
+
+int gm_command_again(const struct gm_options *options)
+{
+    if (options->word_count != 1) {
+        gm_complain("again which picture? A PNG file that geomint made");
+        return GM_EXIT_USAGE;
+    }
+    char message[GM_MESSAGE];
+    char *command = gm_png_read_text(options->words[0], GM_KEY_COMMAND, message);
+    const int status = command ? chart_again(options, command) : picture_again(options);
+    free(command);
+    return status;
 }

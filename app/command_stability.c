@@ -75,7 +75,7 @@ int gm_command_stability(const struct gm_options *options)
         struct gm_chart chart;
         print_table(&table);
         snprintf(name, sizeof name, "%s-stability", table.request.scene->name);
-        if (!gm_chart_open(&chart, options, name, message) ||
+        if (!gm_chart_open(&chart, options, "stability", name, message) ||
             !gm_chart_paint(&chart, &table, draw, message)) {
             gm_complain("%s", message);
             status = GM_EXIT_FILE;

@@ -85,7 +85,7 @@ int gm_command_work_precision(const struct gm_options *options)
         print_table(&table);
         snprintf(name, sizeof name, "%s-work-precision", table.request.scene->name);
         struct gm_chart chart;
-        if (!gm_chart_open(&chart, options, name, message) ||
+        if (!gm_chart_open(&chart, options, "work-precision", name, message) ||
             !gm_chart_paint(&chart, &table, draw, message)) {
             gm_complain("%s", message);
             status = GM_EXIT_FILE;

@@ -22,6 +22,8 @@ const struct gm_command_row gm_commands[] = {
      gm_command_certify},
     {"again", "FILE.png", "make a picture once more from what it tells of itself", GM_AGAIN,
      gm_command_again},
+    {"tour", "[NAME|FILE.tour]", "a class is led through steps; without a name, which tours there are",
+     GM_TOUR, gm_command_tour},
     {"terminal", "", "what was found out about this terminal, and why", GM_TERMINAL, gm_command_terminal},
     {"manual", "", "the manual page, for man(1)", GM_MANUAL, gm_command_manual},
     {"complete", "[WORD ...]", "what the last word may become: shells ask this", GM_COMPLETE, NULL},

@@ -14,6 +14,7 @@ int gm_command_work_precision(const struct gm_options *options);
 int gm_command_stability(const struct gm_options *options);
 int gm_command_certify(const struct gm_options *options);
 int gm_command_again(const struct gm_options *options);
+int gm_command_tour(const struct gm_options *options);
 int gm_command_terminal(const struct gm_options *options);
 int gm_command_manual(const struct gm_options *options);
 /* Takes the words as they are: an unfinished option is no mistake here. */

@@ -7,6 +7,7 @@
 #include "app/catalogue.h"
 #include "app/commands.h"
 #include "app/drive.h"
+#include "app/words.h"
 
 /* The word that is being typed: what stays of it, and what the candidates have to begin with. */
 struct stem {
@@ -95,12 +96,12 @@ static void offer_key(const struct stem *stem, const char *key, const char *help
 
 static void offer_keys(const struct stem *stem, const struct gm_scene *scene)
 {
-    offer_key(stem, "scheme", "a scheme or several");
     for (size_t i = 0; i < scene->parameter_count; i++) {
         offer_key(stem, scene->parameters[i].key, scene->parameters[i].help);
     }
-    offer_key(stem, "steps", "number of steps, instead of until");
-    offer_key(stem, "zip", "yes: lists are paired");
+    for (size_t i = 0; i < gm_common_key_count; i++) {
+        offer_key(stem, gm_common_keys[i].name, gm_common_keys[i].help);
+    }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         if (!gm_scene_parameter(scene, gm_settings_parameters[i].key)) {
             offer_key(stem, gm_settings_parameters[i].key, gm_settings_parameters[i].help);
@@ -108,27 +109,21 @@ static void offer_keys(const struct stem *stem, const struct gm_scene *scene)
     }
 }
 
-static const struct gm_parameter *parameter_of(const struct gm_scene *scene, const char *word)
-{
-    char key[64];
-    snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
-    const struct gm_parameter *row = gm_scene_parameter(scene, key);
-    for (size_t i = 0; i < gm_settings_parameter_count && !row; i++) {
-        if (strcmp(gm_settings_parameters[i].key, key) == 0) {
-            row = &gm_settings_parameters[i];
-        }
-    }
-    return row;
-}
-
 /* key=value, where the value may be a list. */
 static void offer_assignment(const char *word, const struct gm_scene *scene)
 {
     const struct stem stem = behind_last(word, "=,");
-    const struct gm_parameter *row = parameter_of(scene, word);
-    if (strncmp(word, "scheme=", 7) == 0) {
+    char key[64];
+    snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
+    const struct gm_common_key *common = gm_common_key_find(key);
+    const struct gm_parameter *own = gm_scene_parameter(scene, key), *row = own ? own : gm_setting_find(key);
+    if (strcmp(key, "scheme") == 0) {
         offer_schemes(&stem, scene);
-    } else if (strncmp(word, "zip=", 4) == 0 || (row && row->type == GM_BOOLEAN)) {
+    } else if (common) {
+        for (size_t i = 0; common->choices[i]; i++) {
+            offer(&stem, common->choices[i], common->help);
+        }
+    } else if (row && row->type == GM_BOOLEAN) {
         offer(&stem, "no", "");
         offer(&stem, "yes", "");
     } else if (row && row->type == GM_CHOICE) {

@@ -6,6 +6,7 @@
 #include "app/catalogue.h"
 #include "app/commands.h"
 #include "app/drive.h"
+#include "app/words.h"
 
 /* Text as troff wants it: no request at the start of a line, hyphens that can be copied. */
 static void put(const char *text)
@@ -133,12 +134,12 @@ static void put_words(void)
         "Every parameter is a word key=value, and every key takes a list: lanes are the product of the lists, the "
         "first of them gives the panels, the second the colours. Numbers are typed as 1e\\-3, pi/60, 2*pi. An "
         "unknown key or a value out of range is refused with the nearest valid one.\n");
-    put_term("scheme=", "NAME[,NAME ...]");
-    put_line("the schemes; without it the scene's preferred ones");
-    put_term("steps=", "N");
-    put_line("instead of until: so many steps");
-    put_term("zip=yes", "");
-    put_line("pairs lists of equal length instead of multiplying them");
+    for (size_t i = 0; i < gm_common_key_count; i++) {
+        char name[40];
+        snprintf(name, sizeof name, "%s=", gm_common_keys[i].name);
+        put_term(name, gm_common_keys[i].value);
+        put_line(gm_common_keys[i].help);
+    }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         put_parameter(&gm_settings_parameters[i]);
     }

@@ -19,7 +19,7 @@ struct row {
 };
 
 #define AT(member) offsetof(struct gm_options, member)
-#define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY)
+#define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_TOUR)
 
 static const struct row rows[] = {
     {"--json", FLAG, GM_RUN | GM_LIST | GM_CERTIFY, AT(json), "", "one JSON object a line"},
@@ -32,19 +32,21 @@ static const struct row rows[] = {
     {"--every", WHOLE, GM_RUN | GM_RENDER, AT(every), "K",
      "run: a row of the history, render: a frame, every K steps"},
     {"--frames", WHOLE, GM_RENDER, AT(frames), "N", "N frames, evenly spaced in model time"},
-    {"--fps", NUMBER, GM_RENDER, AT(fps), "F", "frames a second of the movie (30)"},
+    {"--fps", NUMBER, GM_RENDER | GM_TOUR, AT(fps), "F", "frames a second of the movie (30)"},
     {"--rate", NUMBER, GM_RENDER, AT(rate), "R", "model time a second of the movie"},
     {"--from", NUMBER, GM_RENDER, AT(from), "T", "first frame at model time T"},
     {"--at", NUMBER, GM_RENDER, AT(at), "T", "one picture at model time T"},
     {"--size", SIZE, PAINTS, AT(width), "WxH", "pixels (1280x720)"},
-    {"--theme", THEME, PAINTS & ~(unsigned)GM_FIGURES, AT(theme), "light|dark", "colours for paper or for a screen"},
+    {"--theme", THEME, PAINTS & ~(unsigned)GM_FIGURES, AT(theme), "light|dark",
+     "colours for paper or for a screen"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
-    {"--movie", TEXT, GM_RENDER, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
+    {"--movie", TEXT, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},
     {"--strict", FLAG, GM_RENDER, AT(strict), "", "exit 2 if a lane ends in a numerical failure"},
     {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
     {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
      "the linear stability region of a scheme, no scene"},
+    {"--list", FLAG, GM_TOUR, AT(listing), "", "what there is; with a tour, its steps"},
     {"--quick", FLAG, GM_FIGURES, AT(quick), "", "shorter runs and smaller pictures; nothing long is judged"},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };

@@ -17,14 +17,16 @@ enum gm_command {
     GM_TERMINAL = 1 << 7,
     GM_WORK_PRECISION = 1 << 8,
     GM_STABILITY = 1 << 9,
+    GM_TOUR = 1 << 10,
     GM_MANUAL = 1 << 29,
     GM_COMPLETE = 1 << 30,
 };
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
-    int json, state, maximum, strict, longer, quick, markdown;
+    int json, state, maximum, strict, longer, quick, markdown, listing;
     const char *csv, *profile, *out, *movie, *measure, *region;
+    const char *name; /* of a chart's files, by `again` alone; NULL: the command's own */
     long every, frames;
     long shard, shards;  /* 0, 0: not given */
     double fps, rate;    /* NAN: not given */

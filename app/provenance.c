@@ -88,6 +88,43 @@ bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_reques
     return good;
 }
 
+static char *command_line(const char *command, const struct gm_options *options)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    fputs(command, stream);
+    for (int i = 0; i < options->word_count; i++) {
+        fprintf(stream, " %s", options->words[i]);
+    }
+    if (options->measure) {
+        fprintf(stream, " --measure %s", options->measure);
+    }
+    if (options->region) {
+        fprintf(stream, " --region %s", options->region);
+    }
+    fprintf(stream, " --size %dx%d --theme %s", options->width, options->height,
+            options->theme == GM_THEME_DARK ? "dark" : "light");
+    fclose(stream);
+    return text;
+}
+
+bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
+                              const struct gm_options *options, const char *backend)
+{
+    *provenance = (struct gm_provenance){0};
+    const bool good = take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
+                      take(provenance, GM_KEY_COMMAND, command_line(command, options)) &&
+                      take(provenance, "geomint:context", format("%s", backend));
+    if (!good) {
+        gm_provenance_close(provenance);
+    }
+    return good;
+}
+
 void gm_provenance_close(struct gm_provenance *provenance)
 {
     for (size_t i = 0; i < provenance->count; i++) {

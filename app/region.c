@@ -255,7 +255,7 @@ int gm_region(const struct gm_options *options)
             measure_line(&region);
         }
         print_numbers(&region);
-        if (!gm_chart_open(&chart, options, name, message) ||
+        if (!gm_chart_open(&chart, options, "stability", name, message) ||
             !gm_chart_paint(&chart, &region, draw, message)) {
             gm_complain("%s", message);
             status = GM_EXIT_FILE;

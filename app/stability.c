@@ -82,13 +82,13 @@ bool gm_stability_open(struct gm_stability_table *table, const struct gm_options
     for (size_t i = 0; good && i < request->count; i++) {
         table->maps[i].scheme = request->lanes[i].scheme;
         table->maps[i].cells =
-            calloc(table->plan->step_count * table->plan->value_count, sizeof(struct gm_cell));
+            calloc(table->plan->step_count * table->plan->value_count, sizeof(struct gm_map_cell));
         good = table->maps[i].cells != NULL;
         for (size_t k = 0; k < i; k++) {
             if (request->lanes[k].scheme == request->lanes[i].scheme) {
-                gm_stability_close(table);
                 snprintf(message, GM_MESSAGE, "stability varies dt and %s itself: only scheme takes a list",
-                         request->scene->stability->parameter);
+                         table->plan->parameter);
+                gm_stability_close(table);
                 return false;
             }
         }
@@ -107,6 +107,7 @@ void gm_stability_close(struct gm_stability_table *table)
     }
     free(table->maps);
     gm_request_close(&table->request);
+    *table = (struct gm_stability_table){0};
 }
 
 static const struct gm_observable *find(const struct gm_scene *scene, const char *key)
@@ -154,7 +155,7 @@ static void run_to(struct gm_lane *lane, long steps, const struct gm_observable 
 }
 
 static void judge(struct gm_lane *lane, const struct gm_stability *plan, const struct gm_listener *listener,
-                  struct gm_cell *cell)
+                  struct gm_map_cell *cell)
 {
     const struct gm_observable *kept = find(lane->scene, plan->kept), *error = find(lane->scene, plan->error);
     const struct gm_timing *timing = lane->parameters;
@@ -192,7 +193,7 @@ bool gm_stability_measure(struct gm_stability_table *table, const struct gm_list
         const struct gm_lane_spec *spec = &table->request.lanes[i];
         struct gm_timing *timing = spec->parameters;
         for (size_t k = 0; k < each; k++) {
-            struct gm_cell *cell = &table->maps[i].cells[k];
+            struct gm_map_cell *cell = &table->maps[i].cells[k];
             gm_listener_hears(listener, spec->scheme->name, i * each + k, table->count * each);
             gm_parameter_put(table->parameter, spec->parameters, plan->values[k % plan->value_count]);
             timing->dt = cell->dt = plan->steps[k / plan->value_count] * plan->unit(spec->parameters);
@@ -211,13 +212,13 @@ bool gm_stability_measure(struct gm_stability_table *table, const struct gm_list
     return true;
 }
 
-const char *gm_cell_word(const struct gm_cell *cell)
+const char *gm_cell_word(const struct gm_map_cell *cell)
 {
     static const char *const words[] = {"untried", "bounded", "lost", "gained", "wrong"};
     return cell->verdict == GM_FAILED ? gm_status_name(cell->status) : words[cell->verdict];
 }
 
-char gm_cell_letter(const struct gm_cell *cell)
+char gm_cell_letter(const struct gm_map_cell *cell)
 {
     switch (cell->verdict) {
     case GM_UNTRIED:
@@ -251,7 +252,7 @@ const char *gm_stability_letters(const struct gm_stability_table *table, char *t
     bool told[128] = {['.'] = true};
     size_t used = (size_t)snprintf(text, size, "%s", "");
     for (size_t i = 0; i < table->count * each; i++) {
-        const struct gm_cell *cell = &table->maps[i / each].cells[i % each];
+        const struct gm_map_cell *cell = &table->maps[i / each].cells[i % each];
         const char letter = gm_cell_letter(cell);
         if (!told[(size_t)letter] && used < size) {
             used += (size_t)snprintf(text + used, size - used, "%s%c %s", used ? ", " : "", letter,
@@ -287,7 +288,7 @@ bool gm_stability_write(const struct gm_stability_table *table, const char *path
     fprintf(csv, "scene,scheme,%s,step,dt,verdict,status,t,ratio,error\n", plan->parameter);
     for (size_t i = 0; i < table->count; i++) {
         for (size_t k = 0; k < plan->step_count * plan->value_count; k++) {
-            const struct gm_cell *cell = &table->maps[i].cells[k];
+            const struct gm_map_cell *cell = &table->maps[i].cells[k];
             if (cell->verdict == GM_UNTRIED) {
                 continue;
             }

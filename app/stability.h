@@ -16,7 +16,7 @@ enum gm_verdict {
     GM_FAILED, /* ended with a status */
 };
 
-struct gm_cell {
+struct gm_map_cell {
     enum gm_verdict verdict;
     enum gm_status status;
     double dt, t;        /* the time it came to */
@@ -25,7 +25,7 @@ struct gm_cell {
 
 struct gm_stability_map { /* of one scheme */
     const struct gm_scheme *scheme;
-    struct gm_cell *cells; /* [step * value_count + value] */
+    struct gm_map_cell *cells; /* [step * value_count + value] */
 };
 
 struct gm_stability_table {
@@ -47,8 +47,8 @@ bool gm_stability_measure(struct gm_stability_table *table, const struct gm_list
 bool gm_stability_write(const struct gm_stability_table *table, const char *path);
 
 /* "bounded", "lost", ... or the status' name; and a letter for the map. */
-const char *gm_cell_word(const struct gm_cell *cell);
-char gm_cell_letter(const struct gm_cell *cell);
+const char *gm_cell_word(const struct gm_map_cell *cell);
+char gm_cell_letter(const struct gm_map_cell *cell);
 
 /* The letters in use, but that of bounded: "W wrong, M mesh-crossing". Returns text. */
 const char *gm_stability_letters(const struct gm_stability_table *table, char *text, size_t size);

@@ -26,7 +26,7 @@ static void edges_of(const double *values, size_t count, bool logarithmic, doubl
     }
 }
 
-static struct gm_style style_of(const struct gm_cell *cell)
+static struct gm_style style_of(const struct gm_map_cell *cell)
 {
     switch (cell->verdict) {
     case GM_LOST:
@@ -63,7 +63,7 @@ static void draw_map(const struct gm_stability_table *table, const struct gm_sta
         (struct gm_axis){.label = plan->label, .scale = GM_LOG, .low = y[0], .high = y[plan->step_count]};
     for (size_t s = 0; s < plan->step_count; s++) {
         for (size_t v = 0; v < plan->value_count; v++) {
-            const struct gm_cell *cell = &map->cells[s * plan->value_count + v];
+            const struct gm_map_cell *cell = &map->cells[s * plan->value_count + v];
             const double corners[] = {x[v], y[s], x[v + 1], y[s], x[v + 1], y[s + 1], x[v], y[s + 1]};
             gm_mark_polygon(picture, panel, style_of(cell), corners, 4);
         }

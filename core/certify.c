@@ -75,11 +75,15 @@ static void certify_on_mesh(const struct gm_scheme *scheme, struct gm_certificat
         {GM_REVERSIBLE, measures.reversibility},
         {GM_SYMPLECTIC, measures.symplecticity},
         {GM_KEEPS_ENERGY, measures.energy},
+        {GM_MULTISYMPLECTIC, measures.multisymplecticity},
     };
     for (size_t i = 0; i < sizeof list / sizeof list[0]; i++) {
         struct gm_measure *measure = &certificate->claims[bit_of(list[i].claim)];
-        measure->tolerance = list[i].claim == GM_SYMPLECTIC ? 1e-9 : 1e-11;
-        note(measure, list[i].defect, "soliton");
+        const bool differentiated = list[i].claim == GM_SYMPLECTIC || list[i].claim == GM_MULTISYMPLECTIC;
+        measure->tolerance = differentiated ? 1e-9 : 1e-11;
+        if (!isnan(list[i].defect)) {
+            note(measure, list[i].defect, "soliton");
+        }
     }
     certificate->order = measures.order;
     certificate->order_problem = "soliton";

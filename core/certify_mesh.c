@@ -4,22 +4,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/certify_mesh_parts.h"
 #include "core/mesh/nodes.h"
-#include "core/problems/soliton.h"
 #include "core/run.h"
 
-enum { POINTS = 3, FINE_POINTS = 7, MOST = 4 * FINE_POINTS, LEVELS = 4 };
+enum { POINTS = 3, FINE_POINTS = 7, MOST = GM_MESH_SUBJECT_STATE, LEVELS = 4 };
 
 static const struct gm_settings settings = {0};
 
-struct subject {
-    struct gm_soliton soliton;
-    struct gm_problem problem;
-    struct gm_mesh mesh;
-    double start[MOST];
-};
-
-static bool open_subject(struct subject *subject, const struct gm_scheme *scheme, long points)
+static bool open_subject(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, long points)
 {
     subject->soliton =
         (struct gm_soliton){.solitons = 1, .points = points, .velocity = 0.5, .length = 12, .alpha = 1};
@@ -29,8 +22,8 @@ static bool open_subject(struct subject *subject, const struct gm_scheme *scheme
                          subject->start);
 }
 
-static bool integrate(const struct subject *subject, const struct gm_scheme *scheme, double dt, long steps,
-                      const double *from, double *end)
+bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
+                             long steps, const double *from, double *end)
 {
     struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, from);
     if (!run) {
@@ -57,7 +50,7 @@ static double measure_order(const struct gm_scheme *scheme)
 {
     enum { LADDER = 7 };
     const double until = 1, round_off = 1e-10;
-    struct subject subject;
+    struct gm_mesh_subject subject;
     if (!open_subject(&subject, scheme, FINE_POINTS)) {
         return NAN;
     }
@@ -94,17 +87,17 @@ static void turn(double *state, size_t points)
     }
 }
 
-static double symmetry_defect(const struct subject *subject, const struct gm_scheme *scheme, double dt,
-                              bool turned)
+static double symmetry_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
+                              double dt, bool turned)
 {
     double there[MOST], back[MOST];
-    if (!integrate(subject, scheme, dt, 1, subject->start, there)) {
+    if (!gm_mesh_subject_advance(subject, scheme, dt, 1, subject->start, there)) {
         return INFINITY;
     }
     if (turned) {
         turn(there, subject->mesh.points);
     }
-    if (!integrate(subject, scheme, turned ? dt : -dt, 1, there, back)) {
+    if (!gm_mesh_subject_advance(subject, scheme, turned ? dt : -dt, 1, there, back)) {
         return INFINITY;
     }
     if (turned) {
@@ -114,7 +107,7 @@ static double symmetry_defect(const struct subject *subject, const struct gm_sch
 }
 
 /* q = (y, X) and p = dL/dqdot of a state */
-static void momenta(const struct subject *subject, const double *state, double *phase)
+static void momenta(const struct gm_mesh_subject *subject, const double *state, double *phase)
 {
     const size_t points = subject->mesh.points;
     struct gm_elements stage;
@@ -132,7 +125,7 @@ static void momenta(const struct subject *subject, const double *state, double *
 }
 
 /* The state near the start whose y and dy/dt are shifted, and X and dX/dt follow as the constraint says. */
-static bool shift(const struct subject *subject, enum gm_mesh_kind kind, size_t direction, double by,
+static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction, double by,
                   double *state)
 {
     const size_t points = subject->mesh.points;
@@ -174,64 +167,76 @@ static double form(const double *a, const double *b, size_t points)
     return sum;
 }
 
-/* The symplectic form of tangent vectors before and after a step; vectors by central differences at 4
-   distances, extrapolated by Romberg. */
-static double symplecticity_defect(const struct subject *subject, const struct gm_scheme *scheme, double dt)
+bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
+                            gm_mesh_observe *observe, const void *context, size_t count, double *derivative)
 {
-    const size_t points = subject->mesh.points, n = 4 * points, directions = 2 * points;
-    const enum gm_mesh_kind kind = gm_scheme_mesh(scheme);
     const double widest = 0.05;
-    double before[2 * POINTS][4 * POINTS], after[2 * POINTS][4 * POINTS];
-    for (size_t direction = 0; direction < directions; direction++) {
-        double tables[2][LEVELS][4 * POINTS];
-        for (int level = 0; level < LEVELS; level++) {
-            double phase[2][2][4 * POINTS]; /* [side][before, after] */
-            const double by = ldexp(widest, -level);
-            for (int side = 0; side < 2; side++) {
-                double state[4 * POINTS], end[4 * POINTS];
-                if (!shift(subject, kind, direction, side ? by : -by, state) ||
-                    !integrate(subject, scheme, dt, 1, state, end)) {
-                    return INFINITY;
-                }
-                momenta(subject, state, phase[side][0]);
-                momenta(subject, end, phase[side][1]);
-            }
-            for (int which = 0; which < 2; which++) {
-                for (size_t i = 0; i < n; i++) {
-                    tables[which][level][i] = (phase[1][which][i] - phase[0][which][i]) / (2 * by);
-                }
+    double table[LEVELS][GM_MESH_OBSERVED], sides[2][GM_MESH_OBSERVED], state[MOST];
+    for (int level = 0; level < LEVELS; level++) {
+        const double by = ldexp(widest, -level);
+        for (int side = 0; side < 2; side++) {
+            if (!shift(subject, kind, direction, side ? by : -by, state) ||
+                !observe(subject, context, state, sides[side])) {
+                return false;
             }
         }
-        for (int which = 0; which < 2; which++) {
-            double power = 4;
-            for (int done = 1; done < LEVELS; done++, power *= 4) {
-                for (int level = LEVELS - 1; level >= done; level--) {
-                    for (size_t i = 0; i < n; i++) {
-                        tables[which][level][i] +=
-                            (tables[which][level][i] - tables[which][level - 1][i]) / (power - 1);
-                    }
-                }
-            }
-            memcpy(which ? after[direction] : before[direction], tables[which][LEVELS - 1],
-                   n * sizeof(double));
+        for (size_t i = 0; i < count; i++) {
+            table[level][i] = (sides[1][i] - sides[0][i]) / (2 * by);
         }
     }
+    double power = 4;
+    for (int done = 1; done < LEVELS; done++, power *= 4) {
+        for (int level = LEVELS - 1; level >= done; level--) {
+            for (size_t i = 0; i < count; i++) {
+                table[level][i] += (table[level][i] - table[level - 1][i]) / (power - 1);
+            }
+        }
+    }
+    memcpy(derivative, table[LEVELS - 1], count * sizeof *derivative);
+    return true;
+}
+
+/* (q, p) before and after a step */
+static bool step_in_phase_space(const struct gm_mesh_subject *subject, const void *context,
+                                const double *state, double *values)
+{
+    const struct gm_mesh_step *step = context;
+    double end[MOST];
+    if (!gm_mesh_subject_advance(subject, step->scheme, step->dt, 1, state, end)) {
+        return false;
+    }
+    momenta(subject, state, values);
+    momenta(subject, end, values + subject->problem.n);
+    return true;
+}
+
+/* The symplectic form of tangent vectors before and after a step. */
+static double symplecticity_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
+                                   double dt)
+{
+    const size_t points = subject->mesh.points, n = subject->problem.n;
+    const struct gm_mesh_step step = {scheme, dt};
+    double tangents[2 * POINTS][8 * POINTS];
     double defect = 0;
-    for (size_t a = 0; a < directions; a++) {
+    for (size_t a = 0; a < 2 * points; a++) {
+        if (!gm_mesh_subject_derive(subject, gm_scheme_mesh(scheme), a, step_in_phase_space, &step, 2 * n,
+                                    tangents[a])) {
+            return INFINITY;
+        }
         for (size_t b = 0; b < a; b++) {
-            defect =
-                fmax(defect, fabs(form(after[a], after[b], points) - form(before[a], before[b], points)));
+            defect = fmax(defect, fabs(form(tangents[a] + n, tangents[b] + n, points) -
+                                       form(tangents[a], tangents[b], points)));
         }
     }
     return defect;
 }
 
-static double energy_drift(const struct subject *subject, const struct gm_scheme *scheme, double dt,
+static double energy_drift(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
                            long steps)
 {
     const double initial = gm_mesh_energy(&subject->mesh, subject->start);
     double state[MOST];
-    if (!integrate(subject, scheme, dt, steps, subject->start, state)) {
+    if (!gm_mesh_subject_advance(subject, scheme, dt, steps, subject->start, state)) {
         return INFINITY;
     }
     return fabs(gm_mesh_energy(&subject->mesh, state) - initial) / initial;
@@ -240,14 +245,15 @@ static double energy_drift(const struct subject *subject, const struct gm_scheme
 struct gm_mesh_measures gm_measure_on_mesh(const struct gm_scheme *scheme)
 {
     const double dt = 0.2;
-    struct gm_mesh_measures measures = {NAN, INFINITY, INFINITY, INFINITY, INFINITY};
-    struct subject subject;
+    struct gm_mesh_measures measures = {NAN, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
+    struct gm_mesh_subject subject;
     measures.order = measure_order(scheme);
     if (open_subject(&subject, scheme, POINTS)) {
         measures.symmetry = symmetry_defect(&subject, scheme, dt, false);
         measures.reversibility = symmetry_defect(&subject, scheme, dt, true);
         measures.symplecticity = symplecticity_defect(&subject, scheme, dt);
         measures.energy = energy_drift(&subject, scheme, dt, 20);
+        measures.multisymplecticity = gm_mesh_law_defect(&subject, scheme, dt);
     }
     return measures;
 }

@@ -12,6 +12,8 @@ struct gm_mesh_measures {
     double symplecticity; /* change of dy dp_y + dX dp_X over a step, on the states that the mesh constraint
                              allows */
     double energy;        /* largest relative change of the energy */
+    double multisymplecticity; /* defect of the local law of the trapezoidal discrete Lagrangian, over all
+                                  stretches of the mesh; NaN on a uniform mesh and where the step varies */
 };
 
 struct gm_mesh_measures gm_measure_on_mesh(const struct gm_scheme *scheme);

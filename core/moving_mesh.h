@@ -31,15 +31,24 @@ extern const struct gm_potential gm_potential_sine_gordon; /* W = 1 - cos phi */
 extern const struct gm_potential gm_potential_phi4;        /* W = (phi^2 - 1)^2 / 4 */
 
 /* What a mesh equidistributes: every element has the same
-       ell = alpha^2 r^2 / (1 + (r / (steepest d))^2) + d^2 sqrt(1 + curvature^2 (W'(y0)^2 + W'(y1)^2) / 2),
-   d its width, y0 and y1 the field at its ends, r its rise. alpha alone: generalised arclength (their eq.
-   28). curvature alone: the error of linear interpolation, as phi_XX is W'(phi) but for a factor in a
-   travelling wave. With `steepest` (0: without) the density is regularised: slopes above it draw hardly
-   more nodes, so that no wrinkle of the field makes cells that are too small for the step. */
+       ell = alpha^2 R + d^2 sqrt(1 + curvature^2 (W'(y0)^2 + W'(y1)^2) / 2),
+   d its width, y0 and y1 the field at its ends, r its rise, and R = r^2 as a rule. alpha alone: generalised
+   arclength (their eq. 28). curvature alone: the error of linear interpolation, as phi_XX is W'(phi) but for
+   a factor in a travelling wave.
+
+   The density is regularised, so that no wrinkle of the field makes cells that are too small for the step, by
+       limited:   R = r^2 / (1 + w),                w = (r / (steepest d))^2,
+       tempered:  R = 2 r^2 / (1 + sqrt(1 + w)):
+   slopes above `steepest` draw hardly more nodes, or as their square root. Tempered, ell stays convex in r,
+   which keeps the field smooth on strong densities; limited, the cells are bounded from below. */
+enum gm_mesh_reach { GM_REACH_FULL, GM_REACH_LIMITED, GM_REACH_TEMPERED };
+
 struct gm_mesh {
     size_t points;
     double length, left, right; /* the field at both ends */
-    double alpha, curvature, steepest;
+    double alpha, curvature;
+    enum gm_mesh_reach reach;
+    double steepest; /* a slope, unless reach is full */
     const struct gm_potential *potential;
 };
 

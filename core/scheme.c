@@ -85,6 +85,16 @@ const struct gm_parameter gm_settings_parameters[] = {
 };
 const size_t gm_settings_parameter_count = sizeof gm_settings_parameters / sizeof gm_settings_parameters[0];
 
+const struct gm_parameter *gm_setting_find(const char *key)
+{
+    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
+        if (strcmp(gm_settings_parameters[i].key, key) == 0) {
+            return &gm_settings_parameters[i];
+        }
+    }
+    return NULL;
+}
+
 const struct gm_parameter *const gm_settings_of_sums[] = {&gm_settings_parameters[0], NULL};
 const struct gm_parameter *const gm_settings_of_tao[] = {&gm_settings_parameters[1], NULL};
 const struct gm_parameter *const gm_settings_of_variational_time[] = {&gm_settings_parameters[2], NULL};

@@ -35,6 +35,8 @@ struct gm_settings {
 };
 extern const struct gm_parameter gm_settings_parameters[];
 extern const size_t gm_settings_parameter_count;
+/* NULL if there is none of that key */
+const struct gm_parameter *gm_setting_find(const char *key);
 
 /* A scheme is a row of data. A number at the end of a name is the order. */
 struct gm_scheme {

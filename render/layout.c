@@ -257,6 +257,39 @@ static double place_caption(struct gm_label_list *list, const struct gm_picture 
     return bottom - 0.7 * header_gap * metrics->scale;
 }
 
+enum { MOST_TOLD = 12 };
+
+/* The paragraphs that are told, below everything; returns where they start. */
+static double place_told(struct gm_label_list *list, const struct gm_picture *picture, double margin)
+{
+    static const double most_share = 0.4;
+    const struct gm_metrics *metrics = list->metrics;
+    const double line = metrics->line[GM_TEXT_PANEL], width = fmax(0.0, metrics->width - 2.0 * margin);
+    const size_t room = (size_t)fmin(MOST_TOLD, most_share * metrics->height / line);
+    const char *lines[MOST_TOLD];
+    const struct gm_paragraph *owners[MOST_TOLD];
+    size_t count = 0;
+    for (size_t i = 0; i < picture->told_count; i++) {
+        const size_t more =
+            gm_labels_wrap(list, GM_TEXT_PANEL, picture->told[i].text, width, room - count, &lines[count]);
+        for (size_t k = 0; k < more; k++) {
+            owners[count++] = &picture->told[i];
+        }
+    }
+    const size_t kept = picture->told_lines < room ? picture->told_lines : room;
+    const double top =
+        metrics->height - bottom_margin * metrics->scale - (double)(count > kept ? count : kept) * line;
+    for (size_t i = 0; i < count; i++) {
+        gm_labels_add(list, (struct gm_label){.text = lines[i],
+                                              .size = GM_TEXT_PANEL,
+                                              .role = owners[i]->role,
+                                              .bold = owners[i]->bold,
+                                              .x = margin,
+                                              .y = top + (double)i * line});
+    }
+    return top - header_gap * metrics->scale;
+}
+
 /* Gives the panels of a place their frames, the graphs after the states. */
 static size_t collect(const struct gm_picture *picture, enum gm_place place, size_t most,
                       struct gm_frame *frames)
@@ -326,14 +359,16 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     struct gm_layout *layout = gm_picture_memory(picture, sizeof *layout);
     struct gm_frame *frames = gm_picture_memory(picture, (panel_count + 1) * sizeof *frames);
     if (layout == NULL || frames == NULL ||
-        !gm_labels_open(&list, picture, metrics, 8 + key_count + panel_count * (5 + 3 * GM_TICK_MAX))) {
+        !gm_labels_open(&list, picture, metrics,
+                        8 + MOST_TOLD + key_count + panel_count * (5 + 3 * GM_TICK_MAX))) {
         return NULL;
     }
 
     const double scale = metrics->scale;
     const double margin = margin_of(metrics->width, side_margin * scale);
     const double top = place_header(&list, picture, margin);
-    const double bottom = place_caption(&list, picture, margin);
+    const double bottom =
+        picture->told_count > 0 ? place_told(&list, picture, margin) : place_caption(&list, picture, margin);
 
     struct group states = {.frames = frames, .place = GM_PLACE_STATE, .wanted = picture->state_columns};
     states.count = collect(picture, GM_PLACE_STATE, panel_count, frames);

@@ -82,10 +82,12 @@ static const char *whole_front(const struct gm_label_list *list, enum gm_text_si
 {
     static const char *const breaks[] = {"  ", ", ", " (", ": "};
     const char *longest = NULL;
+    const double least = 0.5 * width; /* less says too little, but a name before its formula is enough */
     for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
         for (const char *at = strstr(text, breaks[i]); at != NULL; at = strstr(at + 1, breaks[i])) {
             const char *front = gm_picture_text(list->picture, "%.*s", (int)(at - text), text);
-            if (*front != '\0' && gm_labels_width(list, size, front) <= width &&
+            const double wide = gm_labels_width(list, size, front);
+            if (*front != '\0' && wide <= width && (i == 0 || wide >= least) &&
                 (longest == NULL || strlen(front) > strlen(longest))) {
                 longest = front;
             }

@@ -108,11 +108,20 @@ struct gm_panel {
     struct gm_panel *next;
 };
 
+/* What somebody tells about a picture, as a lecturer would. */
+struct gm_paragraph {
+    const char *text;
+    enum gm_role role;
+    bool bold;
+};
+
 struct gm_picture {
     const char *title, *subtitle;
-    const char *clock;    /* top right */
-    const char *caption;  /* a sentence along the bottom; "" for none */
-    size_t state_columns; /* of the grid of states; 0: as many as make them largest */
+    const char *clock;               /* top right */
+    const char *caption;             /* a sentence along the bottom; "" for none */
+    const struct gm_paragraph *told; /* told_count paragraphs below all else, in place of the caption */
+    size_t told_count, told_lines;   /* with room for so many lines at least: what is above stands still */
+    size_t state_columns;            /* of the grid of states; 0: as many as make them largest */
     struct gm_panel *first, *last;
     struct gm_arena *arena;
 };

@@ -155,6 +155,12 @@ void gm_picture_write(const struct gm_picture *picture, FILE *stream)
     write_text(stream, picture->clock);
     write_text(stream, picture->caption);
     fputc('\n', stream);
+    for (size_t i = 0; i < picture->told_count; i++) {
+        fputs("told", stream);
+        write_role(stream, picture->told[i].role);
+        write_text(stream, picture->told[i].text);
+        fputc('\n', stream);
+    }
     for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next) {
         write_panel(stream, panel);
     }

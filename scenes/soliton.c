@@ -9,7 +9,7 @@
 enum { PATHS = 255 /* most nodes whose paths are recorded */, RECORDS = 400 };
 
 static const char *const fields[] = {"sine-gordon", "phi4", NULL};
-static const char *const densities[] = {"arclength", "curvature", "mix", "limited", NULL};
+static const char *const densities[] = {"arclength", "curvature", "mix", "limited", "tempered", NULL};
 static const char *const shows[] = {"all", "field", "mesh", "energy", "convergence", NULL};
 
 static const struct gm_parameter parameters[] = {
@@ -61,7 +61,8 @@ static const struct gm_parameter parameters[] = {
         .key = "density",
         .unit = "",
         .help =
-            "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength with a limit",
+            "what the nodes equidistribute: arclength, curvature, a mix of both, or arclength that is limited or "
+            "tempered where the field is steeper than a soliton",
         .type = GM_CHOICE,
         .offset = offsetof(struct gm_soliton_scene, own.density),
         .standard = "arclength",

@@ -309,7 +309,8 @@ void gm_soliton_draw(const struct gm_lane *const *lanes, size_t count, struct gm
     if (both || soliton->show == GM_SOLITON_MESH) {
         draw_meshes(picture, lanes, count, !both);
     }
-    if (both) {
+    /* three side by side leave no hole */
+    if (both || (panels == 3 && soliton->show != GM_SOLITON_ALL)) {
         picture->state_columns = panels;
     }
     if (soliton->show == GM_SOLITON_ENERGY) {
@@ -324,7 +325,7 @@ void gm_soliton_draw(const struct gm_lane *const *lanes, size_t count, struct gm
         gm_draw_graph(picture, lanes, count, &kept, -1, false);
         const struct gm_graph error = {.observable = "solution_error",
                                        .scale = GM_LOG,
-                                       .calm_low = 1e-3,
+                                       .calm_low = 1e-4,
                                        .calm_high = 10,
                                        .floor = 1e-4};
         gm_draw_graph(picture, lanes, count, &error, -1, false);

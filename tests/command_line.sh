@@ -119,6 +119,22 @@ for file in $(ls frames/*.png | tail -n 3); do
     [ "$(tail -c 8 "$file" | od -An -tx1 | tr -d ' \n')" = 49454e44ae426082 ] || fail "$file is cut off"
 done
 
+# equal=cost: as many evaluations for every scheme, each row of dt by itself; the first scheme keeps its step
+status 0 run kepler scheme=verlet,rk4,kahan-li6 dt=0.05,0.1 equal=cost until=100 --json
+python3 - out <<'END' || fail "equal=cost: $(cat out)"
+import json, sys
+lanes = [json.loads(line) for line in open(sys.argv[1])]
+by_step = [[lane for lane in lanes[k::2]] for k in (0, 1)]
+assert [group[0]["parameters"]["dt"] for group in by_step] == [0.05, 0.1]
+for group in by_step:
+    assert len(group) == 3
+    for lane in group:
+        assert abs(lane["evaluations"] / group[0]["evaluations"] - 1) < 0.02, lane
+        assert abs(lane["t"] - 100) <= lane["parameters"]["dt"], lane
+END
+refused 1 'steps= cannot be given with it' run kepler equal=cost steps=3
+refused 1 'one of: no, cost' run kepler equal=yes
+
 # numbers
 status 0 run disc scheme=explicit-euler dt=0.02 until=5 --json
 grep -q '"scene":"disc","scheme":"explicit-euler"' out || fail 'JSON names scene and scheme'

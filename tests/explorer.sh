@@ -1,102 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Drives the explorer with keys in tmux and compares what is on the screen. Usage: explorer.sh GEOMINT
-# Nothing is timed: every step waits until the screen shows what it must, or gives up after a while.
 set -u
 
-geomint=$(realpath "$1")
-folder=$(mktemp -d)
-socket=geomint-test-$$
-servers=0
-failures=0
-pane=main
-unset TMUX COLORTERM NO_COLOR GEOMINT_COLOURS GEOMINT_BLOCKS GEOMINT_THEME
-export LC_ALL=C.UTF-8
-
-tm() { tmux -L "$socket" -f /dev/null "$@"; }
-
-finish() {
-    tm kill-server 2>/dev/null
-    rm -rf "$folder"
-}
-trap finish EXIT
-
-command -v tmux >/dev/null || {
-    echo "tmux is not installed"
-    exit 77
-}
-
-fail() {
-    echo "FAILED: $*"
-    screen | sed 's/^/    |/'
-    failures=$((failures + 1))
-    # what follows would wait in vain for most of what it wants
-    if [ "$failures" -ge 3 ]; then
-        echo "explorer: given up"
-        exit 1
-    fi
-}
-
-screen() { tm capture-pane -p -t "$pane" 2>/dev/null; }
-keys() { tm send-keys -t "$pane" "$@"; }
-
-# wait_for TEXT: until the screen has it; a pattern of grep -E
-wait_for() {
-    local i
-    for ((i = 0; i < 100; i++)); do
-        screen | grep -qE -- "$1" && return 0
-        sleep 0.1
-    done
-    fail "waited for \"$1\" in vain (${FUNCNAME[1]}, line ${BASH_LINENO[0]})"
-    return 1
-}
-
-wait_gone() {
-    local i
-    for ((i = 0; i < 100; i++)); do
-        screen | grep -qE -- "$1" || return 0
-        sleep 0.1
-    done
-    fail "\"$1\" stays (${FUNCNAME[1]}, line ${BASH_LINENO[0]})"
-    return 1
-}
-
-# The screen once it is the same twice in a row.
-settled() {
-    local before now i
-    before=$(screen)
-    for ((i = 0; i < 50; i++)); do
-        sleep 0.2
-        now=$(screen)
-        [ "$now" = "$before" ] && break
-        before=$now
-    done
-    printf '%s\n' "$now"
-}
-
-same() { # NAME SCREEN SCREEN
-    [ "$2" = "$3" ] || {
-        fail "$1: the screens differ"
-        diff <(printf '%s\n' "$2") <(printf '%s\n' "$3")
-    }
-}
-
-differ() { [ "$2" != "$3" ] || fail "$1: the screen stays as it was"; }
-
-# start SIZE [NAME=VALUE ...]: a shell in a pane of that size; `open_disc` then starts the explorer in it
-start() {
-    local size=$1
-    shift
-    tm kill-server 2>/dev/null
-    servers=$((servers + 1)) # a server that is about to end takes no new session
-    socket=geomint-test-$$-$servers
-    tm new-session -d -s "$pane" -x "${size%x*}" -y "${size#*x}" -c "$folder" \
-        env PS1='ready> ' "$@" bash --norc --noprofile
-    tm set-option -g status off
-    tm set-option -g remain-on-exit off
-    tm resize-window -t "$pane" -x "${size%x*}" -y "${size#*x}"
-    wait_for 'ready>'
-}
+. "$(dirname "$0")/tmux.sh"
 
 open_disc() {
     keys "stty -a >before; \"$geomint\" disc $*; echo \"left \$?\"; stty -a >after" Enter
@@ -104,12 +11,6 @@ open_disc() {
 }
 
 explorer_pid() { pgrep -n -f "^$geomint disc"; }
-
-# pause, wait until the screen says so
-pause() {
-    keys Space
-    wait_for 'paused'
-}
 
 # clean CODE: after leaving, the shell's screen and settings are as they were
 clean() {

@@ -104,6 +104,18 @@ for words in 'sine-gordon scheme=leapfrog,box dt=.04,.02 until=1' 'kdv scheme=bo
     grep -q '^Cheapest by run time: ' "$folder/out" || fail "work-precision $words: no sentence"
 done
 
+# charts tell how they were made, and are measured again
+for chart in kepler-work-precision vortices-work-precision stiff-stability rk4-stability; do
+    "$program" again "$folder/$chart.png" --out "$folder/again" >"$folder/out" 2>&1 || fail "again $chart"
+    [ -s "$folder/again/$chart-again.png" ] || fail "again makes no PNG of $chart"
+    [ "$(wc -l <"$folder/$chart.csv")" -eq "$(wc -l <"$folder/again/$chart-again.csv")" ] ||
+        fail "again measures something else than $chart"
+done
+cmp -s "$folder/stiff-stability.csv" "$folder/again/stiff-stability-again.csv" || fail "again is another map"
+cmp -s "$folder/stiff-stability.png" "$folder/again/stiff-stability-again.png" || fail "again paints another map"
+head -1 "$folder/again/vortices-work-precision-again.csv" | grep -q angular_impulse_error ||
+    fail "again forgets the measure"
+
 # a step that ends at the first t after until
 "$program" run kepler scheme=logh2 dt=2*pi/60 eccentricity=.9 until=10 --json >"$folder/out" || fail "logh2"
 grep -Eq '"t":10\.[0-9]+' "$folder/out" || fail "logh2 does not end just after until: $(cat "$folder/out")"

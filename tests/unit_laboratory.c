@@ -245,6 +245,25 @@ static void prices(void **unused)
     assert_null(gm_work_cheapest(&table, 1e-12, GM_COST_SECONDS));
 }
 
+/* Of all pairs of resolution and step those stay that nothing cheaper beats, by each cost. */
+static void best_pairs(void **unused)
+{
+    (void)unused;
+    const struct gm_work_point points[] = {
+        {.error = NAN, .seconds = 1e-4, .resolution = 15},
+        {.error = 1e-1, .seconds = 2e-3, .resolution = 15},
+        {.error = 9.9e-2, .seconds = 3e-3, .resolution = 15},
+        {.error = 2e-1, .seconds = 4e-3, .resolution = 31},
+        {.error = 1e-2, .seconds = 8e-3, .resolution = 31},
+        {.error = 1e-3, .seconds = 7e-3, .resolution = 63},
+    };
+    struct gm_work_point best[6];
+    assert_int_equal(gm_work_keep_best(points, 6, GM_COST_SECONDS, best), 2);
+    assert_true(best[0].error == 1e-1 && best[1].error == 1e-3);
+    assert_int_equal(gm_work_keep_best(points, 6, GM_COST_RESOLUTION, best), 3);
+    assert_true(best[0].error == 9.9e-2 && best[1].error == 1e-2 && best[2].error == 1e-3);
+}
+
 /* The map of the stiff springs says how each scheme ends: Verlet at 1.95 and 2.05, RK4 and the implicit ones.
  */
 static void verdicts(void **unused)
@@ -288,6 +307,7 @@ int main(void)
         cmocka_unit_test(step_longer_than_an_orbit),
         cmocka_unit_test(linear_stability),
         cmocka_unit_test(prices),
+        cmocka_unit_test(best_pairs),
         cmocka_unit_test(verdicts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

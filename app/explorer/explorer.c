@@ -14,10 +14,12 @@
 #include <unistd.h>
 
 #include "app/explorer/console.h"
+#include "app/explorer/guide.h"
 #include "app/explorer/keys.h"
 #include "app/explorer/measure.h"
 #include "app/explorer/modes.h"
 #include "app/explorer/mouse.h"
+#include "app/explorer/studies.h"
 #include "app/explorer/writer.h"
 
 enum { FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66, FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
@@ -43,6 +45,8 @@ struct explorer {
     struct gm_hit held; /* what the button went down on */
     bool holding;
     struct gm_measure measure;
+    struct gm_guide guide; /* without a tour: none */
+    struct gm_studies studies;
     bool dirty;        /* the screen has to be composed again */
     bool fresh;        /* with a new picture */
     bool asked;        /* for a shot */
@@ -73,9 +77,12 @@ static void expect_shot(struct explorer *explorer)
     explorer->next_shot = 0;
 }
 
-static bool open_request(struct explorer *explorer, const struct gm_request *request)
+/* `first` is the worker's first order; NULL: it has none. */
+static bool open_request(struct explorer *explorer, const struct gm_request *request,
+                         const struct gm_order *first)
 {
-    explorer->worker = gm_worker_open(request, explorer->terminal.theme, explorer->wake, explorer->message);
+    explorer->worker =
+        gm_worker_open(request, explorer->face.theme, explorer->wake, first, explorer->message);
     explorer->scene = request->scene;
     expect_shot(explorer);
     return explorer->worker != NULL;
@@ -83,7 +90,9 @@ static bool open_request(struct explorer *explorer, const struct gm_request *req
 
 static void abandon(struct explorer *explorer)
 {
-    if (explorer->worker) {
+    if (explorer->guide.tour) {
+        gm_worker_close(explorer->worker); /* the tour does not outlive it otherwise */
+    } else if (explorer->worker) {
         gm_worker_abandon(explorer->worker);
     }
     explorer->worker = NULL;
@@ -175,6 +184,54 @@ static void enter(struct explorer *explorer)
     explorer->dirty = explorer->fresh = true;
 }
 
+/* ---- tours and studies ---- */
+
+static void begin_study(struct explorer *explorer)
+{
+    const struct gm_guide *guide = &explorer->guide;
+    const struct gm_tour_step *step = &guide->tour->steps[guide->step];
+    explorer->studies.shown = GM_STUDY_NONE;
+    if (step->study != GM_STUDY_NONE && guide->answered) {
+        gm_studies_open(&explorer->studies, step->study, step->study_words, explorer->wake);
+    }
+}
+
+/* The scene of the present step, from its start, in place of what was there. */
+static bool open_step(struct explorer *explorer)
+{
+    const struct gm_guide *guide = &explorer->guide;
+    const struct gm_order first = {
+        .kind = GM_ORDER_TOUR, .amount = !guide->answered, .tour = guide->tour, .step = guide->step};
+    abandon(explorer);
+    begin_study(explorer);
+    explorer->at_start = explorer->kept = false;
+    explorer->look_due = -1;
+    explorer->face.parameter = 0;
+    return open_request(explorer, &guide->tour->steps[gm_tour_first(guide->tour, guide->step)].request,
+                        &first);
+}
+
+static void press_in_tour(struct explorer *explorer, int key)
+{
+    if (!explorer->guide.tour) {
+        return;
+    }
+    explorer->dirty = true;
+    switch (gm_guide_press(&explorer->guide, key)) {
+    case GM_GUIDE_OPEN:
+        if (!open_step(explorer)) {
+            leave(explorer, GM_EXIT_USAGE);
+        }
+        break;
+    case GM_GUIDE_RUN:
+        begin_study(explorer);
+        gm_worker_order(explorer->worker, (struct gm_order){.kind = GM_ORDER_RUN});
+        break;
+    case GM_GUIDE_END:
+        break;
+    }
+}
+
 static void resize(struct explorer *explorer)
 {
     int columns, rows;
@@ -232,7 +289,16 @@ static void press(struct explorer *explorer, int key)
             leave(explorer, GM_EXIT_OK);
         } else if (key == 'l') {
             show_start(explorer);
+        } else if (key == 'n' || key == 'N' || key == 'a') {
+            press_in_tour(explorer, key);
         }
+        return;
+    }
+    const struct gm_face *face = &explorer->face;
+    const bool plain =
+        face->page == GM_PAGE_SCENE && face->choosing == GM_CHOOSE_NOTHING && face->prompt == GM_PROMPT_NONE;
+    if (plain && gm_studies_press(&explorer->studies, key, face->theme)) {
+        explorer->dirty = true;
         return;
     }
     const struct gm_press one = {key, &explorer->face, explorer->shot, explorer->worker,
@@ -248,7 +314,15 @@ static void press(struct explorer *explorer, int key)
         repaint(explorer);
         break;
     case GM_KEY_SCENES:
+        explorer->studies.shown = GM_STUDY_NONE;
         show_start(explorer);
+        break;
+    case GM_KEY_STUDY:
+        gm_studies_begin(&explorer->studies, key, explorer->shot, explorer->wake);
+        explorer->dirty = true;
+        break;
+    case GM_KEY_TOUR:
+        press_in_tour(explorer, key);
         break;
     case GM_KEY_FACE:
     case GM_KEY_ORDER:
@@ -445,6 +519,7 @@ static void read_news(struct explorer *explorer)
     if (gm_console_resized()) {
         resize(explorer);
     }
+    explorer->dirty = gm_studies_look(&explorer->studies) || explorer->dirty;
     struct gm_shot *shot = explorer->worker ? gm_worker_take(explorer->worker) : NULL;
     if (shot) {
         explorer->shot = shot;
@@ -558,7 +633,8 @@ static void run(struct explorer *explorer)
     }
 }
 
-int gm_explorer(const struct gm_request *request)
+/* A request or a tour, or neither: the list of scenes. */
+static int explore(const struct gm_request *request, const struct gm_tour *tour)
 {
     struct explorer explorer = {.wake = -1, .look_due = -1, .measure = {.fd = -1}};
     if (!gm_terminal_detect(&explorer.terminal, explorer.message) ||
@@ -570,14 +646,19 @@ int gm_explorer(const struct gm_request *request)
                                      .theme = explorer.terminal.theme,
                                      .few_colours = explorer.terminal.colours < GM_COLOURS_256,
                                      .monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
-                                     .only_monochrome = explorer.terminal.colours == GM_COLOURS_NONE};
+                                     .only_monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
+                                     .studies = &explorer.studies};
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     /* The lanes are opened before the terminal is taken over: a mistake is best read in the shell. */
     bool ok = explorer.wake >= 0;
     if (!ok) {
         snprintf(explorer.message, GM_MESSAGE, "The system has no eventfd to spare.");
+    } else if (tour) {
+        explorer.guide = gm_guide_open(tour);
+        explorer.face.guide = &explorer.guide;
+        ok = open_step(&explorer);
     } else if (request && request->scene) {
-        ok = open_request(&explorer, request);
+        ok = open_request(&explorer, request, NULL);
     } else {
         show_start(&explorer);
     }
@@ -591,6 +672,7 @@ int gm_explorer(const struct gm_request *request)
     gm_console_close();
     gm_measure_close(&explorer.measure);
     gm_worker_close(explorer.worker);
+    gm_studies_close(&explorer.studies);
     gm_screen_close(&explorer.screen);
     if (explorer.wake >= 0) {
         close(explorer.wake);
@@ -605,4 +687,14 @@ int gm_explorer(const struct gm_request *request)
         raise(number);
     }
     return explorer.status;
+}
+
+int gm_explorer(const struct gm_request *request)
+{
+    return explore(request, NULL);
+}
+
+int gm_explorer_tour(const struct gm_tour *tour)
+{
+    return explore(NULL, tour);
 }

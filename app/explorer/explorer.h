@@ -3,9 +3,12 @@
 #define GM_APP_EXPLORER_EXPLORER_H
 
 #include "app/request.h"
+#include "app/tour.h"
 
 /* The interactive explorer. A request without a scene (or NULL) begins with the list of scenes. Returns an
    exit status; a signal that asks to leave ends the process as that signal does, the terminal restored. */
 int gm_explorer(const struct gm_request *request);
+/* The same, led by a tour. */
+int gm_explorer_tour(const struct gm_tour *tour);
 
 #endif

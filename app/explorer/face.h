@@ -7,6 +7,9 @@
 
 /* What the user has set about the screen itself. */
 
+struct gm_guide;
+struct gm_studies;
+
 enum gm_page { GM_PAGE_SCENE, GM_PAGE_HELP, GM_PAGE_SCHEME };
 
 /* What the chosen one of the list of schemes is for. */
@@ -43,8 +46,10 @@ struct gm_face {
     char typed[GM_TYPED]; /* a search, or an answer */
     size_t parameter;     /* the one that left and right change */
     enum gm_side side;
-    bool explaining;    /* the status line says what that parameter is */
-    unsigned long read; /* the last message that was seen and dismissed */
+    bool explaining;              /* the status line says what that parameter is */
+    unsigned long read;           /* the last message that was seen and dismissed */
+    const struct gm_guide *guide; /* through a tour; NULL: there is none */
+    struct gm_studies *studies;   /* in the background; NULL: none can be */
 };
 
 #endif

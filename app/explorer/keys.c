@@ -190,6 +190,18 @@ static enum gm_key_result press_save(const struct gm_press *press)
     return order(press, GM_ORDER_SAVE, 0);
 }
 
+static enum gm_key_result press_study(const struct gm_press *press)
+{
+    (void)press;
+    return GM_KEY_STUDY;
+}
+
+static enum gm_key_result press_tour(const struct gm_press *press)
+{
+    (void)press;
+    return GM_KEY_TOUR;
+}
+
 static enum gm_key_result press_help(const struct gm_press *press)
 {
     press->face->page = GM_PAGE_HELP;
@@ -253,6 +265,18 @@ const struct gm_key_row gm_key_rows[] = {
     {{'t'}, "t", "theme", 18, "dark, light, monochrome", press_theme},
     {{'b'}, "b", "blocks", 17, "braille, quadrants, half blocks, ASCII", press_blocks},
     {{'p'}, "p", "save", 11, "save the picture as PNG; `geomint again` redoes it", press_save},
+    {{'w', 'm'},
+     "w m",
+     "diagrams",
+     20,
+     "in the background: what an accuracy costs (work-precision); which step is stable (a map)",
+     press_study},
+    {{'n', 'N', 'a'},
+     "n N a",
+     NULL,
+     0,
+     "in a tour: answer or next step, step before, this one again",
+     press_tour},
     {{'l'}, "l", "scenes", 19, "back to the list of scenes", press_scenes},
     {{'?'}, "?", "help", 1, "this page; in a list of schemes, the page of the chosen one", press_help},
     {{REDRAW}, "ctrl-L", NULL, 0, "draw the screen again", press_redraw},

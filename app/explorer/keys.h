@@ -12,6 +12,8 @@ enum gm_key_result {
     GM_KEY_REPAINT, /* everything is to be written again */
     GM_KEY_THEME,   /* the same, in other colours */
     GM_KEY_SCENES,  /* to the list of scenes */
+    GM_KEY_STUDY,   /* a diagram in the background, by the key */
+    GM_KEY_TOUR,    /* another step of a tour, by the key */
     GM_KEY_LEAVE,
 };
 

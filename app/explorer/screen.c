@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/explorer/guide.h"
+#include "app/explorer/studies.h"
+
 static bool resize(struct gm_cells *cells, int columns, int rows)
 {
     struct gm_cell *more = realloc(cells->cells, sizeof *more * (size_t)columns * (size_t)rows);
@@ -24,6 +27,15 @@ static void clear(struct gm_cells *cells, enum gm_theme theme)
     for (size_t i = 0; i < (size_t)cells->columns * (size_t)cells->rows; i++) {
         cells->cells[i] = blank;
     }
+}
+
+bool gm_cells_resize(struct gm_cells *cells, int columns, int rows, enum gm_theme theme)
+{
+    if (!resize(cells, columns, rows)) {
+        return false;
+    }
+    clear(cells, theme);
+    return true;
 }
 
 struct gm_sheet gm_screen_clear(struct gm_screen *screen, const struct gm_face *face)
@@ -79,11 +91,13 @@ void gm_screen_picture(struct gm_screen *screen, const struct gm_face *face, con
     }
     if (!screen->fresh || screen->blocks != face->blocks || screen->theme != face->theme ||
         screen->picture.columns != columns || screen->picture.rows != rows) {
-        if (!resize(&screen->picture, columns, rows)) {
+        if (!gm_cells_resize(&screen->picture, columns, rows, face->theme)) {
             return;
         }
-        clear(&screen->picture, face->theme);
         screen->picture.outlines = face->few_colours || face->monochrome;
+        if (face->guide) {
+            shot->picture->caption = ""; /* a tour has words of its own, and may ask for a prediction */
+        }
         gm_cells_paint(&screen->picture, shot->picture, face->theme, face->blocks);
         screen->blocks = face->blocks;
         screen->theme = face->theme;
@@ -129,6 +143,41 @@ static void draw_past(const struct gm_sheet *whole, const struct gm_shot *shot, 
     gm_sheet_hit(&sheet, 0, 0, sheet.width, (struct gm_hit){.kind = GM_HIT_PAST});
 }
 
+static const struct gm_hint study_hints[] = {{"esc", "back", 27},  {"x", "stop", 'x'}, {"p", "save", 'p'},
+                                             {"b", "blocks", 'b'}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
+
+/* A study over the whole width, in so many rows, and how far it is. */
+static void draw_study(const struct gm_sheet *whole, int rows, int below)
+{
+    char text[GM_MESSAGE];
+    struct gm_studies *studies = whole->face->studies;
+    const struct gm_sheet diagram = gm_sheet_part(whole, 0, 0, whole->width, rows);
+    gm_studies_draw(&diagram, studies);
+    if (below == 2) {
+        gm_screen_rule(whole, 0);
+    }
+    if (below > 0) {
+        struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
+        gm_studies_status(studies, text, sizeof text);
+        const int from = 1 + gm_sheet_width(&last, text) + 3, most = last.width - 10;
+        last.width = gm_hints_draw(&last, from < most ? from : most > 1 ? most : 1, study_hints) - 2;
+        gm_sheet_text(&last, 1, 0, text, GM_INK, false);
+    }
+}
+
+/* What is measured unseen, on the rule above the last row. */
+static void draw_news(const struct gm_sheet *whole)
+{
+    char text[GM_MESSAGE] = "", framed[GM_MESSAGE + 2];
+    if (whole->face->studies) {
+        gm_studies_news(whole->face->studies, text, sizeof text);
+    }
+    if (text[0]) {
+        snprintf(framed, sizeof framed, " %s ", text);
+        gm_sheet_text(whole, 2, whole->height - 2, framed, GM_INK, true);
+    }
+}
+
 static const struct gm_hint page_hints[] = {
     {"?", "back", '?'}, {"↑↓", "scroll", 0}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
 
@@ -152,14 +201,25 @@ void gm_screen_draw(struct gm_screen *screen, struct gm_face *face, const struct
         }
         return;
     }
+    if (face->guide) {
+        const int told = gm_guide_rows(&whole, face->guide);
+        const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows - told, cells->columns, told);
+        gm_guide_draw(&panel, face->guide);
+        rows -= told;
+    }
+    if (face->studies && face->studies->shown != GM_STUDY_NONE) {
+        draw_study(&whole, rows, below);
+        return;
+    }
     int side = side_columns(cells, face), width = cells->columns - side;
     gm_screen_picture(screen, face, shot, 0, 0, width, rows);
     for (int row = 0; row < rows; row++) {
         gm_sheet_hit(&whole, 0, row, width, (struct gm_hit){.kind = GM_HIT_PICTURE});
     }
     if (below == 2) {
-        gm_screen_rule(&whole, side);
+        gm_screen_rule(&whole, face->guide ? 0 : side);
         draw_past(&whole, shot, width);
+        draw_news(&whole);
     }
     if (side) {
         const struct gm_sheet sheet = gm_sheet_part(&whole, width + 2, 0, side - 3, rows);

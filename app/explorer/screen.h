@@ -19,6 +19,8 @@ struct gm_screen {
 };
 
 bool gm_screen_resize(struct gm_screen *screen, int columns, int rows);
+/* Gives cells a size and empties them; false when memory is short. */
+bool gm_cells_resize(struct gm_cells *cells, int columns, int rows, enum gm_theme theme);
 void gm_screen_close(struct gm_screen *screen);
 
 /* Composes the screen. `fresh` says that the shot's picture is a new one. */

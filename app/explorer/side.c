@@ -104,6 +104,10 @@ void gm_side_heading(const struct gm_sheet *sheet, int row, const char *text)
 void gm_side_number(double value, char *text, size_t size)
 {
     char digits[40];
+    if (!isfinite(value)) {
+        snprintf(text, size, "–"); /* there is no such number here */
+        return;
+    }
     snprintf(digits, sizeof digits, "%.3g", value);
     /* a true minus sign, and no zeros or plus signs to fill an exponent */
     size_t at = 0;
@@ -128,12 +132,35 @@ void gm_side_number(double value, char *text, size_t size)
 
 /* ---- parameters ---- */
 
+enum { VALUE_LETTERS = 9 };
+
+/* The value as it is typed, or with fewer digits where that leaves no room for a slider. */
+static void value_text(const struct gm_shot_parameter *parameter, char *text, size_t size)
+{
+    double value;
+    snprintf(text, size, "%s", parameter->value);
+    if (strlen(text) > VALUE_LETTERS && parameter->row->type == GM_REAL && gm_number_parse(text, &value)) {
+        snprintf(text, size, "%.5g", value);
+    }
+}
+
+/* Where the values begin: after the longest key. */
+static int value_column(const struct gm_shot *shot)
+{
+    int longest = 11;
+    for (size_t i = 0; i < shot->parameter_count; i++) {
+        int length = (int)strlen(shot->parameters[i].row->key);
+        longest = length > longest ? length : longest;
+    }
+    return 2 + least(longest, 16) + 1;
+}
+
 static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm_shot_parameter *parameter,
-                          size_t index, bool chosen)
+                          size_t index, int values, bool chosen)
 {
     char text[64];
     enum gm_role ink = chosen ? GM_INK : GM_SECONDARY;
-    int values = 14, bar = sheet->width >= 40 ? 25 : 23;
+    int bar = values + VALUE_LETTERS + 1;
     if (chosen) {
         gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
     }
@@ -144,7 +171,8 @@ static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm
         gm_sheet_text(sheet, values - (chosen ? 2 : 0), row, text, GM_INK, chosen);
         return;
     }
-    int width = gm_sheet_text(sheet, values, row, parameter->value, GM_INK, chosen);
+    value_text(parameter, text, sizeof text);
+    int width = gm_sheet_text(sheet, values, row, text, GM_INK, chosen);
     if (parameter->differs) {
         width += gm_sheet_text(sheet, values + width, row, "…", GM_SECONDARY, false);
     }
@@ -172,12 +200,13 @@ static int draw_parameters(const struct gm_sheet *sheet, int row, const struct g
         return row;
     }
     gm_side_heading(sheet, row++, "PARAMETERS");
+    int values = value_column(shot);
     /* the chosen one is always among those shown */
     int first = chosen - plan->parameters / 2;
     first = least(first, count - plan->parameters);
     first = first < 0 ? 0 : first;
     for (int i = first; i < first + plan->parameters && i < count; i++) {
-        parameter_row(sheet, row++, &shot->parameters[i], (size_t)i, i == chosen);
+        parameter_row(sheet, row++, &shot->parameters[i], (size_t)i, values, i == chosen);
     }
     if (first + plan->parameters < count) {
         gm_sheet_right(sheet, sheet->width, row - plan->parameters - 1, "↑↓ more", GM_SECONDARY, false);

@@ -142,13 +142,13 @@ int gm_side_observables(const struct gm_sheet *sheet, int row, const struct gm_s
     }
     char text[64];
     int label = plan->stacked ? 0 : sheet->width >= 50 ? 14 : 13;
-    struct columns columns = {.count = (size_t)((sheet->width - label + 1) / VALUE_WIDTH),
-                              .label = plan->stacked ? sheet->width : label};
+    struct columns columns = {.count = (size_t)((sheet->width - label + 1) / VALUE_WIDTH)};
     columns.count = columns.count < 1                  ? 1
                     : columns.count > shot->lane_count ? shot->lane_count
                                                        : columns.count;
     columns.first = first_column(shot, columns.count);
     columns.begin = sheet->width - (int)columns.count * VALUE_WIDTH + 1;
+    columns.label = plan->stacked ? sheet->width : columns.begin - 1;
     gm_side_heading(sheet, row, "OBSERVED");
     for (size_t i = 0; i < columns.count; i++) {
         const struct gm_shot_lane *lane = &shot->lanes[columns.first + i];

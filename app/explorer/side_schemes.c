@@ -71,18 +71,18 @@ static void scheme_title(const struct gm_sheet *sheet, int column, int row, cons
     gm_sheet_text(&left, column, row, text, role, bold);
 }
 
-static void lane_name(const struct gm_shot_lane *lane, char *text, size_t size)
+static void lane_name(const struct gm_shot_lane *lane, bool overlaid, char *text, size_t size)
 {
-    const char *panel = lane->shown.panel_name, *colour = lane->shown.colour_name,
-               *title = lane->scheme->title;
+    const char *panel = overlaid ? "" : lane->shown.panel_name, *colour = lane->shown.colour_name;
+    const char *title = lane->scheme->title;
     if (strcmp(colour, title) == 0) {
         colour = "";
     }
     snprintf(text, size, "%s%s%s%s%s", title, panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
 }
 
-static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot_lane *lane, bool selected,
-                     unsigned columns)
+static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot_lane *lane, bool overlaid,
+                     bool selected, unsigned columns)
 {
     char text[160];
     enum gm_role role = gm_side_role(lane);
@@ -90,14 +90,15 @@ static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot
         gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
     }
     gm_sheet_text(sheet, title_column(sheet) - 4, row, gm_side_dash(lane), role, false);
-    lane_name(lane, text, sizeof text);
+    lane_name(lane, overlaid, text, sizeof text);
     if (lane->status == GM_OK) {
         scheme_title(sheet, title_column(sheet), row, text, columns, role, selected);
         scheme_facts(sheet, row, lane->scheme, columns, GM_INK);
         return;
     }
     gm_sheet_text(sheet, title_column(sheet), row, text, role, selected);
-    snprintf(text, sizeof text, "  ✕ %s, t = %.4g", gm_status_name(lane->status), lane->t);
+    snprintf(text, sizeof text, is_narrow(sheet) ? " ✕ %s" : "  ✕ %s, t = %.4g", gm_status_name(lane->status),
+             lane->t);
     gm_sheet_right(sheet, sheet->width, row, text, GM_INITIAL, true);
 }
 
@@ -115,7 +116,7 @@ int gm_side_schemes(const struct gm_sheet *sheet, int row, const struct gm_shot 
     row++;
     for (size_t i = 0; i < shot->lane_count; i++) {
         gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_LANE, .index = i});
-        lane_row(sheet, row++, &shot->lanes[i], i == shot->selected, columns);
+        lane_row(sheet, row++, &shot->lanes[i], shot->overlaid, i == shot->selected, columns);
     }
     int shown = 0, unused = 0;
     for (size_t i = 0; i < shot->scheme_count; i++) {

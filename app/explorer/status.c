@@ -6,6 +6,7 @@
 
 #include "app/explorer/keys.h"
 #include "app/explorer/screen.h"
+#include "app/explorer/side_parts.h"
 
 enum { MOST_HINTS = 40 };
 
@@ -77,6 +78,19 @@ void gm_speed_text(const struct gm_shot *shot, char *text, size_t size)
                             : "");
 }
 
+/* What a parameter is, its range, and whether a change starts the run again. */
+static void explain(const struct gm_shot_parameter *parameter, char *text, size_t size)
+{
+    const struct gm_parameter *row = parameter->row;
+    char low[32], high[32];
+    gm_side_number(row->lowest, low, sizeof low);
+    gm_side_number(row->highest, high, sizeof high);
+    bool ranged = row->type == GM_REAL || row->type == GM_INTEGER;
+    snprintf(text, size, "%s: %s%s%s%s%s; %s", row->key, row->help, ranged ? ", " : "", ranged ? low : "",
+             ranged ? " to " : "", ranged ? high : "",
+             row->live && !parameter->of_scheme ? "acts at once" : "starts again");
+}
+
 /* What stands at the left. */
 static void say(const struct gm_face *face, const struct gm_shot *shot, char *text, size_t size)
 {
@@ -96,10 +110,10 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, char *te
     } else if (shot->message[0] && shot->message_number != face->read) {
         snprintf(text, size, "%s", shot->message);
     } else if (face->explaining && parameter) {
-        snprintf(text, size, "%s: %s; %s", parameter->row->key, parameter->row->help,
-                 parameter->row->live && !parameter->of_scheme ? "acts at once" : "starts again");
+        explain(parameter, text, size);
     } else {
-        snprintf(text, size, "%s", shot->scene->watch ? shot->scene->watch : "");
+        /* a tour says itself what to watch */
+        snprintf(text, size, "%s", shot->scene->watch && !face->guide ? shot->scene->watch : "");
     }
 }
 
@@ -128,5 +142,8 @@ void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, in
     if (begin > column) {
         const struct gm_sheet left = gm_sheet_part(&sheet, 0, 0, begin - 2, 1);
         gm_sheet_text(&left, column, 0, text, news ? GM_INK : GM_SECONDARY, news);
+        if (column + gm_sheet_width(&sheet, text) > left.width) {
+            gm_sheet_text(&left, left.width - 1, 0, "…", GM_SECONDARY, false);
+        }
     }
 }

@@ -121,6 +121,7 @@ static void go_round(struct gm_worker *worker)
     pthread_mutex_unlock(&worker->lock);
     gm_worker_restart_if_due(worker);
     bool worked = gm_worker_step(worker);
+    gm_worker_keep_agenda(worker);
     gm_worker_watch_frozen(worker);
     pthread_mutex_lock(&worker->lock);
     if (worker->wanted && worker->changed) {
@@ -205,7 +206,7 @@ static struct gm_worker *start(struct gm_worker *worker, char *message)
 }
 
 struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme theme, int wake,
-                                 char *message)
+                                 const struct gm_order *first, char *message)
 {
     struct gm_worker *worker = make(theme, wake, message);
     if (!worker) {
@@ -216,6 +217,9 @@ struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme
         return NULL;
     }
     begin(worker);
+    if (first) {
+        worker->queue[worker->count++] = *first;
+    }
     return start(worker, message);
 }
 

@@ -3,6 +3,7 @@
 #define GM_APP_EXPLORER_WORKER_H
 
 #include "app/explorer/shot.h"
+#include "app/tour.h"
 #include "render/theme.h"
 
 /* The thread that steps. It alone touches the lanes: orders go to it through a queue and finished shots come
@@ -19,6 +20,8 @@ enum gm_order_kind {
     GM_ORDER_AHEAD, /* run ahead to the time `text`, without shots */
     GM_ORDER_HALT,  /* no longer */
     GM_ORDER_SAVE,  /* the picture as a PNG */
+    GM_ORDER_TOUR,  /* a step's agenda; amount: whether it waits at its begin */
+    GM_ORDER_RUN,   /* go on if paused */
     /* it goes on */
     GM_ORDER_SELECT, /* amount: up or down by one lane; 0: lane number `value` */
     GM_ORDER_SWITCH, /* the selected lane to `scheme` */
@@ -44,14 +47,16 @@ struct gm_order {
     const struct gm_parameter *row;
     bool of_scheme; /* the row is one of the schemes' parameters */
     const struct gm_scheme *scheme;
+    const struct gm_tour *tour; /* outlives the worker */
+    size_t step;
 };
 
 struct gm_worker;
 
-/* Opens the lanes and starts the thread; `wake` is an eventfd that it writes to when a shot is finished. NULL
-   with a sentence (GM_MESSAGE bytes). */
+/* Opens the lanes and starts the thread; `wake` is an eventfd that it writes to when a shot is finished.
+   `first` is obeyed before the first step; NULL: nothing is. NULL with a sentence (GM_MESSAGE bytes). */
 struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme theme, int wake,
-                                 char *message);
+                                 const struct gm_order *first, char *message);
 void gm_worker_close(struct gm_worker *worker);
 
 /* The same for a scene by its name, with its first `schemes` schemes, that the thread opens itself: this

@@ -66,6 +66,9 @@ double gm_worker_due_time(const struct gm_worker *worker)
     if (worker->homewards) {
         due = sooner(worker, due, session->lanes[0]->t0);
     }
+    if (gm_session_direction(session) > 0) {
+        due = fmax(fmin(due, gm_agenda_limit(&worker->agenda)), together);
+    }
     if (worker->preview) {
         const struct gm_timing *timing = session->lanes[0]->parameters;
         due = sooner(worker, due, timing->until);
@@ -79,6 +82,32 @@ double gm_worker_left_until(const struct gm_worker *worker, double t)
     return (t - gm_session_time(&worker->session)) * gm_session_direction(&worker->session);
 }
 
+/* Makes what the agenda has until now; true if that was something. */
+static bool make_changes(struct gm_worker *worker)
+{
+    char message[GM_MESSAGE] = "";
+    const double limit = gm_agenda_limit(&worker->agenda);
+    if (gm_session_direction(&worker->session) < 0) {
+        return false;
+    }
+    const bool stop = gm_agenda_keep(&worker->agenda, &worker->session, message);
+    if (message[0]) {
+        gm_worker_say(worker, message);
+    }
+    if (stop) {
+        worker->paused = true;
+        worker->ahead = false;
+        worker->changed = true;
+        gm_worker_set_clock(worker, gm_session_time(&worker->session));
+    }
+    return gm_agenda_limit(&worker->agenda) > limit;
+}
+
+void gm_worker_keep_agenda(struct gm_worker *worker)
+{
+    make_changes(worker);
+}
+
 static bool step_ahead(struct gm_worker *worker)
 {
     double begun = gm_worker_wall_time(), part = (worker->ahead_to - worker->ahead_from) / 1000;
@@ -87,8 +116,14 @@ static bool step_ahead(struct gm_worker *worker)
         double next =
             later(worker, gm_session_time(&worker->session) + part, gm_session_next(&worker->session));
         double to = sooner(worker, next, worker->ahead_to);
+        if (gm_session_direction(&worker->session) > 0) {
+            to = fmin(to, gm_agenda_limit(&worker->agenda));
+        }
         on = gm_session_advance(&worker->session, to);
         worked = worked || on;
+    }
+    if (!on && make_changes(worker)) {
+        return true;
     }
     if (!on) {
         worker->ahead = false;

@@ -58,6 +58,14 @@ static void step_forward(struct gm_worker *worker)
     }
 }
 
+static void go_ahead_to(struct gm_worker *worker, double to)
+{
+    worker->ahead = true;
+    worker->ahead_from = gm_session_time(&worker->session);
+    worker->ahead_to = to;
+    worker->ahead_told = 0;
+}
+
 static bool run_ahead(struct gm_worker *worker, const char *text, char *message)
 {
     double to;
@@ -69,10 +77,7 @@ static bool run_ahead(struct gm_worker *worker, const char *text, char *message)
         snprintf(message, GM_MESSAGE, "t = %g lies behind already.", to);
         return false;
     }
-    worker->ahead = true;
-    worker->ahead_from = gm_session_time(&worker->session);
-    worker->ahead_to = to;
-    worker->ahead_told = 0;
+    go_ahead_to(worker, to);
     return true;
 }
 
@@ -117,6 +122,40 @@ static void select_lane(struct gm_worker *worker, const struct gm_order *order)
     }
 }
 
+/* To where a tour's step begins, if it builds on others. */
+static void go_to_step(struct gm_worker *worker)
+{
+    const double begin = gm_tour_begin(worker->agenda.tour, worker->agenda.step);
+    if (begin > gm_session_time(&worker->session)) {
+        go_ahead_to(worker, begin);
+    }
+}
+
+static void begin_step(struct gm_worker *worker, const struct gm_order *order)
+{
+    const struct gm_tour_step *step = &order->tour->steps[order->step];
+    const double span = step->until - gm_tour_begin(order->tour, order->step);
+    worker->agenda = gm_agenda_of(order->tour, order->step, gm_tour_first(order->tour, order->step));
+    worker->paused = order->amount != 0;
+    if (span > 0) {
+        const int number = (int)round(3 * log10(span / step->seconds));
+        worker->speed = number < GM_WORKER_SLOWEST   ? GM_WORKER_SLOWEST
+                        : number > GM_WORKER_FASTEST ? GM_WORKER_FASTEST
+                                                     : number;
+    }
+    go_to_step(worker);
+}
+
+/* All lanes are back at their start: the step is shown again. */
+static void repeat_step(struct gm_worker *worker)
+{
+    if (worker->agenda.tour) {
+        worker->paused = worker->paused && !worker->agenda.over;
+        gm_agenda_rewind(&worker->agenda, -INFINITY);
+        go_to_step(worker);
+    }
+}
+
 static void restart(struct gm_worker *worker)
 {
     char message[GM_MESSAGE];
@@ -128,6 +167,7 @@ static void restart(struct gm_worker *worker)
         gm_worker_say(worker, message);
     }
     gm_worker_set_clock(worker, gm_session_time(&worker->session));
+    repeat_step(worker);
     worker->changed = true;
 }
 
@@ -153,6 +193,7 @@ void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order)
     case GM_ORDER_BACK:
         worker->paused = true;
         ok = gm_session_back(session, message);
+        gm_agenda_rewind(&worker->agenda, gm_session_time(session));
         break;
     case GM_ORDER_RESTART:
         worker->restart = true;
@@ -165,10 +206,12 @@ void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order)
         break;
     case GM_ORDER_TURN:
         ok = turn(worker, message);
+        gm_agenda_rewind(&worker->agenda, gm_session_time(session));
         break;
     case GM_ORDER_VISIT:
         worker->paused = true;
         ok = gm_session_visit(session, order->value, message);
+        gm_agenda_rewind(&worker->agenda, gm_session_time(session));
         break;
     case GM_ORDER_AHEAD:
         ok = run_ahead(worker, order->text, message);
@@ -215,6 +258,12 @@ void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order)
         break;
     case GM_ORDER_SAVE:
         save_picture(worker);
+        break;
+    case GM_ORDER_TOUR:
+        begin_step(worker, order);
+        break;
+    case GM_ORDER_RUN:
+        worker->paused = false;
         break;
     }
     if (!ok) {

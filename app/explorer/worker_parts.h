@@ -4,6 +4,7 @@
 
 #include <pthread.h>
 
+#include "app/explorer/agenda.h"
 #include "app/explorer/worker.h"
 
 /* What the files of the worker share: worker.c its thread, worker_clock.c the time, worker_orders.c the
@@ -52,6 +53,7 @@ struct gm_worker {
     int speed;                  /* number of the speed */
     double clock_t, clock_wall; /* model time and wall time at the last change of pace */
     size_t frozen;              /* lanes that are */
+    struct gm_agenda agenda;    /* of a tour's step */
     char message[GM_MESSAGE];
     unsigned long message_number;
 };
@@ -71,6 +73,8 @@ double gm_worker_due_time(const struct gm_worker *worker);
 double gm_worker_left_until(const struct gm_worker *worker, double t);
 /* Steps for a while; false if there was nothing to do. */
 bool gm_worker_step(struct gm_worker *worker);
+/* The session's agenda: makes the changes that are due, and stops where a tour's step does. */
+void gm_worker_keep_agenda(struct gm_worker *worker);
 /* Tells of lanes that have failed. */
 void gm_worker_watch_frozen(struct gm_worker *worker);
 

@@ -78,15 +78,12 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
                                        struct K(counts) * counts)
 {
     real z[GM_IMPLICIT_STAGES][GM_COMPONENTS];
-    real norm = K(constant)(0);
     for (int c = 0; c < GM_COMPONENTS; c++) {
-        norm += K(magnitude)(y[c]);
         for (int i = 0; i < stages; i++) {
             z[i][c] = K(constant)(0);
             f[i][c] = K(constant)(0);
         }
     }
-    const real roundoff = (8 * stages * 2.220446049250313e-16) * norm;
     real negligible = K(constant)(0); /* 2^-60 of the first change: with more, invariants drift */
     real previous = K(constant)(1e300);
     mask active = K(all)(), solved = K(other)(active);
@@ -100,6 +97,11 @@ GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int st
             counts->iterations += K(mask_lane)(active, l) ? 1 : 0;
         }
         mask last = change * change <= negligible * previous;
+        real norm = K(constant)(0);
+        for (int c = 0; c < GM_COMPONENTS; c++) {
+            norm += K(magnitude)(y[c]);
+        }
+        const real roundoff = (8 * stages * 2.220446049250313e-16) * norm;
         mask stagnant = K(both)(K(either)(change >= previous, last), change <= roundoff);
         mask done = K(both)(active, K(either)(change == K(constant)(0), stagnant));
         solved |= done;

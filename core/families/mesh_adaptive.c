@@ -4,10 +4,9 @@
    G(q_{n+1}, qdot_{n+1}), G = d/dt log sigma,   sigma = (c^-4 + sum_e d_e^-4)^(1/8),   rho_0 = 1, d_e the
    cells' widths, c = 0.208 of their mean: steps shrink with the smallest cells, as the square root, and do
    not grow without bound where all cells are wide. Changing the signs of dt and of the run of time undoes it
-   exactly: (q, p, rho) is reversible. It delays the loss of energy on coarse meshes with a strong density;
-   only a weaker density (alpha 1 instead of 1.5 for two solitons on 25 nodes) prevents it. E. Hairer & G.
-   Soderlind, SIAM J. Sci. Comput. 26 (2005) 1838; Tyranowski & Desbrun (2019), section 6.3, leave this step
-   open. */
+   exactly: (q, p, rho) is reversible. It delays the loss of energy on coarse meshes with a strong density; a
+   density that is limited (core/moving_mesh.h) prevents it. E. Hairer & G. Soderlind, SIAM J. Sci. Comput. 26
+   (2005) 1838; Tyranowski & Desbrun (2019), section 6.3, leave this step open. */
 #include <math.h>
 #include <string.h>
 

@@ -235,7 +235,7 @@ static const struct gm_scheme schemes[] = {
         .family = &gm_family_mesh_trapezoidal,
         .order = 2,
         .needs = GM_NEEDS_MOVING_MESH,
-        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE,
+        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_MULTISYMPLECTIC,
     },
 };
 

@@ -123,12 +123,12 @@ static struct bending bending(const struct gm_mesh *mesh, const double y[2])
     return made;
 }
 
-/* alpha^2 r^2 / (1 + (r / (steepest d))^2) with its derivatives by r and d. */
+/* alpha^2 R with its derivatives by r and d. */
 struct reach {
     double value, by_r, by_d, rr, rd, dd;
 };
 
-static inline struct reach reach(double square, double limit, double r, double d)
+static struct reach limited(double square, double limit, double r, double d)
 {
     /* s = d^2 + r^2 / steepest^2 */
     const double r2 = r * r, d2 = d * d, s = d2 + limit * r2;
@@ -143,15 +143,39 @@ static inline struct reach reach(double square, double limit, double r, double d
     };
 }
 
-/* What the limit takes off the part of ell that grows with the rise. */
+static struct reach tempered(double square, double limit, double r, double d)
+{
+    const double r2 = r * r, d2 = d * d, q = sqrt(1 + limit * r2 / d2), q3 = q * q * q;
+    const double deep = limit * r2 * r2 / (d2 * (q + 1) * (q + 1));
+    return (struct reach){
+        .value = 2 * square * r2 / (q + 1),
+        .by_r = 2 * square * r / q,
+        .by_d = 2 * square * deep / (d * q),
+        .rr = 2 * square / q3,
+        .rd = 2 * square * limit * r2 * r / (d2 * d * q3),
+        .dd = -2 * square * deep * (2 * q + 1) / (d2 * q3),
+    };
+}
+
+static struct reach reach(const struct gm_mesh *mesh, double r, double d)
+{
+    const double square = mesh->alpha * mesh->alpha;
+    if (mesh->reach == GM_REACH_FULL) {
+        return (struct reach){.value = square * r * r, .by_r = 2 * square * r, .rr = 2 * square};
+    }
+    const double limit = 1 / (mesh->steepest * mesh->steepest);
+    return mesh->reach == GM_REACH_LIMITED ? limited(square, limit, r, d) : tempered(square, limit, r, d);
+}
+
+/* What regularisation takes off the part of ell that grows with the rise. */
 static void regularise(struct gm_elements *stage, const struct gm_mesh *mesh)
 {
-    const double square = mesh->alpha * mesh->alpha, limit = 1 / (mesh->steepest * mesh->steepest);
+    const double square = mesh->alpha * mesh->alpha;
     const double *u = stage->u, *v = stage->v;
     for (size_t e = 0; e < stage->count; e++) {
         const double d = stage->width[e], r = stage->rise[e], r_rate = u[e + 1] - u[e],
                      d_rate = v[e + 1] - v[e];
-        const struct reach at = reach(square, limit, r, d);
+        const struct reach at = reach(mesh, r, d);
         const double by_r = at.by_r - 2 * square * r, rr = at.rr - 2 * square;
         stage->ell[e] += at.value - square * r * r;
         stage->ell_y1[e] += by_r;
@@ -184,7 +208,7 @@ void gm_elements_constrain(struct gm_elements *stage, const struct gm_mesh *mesh
         bend_y0[e] = -bend_y1[e];
         bend_d[e] = 2 * d_rate;
     }
-    if (mesh->steepest > 0) {
+    if (mesh->reach != GM_REACH_FULL) {
         regularise(stage, mesh);
     }
     if (mesh->curvature == 0) {
@@ -263,8 +287,7 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
     if (!constrained) {
         return;
     }
-    const double limit = mesh->steepest > 0 ? 1 / (mesh->steepest * mesh->steepest) : 0;
-    const struct reach ell = reach(mesh->alpha * mesh->alpha, limit, r, d);
+    const struct reach ell = reach(mesh, r, d);
     spread(0, 0, 0, ell.rr, ell.rd, 2 + ell.dd, matrices->hessian);
     if (mesh->curvature != 0) {
         const struct bending bent = bending(mesh, &stage->y[e]);

@@ -44,7 +44,8 @@ static void describe(const struct gm_problem *problem, struct gm_mesh *mesh)
                              : 1,
         .potential = sine_gordon ? &gm_potential_sine_gordon : &gm_potential_phi4,
     };
-    if (soliton->density == GM_LIMITED) {
+    if (soliton->density == GM_LIMITED || soliton->density == GM_TEMPERED) {
+        mesh->reach = soliton->density == GM_LIMITED ? GM_REACH_LIMITED : GM_REACH_TEMPERED;
         /* nothing has to be resolved that is steeper than a soliton in its middle */
         mesh->steepest = lorentz(soliton) * (sine_gordon ? 2 : M_SQRT1_2);
         mesh->alpha = alpha;

@@ -8,32 +8,25 @@ GM_INLINE void K(field)(const real *state, real *f, const void *parameters)
 {
     const double factor = *(const double *)parameters * 0.15915494309189533577; /* 1/(2 pi) */
     const real *x = state, *y = state + 4;
-    real pull_x[4][4], pull_y[4][4]; /* of pair i < j */
+    real pull_x[4][4], pull_y[4][4]; /* of pair i < j, with the factor: it would come after the sums */
 #pragma GCC unroll 4
     for (int i = 0; i < 4; i++) {
 #pragma GCC unroll 4
         for (int j = i + 1; j < 4; j++) {
             const real dx = x[i] - x[j], dy = y[i] - y[j];
-            const real inverse = 1 / (dx * dx + dy * dy);
-            pull_x[i][j] = dx * inverse;
-            pull_y[i][j] = dy * inverse;
+            const real turn = factor / (dx * dx + dy * dy);
+            pull_x[i][j] = dx * turn;
+            pull_y[i][j] = dy * turn;
         }
     }
-#pragma GCC unroll 4
-    for (int i = 0; i < 4; i++) {
-        const int first = i == 0 ? 1 : 0;
-        real sum_x = i == 0 ? pull_x[0][first] : -pull_x[first][i];
-        real sum_y = i == 0 ? pull_y[0][first] : -pull_y[first][i];
-#pragma GCC unroll 4
-        for (int j = first + 1; j < 4; j++) {
-            if (j != i) {
-                sum_x += i < j ? pull_x[i][j] : -pull_x[j][i];
-                sum_y += i < j ? pull_y[i][j] : -pull_y[j][i];
-            }
-        }
-        f[i] = -(factor * sum_y);
-        f[4 + i] = factor * sum_x;
-    }
+    f[0] = -((pull_y[0][1] + pull_y[0][2]) + pull_y[0][3]);
+    f[1] = (pull_y[0][1] - pull_y[1][2]) - pull_y[1][3];
+    f[2] = (pull_y[0][2] + pull_y[1][2]) - pull_y[2][3];
+    f[3] = (pull_y[0][3] + pull_y[1][3]) + pull_y[2][3];
+    f[4] = (pull_x[0][1] + pull_x[0][2]) + pull_x[0][3];
+    f[5] = (pull_x[1][2] + pull_x[1][3]) - pull_x[0][1];
+    f[6] = pull_x[2][3] - (pull_x[0][2] + pull_x[1][2]);
+    f[7] = -((pull_x[0][3] + pull_x[1][3]) + pull_x[2][3]);
 }
 
 #ifdef GM_PASS_SCALAR

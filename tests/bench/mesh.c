@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Processor time of a step of the r-adaptive schemes: one soliton, dt = 0.01, medians of several runs; and
-   how the cost grows with the number of points. Usage: bench_mesh [runs] */
+   how the cost grows with the number of points. Usage: bench_mesh [runs]
+
+   bench_mesh energy: how well two solitons keep their energy to t = 2000, and what that costs, with constant
+   and time-symmetric steps and with densities; rows of like cost compare. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "core/problems/soliton.h"
@@ -65,8 +70,68 @@ static double measure(const char *name, long points, long steps, int runs)
     return good ? times[count / 2] : -1;
 }
 
+static void keep_energy(const char *name, int density, double alpha, double dt)
+{
+    static const char *const densities[] = {"arclength", "curvature", "mix", "limited", "tempered"};
+    const struct gm_soliton soliton = {
+        .solitons = 2, .density = density, .points = 25, .velocity = 0.9, .length = 25, .alpha = alpha};
+    const struct gm_settings settings = {0};
+    const struct gm_scheme *scheme = gm_scheme_find(name);
+    struct gm_problem problem;
+    struct gm_mesh mesh;
+    double state[100];
+    gm_soliton_problem(&soliton, &problem);
+    problem.moving_mesh->describe(&problem, &mesh);
+    struct gm_run *run = NULL;
+    if (!scheme || !gm_mesh_start(&mesh, GM_MESH_MOVING, gm_soliton_profile, &soliton, state) ||
+        !(run = gm_run_open(&problem, scheme, &settings, 0, dt, state))) {
+        printf("  %s could not be started\n", name);
+        return;
+    }
+    const double initial = gm_mesh_energy(&mesh, state);
+    double spent = 0, farthest = 0, error = 0;
+    while (run->t < 2000 && run->status == GM_OK) {
+        const double before = now();
+        gm_run_advance(run, 1);
+        spent += now() - before;
+        const double *end = gm_run_state(run);
+        farthest = fmax(farthest, fabs(gm_mesh_energy(&mesh, end) / initial - 1));
+        for (size_t k = 0; run->t <= 50 && k < 25; k++) {
+            error = fmax(error, fabs(end[k] - gm_soliton_exact(&soliton, end[25 + k], run->t)));
+        }
+    }
+    printf("  %-22s %-10s %5.2f %6.3f %9.2f %12.1e %9.2f   %s at %.0f\n", name, densities[density], alpha, dt,
+           spent, farthest, error, gm_status_name(run->status), run->t);
+    gm_run_close(run);
+}
+
+static int keep_energies(void)
+{
+    printf("two solitons, 25 points, to t = 2000\n  %-22s %-10s %5s %6s %9s %12s %9s\n", "scheme", "density",
+           "alpha", "dt", "CPU s", "energy err", "err t<50");
+    for (double dt = 0.05; dt > 0.034; dt -= 0.005) {
+        keep_energy("multiplier-lobatto4", GM_ARCLENGTH, 1.5, dt);
+        keep_energy("multiplier-adaptive4", GM_ARCLENGTH, 1.5, dt);
+        keep_energy("multiplier-lobatto4", GM_LIMITED, 1.5, dt);
+        keep_energy("multiplier-adaptive4", GM_LIMITED, 1.5, dt);
+    }
+    keep_energy("multiplier-lobatto4", GM_TEMPERED, 1.5, 0.05);
+    keep_energy("multiplier-lobatto4", GM_TEMPERED, 1.5, 0.045);
+    keep_energy("multiplier-lobatto4", GM_TEMPERED, 1.5, 0.04);
+    keep_energy("multiplier-lobatto4", GM_ARCLENGTH, 1, 0.05);
+    keep_energy("multiplier-lobatto4", GM_ARCLENGTH, 1.25, 0.05);
+    keep_energy("multiplier-lobatto4", GM_ARCLENGTH, 2, 0.05);
+    keep_energy("multiplier-lobatto4", GM_LIMITED, 2, 0.05);
+    keep_energy("multiplier-lobatto4", GM_LIMITED, 2, 0.045);
+    keep_energy("multiplier-lobatto4", GM_LIMITED, 2, 0.04);
+    return 0;
+}
+
 int main(int count, char **words)
 {
+    if (count > 1 && strcmp(words[1], "energy") == 0) {
+        return keep_energies();
+    }
     const int runs = count > 1 && atoi(words[1]) > 0 ? atoi(words[1]) : 5;
     static const char *const names[] = {"uniform-gauss4",         "control-gauss4",
                                         "control-radau5",         "multiplier-lobatto2",

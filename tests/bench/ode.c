@@ -63,7 +63,8 @@ static struct gm_run *open_run(const struct gm_problem *problem, const struct li
     return gm_run_open(problem, gm_scheme_find_for(line->scheme, problem), &settings, 0, line->h, y);
 }
 
-static void measure(const struct line *line)
+/* The median nanoseconds of a step; NAN: it could not be measured. */
+static double measure(const struct line *line)
 {
     struct gm_problem problem = *line->problem;
     problem.m = line->m;
@@ -73,7 +74,7 @@ static void measure(const struct line *line)
     if (!run) {
         printf("%-34s not enough memory\n", line->what);
         free(y);
-        return;
+        return NAN;
     }
     double core[ROUNDS], hand[ROUNDS], boost[ROUNDS];
     const double unit = 1e-9 * (double)line->steps * (double)line->m;
@@ -114,6 +115,7 @@ static void measure(const struct line *line)
            run->status == GM_OK ? "" : "  FAILED");
     gm_run_close(run);
     free(y);
+    return ours;
 }
 
 static int field(double t, const double y[], double f[], void *problem)
@@ -132,8 +134,8 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[], voi
     return GSL_SUCCESS;
 }
 
-/* GSL's implicit midpoint rule on Kepler, at a tolerance near round-off. */
-static void gsl_midpoint(const double *start, double h)
+/* GSL's implicit midpoint rule on Kepler, at a tolerance near round-off, beside ours. */
+static void gsl_midpoint(const double *start, double h, double ours)
 {
     struct gm_problem problem = gm_problem_kepler;
     gsl_odeiv2_system system = {field, jacobian, 4, &problem};
@@ -146,8 +148,116 @@ static void gsl_midpoint(const double *start, double h)
     for (long i = 0; i < steps; i++) {
         gsl_odeiv2_step_apply(driver->s, 0, h, y, error, NULL, NULL, &system);
     }
-    printf("%-34s %8.2f ns\n", "GSL rk2imp, Kepler", (seconds() - before) / 1e-9 / (double)steps);
+    const double theirs = (seconds() - before) / 1e-9 / (double)steps;
+    printf("%-34s %8.2f ns: %.1f times ours (at least 10)\n", "GSL rk2imp, Kepler", theirs, theirs / ours);
     gsl_odeiv2_driver_free(driver);
+}
+
+/* All velocities of 1000 vortices, as ordered pairs a second. */
+static void pair_sum(void)
+{
+    enum { COUNT = 1000, SUMS = 20 };
+    static const double strength = 2 * M_PI;
+    static double state[2 * COUNT], f[2 * COUNT], by_hand[2 * COUNT];
+    struct gm_problem problem = gm_problem_vortices;
+    problem.n = 2 * (size_t)COUNT;
+    problem.parameters = &strength;
+    for (int i = 0; i < COUNT; i++) {
+        const double radius = sqrt((i + 0.5) / COUNT), turn = 2.3999632297286533 * i;
+        state[i] = radius * cos(turn);
+        state[COUNT + i] = radius * sin(turn);
+    }
+    double core[ROUNDS], hand[ROUNDS], apart = 0;
+    const double pairs = (double)SUMS * COUNT * (COUNT - 1);
+    for (int round = 0; round < ROUNDS; round++) {
+        double start = seconds();
+        for (int k = 0; k < SUMS; k++) {
+            gm_field(&problem, state, f, 1);
+        }
+        core[round] = pairs / (seconds() - start);
+        start = seconds();
+        for (int k = 0; k < SUMS; k++) {
+            gm_hand_pair_sum(state, by_hand, COUNT);
+        }
+        hand[round] = pairs / (seconds() - start);
+    }
+    for (int i = 0; i < 2 * COUNT; i++) {
+        apart = fmax(apart, fabs(f[i] - by_hand[i]));
+    }
+    const double ours = median(core), theirs = median(hand);
+    printf("%-34s %8.2e a second, by hand %.2e: ratio %.2f (at least 0.9); apart by %.1e\n",
+           "pairs of 1000 vortices", ours, theirs, ours / theirs, apart);
+}
+
+static double distance_from_start(const double *y, const double *start)
+{
+    return hypot(y[0] - start[0], y[1] - start[1]);
+}
+
+/* The distance from the exact position after 100 periods; *spent: the time it took. */
+static double hundred_periods(const char *scheme, long steps, double *spent)
+{
+    const double start[] = {0.5, 0, 0, 1.7320508075688772};
+    const struct gm_settings settings = {0};
+    struct gm_run *run = gm_run_open(&gm_problem_kepler, gm_scheme_find_for(scheme, &gm_problem_kepler),
+                                     &settings, 0, 2 * M_PI / (double)steps, start);
+    if (!run) {
+        return INFINITY;
+    }
+    const double before = seconds();
+    const bool good = gm_run_advance(run, 100 * steps) == GM_OK;
+    *spent = seconds() - before;
+    const double error = good ? distance_from_start(gm_run_state(run), start) : INFINITY;
+    gm_run_close(run);
+    return error;
+}
+
+/* The same by GSL's Prince-Dormand stepper, which chooses its steps. */
+static double hundred_periods_by_gsl(double tolerance, double *spent)
+{
+    const double start[] = {0.5, 0, 0, 1.7320508075688772};
+    struct gm_problem problem = gm_problem_kepler;
+    gsl_odeiv2_system system = {field, NULL, 4, &problem};
+    gsl_odeiv2_driver *driver =
+        gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-2, tolerance, tolerance);
+    double y[4], t = 0;
+    memcpy(y, start, sizeof y);
+    const double before = seconds();
+    const bool good = gsl_odeiv2_driver_apply(driver, &t, 200 * M_PI, y) == GSL_SUCCESS;
+    *spent = seconds() - before;
+    gsl_odeiv2_driver_free(driver);
+    return good ? distance_from_start(y, start) : INFINITY;
+}
+
+/* A position right to 1e-8 after 100 periods: each with the fewest steps, or the loosest tolerance, that
+   reaches it. */
+static void kepler_to_eight_digits(void)
+{
+    static const char *const schemes[] = {"gauss8", "kahan-li8", "blanes-moan-nystrom6"};
+    const double wanted = 1e-8;
+    double tolerance = 1e-8, theirs[ROUNDS], spent;
+    while (hundred_periods_by_gsl(tolerance, &spent) > wanted && tolerance > 1e-15) {
+        tolerance /= 1.5;
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        hundred_periods_by_gsl(tolerance, &theirs[round]);
+    }
+    const double by_gsl = median(theirs);
+    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+        long steps = 20;
+        double ours[ROUNDS], error = hundred_periods(schemes[i], steps, &spent);
+        while (error > wanted && steps < 100000) {
+            steps += steps / 20;
+            error = hundred_periods(schemes[i], steps, &spent);
+        }
+        for (int round = 0; round < ROUNDS; round++) {
+            hundred_periods(schemes[i], steps, &ours[round]);
+        }
+        const double time = median(ours);
+        printf("Kepler to 1e-8, %-18s %8.2f ms (at most 5.1), GSL rk8pd %.2f: ratio %.2f; %ld steps a "
+               "period, error %.1e\n",
+               schemes[i], 1e3 * time, 1e3 * by_gsl, time / by_gsl, steps, error);
+    }
 }
 
 int main(void)
@@ -182,9 +292,15 @@ int main(void)
         {"ensemble, Kepler, RK4", "rk4", KEPLER, .m = MEMBERS, .steps = 50},
     };
     printf("instruction set: %s\n", gm_isa_name(gm_isa_best()));
+    double midpoint = NAN;
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
-        measure(&lines[i]);
+        const double ours = measure(&lines[i]);
+        midpoint = lines[i].problem == &gm_problem_kepler && strcmp(lines[i].scheme, "midpoint") == 0
+                       ? ours
+                       : midpoint;
     }
-    gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100);
+    gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100, midpoint);
+    pair_sum();
+    kepler_to_eight_digits();
     return 0;
 }

@@ -3,6 +3,9 @@
 #include "tests/bench/ode_by_hand.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "core/clones.h"
 
 void gm_hand_kepler_verlet(double *y, double h, long steps)
 {
@@ -113,5 +116,29 @@ void gm_hand_ensemble_oscillator_rk4(double *y, size_t m, double h, long steps)
             q[i] += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
             p[i] += h / 6 * (b1 + 2 * b2 + 2 * b3 + b4);
         }
+    }
+}
+
+GM_CLONES void gm_hand_pair_sum(const double *state, double *f, size_t count)
+{
+    const double *restrict x = state, *restrict y = state + count;
+    double *restrict sum_y = f, *restrict sum_x = f + count;
+    memset(f, 0, 2 * count * sizeof *f);
+    for (size_t i = 0; i < count; i++) {
+        const double x_i = x[i], y_i = y[i];
+        double mine_x = 0, mine_y = 0;
+#pragma omp simd reduction(+ : mine_x, mine_y)
+        for (size_t j = i + 1; j < count; j++) {
+            const double dx = x_i - x[j], dy = y_i - y[j], inverse = 1 / (dx * dx + dy * dy);
+            mine_x += dx * inverse;
+            mine_y += dy * inverse;
+            sum_x[j] -= dx * inverse;
+            sum_y[j] -= dy * inverse;
+        }
+        sum_x[i] += mine_x;
+        sum_y[i] += mine_y;
+    }
+    for (size_t i = 0; i < count; i++) {
+        sum_y[i] = -sum_y[i];
     }
 }

@@ -20,6 +20,9 @@ void gm_hand_ensemble_kepler_verlet(double *y, size_t m, double h, long steps);
 void gm_hand_ensemble_oscillator_verlet(double *y, size_t m, double h, long steps);
 void gm_hand_ensemble_oscillator_rk4(double *y, size_t m, double h, long steps);
 
+/* Velocities of `count` vortices of strength 2 pi, x of all then y of all: each pair once. */
+void gm_hand_pair_sum(const double *state, double *f, size_t count);
+
 void gm_boost_kepler_verlet(double *y, double h, long steps);
 void gm_boost_kepler_rk4(double *y, double h, long steps);
 void gm_boost_vortices_rk4(double *y, double h, long steps);

@@ -1,0 +1,80 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# geomint complete, and the completions of those shells that are there. completion.sh GEOMINT SOURCE
+set -u
+geomint=$1
+completion=$2/app/completion
+failures=0
+PATH=$(dirname "$geomint"):$PATH
+export PATH
+
+fail() {
+    printf 'FAILED: %s\n' "$1"
+    failures=$((failures + 1))
+}
+
+# offers WORDS... : CANDIDATES: exactly these, in any order
+offers() {
+    wanted=$1
+    shift
+    got=$("$geomint" complete "$@" | cut -f 1 | sort)
+    # shellcheck disable=SC2086 # a list of words
+    wanted=$(printf '%s\n' $wanted | sort)
+    [ "$got" = "$wanted" ] || fail "complete $*: \"$got\", not \"$wanted\""
+}
+
+offers 'render' ren
+offers 'room' run roo
+offers 'scheme=' run disc sch
+offers 'system=oscillator system=pendulum' run disc system=
+offers 'scheme=rk4,rk2' run disc scheme=rk4,rk2
+offers 'scheme=leapfrog' run sine-gordon scheme=leap
+offers '' run disc scheme=leap
+offers '--theme' render disc --th
+offers 'light dark' render disc --theme ''
+offers '--theme=dark' render disc --theme=d
+offers 'zip=no zip=yes' run disc zip=
+offers 'dt=pi/12' run disc dt=
+offers 'area area_error area_tangent' work-precision disc --measure area
+offers '' again pic
+offers '' nonsense x
+[ "$("$geomint" complete | wc -l)" -gt 15 ] || fail 'without a word, commands and scenes'
+
+# bash asks a function; only what stands behind = is replaced
+bash -c '
+. "$1/geomint.bash"
+try() {
+    COMP_LINE=$1 COMP_POINT=${#1} COMPREPLY=()
+    _geomint geomint
+    [ "${COMPREPLY[*]}" = "$2" ] || { echo "bash: $1: ${COMPREPLY[*]}, not $2"; exit 1; }
+}
+try "geomint ren" render
+try "geomint run disc sys" system=
+try "geomint run disc system=pen" pendulum
+try "geomint run disc scheme=rk4,midpoint-su" rk4,midpoint-suzuki4
+try "geomint render disc --theme d" dark
+' bash "$completion" || fail 'bash'
+
+if command -v fish >/dev/null; then
+    got=$(fish --no-config -c "source $completion/geomint.fish; complete -C 'geomint run disc system=pen'" | cut -f 1)
+    [ "$got" = 'system=pendulum' ] || fail "fish: $got"
+fi
+if command -v zsh >/dev/null; then
+    zsh -n "$completion/_geomint" || fail 'zsh does not read it'
+    # the file as the shell would call it, with what it hands to the shell printed
+    got=$(zsh -f -c '
+        compadd() { print -r -- "${(P)${@[-1]}}" }
+        _files() { print files }
+        try() { words=("$@"); CURRENT=$#; PREFIX=${words[-1]}; source "$completion/_geomint" }
+        completion=$1
+        try geomint run disc system=pen
+        try geomint ren
+        try geomint again pic
+    ' zsh "$completion")
+    [ "$got" = "system=pendulum
+render
+files" ] || fail "zsh: $got"
+fi
+
+[ $failures = 0 ] && echo 'all as it should be'
+exit $failures

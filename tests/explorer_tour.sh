@@ -1,0 +1,150 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Drives tours and background studies in tmux. Usage: explorer_tour.sh GEOMINT TOURS
+set -u
+
+. "$(dirname "$0")/tmux.sh"
+tours=$2
+
+open_tour() { # SIZE TOUR
+    start "$1" COLORTERM=truecolor TERM=tmux-256color GEOMINT_TOURS="$tours"
+    keys "\"$geomint\" tour $2; echo \"left \$?\"" Enter
+    wait_for '1/[0-9]+: '
+}
+
+# ---- a tour in the smallest usual terminal ----
+
+open_tour 80x24 area
+wait_for 'Area 1/7: A disc of starting points'
+wait_for 'Watch: the red disc'
+wait_for 't = 2π.*geomint|2π +geomint.*paused|paused' # it runs to its end and stops there
+keys n
+wait_for '2/7: The simplest scheme'
+wait_for 'Predict: One period later'
+wait_for '0 +geomint.*paused'
+screen | grep -q 'Larger: each step' && fail "the answer is there before the question is answered"
+keys n
+wait_for 'Larger: each step'
+wait_for 'area × 4.909'
+wait_for 'paused'
+
+# the user changes what there is, and comes back
+keys c
+wait_for 'implicit E'
+keys Right
+wait_for '▸ dt +0\.3'
+keys a
+wait_for 'Predict: One period later'
+wait_for 'explicit E'
+wait_gone 'implicit E'
+wait_for '▸ dt +pi/12'
+keys N
+wait_for '1/7: A disc'
+keys N
+wait_for '1/7: A disc'
+
+# a change in flight, and back over it
+keys n n n n n n n n n
+wait_for '6/7: Mend it in flight'
+wait_for '▸━+ midpoint|▸ ━+ midpoint'
+wait_for 'paused'
+keys r
+wait_for 'RK4'
+wait_for '▸━+ midpoint|▸ ━+ midpoint'
+wait_for 'paused'
+keys n n n
+wait_for '7/7: What area cannot tell'
+keys q
+wait_for 'left 0'
+
+# a step that goes on from the one before, entered from behind: the scene hurries to its begin
+open_tour 120x40 chaos
+keys n n n n
+wait_for '4/6: Ask an invariant'
+keys N
+wait_for '3/6: The symmetry breaks'
+wait_for 't = 90\.000'
+wait_for 'paused'
+
+# every size, down to nothing and back
+full=$(settled)
+for size in 80x24 20x5 1x1 3x2 160x45 120x40; do
+    tm resize-window -t "$pane" -x "${size%x*}" -y "${size#*x}"
+    sleep 0.3
+done
+same "after all sizes" "$full" "$(settled)"
+keys q
+wait_for 'left 0'
+
+# ---- studies ----
+
+start 100x30 COLORTERM=truecolor TERM=tmux-256color
+keys "\"$geomint\" disc; echo \"left \$?\"" Enter
+wait_for 'SCHEMES'
+pause
+keys w
+wait_for 'what an accuracy costs'
+wait_for 'work-precision [0-9]+ %'
+wait_for 'error against run time'
+keys Escape # it goes on behind the scene
+wait_for 'SCHEMES'
+wait_for 'work-precision ([0-9]+ %|is finished)'
+keys w
+wait_for 'what an accuracy costs'
+keys x
+wait_for 'Stopped|Done'
+keys p
+wait_for 'Saved disc-work-precision-0001.png and disc-work-precision-0001.csv'
+[ "$(head -c 4 "$folder/disc-work-precision-0001.png" | tail -c 3)" = PNG ] || fail "the diagram is no PNG"
+head -1 "$folder/disc-work-precision-0001.csv" | grep -q '^scene,scheme,order,dt' || fail "the diagram's CSV"
+[ "$(wc -l <"$folder/disc-work-precision-0001.csv")" -gt 3 ] || fail "nothing was measured"
+keys w
+wait_for 'SCHEMES'
+keys m
+wait_for 'scene disc has no stability map'
+keys z
+wait_gone 'no stability map'
+keys q # with a study in the background
+wait_for 'left 0'
+
+start 100x30 COLORTERM=truecolor TERM=tmux-256color
+keys "\"$geomint\" kepler; echo \"left \$?\"" Enter
+wait_for 'SCHEMES'
+pause
+keys m
+wait_for 'which time step keeps which scheme'
+wait_for 'stability 100 %: Done'
+keys p
+wait_for 'Saved kepler-stability-0001.png'
+keys w # both at the same time
+wait_for 'what an accuracy costs'
+keys m
+wait_for 'which time step keeps which scheme'
+keys Escape
+wait_for 'work-precision ([0-9]+ %|is finished)'
+pid=$(pgrep -n -f "^$geomint kepler")
+keys w x
+wait_for 'Stopped|Done'
+keys Escape
+wait_for 'SCHEMES'
+sleep 0.5
+before=$(cut -d' ' -f14,15 "/proc/$pid/stat")
+sleep 1
+after=$(cut -d' ' -f14,15 "/proc/$pid/stat")
+[ "$before" = "$after" ] || fail "paused, with studies finished, it used processor time: $before, then $after"
+keys q
+wait_for 'left 0'
+
+# a tour's study
+open_tour 100x30 worth
+keys n
+wait_for 'Predict: Which line'
+keys n
+wait_for 'what an accuracy costs'
+keys n
+wait_for '3/5: Many schemes'
+keys q
+wait_for 'left 0'
+
+[ "$failures" = 0 ] && echo "tours in the explorer: all passed"
+exit $((failures > 0))
