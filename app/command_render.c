@@ -412,11 +412,37 @@ int gm_render(struct gm_request *request, const struct gm_options *options, cons
     return status;
 }
 
+/* "LANE:STEP:KEY=VALUE,...", as the explorer writes them; closes the request and returns false with a
+   sentence if they are not understood. */
+static bool take_changes(struct gm_request *request, const char *list, char *message)
+{
+    char *text = list ? strdup(list) : NULL;
+    int colons = 0;
+    for (char *at = text; at && *at; at++) {
+        if (*at == ',') {
+            *at = '\n';
+            colons = 0;
+        } else if (*at == ':' && colons < 2) {
+            *at = ' ';
+            colons++;
+        }
+    }
+    bool good = !list || (text && gm_changes_parse(request, text));
+    if (!good) {
+        gm_request_close(request);
+        snprintf(message, GM_MESSAGE,
+                 "--changes %.60s: is not LANE:STEP:KEY=VALUE,... of lanes that there are", list);
+    }
+    free(text);
+    return good;
+}
+
 int gm_command_render(const struct gm_options *options)
 {
     char message[GM_MESSAGE], name[128];
     struct gm_request request;
-    if (!gm_request_parse(&request, options->word_count, options->words, 3, message)) {
+    if (!gm_request_parse(&request, options->word_count, options->words, 3, message) ||
+        !take_changes(&request, options->changes, message)) {
         gm_complain("%s", message);
         return GM_EXIT_USAGE;
     }

@@ -82,7 +82,7 @@ int gm_command_tour(const struct gm_options *options)
         gm_catch_interrupts();
         status = gm_finish(gm_tour_render(&tour, options));
     } else {
-        status = gm_explorer_tour(&tour);
+        status = gm_explorer_tour(&tour, &(const struct gm_overrides){0});
     }
     gm_tour_close(&tour);
     return status;

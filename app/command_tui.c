@@ -5,13 +5,20 @@
 #include "app/explorer/explorer.h"
 #include "app/explorer/terminal.h"
 
+static struct gm_overrides overrides_of(const struct gm_options *options)
+{
+    return (struct gm_overrides){
+        .colours = options->colours, .graphics = options->graphics, .theme = options->look};
+}
+
 int gm_command_terminal(const struct gm_options *options)
 {
     if (options->word_count > 0) {
         gm_complain("terminal takes no arguments");
         return GM_EXIT_USAGE;
     }
-    return gm_finish(gm_terminal_report());
+    const struct gm_overrides overrides = overrides_of(options);
+    return gm_finish(gm_terminal_report(&overrides));
 }
 
 int gm_command_tui(const struct gm_options *options)
@@ -23,7 +30,8 @@ int gm_command_tui(const struct gm_options *options)
         gm_complain("%s", message);
         return GM_EXIT_USAGE;
     }
-    const int status = gm_explorer(options->word_count > 0 ? &request : NULL);
+    const struct gm_overrides overrides = overrides_of(options);
+    const int status = gm_explorer(options->word_count > 0 ? &request : NULL, &overrides);
     gm_request_close(&request);
     return status;
 }

@@ -16,6 +16,9 @@ int gm_command_certify(const struct gm_options *options);
 int gm_command_again(const struct gm_options *options);
 int gm_command_tour(const struct gm_options *options);
 int gm_command_terminal(const struct gm_options *options);
+
+/* --version: the program, the OpenGL context and the libraries. Returns the exit status. */
+int gm_version(void);
 int gm_command_manual(const struct gm_options *options);
 /* Takes the words as they are: an unfinished option is no mistake here. */
 int gm_command_complete(int count, char *const words[]);

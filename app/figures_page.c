@@ -213,7 +213,7 @@ static void put_failures(FILE *page, const struct gm_outcome *outcome)
         if (outcome->lanes[i].failure[0]) {
             fputs("<p class=\"soft\">", page);
             put_text(page, outcome->lanes[i].label);
-            fputs(" ended there: ", page);
+            fputs(" ended early: ", page);
             put_text(page, outcome->lanes[i].failure);
             fputs(".</p>\n", page);
         }

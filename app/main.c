@@ -45,8 +45,7 @@ int main(int argc, char *argv[])
             return help();
         }
         if (strcmp(argv[1], "--version") == 0) {
-            printf("geomint %s\n", GM_VERSION);
-            return gm_finish(GM_EXIT_OK);
+            return gm_version();
         }
         command = gm_command_find(argv[1]);
         if (!command) {

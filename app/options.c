@@ -39,6 +39,11 @@ static const struct row rows[] = {
     {"--size", SIZE, PAINTS, AT(width), "WxH", "pixels (1280x720)"},
     {"--theme", THEME, PAINTS & ~(unsigned)GM_FIGURES, AT(theme), "light|dark",
      "colours for paper or for a screen"},
+    {"--changes", TEXT, GM_RENDER, AT(changes), "LIST", "LANE:STEP:KEY=VALUE,...: changes in flight (key y)"},
+    {"--graphics", TEXT, GM_TUI | GM_TERMINAL, AT(graphics), "KIND",
+     "kitty, sixel, braille, quadrants, half or ascii"},
+    {"--colours", TEXT, GM_TUI | GM_TERMINAL, AT(colours), "HOWMANY", "truecolor, 256, 16 or none"},
+    {"--theme", TEXT, GM_TUI | GM_TERMINAL, AT(look), "THEME", "light, dark or mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", TEXT, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},
@@ -120,14 +125,17 @@ static bool store(struct gm_options *options, const struct row *row, const char 
     return false;
 }
 
-static const struct row *find(const char *word, size_t length)
+/* The row of this command, or else one of the same name that others have. */
+static const struct row *find(const char *word, size_t length, enum gm_command command)
 {
+    const struct row *found = NULL;
     for (size_t i = 0; i < ROWS; i++) {
-        if (strlen(rows[i].name) == length && strncmp(rows[i].name, word, length) == 0) {
-            return &rows[i];
+        if (strlen(rows[i].name) == length && strncmp(rows[i].name, word, length) == 0 &&
+            (!found || rows[i].commands & command)) {
+            found = &rows[i];
         }
     }
-    return NULL;
+    return found;
 }
 
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
@@ -152,7 +160,7 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
             continue;
         }
         const char *equals = strchr(word, '=');
-        const struct row *row = find(word, equals ? (size_t)(equals - word) : strlen(word));
+        const struct row *row = find(word, equals ? (size_t)(equals - word) : strlen(word), command);
         if (!row || !(row->commands & command)) {
             const char *near = row ? NULL : gm_nearest(word, ROWS, name_at, NULL);
             snprintf(message, GM_MESSAGE, "%s option %.60s%s%s", row ? "this command has no" : "there is no",
@@ -176,6 +184,17 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
         }
     }
     return true;
+}
+
+bool gm_options_have(const struct gm_options *options, const char *word)
+{
+    const size_t length = strcspn(word, "=") + 1;
+    for (int i = 0; i < options->word_count; i++) {
+        if (strncmp(options->words[i], word, length) == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void gm_options_close(struct gm_options *options)

@@ -25,16 +25,17 @@ enum gm_command {
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown, listing;
-    const char *csv, *profile, *out, *movie, *measure, *region;
+    const char *csv, *profile, *out, *movie, *measure, *region, *changes;
     const char *name; /* of a chart's files, by `again` alone; NULL: the command's own */
     long every, frames;
-    long shard, shards;  /* 0, 0: not given */
-    double fps, rate;    /* NAN: not given */
-    double from, at;     /* NAN: not given */
-    int width, height;   /* 1280 x 720 */
-    bool sized;          /* these were given */
-    enum gm_theme theme; /* light */
-    char **words;        /* what is left: scene, key=value, names */
+    long shard, shards;                    /* 0, 0: not given */
+    double fps, rate;                      /* NAN: not given */
+    double from, at;                       /* NAN: not given */
+    int width, height;                     /* 1280 x 720 */
+    bool sized;                            /* these were given */
+    enum gm_theme theme;                   /* light */
+    const char *graphics, *colours, *look; /* what to believe of the terminal */
+    char **words;                          /* what is left: scene, key=value, names */
     int word_count;
 };
 
@@ -42,6 +43,9 @@ struct gm_options {
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message);
 void gm_options_close(struct gm_options *options);
+
+/* Whether the words set the key that `word` sets: "dt=" or "dt=0.1". */
+bool gm_options_have(const struct gm_options *options, const char *word);
 
 /* What is known of an option. */
 struct gm_option {

@@ -19,24 +19,13 @@ static bool refuse(char *message, const char *text)
     return false;
 }
 
-static bool overridden(const struct gm_options *options, const char *word)
-{
-    const size_t length = strcspn(word, "=") + 1;
-    for (int i = 0; i < options->word_count; i++) {
-        if (strncmp(options->words[i], word, length) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* The scene, the plan's arguments and schemes unless overridden, and the user's words. */
 static bool parse(struct gm_stability_table *table, const struct gm_options *options, char *message)
 {
     char *words[MOST_WORDS], arguments[512], schemes[512] = "scheme=", *rest = NULL;
     const struct gm_scene *scene = gm_scene_find(options->words[0]);
     const bool chosen =
-        scene && scene->stability && scene->stability->schemes && !overridden(options, "scheme=");
+        scene && scene->stability && scene->stability->schemes && !gm_options_have(options, "scheme=");
     int count = 0;
     words[count++] = options->words[0];
     if (scene && !scene->stability) {
@@ -46,7 +35,7 @@ static bool parse(struct gm_stability_table *table, const struct gm_options *opt
     if (scene) {
         snprintf(arguments, sizeof arguments, "%s", scene->stability->arguments);
         for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
-            if (!overridden(options, word)) {
+            if (!gm_options_have(options, word)) {
                 words[count++] = word;
             }
         }

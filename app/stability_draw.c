@@ -54,7 +54,7 @@ static void draw_map(const struct gm_stability_table *table, const struct gm_sta
     panel->axes = true;
     panel->title_role = GM_INK;
     const double limit = gm_stability_limit(table, map);
-    panel->note = limit > 0 ? gm_picture_text(picture, "bounded throughout up to %.3g", limit) : "";
+    panel->note = limit > 0 ? gm_picture_text(picture, "bounded up to %.3g", limit) : "";
     panel->x = (struct gm_axis){.label = table->parameter->key,
                                 .scale = logarithmic ? GM_LOG : GM_LINEAR,
                                 .low = x[0],

@@ -2,15 +2,14 @@
 /* A tour as a movie or as pictures: what the explorer shows, with the texts below. */
 #include "app/tour_movie.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "app/drive.h"
 #include "app/explorer/agenda.h"
+#include "app/folder.h"
 #include "app/provenance.h"
 #include "app/stability.h"
 #include "app/work.h"
@@ -284,12 +283,7 @@ static bool open_show(struct show *show)
         show->sink = gm_sink_open_movie(options->movie, &settings, show->message);
         return show->sink != NULL;
     }
-    if (options->out && mkdir(options->out, 0777) != 0 && errno != EEXIST) {
-        snprintf(show->message, sizeof show->message, "%.300s could not be made: %s", options->out,
-                 strerror(errno));
-        return false;
-    }
-    return true;
+    return gm_folder_make(options->out, show->message);
 }
 
 int gm_tour_render(const struct gm_tour *tour, const struct gm_options *options)

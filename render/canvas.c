@@ -240,3 +240,10 @@ bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsig
     read_back(canvas, rgb);
     return drawn;
 }
+
+const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
+                                        double down, double *x, double *y)
+{
+    const struct gm_metrics metrics = gm_canvas_metrics(canvas);
+    return gm_layout_locate(gm_layout_make(picture, &metrics), across, down, x, y);
+}

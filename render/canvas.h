@@ -17,6 +17,10 @@ void gm_canvas_close(struct gm_canvas *canvas);
 /* Paints the picture into rgb: height rows of width * 3 bytes, top row first. False when memory is short. */
 bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb);
 
+/* The panel of a state that a pixel is in, as gm_layout_locate. */
+const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
+                                        double down, double *x, double *y);
+
 /* What paints: "OSMesa, OpenGL 4.5, llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6". */
 const char *gm_canvas_backend(const struct gm_canvas *canvas);
 

@@ -340,17 +340,5 @@ const struct gm_panel *gm_cells_locate(const struct gm_cells *cells, struct gm_p
     bool ascii = blocks == GM_ASCII;
     struct gm_metrics metrics = metrics_of(cells, &ascii);
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
-    double across = (column + 0.5) * CELL_WIDTH, down = (row + 0.5) * CELL_HEIGHT;
-    for (size_t i = 0; layout && i < layout->frame_count; i++) {
-        const struct gm_frame *frame = &layout->frames[i];
-        const struct gm_box *box = &frame->box;
-        if (frame->panel->place == GM_PLACE_STATE && across >= box->x && across <= box->x + box->width &&
-            down >= box->y && down <= box->y + box->height && frame->panel->x.scale != GM_LOG &&
-            frame->panel->y.scale != GM_LOG) {
-            *x = (across - frame->x_origin) / frame->x_factor;
-            *y = (down - frame->y_origin) / frame->y_factor;
-            return frame->panel;
-        }
-    }
-    return NULL;
+    return gm_layout_locate(layout, (column + 0.5) * CELL_WIDTH, (row + 0.5) * CELL_HEIGHT, x, y);
 }

@@ -10,7 +10,7 @@
 enum gm_blocks { GM_BRAILLE, GM_QUADRANTS, GM_HALF_BLOCKS, GM_ASCII, GM_BLOCKS_COUNT };
 
 struct gm_cell {
-    uint32_t glyph; /* Unicode; ' ' for an empty cell */
+    uint32_t glyph; /* Unicode; ' ' for an empty cell, 0 where a picture of pixels is */
     struct gm_rgb foreground, background;
     enum gm_role role; /* what the foreground means, for terminals without true colour */
     bool bold;

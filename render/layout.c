@@ -14,6 +14,9 @@ static const double side_margin = 40.0, top_margin = 16.0, bottom_margin = 18.0,
 /* Share of the width that the column of graphs takes beside states. */
 static const double graph_share = 0.3, terse_graph_share = 0.38;
 
+/* Share of the height that a row of graphs under states has at least. */
+static const double row_share = 0.36;
+
 /* A graph is as wide as this many heights where nothing else decides, and never narrower than that. */
 static const double graph_aspect = 1.75, graph_narrowest = 1.0;
 
@@ -341,9 +344,48 @@ static void try_below(const struct gm_label_list *list, const struct gm_box *are
     }
 }
 
+/* The height that the states need of their area with their present grid; all of it where they take any. */
+static double height_needed(const struct gm_label_list *list, const struct group *states)
+{
+    const double scale = list->metrics->scale;
+    const struct gm_border border = common_border(list, states, false);
+    const double width = cell_width(states, column_gap * scale) - border.left - border.right;
+    double tallest = 0.0;
+    for (size_t i = 0; i < states->count; i++) {
+        const double aspect = aspect_of(states->frames[i].panel);
+        if (aspect == 0.0 || !(width > 0.0)) {
+            return states->area.height;
+        }
+        tallest = fmax(tallest, width / aspect);
+    }
+    const double needed = (double)states->rows * (tallest + border.top + border.bottom) +
+                          (double)(states->rows - 1) * row_gap * scale;
+    return fmin(needed, states->area.height);
+}
+
+/* Flat states may have the whole width, and the graphs a row under them: all the height that they leave. */
+static void try_row_below(const struct gm_label_list *list, const struct gm_box *area, struct group *states,
+                          struct group *graphs)
+{
+    const double gap = group_gap * list->metrics->scale;
+    struct group beside = *states, below = *states;
+    below.area = *area;
+    below.area.height = fmax(0.0, (1.0 - row_share) * area->height - gap);
+    choose_grid(list, &beside, beside.count);
+    choose_grid(list, &below, below.count);
+    if (below.detail <= beside.detail && data_size(list, &below) > data_size(list, &beside)) {
+        below.area.height = height_needed(list, &below);
+        states->area = below.area;
+        graphs->area = *area;
+        graphs->area.y += below.area.height + gap;
+        graphs->area.height = fmax(0.0, area->height - below.area.height - gap);
+    }
+}
+
 static size_t graph_columns(const struct group *states, const struct group *graphs)
 {
-    return states->count == 0 ? graphs->count : 1;
+    const bool in_a_row = graphs->area.x <= states->area.x && graphs->area.y > states->area.y;
+    return states->count == 0 || in_a_row ? graphs->count : 1;
 }
 
 const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics)
@@ -385,6 +427,9 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
         graphs.area.x = area.x + area.width - graphs.area.width;
         states.area.width = fmax(0.0, area.width - graphs.area.width - gap);
         try_below(&list, &area, &states, &graphs);
+        if (picture->graphs_below) {
+            try_row_below(&list, &area, &states, &graphs);
+        }
     }
     if (states.count > 0) {
         choose_grid(&list, &states, states.count);
@@ -402,4 +447,21 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
                                  .labels = list.labels,
                                  .label_count = list.count};
     return layout;
+}
+
+const struct gm_panel *gm_layout_locate(const struct gm_layout *layout, double across, double down, double *x,
+                                        double *y)
+{
+    for (size_t i = 0; layout && i < layout->frame_count; i++) {
+        const struct gm_frame *frame = &layout->frames[i];
+        const struct gm_box *box = &frame->box;
+        if (frame->panel->place == GM_PLACE_STATE && across >= box->x && across <= box->x + box->width &&
+            down >= box->y && down <= box->y + box->height && frame->panel->x.scale != GM_LOG &&
+            frame->panel->y.scale != GM_LOG) {
+            *x = (across - frame->x_origin) / frame->x_factor;
+            *y = (down - frame->y_origin) / frame->y_factor;
+            return frame->panel;
+        }
+    }
+    return NULL;
 }

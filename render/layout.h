@@ -73,4 +73,9 @@ void gm_tick_format(enum gm_scale scale, double value, double step, char *text, 
 double gm_frame_x(const struct gm_frame *frame, double value);
 double gm_frame_y(const struct gm_frame *frame, double value);
 
+/* The panel of a state that a place of the surface is in, and the place in its own units; NULL if there is
+   none, or if its axes are logarithmic. */
+const struct gm_panel *gm_layout_locate(const struct gm_layout *layout, double across, double down, double *x,
+                                        double *y);
+
 #endif

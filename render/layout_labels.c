@@ -50,8 +50,10 @@ bool gm_labels_add(struct gm_label_list *list, struct gm_label label)
           box.y + box.height <= metrics->height + rounding)) {
         return false;
     }
+    /* what runs along an axis is no neighbour in the line of its ticks */
+    const double air = label.vertical ? 0.0 : 4.0 * metrics->scale;
     for (size_t i = 0; i < list->count; i++) {
-        if (overlap(&box, &list->boxes[i], 4.0 * metrics->scale)) {
+        if (overlap(&box, &list->boxes[i], air)) {
             return false;
         }
     }

@@ -85,6 +85,7 @@ static const struct gm_observable observables[] = {
     GM_FLOWS_CHANGE,
     GM_FLOWS_ENERGY,
     GM_FLOWS_ENSTROPHY,
+    GM_FLOWS_SPEED,
     GM_FLOWS_DIVERGENCE,
     GM_FLOWS_TRIANGLES,
 };
@@ -147,10 +148,10 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
 
 /* u along the vertical line and v along the horizontal one; Ghia's points in red. */
 static void draw_line(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                      bool vertical)
+                      enum gm_place place, bool vertical)
 {
     enum { POINTS = 97 };
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+    struct gm_panel *panel = gm_panel_add(picture, place, "");
     panel->axes = true;
     panel->title_role = GM_INK;
     double points[2 * POINTS];
@@ -183,18 +184,20 @@ static void draw_line(struct gm_picture *picture, const struct gm_lane *const *l
     }
 }
 
-static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                     enum gm_place place)
 {
-    draw_line(picture, lanes, count, true);
-    draw_line(picture, lanes, count, false);
+    draw_line(picture, lanes, count, place, true);
+    draw_line(picture, lanes, count, place, false);
     picture->caption = "Red: Ghia, Ghia & Shin (1982).";
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_flows *own = lane->parameters;
-    return gm_picture_text(picture, "Reynolds number %.6g,  %zu triangles,  %s", own->reynolds,
-                           lane->problem.flow->complex->triangles, lane->scheme->title);
+    return gm_picture_text(
+        picture, "%s%s",
+        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
+        gm_flows_mesh_and_scheme(picture, lanes, count));
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
@@ -220,6 +223,28 @@ static const char *const schemes[] = {"steady", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static double courant_time(const void *own)
+{
+    return gm_flows_courant_time(setup, own);
+}
+
+static const double reynolds_numbers[] = {100, 400, 1000, 3200, 10000};
+static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
+static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
+
+static const struct gm_stability stability = {
+    .arguments = "columns=32 rows=0 until=10",
+    .parameter = "reynolds",
+    .values = reynolds_numbers,
+    .value_count = COUNT(reynolds_numbers),
+    .label = "Courant number",
+    .unit = courant_time,
+    .steps = courant_numbers,
+    .step_count = COUNT(courant_numbers),
+    .kept = "speed_max",
+    .schemes = marching,
+};
+
 const struct gm_scene gm_scene_cavity = {
     .name = "cavity",
     .title = "A cavity driven by its lid",
@@ -233,6 +258,7 @@ const struct gm_scene gm_scene_cavity = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = COUNT(observables),
+    .stability = &stability,
     .setup = setup,
     .close = gm_flows_close,
     .start = gm_flows_start,

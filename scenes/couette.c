@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Couette flow between a wall at rest and one that moves in a square: the convergence of discrete exterior
-   calculus is read off it. Razafindralandy, Hamdouni & Chhay (2018), figures 32 and 34. Lengths in H, time in
-   H^2 / nu, nu = kappa = 1. */
+   calculus is read off it. Razafindralandy, Hamdouni & Chhay (2018), figures 32 and 34. Lengths in H,
+   velocities in the wall's U, time in H^2 / nu; kappa = nu. */
 #include "scenes/shear.h"
 
 #include <math.h>
@@ -16,9 +16,9 @@ static double psi(double y)
     return y * y / 2;
 }
 
-static double pressure(double x, double y)
+static double pressure(double x, double y, double viscosity)
 {
-    return (void)x, velocity(y) * velocity(y) / 2;
+    return (void)x, (void)viscosity, velocity(y) * velocity(y) / 2;
 }
 
 static const struct gm_shear shear = {.velocity = velocity, .psi = psi, .pressure = pressure};
@@ -53,19 +53,19 @@ static double height(double y)
     return y;
 }
 
-static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                     enum gm_place place)
 {
-    gm_shear_draw_profiles(lanes, count, picture, &middle, velocity, height);
+    gm_shear_draw_profiles(lanes, count, picture, place, &middle, velocity, height);
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    return gm_picture_text(picture, "viscosity 1,  %zu triangles,  %s",
-                           lane->problem.flow->complex->triangles, lane->scheme->title);
+    return gm_picture_text(
+        picture, "%s%s",
+        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
+        gm_flows_mesh_and_scheme(picture, lanes, count));
 }
-
-static const char *const errors[] = {"psi_error",      "theta_error",    "flux_error",
-                                     "velocity_error", "pressure_error", NULL};
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
@@ -78,7 +78,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .speed_high = 1,
         .graphs = {"psi_error", "theta_error"},
         .profiles = profiles,
-        .errors = errors,
+        .errors = gm_shear_errors,
     };
     gm_flows_draw(lanes, count, picture, &look);
 }
@@ -113,6 +113,7 @@ const struct gm_scene gm_scene_couette = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = COUNT(observables),
+    .work = &gm_shear_work,
     .figures = figures,
     .figure_count = COUNT(figures),
     .setup = setup,

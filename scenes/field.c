@@ -167,5 +167,5 @@ const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *con
             return "";
         }
     }
-    return gm_picture_text(picture, ",  Δt = %s", gm_time_text(picture, dt, dt));
+    return gm_picture_text(picture, ",  Δt = %s", gm_step_text(picture, dt));
 }

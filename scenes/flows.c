@@ -3,6 +3,7 @@
 #include "scenes/flows.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -258,6 +259,18 @@ void gm_flows_close(struct gm_problem *problem)
 {
     gm_flow_close((struct gm_flow *)(uintptr_t)problem->flow);
     problem->flow = NULL;
+}
+
+double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters)
+{
+    struct gm_problem problem = {0};
+    char sentence[GM_SENTENCE];
+    if (!setup(parameters, &problem, sentence)) {
+        return NAN;
+    }
+    const double time = problem.flow->complex->mean_edge / problem.flow->time_unit;
+    gm_flows_close(&problem);
+    return time;
 }
 
 void gm_flows_middle(const struct gm_complex *complex, size_t boundary_edge, double middle[2])

@@ -94,6 +94,11 @@ bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence);
 void gm_flows_problem(struct gm_problem *problem, struct gm_flow *flow, const char *name);
 void gm_flows_close(struct gm_problem *problem);
 
+/* The time, in a scene's own unit, in which a speed of 1 passes a mean edge: the Courant number is dt over
+   it. NAN if setup refuses. */
+typedef bool gm_flows_setup(const void *parameters, struct gm_problem *problem, char *sentence);
+double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters);
+
 /* The middle of a boundary edge. */
 void gm_flows_middle(const struct gm_complex *complex, size_t boundary_edge, double middle[2]);
 
@@ -109,6 +114,7 @@ double gm_flows_scalar_total(const struct gm_view *view);
 double gm_flows_scalar_outflow(const struct gm_view *view);
 double gm_flows_budget_defect(const struct gm_view *view);
 double gm_flows_psi_low(const struct gm_view *view);
+double gm_flows_speed_max(const struct gm_view *view);
 /* how far psi moved in the last step, relative to its largest value */
 double gm_flows_change(const struct gm_view *view);
 double gm_flows_triangles(const struct gm_view *view);
@@ -120,6 +126,11 @@ double gm_flows_triangles(const struct gm_view *view);
 #define GM_FLOWS_ENSTROPHY                                                                                   \
     {                                                                                                        \
         .key = "enstrophy", .title = "enstrophy", .unit = "", .evaluate = gm_flows_enstrophy                 \
+    }
+#define GM_FLOWS_SPEED                                                                                       \
+    {                                                                                                        \
+        .key = "speed_max", .title = "largest speed, of a triangle or of the boundary", .unit = "",          \
+        .evaluate = gm_flows_speed_max                                                                       \
     }
 #define GM_FLOWS_DIVERGENCE                                                                                  \
     {                                                                                                        \
@@ -140,7 +151,7 @@ double gm_flows_triangles(const struct gm_view *view);
 struct gm_shear {
     double (*velocity)(double y);
     double (*psi)(double y);
-    double (*pressure)(double x, double y);
+    double (*pressure)(double x, double y, double viscosity);
     double (*theta)(double y); /* NULL: it is y */
 };
 double gm_shear_psi_error(const struct gm_shear *shear, const struct gm_view *view);
@@ -148,6 +159,9 @@ double gm_shear_theta_error(const struct gm_shear *shear, const struct gm_view *
 double gm_shear_flux_error(const struct gm_shear *shear, const struct gm_view *view);
 double gm_shear_velocity_error(const struct gm_shear *shear, const struct gm_view *view);
 double gm_shear_pressure_error(const struct gm_shear *shear, const struct gm_view *view);
+/* the same away from the walls, further than .2 from each: there the layer of wrong vorticity along the
+   walls, one cell wide, is not met */
+double gm_shear_pressure_error_middle(const struct gm_shear *shear, const struct gm_view *view);
 /* max |psi - exact| */
 double gm_shear_solution_error(const struct gm_shear *shear, const struct gm_view *view);
 double gm_flows_mean_edge(const struct gm_view *view);
@@ -155,18 +169,31 @@ double gm_flows_mean_edge(const struct gm_view *view);
 /* What a scene's picture shows besides the field. */
 struct gm_look {
     const char *title;
-    const char *(*subtitle)(struct gm_picture *picture, const struct gm_lane *lane);
-    const char *clock_unit; /* after the clock's time; "" */
-    double scalar_high;     /* the scalar's range; 0: inlet_scalar */
-    double vorticity_range; /* what the colours end at */
+    const char *(*subtitle)(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count);
+    const char *clock_unit;  /* after the clock's time; "" */
+    double scalar_high;      /* the scalar's range; 0: inlet_scalar */
+    const char *scalar_name; /* beside its colours; NULL: "concentration θ" */
+    double vorticity_range;  /* what the colours end at */
     double speed_high;
     const double *levels; /* of psi, where they are not chosen by the flow through; NULL */
     size_t level_count;
     const char *graphs[2]; /* observables */
     double graph_low[2], graph_high[2];
-    void (*profiles)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
-    const char *const *errors; /* observables of the convergence picture, NULL-terminated */
+    void (*profiles)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                     enum gm_place place);
+    bool profiles_below; /* the field, where there are no graphs over time */
+    const struct gm_look_error {
+        const char *observable, *name;
+    } * errors; /* of the convergence picture, ended by NULL */
 };
+/* "NAME VALUE,  " of the real parameter at this offset of struct gm_flows; "" where lanes differ in it: then
+   their panels tell. */
+const char *gm_flows_common(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                            const char *name, size_t offset);
+/* "6600 triangles,  semi-implicit"; the scheme where it is the same in all lanes */
+const char *gm_flows_mesh_and_scheme(struct gm_picture *picture, const struct gm_lane *const *lanes,
+                                     size_t count);
+
 void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                    const struct gm_look *look);
 

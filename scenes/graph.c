@@ -17,27 +17,42 @@ static bool counts_in_pi(double dt)
     return false;
 }
 
+/* "3π/4"; NULL where t is no such fraction, or none is expected of steps like dt */
+static const char *in_pi(struct gm_picture *picture, double t, double dt)
+{
+    for (int denominator = 1; counts_in_pi(dt) && denominator <= 24; denominator++) {
+        const double times = round(t * denominator / M_PI);
+        if (fabs(times) > 9999 || fabs(times * M_PI / denominator - t) > 1e-9 * fmax(1, fabs(t))) {
+            continue;
+        }
+        if (times == 0) {
+            return "0";
+        }
+        const char *sign = times < 0 ? "−" : "";
+        const char *front = fabs(times) == 1 ? "" : gm_picture_text(picture, "%.0f", fabs(times));
+        const char *under = denominator == 1 ? "" : gm_picture_text(picture, "/%d", denominator);
+        return gm_picture_text(picture, "%s%sπ%s", sign, front, under);
+    }
+    return NULL;
+}
+
+const char *gm_step_text(struct gm_picture *picture, double dt)
+{
+    const char *fraction = in_pi(picture, dt, dt);
+    return fraction ? fraction : gm_picture_text(picture, "%s%.4g", dt < 0 ? "−" : "", fabs(dt));
+}
+
 const char *gm_time_text(struct gm_picture *picture, double t, double dt)
 {
-    if (counts_in_pi(dt)) {
-        for (int denominator = 1; denominator <= 24; denominator++) {
-            const double times = round(t * denominator / M_PI);
-            if (fabs(times) > 9999 || fabs(times * M_PI / denominator - t) > 1e-9 * fmax(1, fabs(t))) {
-                continue;
-            }
-            if (times == 0) {
-                return "0";
-            }
-            const char *sign = times < 0 ? "−" : "";
-            const char *front = fabs(times) == 1 ? "" : gm_picture_text(picture, "%.0f", fabs(times));
-            const char *under = denominator == 1 ? "" : gm_picture_text(picture, "/%d", denominator);
-            return gm_picture_text(picture, "%s%sπ%s", sign, front, under);
-        }
+    const char *fraction = in_pi(picture, t, dt);
+    if (fraction) {
+        return fraction;
     }
     /* as many decimals as the step moves, so that digits stand still while time runs */
     int decimals = (int)ceil(-log10(fabs(dt)) + 0.5);
     decimals = decimals < 1 ? 1 : decimals > 6 ? 6 : decimals;
-    return gm_picture_text(picture, "%s%.*f", t < 0 ? "−" : "", decimals, fabs(t));
+    const bool below = t < -0.5 * pow(10, -decimals); /* what rounds to zero has no sign */
+    return gm_picture_text(picture, "%s%.*f", below ? "−" : "", decimals, fabs(t));
 }
 
 void gm_draw_clock(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
@@ -45,7 +60,9 @@ void gm_draw_clock(struct gm_picture *picture, const struct gm_lane *const *lane
     /* the lane that has come farthest; one that has failed stands still */
     const struct gm_lane *ahead = lanes[0];
     for (size_t i = 1; i < count; i++) {
-        ahead = fabs(lanes[i]->run->t - lanes[i]->t0) > fabs(ahead->run->t - ahead->t0) ? lanes[i] : ahead;
+        const bool goes = lanes[i]->run->status == GM_OK, went = ahead->run->status == GM_OK;
+        const bool further = fabs(lanes[i]->run->t - lanes[i]->t0) > fabs(ahead->run->t - ahead->t0);
+        ahead = goes != went ? (goes ? lanes[i] : ahead) : further ? lanes[i] : ahead;
     }
     picture->clock = gm_picture_text(picture, "t = %s", gm_time_text(picture, ahead->run->t, ahead->run->dt));
 }

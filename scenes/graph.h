@@ -12,6 +12,9 @@ void gm_draw_clock(struct gm_picture *picture, const struct gm_lane *const *lane
 /* A time, as a fraction of pi where the step is one. */
 const char *gm_time_text(struct gm_picture *picture, double t, double dt);
 
+/* A time step, to four digits or as a fraction of pi. */
+const char *gm_step_text(struct gm_picture *picture, double dt);
+
 /* The name of a lane's panel, and what its note ends with: how it stands if it has failed, else "". */
 const char *gm_lane_title(const struct gm_lane *lane);
 const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *lane);

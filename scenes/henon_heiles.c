@@ -227,6 +227,29 @@ static const struct gm_work work = {
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+/* Small oscillations turn by a radian in it. */
+static double radian_time(const void *own)
+{
+    return (void)own, 1;
+}
+
+static const double energies[] = {1. / 24, 1. / 12, 1. / 8, 0.16};
+static const double steps[] = {0.1, 0.2, 0.5, 0.8, 1.2, 1.6, 1.95, 2.05};
+static const char *const mapped[] = {"verlet", "rk4", "rk4sym", "gauss4", "kahan2", "yoshida4", NULL};
+
+static const struct gm_stability stability = {
+    .arguments = "until=500",
+    .parameter = "energy",
+    .values = energies,
+    .value_count = COUNT(energies),
+    .label = "h ω",
+    .unit = radian_time,
+    .steps = steps,
+    .step_count = COUNT(steps),
+    .kept = "energy_error",
+    .schemes = mapped,
+};
+
 const struct gm_scene gm_scene_henon_heiles = {
     .name = "henon-heiles",
     .title = "Hénon-Heiles",
@@ -244,6 +267,7 @@ const struct gm_scene gm_scene_henon_heiles = {
     .tracks = tracks,
     .track_count = COUNT(tracks),
     .work = &work,
+    .stability = &stability,
     .follow = 1,
     .setup = setup,
     .start = start,

@@ -339,8 +339,7 @@ static const double eccentricities[] = {0, 0.17, 0.33, 0.5, 0.66, 0.83, 0.99};
 static const double steps[] = {1. / 2000, 1. / 1000, 1. / 500, 1. / 200, 1. / 100, 1. / 60, 1. / 40, 1. / 20};
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
-static const char *const mapped[] = {"verlet",   "rk4",   "rk4sym",      "gauss4",
-                                     "yoshida4", "logh2", "levi-civita", NULL};
+static const char *const mapped[] = {"verlet", "rk4", "rk4sym", "gauss4", "logh2", "levi-civita", NULL};
 
 static const struct gm_stability stability = {
     .arguments = "until=40*pi",

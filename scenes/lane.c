@@ -149,11 +149,24 @@ static void record_crossing(struct gm_lane *lane, const struct gm_track *track, 
     entries->kept = ++entries->count;
 }
 
+/* While time runs backwards, a record of all the past unwinds: what is later than t is not shown, but for the
+   start. */
+static void unwind(struct gm_entries *entries, double t)
+{
+    while (entries->count > 1 && entries->times[entries->count - 1] > t) {
+        entries->count--;
+    }
+}
+
 static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
 {
     for (size_t i = 0; i < lane->scene->track_count; i++) {
         const struct gm_track *track = &lane->scene->tracks[i];
         struct gm_entries *entries = &lane->entries[i];
+        if (!track->section && !track->recent && view->dt < 0 && view->t >= lane->t0) {
+            unwind(entries, view->t);
+            continue;
+        }
         entries->kept = entries->count; /* the lane goes on from here */
         if (track->section) {
             record_crossing(lane, track, entries, view);
@@ -445,6 +458,9 @@ void gm_lane_load(struct gm_lane *lane, const void *snapshot)
         entries->count = entries->kept;
         while (entries->count > kept && entries->steps[entries->count - 1] > step) {
             entries->count--;
+        }
+        if (lane->run->dt < 0 && !lane->scene->tracks[i].section && !lane->scene->tracks[i].recent) {
+            unwind(entries, lane->run->t);
         }
         /* what the step before was is not known; it is again after the next one */
         entries->before = NAN;

@@ -223,7 +223,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                         own->system == HARMONIC ? ",  grey: the exact motion" : "");
     picture->caption =
         collapsed
-            ? "As printed, the rectangle rule finds no real step at the first turning point; the published motion over "
+            ? "The printed rectangle rule finds no real step at the first turning point; the published motion over "
               "several periods needs restarts there."
             : "Energy is kept to round-off by construction; the price is a slip in phase.";
     gm_draw_clock(picture, lanes, count);

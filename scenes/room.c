@@ -69,7 +69,11 @@ static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet,
         return NULL;
     }
     const long in = gm_flows_group(&mesh, "inlet", own->inlet, sentence);
-    const long out = in ? gm_flows_group(&mesh, "outlet", outlet, sentence) : 0;
+    long out = in ? gm_flows_group(&mesh, "outlet", outlet, sentence) : 0;
+    if (in && in == out) {
+        snprintf(sentence, GM_SENTENCE, "inlet and outlet are one group, \"%.60s\"", outlet);
+        out = 0;
+    }
     struct gm_flow *flow = NULL;
     if (in && out) {
         const struct gm_complex *complex = mesh.complex;
@@ -144,6 +148,7 @@ static const struct gm_observable observables[] = {
     GM_FLOWS_DIVERGENCE,
     GM_FLOWS_ENERGY,
     GM_FLOWS_ENSTROPHY,
+    GM_FLOWS_SPEED,
     GM_FLOWS_CHANGE,
     GM_FLOWS_TRIANGLES,
 };
@@ -166,12 +171,13 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
     }
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_flows *own = lane->parameters;
-    return gm_picture_text(picture, "Reynolds number %.6g,  Schmidt number %.6g,  %zu triangles,  %s",
-                           own->reynolds, own->schmidt, lane->problem.flow->complex->triangles,
-                           lane->scheme->title);
+    return gm_picture_text(
+        picture, "%s%s%s",
+        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
+        gm_flows_common(picture, lanes, count, "Schmidt number", offsetof(struct gm_flows, schmidt)),
+        gm_flows_mesh_and_scheme(picture, lanes, count));
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
@@ -212,6 +218,28 @@ static const struct gm_figure figures[] = {
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static double courant_time(const void *own)
+{
+    return gm_flows_courant_time(setup, own);
+}
+
+static const double reynolds_numbers[] = {10, 30, 100, 300, 1000};
+static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
+static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
+
+static const struct gm_stability stability = {
+    .arguments = "rows=30 columns=0 tracers=0 until=2",
+    .parameter = "reynolds",
+    .values = reynolds_numbers,
+    .value_count = COUNT(reynolds_numbers),
+    .label = "Courant number",
+    .unit = courant_time,
+    .steps = courant_numbers,
+    .step_count = COUNT(courant_numbers),
+    .kept = "speed_max",
+    .schemes = marching,
+};
+
 const struct gm_scene gm_scene_room = {
     .name = "room",
     .title = "A polluted room",
@@ -227,6 +255,7 @@ const struct gm_scene gm_scene_room = {
     .observable_count = COUNT(observables),
     .figures = figures,
     .figure_count = COUNT(figures),
+    .stability = &stability,
     .setup = setup,
     .close = gm_flows_close,
     .start = gm_flows_start,

@@ -78,6 +78,7 @@ struct gm_work {
                               state from the exact one, or from that of a reference run */
     double coarsest;       /* the largest step of the ladder, */
     int halvings;          /* halved so many times */
+    const char *const *schemes; /* the entrants, NULL-terminated; NULL: every scheme that fits */
     const char *reference; /* the scheme of the reference run, where the problem has no exact solution; NULL:
                               the highest order that fits */
     const char *is_exact;  /* name of a scheme that solves the scene exactly where it has an exact solution,

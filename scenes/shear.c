@@ -4,6 +4,28 @@
 
 #include <math.h>
 
+const struct gm_look_error gm_shear_errors[] = {
+    {"psi_error", "ψ"},
+    {"theta_error", "θ"},
+    {"flux_error", "flux"},
+    {"velocity_error", "velocity"},
+    {"pressure_error", "total pressure"},
+    {NULL, NULL},
+};
+
+static const double edges[] = {6, 12, 24, 48, 96}, errors[] = {1e-2, 1e-3, 1e-4};
+
+const struct gm_work gm_shear_work = {
+    .arguments = "until=1",
+    .measure = "psi_error",
+    .coarsest = 0.2,
+    .halvings = 4,
+    .resolution = "rows",
+    .resolutions = edges,
+    .resolution_count = sizeof edges / sizeof edges[0],
+    .errors = errors,
+};
+
 static bool make(const struct gm_flows *own, const struct gm_shear *shear, struct gm_flow **made,
                  char *sentence)
 {
@@ -33,8 +55,10 @@ static bool make(const struct gm_flows *own, const struct gm_shear *shear, struc
                 drag * complex->length[complex->boundary_edge[b]] / 2;
         }
     }
-    flow->viscosity = flow->diffusivity = 1;
-    flow->reynolds = 1;
+    flow->viscosity = flow->diffusivity = 1 / own->reynolds;
+    flow->reynolds = own->reynolds;
+    flow->time_unit = own->reynolds;
+    flow->speed = 1;
     flow->scalar = true;
     flow->tracers = (size_t)own->tracers;
     *made = flow;
@@ -53,11 +77,11 @@ bool gm_shear_setup(const void *parameters, const struct gm_shear *shear, const 
 }
 
 static void draw_profile(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                         const struct gm_profile *line, bool scalar, double (*exact)(double),
-                         const char *label)
+                         enum gm_place place, const struct gm_profile *line, bool scalar,
+                         double (*exact)(double), const char *label)
 {
     enum { POINTS = 65 };
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+    struct gm_panel *panel = gm_panel_add(picture, place, "");
     double points[2 * POINTS];
     panel->axes = true;
     panel->x = (struct gm_axis){.label = label, .low = 1, .high = 0};
@@ -99,9 +123,10 @@ static void draw_profile(struct gm_picture *picture, const struct gm_lane *const
 }
 
 void gm_shear_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
-                            const struct gm_profile *line, double (*velocity)(double),
+                            enum gm_place place, const struct gm_profile *line, double (*velocity)(double),
                             double (*theta)(double))
 {
-    draw_profile(picture, lanes, count, line, false, velocity, "u");
-    draw_profile(picture, lanes, count, line, true, theta, "θ");
+    draw_profile(picture, lanes, count, place, line, false, velocity, "u");
+    draw_profile(picture, lanes, count, place, line, true, theta, "θ");
+    picture->caption = "Grey, dashed: exact.";
 }

@@ -145,13 +145,16 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
                 panel->title_role = gm_lane_role(lanes[i]->shown.colour);
                 panel->x =
                     (struct gm_axis){.label = "X", .scale = GM_LINEAR, .low = 0, .high = soliton->own.length};
-                panel->y = (struct gm_axis){.label = "t", .scale = GM_LINEAR, .low = 0, .high = 1};
+                panel->y = (struct gm_axis){.label = "t", .scale = GM_LINEAR, .low = 0, .high = 0};
                 panel->note = named ? gm_lane_failure(picture, lanes[i]) : "";
             }
             const double *times = lanes[i]->entries[0].times;
             panel->y.low = fmin(panel->y.low, fmin(times[0], lanes[i]->run->t));
             panel->y.high = fmax(panel->y.high, fmax(soliton->timing.until, lanes[i]->run->t));
             draw_paths(picture, panel, lanes[i], lanes[i]->entries[0].width > 40);
+        }
+        if (panel && !(panel->y.high > panel->y.low)) {
+            panel->y.high = panel->y.low + 1; /* nothing is asked to pass */
         }
     }
 }
@@ -213,6 +216,11 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
     }
 }
 
+static const char *step_text(struct gm_picture *picture, double dt)
+{
+    return fabs(dt) < 1e-4 ? gm_power_text(picture, dt) : gm_picture_text(picture, "%.6g", dt);
+}
+
 static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     const struct gm_soliton_scene *soliton = lanes[0]->parameters;
@@ -230,8 +238,7 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
                            one_size ? gm_picture_text(picture, ",  %ld node%s", soliton->own.points,
                                                       soliton->own.points == 1 ? "" : "s")
                                     : "",
-                           one_step ? ",  Δt = " : "",
-                           one_step ? gm_picture_text(picture, "%.6g", lanes[0]->run->dt) : "",
+                           one_step ? ",  Δt = " : "", one_step ? step_text(picture, lanes[0]->run->dt) : "",
                            one_scheme ? ",  " : "", one_scheme ? lanes[0]->scheme->title : "",
                            !fields                            ? ""
                            : lanes[0]->run->t != lanes[0]->t0 ? ";  grey: exact,  red: at the start"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stiff oscillation: the chain of Fermi, Pasta & Ulam with three stiff springs, and the stiff spring
+/* Stiff oscillation: the chain of Fermi, Pasta & Ulam with some stiff springs, and the stiff spring
    pendulum. The energy of the stiff springs is an adiabatic invariant: it wanders among them slowly, its sum
    nearly stays. Hairer, Lubich & Wanner (2006), sections I.5 and XIII. */
 #include <math.h>
@@ -9,12 +9,14 @@
 #include "scenes/graph.h"
 
 enum { FPU, SPRING_PENDULUM };
-enum { SPRINGS = 3, ENERGY = 0, FIRST = 1, SUM = 4 /* places of observables */ };
+/* Places of observables; of so many springs each has one. */
+enum { TOLD = 3, ENERGY = 0, FIRST = 1, SUM = 4 };
 
 struct stiff {
     struct gm_timing timing;
     int system;
     double omega, stiffness;
+    long springs;
 };
 
 static const char *const systems[] = {"fpu", "spring-pendulum", NULL};
@@ -25,7 +27,7 @@ static const struct gm_parameter parameters[] = {
     {
         .key = "system",
         .unit = "",
-        .help = "fpu (a chain with three stiff springs) or spring-pendulum",
+        .help = "fpu (a chain of stiff and soft springs in turn) or spring-pendulum",
         .type = GM_CHOICE,
         .offset = offsetof(struct stiff, system),
         .standard = "fpu",
@@ -41,6 +43,16 @@ static const struct gm_parameter parameters[] = {
         .lowest = 0.1,
         .highest = 1e6,
         .logarithmic = true,
+    },
+    {
+        .key = "springs",
+        .unit = "",
+        .help = "number of stiff springs; their energies are told of the first three (fpu)",
+        .type = GM_INTEGER,
+        .offset = offsetof(struct stiff, springs),
+        .standard = "3",
+        .lowest = 1,
+        .highest = GM_FPU_SPRINGS,
     },
     {
         .key = "stiffness",
@@ -59,7 +71,7 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
 {
     (void)sentence;
     const struct stiff *stiff = own;
-    *problem = stiff->system == FPU ? gm_problem_fpu : gm_problem_spring_pendulum;
+    *problem = stiff->system == FPU ? gm_problem_fpu_of[stiff->springs - 1] : gm_problem_spring_pendulum;
     problem->parameters = stiff->system == FPU ? &stiff->omega : &stiff->stiffness;
     return true;
 }
@@ -75,9 +87,9 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
         return;
     }
     y[0] = 1;
-    y[SPRINGS] = 1 / stiff->omega;
-    y[2 * SPRINGS] = 1;
-    y[3 * SPRINGS] = 1;
+    y[stiff->springs] = 1 / stiff->omega;
+    y[2 * stiff->springs] = 1;
+    y[3 * stiff->springs] = 1;
 }
 
 static double energy(const struct gm_view *view)
@@ -96,7 +108,11 @@ static double spring_energy(const struct gm_view *view, size_t i)
         const double r = hypot(y[0], y[1]), speed = (y[0] * y[2] + y[1] * y[3]) / r;
         return i == 0 ? (speed * speed + stiff->stiffness * (r - 1) * (r - 1)) / 2 : NAN;
     }
-    const double expansion = stiff->omega * y[SPRINGS + i], speed = y[3 * SPRINGS + i];
+    const size_t springs = (size_t)stiff->springs;
+    if (i >= springs) {
+        return NAN;
+    }
+    const double expansion = stiff->omega * y[springs + i], speed = y[3 * springs + i];
     return (speed * speed + expansion * expansion) / 2;
 }
 
@@ -117,7 +133,7 @@ static double stiff_energy(const struct gm_view *view)
 {
     const struct stiff *stiff = view->parameters;
     double sum = 0;
-    for (size_t i = 0; i < (stiff->system == FPU ? SPRINGS : 1); i++) {
+    for (size_t i = 0; i < (stiff->system == FPU ? (size_t)stiff->springs : 1); i++) {
         sum += spring_energy(view, i);
     }
     return sum;
@@ -204,7 +220,12 @@ static size_t middles(const struct gm_lane *lane, size_t series, double *points)
     return count;
 }
 
-/* The energies of the stiff springs and their sum over time: one panel a lane. */
+static size_t springs_of(const struct gm_lane *lane)
+{
+    return (size_t)((const struct stiff *)lane->parameters)->springs;
+}
+
+/* The energies of the first stiff springs and the sum of all over time: one panel a lane. */
 static void draw_exchange(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     static const char *const names[] = {"I₁", "I₂", "I₃", "I"};
@@ -222,11 +243,14 @@ static void draw_exchange(struct gm_picture *picture, const struct gm_lane *cons
         panel->note =
             failure[0] ? failure : gm_picture_text(picture, "stiff energy × %.3g", stiff_ratio(lane));
         double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
-        for (size_t k = 0; points && k < SPRINGS + 1; k++) {
+        for (size_t k = 0; points && k < TOLD + 1; k++) {
+            if (k < TOLD && k >= springs_of(lane)) {
+                continue;
+            }
             const size_t made =
-                k < SPRINGS ? middles(lane, FIRST + k, points) : gm_history_points(lane, SUM, points);
-            const struct gm_style style = {role, k < SPRINGS ? 0.75 : 1, k < SPRINGS ? 1.3 : 2.4,
-                                           k < SPRINGS ? gm_lane_dash(k) : GM_SOLID};
+                k < TOLD ? middles(lane, FIRST + k, points) : gm_history_points(lane, SUM, points);
+            const struct gm_style style = {role, k < TOLD ? 0.75 : 1, k < TOLD ? 1.3 : 2.4,
+                                           k < TOLD ? gm_lane_dash(k) : GM_SOLID};
             for (size_t m = 0; m < made; m++) {
                 points[2 * m + 1] = fmin(points[2 * m + 1], 3); /* far beyond the panel is beyond it */
             }
@@ -282,14 +306,21 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     bool one_system = true, one_step = true;
     for (size_t i = 1; i < count; i++) {
         const struct stiff *other = lanes[i]->parameters;
-        one_system &= other->system == stiff->system && other->omega == stiff->omega;
+        one_system &= other->system == stiff->system && other->omega == stiff->omega &&
+                      other->springs == stiff->springs;
         one_step &= lanes[i]->run->dt == dt;
     }
     const double omega = stiff->system == FPU ? stiff->omega : sqrt(stiff->stiffness);
-    picture->title = gm_picture_text(picture,
-                                     stiff->system == FPU ? "Three stiff springs trade their energy, by %s"
-                                                          : "A stiff spring pendulum, followed by %s",
-                                     gm_counted_schemes(lanes, count));
+    static const char *const counted[] = {"A stiff spring keeps its", "Two stiff springs trade their",
+                                          "Three stiff springs trade their", "Four stiff springs trade their",
+                                          "Five stiff springs trade their"};
+    picture->title =
+        stiff->system == SPRING_PENDULUM
+            ? gm_picture_text(picture, "A stiff spring pendulum, followed by %s",
+                              gm_counted_schemes(lanes, count))
+            : gm_picture_text(picture, "%s energy, by %s",
+                              one_system ? counted[stiff->springs - 1] : "Stiff springs trade their",
+                              gm_counted_schemes(lanes, count));
     picture->subtitle = gm_picture_text(
         picture, "%s%s%s", stiff->system == FPU ? "chain of Fermi, Pasta and Ulam" : "spring and gravity",
         one_system ? gm_picture_text(picture, ",  ω = %.4g", omega) : "",

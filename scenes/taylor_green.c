@@ -144,15 +144,17 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
     gm_flows_write_profile(view, front, &line, stream);
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const struct gm_flows *own = lane->parameters;
-    return gm_picture_text(picture, "viscosity %.6g,  %zu triangles,  %s", own->viscosity,
-                           lane->problem.flow->complex->triangles,
-                           own->domain == GM_DOMAIN_TORUS ? "torus" : "walls without friction");
+    const struct gm_flows *own = lanes[0]->parameters;
+    return gm_picture_text(
+        picture, "%s%s,  %s",
+        gm_flows_common(picture, lanes, count, "viscosity", offsetof(struct gm_flows, viscosity)),
+        gm_flows_mesh_and_scheme(picture, lanes, count),
+        own->domain == GM_DOMAIN_TORUS ? "torus" : "walls without friction");
 }
 
-static const char *const errors[] = {"psi_error", NULL};
+static const struct gm_look_error errors[] = {{"psi_error", "ψ"}, {NULL, NULL}};
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
@@ -173,6 +175,20 @@ static const char *const schemes[] = {"crank-nicolson", "semi-implicit", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+static const double edges[] = {8, 16, 32, 64, 128}, accuracies[] = {1e-1, 1e-2, 1e-3};
+
+static const struct gm_work work = {
+    .arguments = "viscosity=0.02",
+    .measure = "psi_error",
+    .coarsest = 0.25,
+    .halvings = 6,
+    .resolution = "columns",
+    .resolutions = edges,
+    .resolution_count = COUNT(edges),
+    .errors = accuracies,
+    .schemes = schemes,
+};
+
 const struct gm_scene gm_scene_taylor_green = {
     .name = "taylor-green",
     .title = "Taylor–Green vortices",
@@ -186,6 +202,7 @@ const struct gm_scene gm_scene_taylor_green = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = COUNT(observables),
+    .work = &work,
     .setup = setup,
     .close = gm_flows_close,
     .start = start,

@@ -249,7 +249,7 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
         picture, "%s%s%sstrength %.6g%s%s", one_start ? starts[own->configuration] : "",
         one_start ? ",  " : "",
         one_start && turned ? gm_picture_text(picture, "angle %.4g°,  ", own->angle * 180 / M_PI) : "",
-        own->strength, one_step ? ",  Δt = " : "", one_step ? gm_time_text(picture, dt, dt) : "");
+        own->strength, one_step ? ",  Δt = " : "", one_step ? gm_step_text(picture, dt) : "");
     picture->caption = one_start ? caption_of(own) : "";
     gm_draw_clock(picture, lanes, count);
     draw_plane(picture, lanes, count);

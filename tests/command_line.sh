@@ -163,6 +163,9 @@ for what in '' scenes schemes figures disc 'schemes --long' 'disc --json'; do
 done
 status 0 --help
 status 0 --version
+for word in '^geomint [0-9]' 'OSMesa, OpenGL [0-9]\|EGL, OpenGL [0-9]' 'libpng [0-9]' 'GSL [0-9]'; do
+    grep -q "$word" out || fail "--version does not say $word"
+done
 
 # the same input gives the same output, bit for bit, but for the seconds
 "$geomint" run disc scheme=gauss4 system=pendulum --json --state | sed 's/"seconds":[^,]*//' >one

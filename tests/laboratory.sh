@@ -74,6 +74,36 @@ grep -q '^stiff,verlet,50,2.0499.*,blow-up,blow-up,' "$folder/stiff-stability.cs
 grep -q '^stiff,verlet,50,1.95.*,bounded,ok,' "$folder/stiff-stability.csv" || fail "Verlet is not bounded at 1.95"
 grep -q 'bounded for all values up to 1.95' "$folder/out" || fail "no limit in the table"
 
+# steady flows: the stream function's error falls with the square of the edge, whatever the step
+"$program" work-precision couette scheme=steady rows=12,24,48 dt=.2,.1 --size 320x180 --out "$folder" >"$folder/out" \
+    2>"$folder/err" || fail "work-precision couette: $(cat "$folder/err")"
+awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i == "rows") r = i; if ($i == "psi_error") e = i } }
+    NR > 1 { error[$r] = $e }
+    END { if (!r || !e || NR < 4) exit 1; p = error[12] / error[24]; q = error[24] / error[48]
+          exit p < 3.4 || p > 4.6 || q < 3.4 || q > 4.6 }' "$folder/couette-work-precision.csv" ||
+    fail "couette is not of order 2 in the edge: $(cat "$folder/couette-work-precision.csv")"
+grep -q 'Fewest rows: ' "$folder/out" || fail "couette: the edges are not compared"
+
+# Taylor-Green vortices against their exact solution: orders 1 and 2 in the step
+"$program" work-precision taylor-green columns=24 viscosity=.2 dt=.25,.125 until=1 --size 320x180 --out "$folder" \
+    >"$folder/out" 2>"$folder/err" || fail "work-precision taylor-green: $(cat "$folder/err")"
+awk -F, '$2 == "semi-implicit" || $2 == "crank-nicolson" { rows++ } END { exit rows != 4 || NR != 5 }' \
+    "$folder/taylor-green-work-precision.csv" || fail "taylor-green: entrants"
+
+# Courant numbers and Reynolds numbers: small steps are bounded, steps a hundred times the edge are not
+for scene in cavity room; do
+    small='columns=10 rows=0 until=2'
+    [ $scene = room ] && small='rows=10 columns=0 until=1'
+    # shellcheck disable=SC2086
+    "$program" stability $scene $small --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
+        fail "stability $scene: $(cat "$folder/err")"
+    [ -s "$folder/$scene-stability.png" ] || fail "no PNG of the map of $scene"
+    [ "$(wc -l <"$folder/$scene-stability.csv")" -eq 81 ] || fail "stability $scene: cells are missing"
+    awk -F, -v s=$scene '$4 <= 1 && $3 <= 100 && $6 != "bounded" { exit 1 }
+        $2 == "crank-nicolson" && $4 == 100 && $3 == 1000 && $6 == "bounded" { exit 1 }' "$folder/$scene-stability.csv" ||
+        fail "stability $scene: $(cat "$folder/out")"
+done
+
 "$program" stability --region rk4 --size 320x180 --out "$folder" >"$folder/out" 2>&1 || fail "stability --region"
 grep -q 'imaginary z up to 2.82' "$folder/out" || fail "the region of rk4: $(cat "$folder/out")"
 [ -s "$folder/rk4-stability.png" ] || fail "no PNG of the region"

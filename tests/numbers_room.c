@@ -100,6 +100,242 @@ static void shear_orders(void **unused)
     }
 }
 
+/* Errors on three meshes that nothing moved, each within what its conditioning allows. */
+static void shear_errors(void **unused)
+{
+    (void)unused;
+    enum { NUMBERS = 6 };
+    static const char *const keys[NUMBERS] = {"psi_error",      "theta_error",    "flux_error",
+                                              "velocity_error", "pressure_error", "mean_edge"};
+    static const struct {
+        const char *scene, *rows, *columns;
+        double number[NUMBERS][2]; /* value, relative tolerance */
+    } cases[] = {
+        {"couette",
+         "6",
+         "8",
+         {{0.003846544816409577, 1.8e-10},
+          {0.00022516907356353628, 5e-10},
+          {0.012489611137497886, 3e-11},
+          {0.045864705745036836, 1.6e-11},
+          {0.35363657974151375, 3.9e-10},
+          {0.15984296671656345, 1e-11}}},
+        {"couette",
+         "12",
+         "16",
+         {{0.0010737711062316555, 8e-10},
+          {4.668795814529764e-05, 1.1000000000000001e-08},
+          {0.004084862823958433, 5.2e-11},
+          {0.020287429008481885, 1.4e-11},
+          {0.17787774663877914, 1.5e-09},
+          {0.07907445276238782, 1e-11}}},
+        {"couette",
+         "24",
+         "32",
+         {{0.0002726260164783679, 2.0999999999999998e-09},
+          {9.148900893858522e-06, 4.9e-08},
+          {0.0013549580498787368, 2.1e-10},
+          {0.009563015742342413, 1e-11},
+          {0.08981064684045603, 1.9e-09},
+          {0.039242269175230764, 1e-11}}},
+        {"poiseuille",
+         "6",
+         "8",
+         {{0.0041343819060359775, 2.2999999999999998e-10},
+          {0.00031710758950352153, 1.5e-10},
+          {0.027187344545000554, 4.5e-11},
+          {0.08392898113858992, 1.1999999999999999e-11},
+          {0.04046635499737795, 2.7e-10},
+          {0.15984296671656345, 1e-11}}},
+        {"poiseuille",
+         "12",
+         "16",
+         {{0.0011451213204387593, 9.1e-10},
+          {5.759246443356416e-05, 1.8e-09},
+          {0.008731518570406114, 2.2999999999999998e-10},
+          {0.03738859846759641, 2.5e-11},
+          {0.027461539132144143, 6.2e-10},
+          {0.07907445276238782, 1e-11}}},
+        {"poiseuille",
+         "24",
+         "32",
+         {{0.000306333505073674, 9.300000000000001e-10},
+          {1.0786650719866303e-05, 1.4e-08},
+          {0.0028134014943099854, 2.6e-10},
+          {0.017541930340798685, 2.6999999999999997e-11},
+          {0.01768134645396799, 1.6e-09},
+          {0.039242269175230764, 1e-11}}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *const words[][2] = {{"rows", cases[i].rows}, {"columns", cases[i].columns}, {NULL, NULL}};
+        struct gm_lane *lane = open_lane(cases[i].scene, "steady", words);
+        assert_int_equal(gm_run_advance(lane->run, 8), GM_OK);
+        for (size_t k = 0; k < NUMBERS; k++) {
+            const double wanted = cases[i].number[k][0];
+            expect_near(keys[k], observe(lane, keys[k]), wanted, cases[i].number[k][1] * wanted);
+        }
+        gm_lane_close(lane);
+    }
+}
+
+/* What the order of the pressure hangs on: along the walls lies a layer of wrong vorticity, a cell wide. Away
+   from it the order is 2; and where convection outweighs viscosity the layer weighs less. */
+static void pressure_orders(void **unused)
+{
+    (void)unused;
+    enum { MESHES = 5 };
+    static const char *const rows[MESHES] = {"11", "19", "45", "67", "90"};
+    static const struct {
+        const char *reynolds, *key;
+        double low, high;
+    } cases[] = {
+        {"1", "pressure_error", 0.9, 1.1},
+        {"1", "pressure_error_middle", 1.9, 2.1},
+        {"100", "pressure_error", 1.35, 1.65},
+        {"250", "pressure_error", 1.65, 1.95},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double x[MESHES], e[MESHES];
+        for (size_t m = 0; m < MESHES; m++) {
+            const char *const words[][2] = {{"rows", rows[m]}, {"reynolds", cases[i].reynolds}, {NULL, NULL}};
+            struct gm_lane *lane = open_lane("couette", "steady", words);
+            assert_int_equal(gm_run_advance(lane->run, 12), GM_OK);
+            x[m] = observe(lane, "mean_edge");
+            e[m] = observe(lane, cases[i].key);
+            gm_lane_close(lane);
+        }
+        const double order = slope(x, e, MESHES);
+        print_message("couette, Re %s: order of %s %.3f\n", cases[i].reynolds, cases[i].key, order);
+        assert_true(order >= cases[i].low && order <= cases[i].high);
+    }
+}
+
+/* The channel's mean errors at 3 L / 4, on two meshes. */
+static void channel_errors(void **unused)
+{
+    (void)unused;
+    static const char *const meshes[2][2] = {{"14", "98"}, {"36", "252"}};
+    static const double wanted[2][2] = {{5.8e-3, 2.1e-5}, {8.5e-4, 2.1e-5}};
+    for (size_t i = 0; i < 2; i++) {
+        const char *const words[][2] = {{"rows", meshes[i][0]}, {"columns", meshes[i][1]}, {NULL, NULL}};
+        struct gm_lane *lane = open_lane("channel", "steady", words);
+        assert_int_equal(gm_run_advance(lane->run, 8), GM_OK);
+        expect_near("channel: mean error of u", observe(lane, "u_error"), wanted[i][0], 0.02 * wanted[i][0]);
+        expect_near("channel: mean error of theta", observe(lane, "theta_error"), wanted[i][1],
+                    0.05 * wanted[i][1]);
+        gm_lane_close(lane);
+    }
+}
+
+/* The room on a coarse mesh, after so many steps. */
+static void coarse_room(void **unused)
+{
+    (void)unused;
+    enum { NUMBERS = 12 };
+    static const char *const names[NUMBERS] = {
+        "scalar total", "its rate",       "convected inflow", "kinetic energy",     "enstrophy", "sum of psi",
+        "sum of psi^2", "sum of theta^2", "least psi inside", "largest psi inside", "reaction",  "outflow"};
+    static const struct {
+        long steps;
+        double number[NUMBERS]
+                     [2]; /* value, relative tolerance; an outflow of 0: not yet told apart from it */
+    } cases[] = {
+        {1,
+         {{77.77408335914008, 3.6e-11},
+          {322.60220030535294, 2.5e-11},
+          {562.5, 3.6e-11},
+          {0.6327283579673191, 1e-11},
+          {6.833270849654464, 1e-11},
+          {8.323862249337775, 1e-11},
+          {3.990975496480407, 1e-11},
+          {65758.92447329918, 4e-11},
+          {0.002153976497007023, 1.1999999999999999e-11},
+          {0.6645060234038106, 1e-11},
+          {-239.89779969464726, 3.2e-10},
+          {0.0, 1e-11}}},
+        {5,
+         {{136.17675396928536, 2.6999999999999997e-11},
+          {390.0867375820269, 2.6999999999999997e-11},
+          {562.5, 3.6e-11},
+          {0.6373189266782129, 1e-11},
+          {5.9339455387702635, 1.4e-11},
+          {8.286494872428177, 1e-11},
+          {3.981412320901441, 1e-11},
+          {85571.56982888564, 3.2999999999999996e-11},
+          {0.001799196856199951, 1.5e-11},
+          {0.6648368584562445, 1e-11},
+          {-172.41326241797285, 4.8e-10},
+          {0.0, 1e-11}}},
+        {20,
+         {{430.82152670729755, 2e-11},
+          {548.0242945484491, 1.3e-11},
+          {562.5, 3.6e-11},
+          {0.6735620262336768, 1e-11},
+          {5.114444838926643, 5.3999999999999994e-11},
+          {8.148837335626663, 2.3e-11},
+          {3.9430562287793327, 3.6e-11},
+          {309048.98105077737, 2.9000000000000003e-11},
+          {0.0008793540877642326, 7e-11},
+          {0.6656911909419364, 1e-11},
+          {-14.475705451552145, 1.2e-09},
+          {0.0, 1e-11}}},
+        {500,
+         {{9376.013189371813, 4e-11},
+          {155.08259512735094, 5.9e-10},
+          {562.5, 3.6e-11},
+          {1.8889016444093005, 3e-11},
+          {8.969216146385254, 5e-11},
+          {3.09329062844998, 2.1e-10},
+          {3.105708589745553, 2e-10},
+          {5780788.047021493, 5.3000000000000004e-11},
+          {-0.4207280185342292, 1.2e-10},
+          {0.670245731537114, 5.7e-11},
+          {-153.6765865944239, 1.2999999999999999e-09},
+          {253.7408182782572, 2.8e-10}}},
+    };
+    const char *const words[][2] = {{"rows", "20"}, {"columns", "28"}, {"tracers", "0"}, {NULL, NULL}};
+    struct gm_lane *lane = open_lane("room", "semi-implicit", words);
+    const struct gm_flow *flow = lane->problem.flow;
+    const struct gm_complex *complex = flow->complex;
+    assert_int_equal(complex->vertices, 595);
+    assert_int_equal(complex->triangles, 1120);
+    expect_near("mean edge", complex->mean_edge, 0.2306586505785794, 1e-11);
+    expect_near("smallest angle", complex->smallest_angle, 39.595068000756925, 1e-9);
+    expect_near("largest angle", complex->largest_angle, 79.1901360015142, 1e-9);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        assert_int_equal(gm_run_advance(lane->run, cases[i].steps - lane->run->steps), GM_OK);
+        const double *y = gm_run_state(lane->run), *theta = gm_flow_block(flow, y, GM_FLOW_THETA);
+        const struct gm_budget budget = gm_flow_budget(flow, y);
+        double psi = 0, psi_2 = 0, theta_2 = 0, low = INFINITY, high = -INFINITY;
+        for (size_t v = 0; v < complex->vertices; v++) {
+            psi += complex->star0[v] * y[v];
+            psi_2 += complex->star0[v] * y[v] * y[v];
+            theta_2 += complex->star0[v] * theta[v] * theta[v];
+            if (flow->kind[v] == GM_VERTEX_FREE) {
+                low = fmin(low, y[v]);
+                high = fmax(high, y[v]);
+            }
+        }
+        const double mine[NUMBERS] = {gm_flow_scalar_total(flow, y),
+                                      budget.rate,
+                                      budget.convected,
+                                      gm_flow_kinetic_energy(flow, y),
+                                      gm_flow_enstrophy(flow, y),
+                                      psi,
+                                      psi_2,
+                                      theta_2,
+                                      low,
+                                      high,
+                                      budget.reaction,
+                                      budget.outflow};
+        for (size_t k = 0; k < NUMBERS; k++) {
+            const double wanted = cases[i].number[k][0];
+            expect_near(names[k], mine[k], wanted, wanted == 0 ? 1e-6 : cases[i].number[k][1] * fabs(wanted));
+        }
+    }
+    gm_lane_close(lane);
+}
+
 /* The divergence at every step of both flows, marching. */
 static void divergence_is_round_off(void **unused)
 {
@@ -261,9 +497,11 @@ static void ideal_torus(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shear_orders), cmocka_unit_test(divergence_is_round_off),
-        cmocka_unit_test(room_totals),  cmocka_unit_test(cavity),
-        cmocka_unit_test(taylor_green), cmocka_unit_test(ideal_torus),
+        cmocka_unit_test(shear_orders),    cmocka_unit_test(shear_errors),
+        cmocka_unit_test(pressure_orders), cmocka_unit_test(channel_errors),
+        cmocka_unit_test(coarse_room),     cmocka_unit_test(divergence_is_round_off),
+        cmocka_unit_test(room_totals),     cmocka_unit_test(cavity),
+        cmocka_unit_test(taylor_green),    cmocka_unit_test(ideal_torus),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

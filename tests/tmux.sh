@@ -9,7 +9,7 @@ socket=geomint-test-$$
 servers=0
 failures=0
 pane=main
-unset TMUX COLORTERM NO_COLOR GEOMINT_COLOURS GEOMINT_BLOCKS GEOMINT_THEME
+unset TMUX COLORTERM NO_COLOR GEOMINT_COLOURS GEOMINT_GRAPHICS GEOMINT_THEME
 export LC_ALL=C.UTF-8
 
 tm() { tmux -L "$socket" -f /dev/null "$@"; }
@@ -36,13 +36,14 @@ fail() {
     fi
 }
 
+in_colour() { tm capture-pane -e -p -t "$pane" 2>/dev/null; }
 screen() { tm capture-pane -p -t "$pane" 2>/dev/null; }
 keys() { tm send-keys -t "$pane" "$@"; }
 
 # wait_for TEXT: until the screen has it; a pattern of grep -E
 wait_for() {
     local i
-    for ((i = 0; i < 100; i++)); do
+    for ((i = 0; i < 400; i++)); do
         screen | grep -qE -- "$1" && return 0
         sleep 0.1
     done
@@ -52,7 +53,7 @@ wait_for() {
 
 wait_gone() {
     local i
-    for ((i = 0; i < 100; i++)); do
+    for ((i = 0; i < 400; i++)); do
         screen | grep -qE -- "$1" || return 0
         sleep 0.1
     done
@@ -73,14 +74,37 @@ settled() {
     printf '%s\n' "$now"
 }
 
+# becomes NAME SCREEN: until the screen is that one
+becomes() {
+    local i now
+    for ((i = 0; i < 200; i++)); do
+        now=$(screen)
+        [ "$now" = "$2" ] && return 0
+        sleep 0.1
+    done
+    fail "$1: the screens differ"
+    diff <(printf '%s\n' "$2") <(printf '%s\n' "$now")
+}
+
+# changes NAME SCREEN: until the screen is another one, and rests
+changes() {
+    local i
+    for ((i = 0; i < 200; i++)); do
+        [ "$(screen)" != "$2" ] && {
+            settled
+            return 0
+        }
+        sleep 0.1
+    done
+    fail "$1: the screen stays as it was" >&2
+}
+
 same() { # NAME SCREEN SCREEN
     [ "$2" = "$3" ] || {
         fail "$1: the screens differ"
         diff <(printf '%s\n' "$2") <(printf '%s\n' "$3")
     }
 }
-
-differ() { [ "$2" != "$3" ] || fail "$1: the screen stays as it was"; }
 
 # start SIZE [NAME=VALUE ...]: a shell in a pane of that size
 start() {
@@ -101,4 +125,29 @@ start() {
 pause() {
     keys Space
     wait_for 'paused'
+}
+
+# becomes NAME SCREEN: until the screen is that one
+becomes() {
+    local i now
+    for ((i = 0; i < 200; i++)); do
+        now=$(screen)
+        [ "$now" = "$2" ] && return 0
+        sleep 0.1
+    done
+    fail "$1: the screens differ"
+    diff <(printf '%s\n' "$2") <(printf '%s\n' "$now")
+}
+
+# changes NAME SCREEN: until the screen is another one, and rests; prints it
+changes() {
+    local i
+    for ((i = 0; i < 200; i++)); do
+        [ "$(screen)" != "$2" ] && {
+            settled
+            return 0
+        }
+        sleep 0.1
+    done
+    fail "$1: the screen stays as it was" >&2
 }

@@ -154,6 +154,30 @@ static void refusals(void **unused)
 }
 
 /* A step longer than an orbit: an honest status, or numbers that say how bad it is. */
+/* Chains of every length: force and energy agree, and so do two schemes that share neither force nor start of
+   the iteration. */
+static void chains_of_every_length(void **unused)
+{
+    (void)unused;
+    for (int springs = 1; springs <= 5; springs++) {
+        char words[200];
+        double ends[2][20];
+        for (int k = 0; k < 2; k++) {
+            struct gm_trial trial;
+            snprintf(words, sizeof words, "stiff springs=%d omega=20 until=2 scheme=%s dt=%s", springs,
+                     k ? "impulse2" : "gauss8", k ? "1e-5" : "1e-3");
+            gm_trial_run(&trial, words, false);
+            assert_int_equal(trial.drive.lane->problem.n, 4 * springs);
+            assert_true(gm_trial_end(&trial, "energy_error") < (k ? 1e-7 : 1e-12));
+            memcpy(ends[k], gm_run_state(trial.drive.lane->run), (size_t)springs * 4 * sizeof(double));
+            gm_trial_close(&trial);
+        }
+        for (int c = 0; c < 4 * springs; c++) {
+            assert_true(fabs(ends[0][c] - ends[1][c]) < 1e-7);
+        }
+    }
+}
+
 /* The near collision comes with a strength and a step, unless they are given. */
 static void a_configuration_brings_its_own(void **unused)
 {
@@ -304,6 +328,7 @@ int main(void)
         cmocka_unit_test(looking_changes_nothing),
         cmocka_unit_test(refusals),
         cmocka_unit_test(a_configuration_brings_its_own),
+        cmocka_unit_test(chains_of_every_length),
         cmocka_unit_test(step_longer_than_an_orbit),
         cmocka_unit_test(linear_stability),
         cmocka_unit_test(prices),

@@ -3,21 +3,28 @@
 
 #include <curses.h>
 #include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <termios.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "app/explorer/mouse.h"
-#include "app/explorer/terminal.h"
 #include "app/request.h"
 
 static SCREEN *screen;
 static WINDOW *keys; /* a pad: reading a key from it does not make ncurses draw */
 static int wake_fd = -1;
+/* ncurses reads the keys from a pipe: what it must not see is taken out before. */
+static FILE *input;
+static int feed_fd = -1;
+static struct gm_answers *answers;
+static struct timespec heard; /* when the last byte came */
 static struct termios before; /* as the shell had it */
 static char parting[256];     /* what restores the terminal, for handlers that may call hardly anything */
 static size_t parting_size;
@@ -185,18 +192,62 @@ static void give_back(void)
     active = 0;
 }
 
-bool gm_console_open(int wake, char *message)
+static bool open_input(const struct gm_terminal *terminal)
+{
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) {
+        return false;
+    }
+    feed_fd = ends[1];
+    input = fdopen(ends[0], "r");
+    if (!input) {
+        close(ends[0]);
+    }
+    return input && write(feed_fd, terminal->typed, terminal->typed_size) == (ssize_t)terminal->typed_size;
+}
+
+static void close_input(void)
+{
+    if (input) {
+        fclose(input);
+    }
+    if (feed_fd >= 0) {
+        close(feed_fd);
+    }
+    input = NULL;
+    feed_fd = -1;
+}
+
+/* keypad() makes terminals send other sequences for these than before; what was typed ahead are the ordinary
+ * ones.
+ */
+static void define_ordinary_arrows(void)
+{
+    define_key("\033[A", KEY_UP);
+    define_key("\033[B", KEY_DOWN);
+    define_key("\033[C", KEY_RIGHT);
+    define_key("\033[D", KEY_LEFT);
+}
+
+bool gm_console_open(int wake, struct gm_terminal *terminal, char *message)
 {
     wake_fd = wake;
+    answers = &terminal->answers;
     leaving = resized = stopping = 0;
     if (tcgetattr(STDIN_FILENO, &before) != 0) {
         snprintf(message, GM_MESSAGE, "The terminal does not say how it is set: %s.", strerror(errno));
         return false;
     }
+    if (!open_input(terminal)) {
+        close_input();
+        snprintf(message, GM_MESSAGE, "There is no room for the keys: %s.", strerror(errno));
+        return false;
+    }
     handle_all();
-    screen = newterm(NULL, stdout, stdin);
+    screen = newterm(NULL, stdout, input);
     if (!screen) {
         unhandle_all();
+        close_input();
         snprintf(message, GM_MESSAGE, "ncurses cannot use the terminal \"%.40s\".", getenv("TERM"));
         return false;
     }
@@ -212,6 +263,7 @@ bool gm_console_open(int wake, char *message)
         return false;
     }
     keypad(keys, TRUE);
+    define_ordinary_arrows();
     nodelay(keys, TRUE);
     reports_mouse = tigetnum("colors") >= 8; /* terminals of old would show the letters */
     define_key(GM_MOUSE_FRONT, GM_KEY_MOUSE);
@@ -234,13 +286,48 @@ void gm_console_close(void)
         delwin(keys);
     }
     delscreen(screen);
+    close_input();
     keys = NULL;
     screen = NULL;
     unhandle_all();
 }
 
+/* A terminal sends what belongs together at once; only the way from it may cut it. */
+enum { BELONGS_TOGETHER = 50 };
+
+int gm_console_patience(void)
+{
+    if (answers->count == 0) {
+        return -1;
+    }
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    long passed = (now.tv_sec - heard.tv_sec) * 1000 + (now.tv_nsec - heard.tv_nsec) / 1000000;
+    return passed < BELONGS_TOGETHER ? (int)(BELONGS_TOGETHER - passed) : 0;
+}
+
+/* Passes keys on to ncurses. */
+static void feed(void)
+{
+    char bytes[1024], typed[sizeof bytes + GM_ANSWER_LONGEST];
+    size_t size = 0;
+    if (poll(&(struct pollfd){.fd = STDIN_FILENO, .events = POLLIN}, 1, 0) > 0) {
+        ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
+        if (count > 0) {
+            clock_gettime(CLOCK_MONOTONIC, &heard);
+            size = gm_answers_sort(answers, bytes, (size_t)count, typed);
+        }
+    } else if (gm_console_patience() == 0) {
+        size = gm_answers_release(answers, typed);
+    }
+    if (size > 0 && write(feed_fd, typed, size) < 0) {
+        beep(); /* more keys than anyone types: they are lost */
+    }
+}
+
 int gm_console_key(void)
 {
+    feed();
     int key = wgetch(keys);
     return key == ERR ? -1 : key;
 }

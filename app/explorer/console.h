@@ -4,17 +4,22 @@
 
 #include <stdbool.h>
 
-/* The terminal as a device: taken over by ncurses at the start, given back on every way out, its keys and
-   signals read. */
+#include "app/explorer/terminal.h"
 
-/* Takes the terminal over. `wake` is an eventfd that signals are announced on. False with a sentence
-   (GM_MESSAGE bytes). */
-bool gm_console_open(int wake, char *message);
+/* The terminal as a device: taken over by ncurses at the start, given back on every way out, its keys and
+   signals read. Answers among the keys go to the terminal's answers. */
+
+/* Takes the terminal over. `wake` is an eventfd that signals are announced on. Keys typed before come first.
+   False with a sentence (GM_MESSAGE bytes). */
+bool gm_console_open(int wake, struct gm_terminal *terminal, char *message);
 /* Gives it back. Harmless if it was given back before. */
 void gm_console_close(void);
 
 /* The next key of those that have come, as ncurses numbers them; -1 if there is none. */
 int gm_console_key(void);
+/* How long to wait for the rest of a key or an answer that has begun, in milliseconds; -1 if none has. Then
+   gm_console_key takes it as it is. */
+int gm_console_patience(void);
 
 /* The signal that asks to leave, or 0. */
 int gm_console_leaving(void);

@@ -14,13 +14,13 @@
 #include <unistd.h>
 
 #include "app/explorer/console.h"
+#include "app/explorer/display.h"
 #include "app/explorer/guide.h"
 #include "app/explorer/keys.h"
 #include "app/explorer/measure.h"
 #include "app/explorer/modes.h"
 #include "app/explorer/mouse.h"
 #include "app/explorer/studies.h"
-#include "app/explorer/writer.h"
 
 enum { FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66, FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
 
@@ -31,7 +31,7 @@ struct explorer {
     struct gm_terminal terminal;
     struct gm_face face;
     struct gm_screen screen;
-    struct gm_writer writer;
+    struct gm_display display;
     int wake; /* the worker's shots and all signals are announced here */
     struct gm_worker *worker;
     const struct gm_scene *scene; /* the worker's */
@@ -47,10 +47,11 @@ struct explorer {
     struct gm_measure measure;
     struct gm_guide guide; /* without a tour: none */
     struct gm_studies studies;
-    bool dirty;        /* the screen has to be composed again */
-    bool fresh;        /* with a new picture */
-    bool asked;        /* for a shot */
-    int64_t next_shot; /* in milliseconds: no shot is asked for earlier */
+    bool dirty;         /* the screen has to be composed again */
+    bool fresh;         /* with a new picture */
+    bool asked;         /* for a shot */
+    unsigned long told; /* number of the last command line that was shown */
+    int64_t next_shot;  /* in milliseconds: no shot is asked for earlier */
     bool leave;
     int status;
     char message[GM_MESSAGE]; /* said when the terminal is the shell's again */
@@ -73,6 +74,7 @@ static void leave(struct explorer *explorer, int status)
 static void expect_shot(struct explorer *explorer)
 {
     explorer->shot = NULL;
+    explorer->told = 0;
     explorer->asked = true;
     explorer->next_shot = 0;
 }
@@ -90,6 +92,7 @@ static bool open_request(struct explorer *explorer, const struct gm_request *req
 
 static void abandon(struct explorer *explorer)
 {
+    gm_display_finish(&explorer->display); /* it may be painting a picture of this worker's */
     if (explorer->guide.tour) {
         gm_worker_close(explorer->worker); /* the tour does not outlive it otherwise */
     } else if (explorer->worker) {
@@ -239,7 +242,11 @@ static void resize(struct explorer *explorer)
     if (!gm_screen_resize(&explorer->screen, columns, rows)) {
         leave(explorer, GM_EXIT_USAGE);
     }
-    gm_writer_forget(&explorer->writer);
+    gm_display_forget(&explorer->display);
+    gm_terminal_cell(&explorer->terminal.cell_width, &explorer->terminal.cell_height);
+    if (explorer->face.pixels) {
+        gm_writer_tell(&explorer->display.writer, GM_ASK_CELL); /* letters may have another size too */
+    }
     explorer->dirty = explorer->fresh = true;
 }
 
@@ -271,11 +278,21 @@ static void press_at_start(struct explorer *explorer, int key)
 /* In other colours, or none. */
 static void repaint(struct explorer *explorer)
 {
-    struct gm_writer *writer = &explorer->writer;
+    struct gm_writer *writer = &explorer->display.writer;
     writer->theme = explorer->face.theme;
     writer->colours = explorer->face.monochrome ? GM_COLOURS_NONE : explorer->terminal.colours;
-    gm_writer_forget(writer);
+    gm_display_forget(&explorer->display);
     explorer->dirty = explorer->fresh = true;
+}
+
+static void next_graphics(struct explorer *explorer)
+{
+    struct gm_face *face = &explorer->face;
+    struct gm_graphics graphics =
+        gm_graphics_next(&explorer->terminal, (struct gm_graphics){face->pixels, face->blocks});
+    face->pixels = graphics.pixels;
+    face->blocks = graphics.blocks;
+    explorer->dirty = true;
 }
 
 static void press(struct explorer *explorer, int key)
@@ -301,11 +318,13 @@ static void press(struct explorer *explorer, int key)
         explorer->dirty = true;
         return;
     }
-    const struct gm_press one = {key, &explorer->face, explorer->shot, explorer->worker,
-                                 explorer->terminal.utf8};
+    const struct gm_press one = {key, &explorer->face, explorer->shot, explorer->worker};
     switch (gm_key_press(&one)) {
     case GM_KEY_LEAVE:
         leave(explorer, GM_EXIT_OK);
+        break;
+    case GM_KEY_BLOCKS:
+        next_graphics(explorer);
         break;
     case GM_KEY_REPAINT:
         resize(explorer);
@@ -390,10 +409,17 @@ static void click_picture(struct explorer *explorer, const struct gm_mouse_event
 {
     struct gm_order order = {.kind = GM_ORDER_POINT};
     const struct gm_screen *screen = &explorer->screen;
-    if (explorer->shot->scene->point &&
-        gm_cells_locate(&screen->picture, explorer->shot->picture, screen->blocks,
-                        event->column - screen->picture_column, event->row - screen->picture_row, &order.x,
-                        &order.y)) {
+    if (!explorer->shot->scene->point) {
+        return;
+    }
+    struct gm_picture *picture = explorer->shot->picture;
+    const struct gm_panel *panel =
+        screen->pixels.columns > 0
+            ? gm_display_locate(&explorer->display, picture, event->column, event->row, &order.x, &order.y)
+            : gm_cells_locate(&screen->picture, picture, screen->blocks,
+                              event->column - screen->picture_column, event->row - screen->picture_row,
+                              &order.x, &order.y);
+    if (panel) {
         gm_worker_order(explorer->worker, order);
     }
 }
@@ -477,13 +503,21 @@ static void point(struct explorer *explorer, const struct gm_mouse_event *event)
     }
 }
 
+/* Letters may have changed their size, which the system does not always know. */
+static void read_cell_size(struct explorer *explorer)
+{
+    struct gm_terminal *terminal = &explorer->terminal;
+    int width = terminal->answers.cell_width, height = terminal->answers.cell_height;
+    gm_terminal_cell(&width, &height);
+    if (width > 0 && height > 0 && (width != terminal->cell_width || height != terminal->cell_height)) {
+        terminal->cell_width = width;
+        terminal->cell_height = height;
+        explorer->dirty = true;
+    }
+}
+
 static void read_keys(struct explorer *explorer)
 {
-    int waiting = 0;
-    if (ioctl(STDIN_FILENO, FIONREAD, &waiting) == 0 && waiting == 0) {
-        leave(explorer, GM_EXIT_OK); /* readable, yet nothing to read: the terminal is gone */
-        return;
-    }
     for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
         struct gm_mouse_event event;
         enum gm_mouse_result result = gm_mouse_feed(&explorer->mouse, key, &event);
@@ -495,13 +529,46 @@ static void read_keys(struct explorer *explorer)
     }
 }
 
+/* Whether there is something to read; if not, the terminal that seemed to have it is gone. */
+static bool has_keys(void)
+{
+    int waiting = 0;
+    return ioctl(STDIN_FILENO, FIONREAD, &waiting) != 0 || waiting > 0;
+}
+
 static void suspend(struct explorer *explorer)
 {
-    while (!gm_writer_idle(&explorer->writer) && gm_writer_send(&explorer->writer)) {
-        poll(&(struct pollfd){.fd = explorer->writer.fd, .events = POLLOUT}, 1, -1);
-    }
+    gm_display_rest(&explorer->display);
     gm_console_stop();
     resize(explorer);
+}
+
+static void read_picture(struct explorer *explorer)
+{
+    if (!gm_display_read(&explorer->display)) {
+        return;
+    }
+    explorer->dirty = true;
+    if (explorer->display.failed) { /* there is no GL: blocks do not need it */
+        explorer->terminal.can_pixels[GM_INLINE_KITTY] = explorer->terminal.can_pixels[GM_INLINE_SIXEL] =
+            false;
+        explorer->face.pixels = GM_INLINE_NONE;
+    }
+}
+
+/* A command line that was asked for is shown, and offered to the clipboard. */
+static void read_command(struct explorer *explorer)
+{
+    const struct gm_shot *shot = explorer->shot;
+    if (shot->command_number == explorer->told) {
+        return;
+    }
+    explorer->told = shot->command_number;
+    explorer->face.page = GM_PAGE_COMMAND;
+    explorer->face.scroll = 0;
+    if (shot->command) {
+        gm_writer_copy(&explorer->display.writer, shot->command);
+    }
 }
 
 static void read_news(struct explorer *explorer)
@@ -519,14 +586,19 @@ static void read_news(struct explorer *explorer)
     if (gm_console_resized()) {
         resize(explorer);
     }
+    read_picture(explorer);
     explorer->dirty = gm_studies_look(&explorer->studies) || explorer->dirty;
     struct gm_shot *shot = explorer->worker ? gm_worker_take(explorer->worker) : NULL;
     if (shot) {
         explorer->shot = shot;
+        read_command(explorer);
         explorer->asked = false;
         explorer->next_shot = milliseconds() + (explorer->at_start ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
         explorer->dirty = true;
         explorer->fresh = explorer->fresh || shot->drawn;
+        if (shot->drawn) {
+            gm_display_renew(&explorer->display);
+        }
     } else if (explorer->worker && !explorer->shot && !explorer->said[0] &&
                gm_worker_failed(explorer->worker, explorer->said)) {
         explorer->dirty = true;
@@ -545,7 +617,7 @@ static void ask_measure(struct explorer *explorer)
     if (face->page == GM_PAGE_HELP) {
         face->explained = explorer->shot->lanes[explorer->shot->selected].scheme;
     }
-    if (face->page != GM_PAGE_SCENE) {
+    if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
         gm_measure_ask(&explorer->measure, face->explained);
         face->measured = gm_measure_text(&explorer->measure);
     }
@@ -554,6 +626,7 @@ static void ask_measure(struct explorer *explorer)
 static void draw(struct explorer *explorer)
 {
     struct gm_screen *screen = &explorer->screen;
+    struct gm_picture *picture = explorer->shot ? explorer->shot->picture : NULL;
     if (explorer->at_start) {
         bool looked = chosen_scene(explorer) == explorer->scene;
         gm_screen_draw_start(screen, &explorer->face, &explorer->start, looked ? explorer->shot : NULL,
@@ -564,8 +637,8 @@ static void draw(struct explorer *explorer)
     } else {
         return;
     }
-    explorer->dirty = explorer->fresh = false;
-    gm_writer_draw(&explorer->writer, &screen->cells);
+    explorer->fresh = false;
+    explorer->dirty = !gm_display_show(&explorer->display, screen, &explorer->face, picture);
 }
 
 /* Composes and sends as the terminal takes it: a slow one loses frames, never model time. Returns how long to
@@ -576,16 +649,21 @@ static int output(struct explorer *explorer)
     if (explorer->at_start && explorer->look_due >= 0 && explorer->look_due <= now) {
         look(explorer);
     }
-    if (gm_writer_idle(&explorer->writer) && explorer->dirty) {
+    bool good = gm_display_send(&explorer->display);
+    if (explorer->dirty && gm_display_takes(&explorer->display)) {
         draw(explorer);
+        good = good && gm_display_send(&explorer->display);
     }
-    if (!gm_writer_send(&explorer->writer)) {
+    if (!good) {
         leave(explorer, GM_EXIT_FILE);
     }
     if (explorer->at_start && explorer->look_due >= 0) {
         return (int)(explorer->look_due - now);
     }
-    if (!explorer->worker || explorer->asked || !gm_writer_idle(&explorer->writer)) {
+    if (!gm_display_takes(&explorer->display)) {
+        return gm_display_patience(&explorer->display);
+    }
+    if (!explorer->worker || explorer->asked || explorer->dirty) {
         return -1;
     }
     int64_t wait = explorer->next_shot - now;
@@ -600,18 +678,22 @@ static int output(struct explorer *explorer)
 static void run(struct explorer *explorer)
 {
     enum { KEYS, NEWS, SCREEN, MEASURE, COUNT };
+    const struct gm_writer *writer = &explorer->display.writer;
     resize(explorer);
     while (!explorer->leave) {
         int wait = output(explorer);
         struct pollfd watched[COUNT] = {
             [KEYS] = {.fd = STDIN_FILENO, .events = POLLIN},
             [NEWS] = {.fd = explorer->wake, .events = POLLIN},
-            [SCREEN] = {.fd = gm_writer_idle(&explorer->writer) ? -1 : explorer->writer.fd,
-                        .events = POLLOUT},
+            [SCREEN] = {.fd = gm_writer_idle(writer) ? -1 : writer->fd, .events = POLLOUT},
             [MEASURE] = {.fd = explorer->measure.fd, .events = POLLIN},
         };
         if (explorer->leave) {
             break;
+        }
+        int patience = gm_console_patience();
+        if (patience >= 0 && (wait < 0 || patience < wait)) {
+            wait = patience;
         }
         if (poll(watched, COUNT, wait) < 0) {
             if (errno != EINTR) {
@@ -625,8 +707,9 @@ static void run(struct explorer *explorer)
         if (watched[MEASURE].revents && gm_measure_read(&explorer->measure)) {
             explorer->dirty = true;
         }
-        if (watched[KEYS].revents & POLLIN) {
+        if (watched[KEYS].revents & POLLIN ? has_keys() : patience >= 0 && !watched[KEYS].revents) {
             read_keys(explorer);
+            read_cell_size(explorer);
         } else if (watched[KEYS].revents) {
             leave(explorer, GM_EXIT_OK);
         }
@@ -634,15 +717,17 @@ static void run(struct explorer *explorer)
 }
 
 /* A request or a tour, or neither: the list of scenes. */
-static int explore(const struct gm_request *request, const struct gm_tour *tour)
+static int explore(const struct gm_request *request, const struct gm_tour *tour,
+                   const struct gm_overrides *overrides)
 {
     struct explorer explorer = {.wake = -1, .look_due = -1, .measure = {.fd = -1}};
-    if (!gm_terminal_detect(&explorer.terminal, explorer.message) ||
+    if (!gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
         !gm_terminal_serves(&explorer.terminal, explorer.message)) {
         fprintf(stderr, "geomint: %s\n", explorer.message);
         return GM_EXIT_USAGE;
     }
-    explorer.face = (struct gm_face){.blocks = explorer.terminal.blocks,
+    explorer.face = (struct gm_face){.blocks = explorer.terminal.graphics.blocks,
+                                     .pixels = explorer.terminal.graphics.pixels,
                                      .theme = explorer.terminal.theme,
                                      .few_colours = explorer.terminal.colours < GM_COLOURS_256,
                                      .monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
@@ -662,12 +747,13 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour)
     } else {
         show_start(&explorer);
     }
-    ok = ok && gm_console_open(explorer.wake, explorer.message);
+    ok = ok && gm_console_open(explorer.wake, &explorer.terminal, explorer.message);
     int number = 0;
-    if (ok && gm_writer_open(&explorer.writer, &explorer.terminal)) {
+    if (ok && gm_display_open(&explorer.display, &explorer.terminal, explorer.wake)) {
         run(&explorer);
         number = gm_console_leaving();
-        gm_writer_close(&explorer.writer);
+        gm_display_rest(&explorer.display);
+        gm_display_close(&explorer.display);
     }
     gm_console_close();
     gm_measure_close(&explorer.measure);
@@ -689,12 +775,12 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour)
     return explorer.status;
 }
 
-int gm_explorer(const struct gm_request *request)
+int gm_explorer(const struct gm_request *request, const struct gm_overrides *overrides)
 {
-    return explore(request, NULL);
+    return explore(request, NULL, overrides);
 }
 
-int gm_explorer_tour(const struct gm_tour *tour)
+int gm_explorer_tour(const struct gm_tour *tour, const struct gm_overrides *overrides)
 {
-    return explore(NULL, tour);
+    return explore(NULL, tour, overrides);
 }

@@ -4,13 +4,14 @@
 
 #include "core/scheme.h"
 #include "render/cells.h"
+#include "render/inline_image.h"
 
 /* What the user has set about the screen itself. */
 
 struct gm_guide;
 struct gm_studies;
 
-enum gm_page { GM_PAGE_SCENE, GM_PAGE_HELP, GM_PAGE_SCHEME };
+enum gm_page { GM_PAGE_SCENE, GM_PAGE_HELP, GM_PAGE_SCHEME, GM_PAGE_COMMAND };
 
 /* What the chosen one of the list of schemes is for. */
 enum gm_choosing { GM_CHOOSE_NOTHING, GM_CHOOSE_SWITCH, GM_CHOOSE_FORK };
@@ -32,6 +33,7 @@ enum { GM_TYPED = 40 };
 
 struct gm_face {
     enum gm_blocks blocks;
+    enum gm_inline_kind pixels; /* the picture is not made of blocks, unless all is monochrome */
     enum gm_theme theme;
     bool few_colours;
     bool monochrome;      /* ink and paper alone */

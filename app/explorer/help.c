@@ -140,8 +140,21 @@ static int draw_help(const struct gm_sheet *sheet, int scroll, const struct gm_s
     return left.row > right.row ? left.row : right.row;
 }
 
+static int draw_command(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
+{
+    struct page page = {.sheet = *sheet, .scroll = scroll};
+    put_heading(&page, "THIS VIEW, FROM THE COMMAND LINE");
+    put_wrapped(&page, 0, shot->command ? shot->command : "There is not enough memory.", GM_INK);
+    page.row++;
+    put_wrapped(&page, 0, "It was copied too, if the terminal lets programs do that.", GM_SECONDARY);
+    return page.row;
+}
+
 static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
 {
+    if (sheet->face->page == GM_PAGE_COMMAND) {
+        return draw_command(sheet, scroll, shot);
+    }
     return sheet->face->page == GM_PAGE_SCHEME ? draw_scheme(sheet, scroll) : draw_help(sheet, scroll, shot);
 }
 

@@ -7,7 +7,7 @@
 
 #include "app/explorer/modes.h"
 
-enum { ESCAPE = 27, REDRAW = 'L' - '@', SCRUB_PARTS = 20 };
+enum { ESCAPE = 27, REDRAW = 'L' - '@' };
 
 bool gm_key_is_enter(int key)
 {
@@ -52,24 +52,14 @@ static enum gm_key_result press_speed(const struct gm_press *press)
     return order(press, GM_ORDER_SPEED, press->key == ']' ? 1 : -1);
 }
 
-static enum gm_key_result press_scrub(const struct gm_press *press)
+static enum gm_key_result press_past(const struct gm_press *press)
 {
-    const struct gm_shot *shot = press->shot;
-    double part = shot->reach / SCRUB_PARTS, to = 0;
-    switch (press->key) {
-    case KEY_PPAGE:
-        to = shot->gone - part;
-        break;
-    case KEY_NPAGE:
-        to = shot->gone + part;
-        break;
-    case KEY_END:
-        to = shot->reach;
-        break;
-    default:
-        break;
-    }
-    return gm_key_order(press, (struct gm_order){.kind = GM_ORDER_VISIT, .value = to});
+    bool ends = press->key == KEY_HOME || press->key == KEY_END;
+    return gm_key_order(press, (struct gm_order){.kind = GM_ORDER_VISIT,
+                                                 .amount = ends                      ? 0
+                                                           : press->key == KEY_PPAGE ? -1
+                                                                                     : 1,
+                                                 .value = press->key == KEY_END ? press->shot->reach : 0});
 }
 
 static enum gm_key_result press_turn(const struct gm_press *press)
@@ -179,15 +169,23 @@ static enum gm_key_result press_theme(const struct gm_press *press)
 
 static enum gm_key_result press_blocks(const struct gm_press *press)
 {
-    if (press->utf8) {
-        press->face->blocks = (enum gm_blocks)((press->face->blocks + 1) % GM_BLOCKS_COUNT);
-    }
-    return GM_KEY_FACE;
+    (void)press;
+    return GM_KEY_BLOCKS;
 }
 
 static enum gm_key_result press_save(const struct gm_press *press)
 {
-    return order(press, GM_ORDER_SAVE, 0);
+    return order(press, GM_ORDER_SAVE, (int)press->face->theme);
+}
+
+static enum gm_key_result press_record(const struct gm_press *press)
+{
+    return order(press, GM_ORDER_RECORD, (int)press->face->theme);
+}
+
+static enum gm_key_result press_tell(const struct gm_press *press)
+{
+    return order(press, GM_ORDER_TELL, (int)press->face->theme);
 }
 
 static enum gm_key_result press_study(const struct gm_press *press)
@@ -242,7 +240,7 @@ const struct gm_key_row gm_key_rows[] = {
      NULL,
      0,
      "through the snapshots of the past; Home, End: the first, the last",
-     press_scrub},
+     press_past},
     {{'B'}, "B", "back in time", 14, "turn time, dt to −dt, and see which scheme returns", press_turn},
     {{'>'}, ">", "ahead", 15, "run ahead to a time, without drawing", press_ahead},
     {{'r'}, "r", "restart", 8, "restart", press_restart},
@@ -263,8 +261,15 @@ const struct gm_key_row gm_key_rows[] = {
     {{KEY_BACKSPACE, 127, 8}, "⌫", NULL, 0, "set it to its default", press_default},
     {{'v'}, "v", "view", 16, "more room for: schemes, parameters, observables, the picture", press_side},
     {{'t'}, "t", "theme", 18, "dark, light, monochrome", press_theme},
-    {{'b'}, "b", "blocks", 17, "braille, quadrants, half blocks, ASCII", press_blocks},
+    {{'b'},
+     "b",
+     "blocks",
+     17,
+     "pixels, braille, quadrants, half blocks, ASCII: what the terminal has",
+     press_blocks},
     {{'p'}, "p", "save", 11, "save the picture as PNG; `geomint again` redoes it", press_save},
+    {{'R'}, "R", "record", 20, "begin a movie of what is seen; again: end it", press_record},
+    {{'y'}, "y", "command", 21, "the command line that redoes this view; copied too", press_tell},
     {{'w', 'm'},
      "w m",
      "diagrams",

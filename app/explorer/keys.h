@@ -9,6 +9,7 @@ enum gm_key_result {
     GM_KEY_IGNORED,
     GM_KEY_FACE,    /* the screen itself changed */
     GM_KEY_ORDER,   /* an order went to the worker */
+    GM_KEY_BLOCKS,  /* another way to show pictures is wanted */
     GM_KEY_REPAINT, /* everything is to be written again */
     GM_KEY_THEME,   /* the same, in other colours */
     GM_KEY_SCENES,  /* to the list of scenes */
@@ -23,7 +24,6 @@ struct gm_press {
     struct gm_face *face;
     const struct gm_shot *shot;
     struct gm_worker *worker;
-    bool utf8; /* allows other blocks than ASCII */
 };
 
 enum { GM_KEY_CODES = 4 };

@@ -42,6 +42,7 @@ struct gm_sheet gm_screen_clear(struct gm_screen *screen, const struct gm_face *
 {
     clear(&screen->cells, face->theme);
     screen->hits.count = 0;
+    screen->pixels = (struct gm_inline_place){0};
     return (struct gm_sheet){
         .cells = &screen->cells,
         .face = face,
@@ -83,10 +84,28 @@ int gm_screen_status_rows(const struct gm_cells *cells)
     return cells->rows >= SIDE_FROM_ROWS ? 2 : cells->rows >= 4 ? 1 : 0;
 }
 
+static void leave_for_pixels(struct gm_screen *screen, int column, int row, int columns, int rows)
+{
+    screen->pixels = (struct gm_inline_place){.column = column, .row = row, .columns = columns, .rows = rows};
+    for (int i = 0; i < rows; i++) {
+        struct gm_cell *line = &screen->cells.cells[(size_t)(row + i) * (size_t)screen->cells.columns];
+        for (int k = column; k < column + columns; k++) {
+            line[k].glyph = 0;
+        }
+    }
+}
+
 void gm_screen_picture(struct gm_screen *screen, const struct gm_face *face, const struct gm_shot *shot,
                        int column, int row, int columns, int rows)
 {
     if (columns < 1 || rows < 1) {
+        return;
+    }
+    screen->picture_column = column;
+    screen->picture_row = row;
+    /* in the last row a picture of pixels could make the screen scroll */
+    if (face->pixels && !face->monochrome && row + rows < screen->cells.rows) {
+        leave_for_pixels(screen, column, row, columns, rows);
         return;
     }
     if (!screen->fresh || screen->blocks != face->blocks || screen->theme != face->theme ||
@@ -103,8 +122,6 @@ void gm_screen_picture(struct gm_screen *screen, const struct gm_face *face, con
         screen->theme = face->theme;
         screen->fresh = true;
     }
-    screen->picture_column = column;
-    screen->picture_row = row;
     for (int i = 0; i < rows; i++) {
         memcpy(&screen->cells.cells[(size_t)(row + i) * (size_t)screen->cells.columns + (size_t)column],
                &screen->picture.cells[(size_t)i * (size_t)columns], sizeof(struct gm_cell) * (size_t)columns);

@@ -4,6 +4,7 @@
 
 #include "app/explorer/sheet.h"
 #include "app/explorer/shot.h"
+#include "render/inline_image.h"
 
 /* What is on the screen: the picture at the left, the side panel at the right, a status line below; or a page
    of help. All of it is composed as cells; nothing here knows the terminal. */
@@ -15,6 +16,7 @@ struct gm_screen {
     enum gm_blocks blocks;   /* and was painted with these */
     enum gm_theme theme;
     int picture_column, picture_row; /* where it is */
+    struct gm_inline_place pixels;   /* the cells left for a picture of pixels; no columns: none */
     struct gm_hits hits;             /* what can be clicked */
 };
 

@@ -62,6 +62,8 @@ double gm_session_from_start(const struct gm_session *session, size_t lane);
 /* How much model time the lanes have gone through, and how much the snapshots reach over. */
 double gm_session_gone(const struct gm_session *session);
 double gm_session_reach(const struct gm_session *session);
+/* Where the first snapshot after `gone` is; `gone` itself if there is none. */
+double gm_session_after(const struct gm_session *session, double gone);
 /* Takes the lanes to the snapshots at or before `gone`; later ones stay within reach until a lane goes on.
    False with a sentence if there are none. */
 bool gm_session_visit(struct gm_session *session, double gone, char *message);

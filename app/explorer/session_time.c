@@ -229,6 +229,18 @@ double gm_session_reach(const struct gm_session *session)
     return reach;
 }
 
+double gm_session_after(const struct gm_session *session, double gone)
+{
+    double after = INFINITY;
+    for (size_t i = 0; i < session->count; i++) {
+        const struct gm_past *past = &session->pasts[i];
+        for (size_t k = past->count; k-- > 0 && past->moments[k].gone > gone * (1 + 1e-9);) {
+            after = fmin(after, past->moments[k].gone);
+        }
+    }
+    return isfinite(after) ? after : gone;
+}
+
 bool gm_session_visit(struct gm_session *session, double gone, char *message)
 {
     for (size_t i = 0; i < session->count && !session->visiting; i++) {

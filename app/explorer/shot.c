@@ -2,6 +2,7 @@
 #include "app/explorer/shot.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 bool gm_shot_open(struct gm_shot *shot)
 {
@@ -13,6 +14,8 @@ void gm_shot_close(struct gm_shot *shot)
 {
     gm_picture_close(shot->picture);
     shot->picture = NULL;
+    free(shot->command);
+    shot->command = NULL;
 }
 
 static void take_sparks(struct gm_shot_lane *shot, const struct gm_lane *lane, size_t observables)

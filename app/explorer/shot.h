@@ -60,6 +60,9 @@ struct gm_shot {
     bool behind; /* the steps cost more than the speed allows */
     char message[GM_MESSAGE];
     unsigned long message_number; /* changes with every message */
+    double recorded;              /* seconds of the movie so far; below 0: none is made */
+    char *command;                /* that redoes a view, or NULL */
+    unsigned long command_number; /* changes with every one */
 };
 
 bool gm_shot_open(struct gm_shot *shot);

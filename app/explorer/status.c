@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The last row: what there is to say, to answer or to watch at the left, keys at the right. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -68,7 +69,11 @@ static const struct gm_hint ahead_hints[] = {{"any key", "stop", ' '}, {NULL, NU
 
 void gm_speed_text(const struct gm_shot *shot, char *text, size_t size)
 {
-    snprintf(text, size, "%s %s%g×%s",
+    char movie[24] = "";
+    if (shot->recorded >= 0) {
+        snprintf(movie, sizeof movie, "● %d:%04.1f  ", (int)(shot->recorded / 60), fmod(shot->recorded, 60));
+    }
+    snprintf(text, size, "%s%s %s%g×%s", movie,
              shot->paused      ? "‖"
              : shot->backwards ? "◂"
                                : "▸",

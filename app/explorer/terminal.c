@@ -18,12 +18,59 @@
 #undef lines
 
 static const char *const colours_names[] = {"none", "16", "256", "truecolor", NULL};
-static const char *const blocks_names[] = {"braille", "quadrants", "half", "ascii", NULL};
-static const char *const theme_names[] = {"light", "dark", NULL};
+static const char *const graphics_names[] = {"kitty", "sixel", "braille", "quadrants", "half", "ascii", NULL};
+static const char *const theme_names[] = {"light", "dark", "mono", NULL};
+enum { LIGHT, DARK, MONO };
 
-const char *gm_blocks_name(enum gm_blocks blocks)
+/* From the finest way to the coarsest, as in graphics_names. */
+static const struct gm_graphics ladder[] = {
+    {GM_INLINE_KITTY, GM_BRAILLE},  {GM_INLINE_SIXEL, GM_BRAILLE},    {GM_INLINE_NONE, GM_BRAILLE},
+    {GM_INLINE_NONE, GM_QUADRANTS}, {GM_INLINE_NONE, GM_HALF_BLOCKS}, {GM_INLINE_NONE, GM_ASCII},
+};
+enum { RUNGS = sizeof ladder / sizeof *ladder, FIRST_BLOCKS = 2 };
+
+/* Longer than a round trip to the other side of the world; a terminal that answers is not waited for. */
+enum { PATIENCE = 1000 };
+
+static int rung_of(struct gm_graphics graphics)
 {
-    return blocks_names[blocks];
+    for (int i = 0; i < RUNGS; i++) {
+        /* with pixels the blocks are those of the text */
+        if (ladder[i].pixels == graphics.pixels && (graphics.pixels || ladder[i].blocks == graphics.blocks)) {
+            return i;
+        }
+    }
+    return RUNGS - 1;
+}
+
+const char *gm_graphics_name(struct gm_graphics graphics)
+{
+    return graphics_names[rung_of(graphics)];
+}
+
+/* The ladder's step as this terminal can take it: beside pixels text is ASCII where letters are. */
+static struct gm_graphics step_on(const struct gm_terminal *terminal, int rung)
+{
+    struct gm_graphics graphics = ladder[rung];
+    if (!terminal->can_blocks[graphics.blocks] && graphics.pixels) {
+        graphics.blocks = terminal->can_blocks[GM_HALF_BLOCKS] ? GM_HALF_BLOCKS : GM_ASCII;
+    }
+    return graphics;
+}
+
+static bool can(const struct gm_terminal *terminal, int rung)
+{
+    return ladder[rung].pixels ? terminal->can_pixels[ladder[rung].pixels]
+                               : terminal->can_blocks[ladder[rung].blocks];
+}
+
+struct gm_graphics gm_graphics_next(const struct gm_terminal *terminal, struct gm_graphics graphics)
+{
+    int from = rung_of(graphics), rung = from;
+    do {
+        rung = (rung + 1) % RUNGS;
+    } while (rung != from && !can(terminal, rung));
+    return step_on(terminal, rung);
 }
 
 static const char *environment(const char *name)
@@ -32,20 +79,28 @@ static const char *environment(const char *name)
     return value ? value : "";
 }
 
-/* The number of an override's value among its names; -1 if it is not set, -2 with a sentence if unknown. */
-static int override_of(const char *name, const char *const *names, char *message)
+/* What the user demands, by an option or else by the environment. */
+struct demand {
+    const char *name, *value; /* value: "" if nothing is demanded */
+    int number;               /* among the names */
+};
+
+/* False with a sentence if it has none of the names. */
+static bool find_demand(struct demand *demand, const char *option, const char *given, const char *variable,
+                        const char *const *names, char *message)
 {
-    const char *value = environment(name);
-    if (!*value) {
-        return -1;
+    *demand = (struct demand){given ? option : variable, given ? given : environment(variable), -1};
+    if (!*demand->value) {
+        return true;
     }
     int count = 0;
     for (; names[count]; count++) {
-        if (strcasecmp(value, names[count]) == 0) {
-            return count;
+        if (strcasecmp(demand->value, names[count]) == 0) {
+            demand->number = count;
+            return true;
         }
     }
-    int at = snprintf(message, GM_MESSAGE, "%s is \"%.40s\", but it must be ", name, value);
+    int at = snprintf(message, GM_MESSAGE, "%s is \"%.40s\", but it must be ", demand->name, demand->value);
     for (int i = 0; i < count; i++) {
         at += snprintf(message + at, (size_t)(GM_MESSAGE - at), "%s%s",
                        i == 0          ? ""
@@ -54,7 +109,12 @@ static int override_of(const char *name, const char *const *names, char *message
                        names[i]);
     }
     snprintf(message + at, (size_t)(GM_MESSAGE - at), ".");
-    return -2;
+    return false;
+}
+
+static void because(char *why, const struct demand *demand)
+{
+    snprintf(why, GM_REASON, "%s%s%.60s", demand->name, demand->name[0] == '-' ? " " : "=", demand->value);
 }
 
 void gm_terminal_size(int *columns, int *rows)
@@ -81,18 +141,89 @@ static void look_at_terminfo(struct gm_terminal *terminal)
     del_curterm(cur_term);
 }
 
-static bool decide_colours(struct gm_terminal *terminal, char *message)
+/* ---- asking the terminal ---- */
+
+void gm_terminal_cell(int *width, int *height)
+{
+    struct winsize size = {0};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col && size.ws_row &&
+        size.ws_xpixel >= size.ws_col && size.ws_ypixel >= size.ws_row) {
+        *width = size.ws_xpixel / size.ws_col;
+        *height = size.ws_ypixel / size.ws_row;
+    }
+}
+
+static bool begins(const char *text, const char *with)
+{
+    return strncmp(text, with, strlen(with)) == 0;
+}
+
+static void ask(struct gm_terminal *terminal)
+{
+    terminal->asked = -1;
+    if (!terminal->input || !terminal->output || !terminal->known) {
+        snprintf(terminal->kitty_why, GM_REASON, "not asked");
+        snprintf(terminal->sixel_why, GM_REASON, "not asked");
+        return;
+    }
+    bool multiplexer =
+        *environment("TMUX") || begins(terminal->name, "tmux") || begins(terminal->name, "screen");
+    bool old = begins(terminal->name, "linux") || begins(terminal->name, "vt");
+    terminal->asked = gm_answers_ask(&terminal->answers, !multiplexer && !old, PATIENCE, terminal->typed,
+                                     &terminal->typed_size);
+    const struct gm_answers *answers = &terminal->answers;
+    snprintf(terminal->kitty_why, GM_REASON, "%s",
+             answers->kitty ? "the terminal answered so"
+             : multiplexer  ? "not asked: tmux and screen pass no such images on"
+             : old          ? "not asked: such a terminal would show the question"
+                            : "the terminal did not say so when it was asked");
+    snprintf(terminal->sixel_why, GM_REASON, "%s",
+             answers->sixel        ? "among its device attributes"
+             : answers->attributes ? "not among its device attributes"
+                                   : "the terminal did not answer");
+}
+
+static void find_cell(struct gm_terminal *terminal)
+{
+    const struct gm_answers *answers = &terminal->answers;
+    snprintf(terminal->cell_why, GM_REASON, "the system knows it");
+    gm_terminal_cell(&terminal->cell_width, &terminal->cell_height);
+    if (terminal->cell_width == 0 && answers->cell_width > 0 && answers->cell_height > 0) {
+        terminal->cell_width = answers->cell_width;
+        terminal->cell_height = answers->cell_height;
+        snprintf(terminal->cell_why, GM_REASON, "the terminal answered so");
+    } else if (terminal->cell_width == 0 && answers->text_width >= terminal->columns &&
+               answers->text_height >= terminal->rows) {
+        terminal->cell_width = answers->text_width / terminal->columns;
+        terminal->cell_height = answers->text_height / terminal->rows;
+        snprintf(terminal->cell_why, GM_REASON, "the terminal told the size of its text area");
+    } else if (terminal->cell_width == 0) {
+        snprintf(terminal->cell_why, GM_REASON, "neither the system nor the terminal tells");
+    }
+    if (terminal->cell_width > 200 || terminal->cell_height > 400) { /* no letter is so large */
+        terminal->cell_width = terminal->cell_height = 0;
+        snprintf(terminal->cell_why, GM_REASON, "what was told cannot be");
+    }
+}
+
+/* ---- what follows from it ---- */
+
+static bool decide_colours(struct gm_terminal *terminal, const struct gm_overrides *overrides, bool mono,
+                           char *message)
 {
     const char *said = environment("COLORTERM");
     bool says_true = strcasecmp(said, "truecolor") == 0 || strcasecmp(said, "24bit") == 0;
-    int chosen = override_of("GEOMINT_COLOURS", colours_names, message);
-    if (chosen == -2) {
+    struct demand demand;
+    if (!find_demand(&demand, "--colours", overrides->colours, "GEOMINT_COLOURS", colours_names, message)) {
         return false;
     }
     int has = terminal->terminfo_colours;
-    if (chosen >= 0) {
-        terminal->colours = (enum gm_colours)chosen;
-        snprintf(terminal->colours_why, GM_REASON, "GEOMINT_COLOURS=%s", colours_names[chosen]);
+    if (mono) {
+        terminal->colours = GM_COLOURS_NONE;
+        snprintf(terminal->colours_why, GM_REASON, "the theme is monochrome");
+    } else if (demand.number >= 0) {
+        terminal->colours = (enum gm_colours)demand.number;
+        because(terminal->colours_why, &demand);
     } else if (*environment("NO_COLOR")) {
         terminal->colours = GM_COLOURS_NONE;
         snprintf(terminal->colours_why, GM_REASON, "NO_COLOR is set");
@@ -113,39 +244,77 @@ static bool decide_colours(struct gm_terminal *terminal, char *message)
     return true;
 }
 
-static bool decide_blocks(struct gm_terminal *terminal, char *message)
+static void find_graphics(struct gm_terminal *terminal)
 {
-    int chosen = override_of("GEOMINT_BLOCKS", blocks_names, message);
-    if (chosen == -2) {
+    const struct gm_answers *answers = &terminal->answers;
+    terminal->can_blocks[GM_ASCII] = true;
+    terminal->can_blocks[GM_QUADRANTS] = terminal->can_blocks[GM_HALF_BLOCKS] = terminal->utf8;
+    terminal->can_blocks[GM_BRAILLE] = terminal->utf8 && strcmp(terminal->name, "linux") != 0;
+    const char *hindrance = terminal->colours == GM_COLOURS_NONE ? "but there are to be no colours"
+                            : terminal->cell_width == 0          ? "but the size of a cell is unknown"
+                                                                 : NULL;
+    if (answers->kitty && hindrance) {
+        snprintf(terminal->kitty_why, GM_REASON, "the terminal answered so, %s", hindrance);
+    }
+    terminal->can_pixels[GM_INLINE_KITTY] = answers->kitty && !hindrance;
+    if (answers->registers > 0 && answers->registers < 256 && !hindrance) {
+        hindrance = "but of fewer than 256 colours";
+    }
+    if (answers->sixel && hindrance) {
+        snprintf(terminal->sixel_why, GM_REASON, "among its device attributes, %s", hindrance);
+    }
+    terminal->can_pixels[GM_INLINE_SIXEL] = answers->sixel && !hindrance;
+}
+
+static bool decide_graphics(struct gm_terminal *terminal, const struct gm_overrides *overrides, char *message)
+{
+    struct demand demand;
+    if (!find_demand(&demand, "--graphics", overrides->graphics, "GEOMINT_GRAPHICS", graphics_names,
+                     message)) {
         return false;
     }
-    if (chosen >= 0) {
-        terminal->blocks = (enum gm_blocks)chosen;
-        snprintf(terminal->blocks_why, GM_REASON, "GEOMINT_BLOCKS=%s", blocks_names[chosen]);
-    } else if (!terminal->utf8) {
-        terminal->blocks = GM_ASCII;
-        snprintf(terminal->blocks_why, GM_REASON, "the locale's letters are %.40s, not UTF-8",
-                 terminal->codeset);
-    } else if (strcmp(terminal->name, "linux") == 0) {
-        terminal->blocks = GM_HALF_BLOCKS;
-        snprintf(terminal->blocks_why, GM_REASON, "the Linux console's font has no braille");
-    } else {
-        terminal->blocks = GM_BRAILLE;
-        snprintf(terminal->blocks_why, GM_REASON, "the locale's letters are UTF-8");
+    find_graphics(terminal);
+    int rung = 0;
+    while (!can(terminal, rung)) {
+        rung++;
     }
+    if (demand.number >= 0) {
+        rung = demand.number;
+        because(terminal->graphics_why, &demand);
+        if (ladder[rung].pixels && terminal->cell_width == 0) {
+            terminal->cell_width = 10; /* those of the VT340, which emulations of it keep to */
+            terminal->cell_height = 20;
+            snprintf(terminal->cell_why, GM_REASON, "assumed, as nobody tells");
+        }
+        terminal->can_pixels[ladder[rung].pixels] = true;
+        terminal->can_blocks[ladder[rung].blocks] |= !ladder[rung].pixels;
+    } else if (rung < FIRST_BLOCKS) {
+        snprintf(terminal->graphics_why, GM_REASON, "%s",
+                 rung == 0 ? terminal->kitty_why : terminal->sixel_why);
+    } else if (!terminal->utf8) {
+        snprintf(terminal->graphics_why, GM_REASON,
+                 "no pixels, and the locale's letters are %.40s, not UTF-8", terminal->codeset);
+    } else if (ladder[rung].blocks != GM_BRAILLE) {
+        snprintf(terminal->graphics_why, GM_REASON, "the Linux console's font has no braille");
+    } else {
+        snprintf(terminal->graphics_why, GM_REASON, "no pixels, and the locale's letters are UTF-8");
+    }
+    terminal->graphics = step_on(terminal, rung);
     return true;
 }
 
-static bool decide_theme(struct gm_terminal *terminal, char *message)
+static bool decide_theme(struct gm_terminal *terminal, const struct gm_overrides *overrides, bool *mono,
+                         char *message)
 {
-    int chosen = override_of("GEOMINT_THEME", theme_names, message);
-    if (chosen == -2) {
+    struct demand demand;
+    if (!find_demand(&demand, "--theme", overrides->theme, "GEOMINT_THEME", theme_names, message)) {
         return false;
     }
+    *mono = demand.number == MONO;
     const char *said = environment("COLORFGBG"), *ground = strrchr(said, ';');
-    if (chosen >= 0) {
-        terminal->theme = chosen == 0 ? GM_THEME_LIGHT : GM_THEME_DARK;
-        snprintf(terminal->theme_why, GM_REASON, "GEOMINT_THEME=%s", theme_names[chosen]);
+    if (demand.number >= 0) {
+        terminal->theme = demand.number == LIGHT ? GM_THEME_LIGHT : GM_THEME_DARK;
+        because(terminal->theme_why, &demand);
     } else if (ground) {
         int colour = atoi(ground + 1);
         terminal->theme = colour == 7 || colour >= 9 ? GM_THEME_LIGHT : GM_THEME_DARK;
@@ -157,7 +326,7 @@ static bool decide_theme(struct gm_terminal *terminal, char *message)
     return true;
 }
 
-bool gm_terminal_detect(struct gm_terminal *terminal, char *message)
+bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides *overrides, char *message)
 {
     *terminal = (struct gm_terminal){
         .name = environment("TERM"), .input = isatty(STDIN_FILENO), .output = isatty(STDOUT_FILENO)};
@@ -173,8 +342,14 @@ bool gm_terminal_detect(struct gm_terminal *terminal, char *message)
              asked                     ? "the terminal was asked"
              : *environment("COLUMNS") ? "COLUMNS and LINES"
                                        : "assumed, as there is no terminal to ask");
-    return decide_colours(terminal, message) && decide_blocks(terminal, message) &&
-           decide_theme(terminal, message);
+    bool mono = false;
+    if (!decide_theme(terminal, overrides, &mono, message) ||
+        !decide_colours(terminal, overrides, mono, message)) {
+        return false;
+    }
+    ask(terminal);
+    find_cell(terminal);
+    return decide_graphics(terminal, overrides, message);
 }
 
 bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)
@@ -202,14 +377,55 @@ bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)
 
 static void line(const char *what, const char *value, const char *why)
 {
-    printf("  %-10s %-16s %s\n", what, *value ? value : "not set", why);
+    printf("  %-12s %-16s %s\n", what, *value ? value : "not set", why);
 }
 
-int gm_terminal_report(void)
+static void report_answers(const struct gm_terminal *terminal)
+{
+    const struct gm_answers *answers = &terminal->answers;
+    char text[64], limit[GM_REASON] = "";
+    if (terminal->asked < 0) {
+        line("asked", "no", "there is no terminal to ask");
+        return;
+    }
+    snprintf(text, sizeof text, "%d ms", terminal->asked);
+    line("asked", text, answers->attributes ? "until it had answered" : "it did not answer");
+    line("kitty", answers->kitty ? "yes" : "no", terminal->kitty_why);
+    line("sixel", answers->sixel ? "yes" : "no", terminal->sixel_why);
+    if (answers->registers > 0 || answers->most_width > 0) {
+        if (answers->most_width > 0) {
+            snprintf(limit, sizeof limit, "and up to %d x %d pixels at once", answers->most_width,
+                     answers->most_height);
+        }
+        snprintf(text, sizeof text, "%d colours", answers->registers);
+        line("", answers->registers > 0 ? text : "any colours", limit);
+    }
+    line("synchronised", answers->synchronised ? "yes" : "no",
+         "whether frames are shown at once (mode 2026)");
+}
+
+static const char *theme_name(const struct gm_terminal *terminal)
+{
+    return theme_names[terminal->theme == GM_THEME_LIGHT ? LIGHT : DARK];
+}
+
+static void report_ladder(const struct gm_terminal *terminal)
+{
+    char text[GM_REASON] = "";
+    size_t at = 0;
+    for (int i = 0; i < RUNGS; i++) {
+        if (can(terminal, i)) {
+            at += (size_t)snprintf(text + at, sizeof text - at, "%s%s", at ? ", " : "", graphics_names[i]);
+        }
+    }
+    printf("  %-12s %s\n", "key b", text);
+}
+
+int gm_terminal_report(const struct gm_overrides *overrides)
 {
     struct gm_terminal terminal;
     char message[GM_MESSAGE], text[64];
-    if (!gm_terminal_detect(&terminal, message)) {
+    if (!gm_terminal_detect(&terminal, overrides, message)) {
         fprintf(stderr, "geomint: %s\n", message);
         return GM_EXIT_USAGE;
     }
@@ -223,17 +439,21 @@ int gm_terminal_report(void)
          *environment("TMUX") ? "its own terminal settings decide what arrives outside" : "");
     line("input", terminal.input ? "terminal" : "no terminal", "");
     line("output", terminal.output ? "terminal" : "no terminal", "");
+    report_answers(&terminal);
     printf("Therefore\n");
     snprintf(text, sizeof text, "%d x %d", terminal.columns, terminal.rows);
     line("size", text, terminal.size_why);
+    snprintf(text, sizeof text, "%d x %d", terminal.cell_width, terminal.cell_height);
+    line("cell", terminal.cell_width > 0 ? text : "unknown", terminal.cell_why);
     line("colours", colours_names[terminal.colours], terminal.colours_why);
-    line("blocks", blocks_names[terminal.blocks], terminal.blocks_why);
-    line("theme", terminal.theme == GM_THEME_LIGHT ? "light" : "dark", terminal.theme_why);
+    line("graphics", gm_graphics_name(terminal.graphics), terminal.graphics_why);
+    report_ladder(&terminal);
+    line("theme", theme_name(&terminal), terminal.theme_why);
     if (!gm_terminal_serves(&terminal, message)) {
         printf("  %s\n", message);
     }
     printf(
-        "Override with GEOMINT_COLOURS=truecolor|256|16|none, GEOMINT_BLOCKS=braille|quadrants|half|ascii,\n"
-        "GEOMINT_THEME=light|dark.\n");
+        "Override with --graphics kitty|sixel|braille|quadrants|half|ascii, --colours truecolor|256|16|none,\n"
+        "--theme light|dark|mono, or with GEOMINT_GRAPHICS, GEOMINT_COLOURS, GEOMINT_THEME.\n");
     return GM_EXIT_OK;
 }

@@ -48,6 +48,12 @@ static void take_shot(struct gm_worker *worker)
     shot->speed = gm_worker_speed_of(worker->speed);
     snprintf(shot->message, sizeof shot->message, "%s", worker->message);
     shot->message_number = worker->message_number;
+    shot->recorded = worker->recorder ? gm_recorder_length(worker->recorder) : -1;
+    if (shot->command_number != worker->command_number) {
+        free(shot->command);
+        shot->command = worker->command ? strdup(worker->command) : NULL;
+        shot->command_number = worker->command_number;
+    }
     pthread_mutex_lock(&worker->lock);
     worker->ready = true;
     announce(worker);
@@ -101,6 +107,8 @@ static void release(struct gm_worker *worker)
 {
     pthread_cond_destroy(&worker->news);
     pthread_mutex_destroy(&worker->lock);
+    gm_worker_stop_recording(worker);
+    free(worker->command);
     gm_session_close(&worker->session);
     gm_shot_close(&worker->shots[0]);
     gm_shot_close(&worker->shots[1]);
@@ -121,6 +129,8 @@ static void go_round(struct gm_worker *worker)
     pthread_mutex_unlock(&worker->lock);
     gm_worker_restart_if_due(worker);
     bool worked = gm_worker_step(worker);
+    worker->unrecorded = worker->unrecorded || worked;
+    gm_worker_take_frame(worker);
     gm_worker_keep_agenda(worker);
     gm_worker_watch_frozen(worker);
     pthread_mutex_lock(&worker->lock);

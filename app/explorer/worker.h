@@ -15,13 +15,14 @@ enum gm_order_kind {
     GM_ORDER_PAUSE, /* or go on */
     GM_ORDER_FORWARD,
     GM_ORDER_BACK,
-    GM_ORDER_TURN,  /* time the other way */
-    GM_ORDER_VISIT, /* the snapshots at `value` of model time gone through */
-    GM_ORDER_AHEAD, /* run ahead to the time `text`, without shots */
-    GM_ORDER_HALT,  /* no longer */
-    GM_ORDER_SAVE,  /* the picture as a PNG */
-    GM_ORDER_TOUR,  /* a step's agenda; amount: whether it waits at its begin */
-    GM_ORDER_RUN,   /* go on if paused */
+    GM_ORDER_TURN,   /* time the other way */
+    GM_ORDER_VISIT,  /* the snapshots at `value` of model time gone through; amount: or a part up or down */
+    GM_ORDER_AHEAD,  /* run ahead to the time `text`, without shots */
+    GM_ORDER_HALT,   /* no longer */
+    GM_ORDER_SAVE,   /* the picture as a PNG; amount: its theme, also of GM_ORDER_RECORD and GM_ORDER_TELL */
+    GM_ORDER_RECORD, /* begin a movie of what is seen, or end it */
+    GM_ORDER_TOUR,   /* a step's agenda; amount: whether it waits at its begin */
+    GM_ORDER_RUN,    /* go on if paused */
     /* it goes on */
     GM_ORDER_SELECT, /* amount: up or down by one lane; 0: lane number `value` */
     GM_ORDER_SWITCH, /* the selected lane to `scheme` */
@@ -29,6 +30,7 @@ enum gm_order_kind {
     GM_ORDER_ADD,
     GM_ORDER_REMOVE,
     GM_ORDER_OVERLAY,
+    GM_ORDER_TELL, /* the command line that redoes the view, with the next shot */
     /* these may come together with a restart that is due */
     GM_ORDER_SPEED,    /* amount: up or down by one */
     GM_ORDER_MOVE,     /* a parameter to its next value; amount: up or down */

@@ -2,27 +2,8 @@
 /* What the orders do. */
 #include <math.h>
 #include <stdio.h>
-#include <unistd.h>
 
 #include "app/explorer/worker_parts.h"
-#include "app/still.h"
-
-static void save_picture(struct gm_worker *worker)
-{
-    char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
-    int number = 1;
-    do {
-        snprintf(path, sizeof path, "%.80s-%04d.png", worker->session.scene->name, number);
-    } while (access(path, F_OK) == 0 && number++ < 9999);
-    for (size_t i = 0; i < worker->session.count; i++) {
-        worker->session.log.lanes[i].steps = worker->session.lanes[i]->run->steps;
-    }
-    bool ok = gm_still_write(path, 1920, 1080, worker->theme, &worker->session.log,
-                             (const struct gm_lane *const *)worker->session.lanes, message);
-    snprintf(sentence, sizeof sentence, ok ? "Saved %.400s." : "Not saved: %.400s", ok ? path : message);
-    gm_worker_say(worker, sentence);
-    gm_worker_set_clock(worker, gm_session_time(&worker->session));
-}
 
 static void move_parameter(struct gm_worker *worker, const struct gm_order *order)
 {
@@ -79,6 +60,15 @@ static bool run_ahead(struct gm_worker *worker, const char *text, char *message)
     }
     go_ahead_to(worker, to);
     return true;
+}
+
+/* Where in the past an order goes; one up or down is a twentieth, or at least to the next snapshot. */
+static double moment_of(const struct gm_session *session, const struct gm_order *order)
+{
+    double gone = gm_session_gone(session), part = gm_session_reach(session) / 20;
+    return order->amount == 0  ? order->value
+           : order->amount < 0 ? gone - part
+                               : fmax(gone + part, gm_session_after(session, gone));
 }
 
 static bool turn(struct gm_worker *worker, char *message)
@@ -180,7 +170,7 @@ void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order)
     }
     double due = gm_worker_due_time(worker);
     /* Other orders leave the part of a step that has gone by. */
-    bool jumps = order->kind <= GM_ORDER_SAVE || order->kind == GM_ORDER_RESTART;
+    bool jumps = order->kind <= GM_ORDER_RECORD || order->kind == GM_ORDER_RESTART;
     bool ok = true;
     switch (order->kind) {
     case GM_ORDER_PAUSE:
@@ -210,7 +200,7 @@ void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order)
         break;
     case GM_ORDER_VISIT:
         worker->paused = true;
-        ok = gm_session_visit(session, order->value, message);
+        ok = gm_session_visit(session, moment_of(session, order), message);
         gm_agenda_rewind(&worker->agenda, gm_session_time(session));
         break;
     case GM_ORDER_AHEAD:
@@ -256,8 +246,14 @@ void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order)
             worker->selected = session->count - 1;
         }
         break;
+    case GM_ORDER_RECORD:
+        gm_worker_record(worker, (enum gm_theme)order->amount);
+        break;
+    case GM_ORDER_TELL:
+        gm_worker_tell(worker, (enum gm_theme)order->amount);
+        break;
     case GM_ORDER_SAVE:
-        save_picture(worker);
+        gm_worker_save(worker, (enum gm_theme)order->amount);
         break;
     case GM_ORDER_TOUR:
         begin_step(worker, order);
@@ -270,7 +266,7 @@ void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order)
         gm_worker_say(worker, message);
     }
     gm_worker_set_clock(worker, jumps ? gm_session_time(session) : due);
-    worker->changed = true;
+    worker->changed = worker->unrecorded = true;
 }
 
 /* Changes that came together, and those that come soon after, make one restart. */

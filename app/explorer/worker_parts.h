@@ -5,6 +5,7 @@
 #include <pthread.h>
 
 #include "app/explorer/agenda.h"
+#include "app/explorer/recorder.h"
 #include "app/explorer/worker.h"
 
 /* What the files of the worker share: worker.c its thread, worker_clock.c the time, worker_orders.c the
@@ -56,6 +57,10 @@ struct gm_worker {
     struct gm_agenda agenda;    /* of a tour's step */
     char message[GM_MESSAGE];
     unsigned long message_number;
+    struct gm_recorder *recorder; /* NULL: no movie is made */
+    bool unrecorded;              /* something changed since its last frame */
+    char *command;                /* that redoes the view at the time it was asked for; NULL: it was not */
+    unsigned long command_number; /* changes with every one */
 };
 
 double gm_worker_wall_time(void);
@@ -77,6 +82,14 @@ bool gm_worker_step(struct gm_worker *worker);
 void gm_worker_keep_agenda(struct gm_worker *worker);
 /* Tells of lanes that have failed. */
 void gm_worker_watch_frozen(struct gm_worker *worker);
+
+/* Saves the picture, begins or ends the movie, ends it, takes a frame of it if one is due, tells the command
+   line that redoes the view. */
+void gm_worker_save(struct gm_worker *worker, enum gm_theme theme);
+void gm_worker_record(struct gm_worker *worker, enum gm_theme theme);
+void gm_worker_stop_recording(struct gm_worker *worker);
+void gm_worker_take_frame(struct gm_worker *worker);
+void gm_worker_tell(struct gm_worker *worker, enum gm_theme theme);
 
 void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order);
 /* Starts all lanes again if that was asked for and the last time was long enough ago. */

@@ -9,9 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "app/explorer/palette.h"
+#include "render/base64.h"
 
 /* ---- the line of bytes ---- */
 
@@ -135,7 +137,7 @@ enum { BLUE = 4, DARK_GREY = 8 };
 
 static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
 {
-    struct look look = {.glyph = cell->glyph, .bold = cell->bold};
+    struct look look = {.glyph = cell->glyph ? cell->glyph : ' ', .bold = cell->bold};
     if (writer->colours == GM_COLOURS_NONE) {
         /* ink or paper is all there is: two inks in one cell are a full block, an inked ground is reversed */
         bool ink = gm_palette_is_ink(writer->theme, cell->foreground);
@@ -158,7 +160,7 @@ static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
         look.foreground &= 7;
         look.background &= 7;
     }
-    if (cell->glyph == ' ') { /* only the ground is seen */
+    if (look.glyph == ' ') { /* only the ground is seen */
         look.foreground = writer->foreground >= 0 ? writer->foreground : look.foreground;
     }
     return look;
@@ -194,6 +196,13 @@ static void take_look(struct gm_writer *writer, const struct look *look)
 }
 
 /* ---- screens ---- */
+
+static int64_t milliseconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
 
 static bool same_cell(const struct gm_cell *a, const struct gm_cell *b)
 {
@@ -248,13 +257,45 @@ static bool resize(struct gm_writer *writer, const struct gm_cells *cells)
 
 enum { CHEAPER = 4 }; /* so many cells written again cost less than addressing the cursor */
 
-void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells)
+/* Whether the cells from where the cursor is to the column may be written again: it is cheaper, and no
+   picture is there. */
+static bool may_write_on(const struct gm_writer *writer, const struct gm_cells *cells, int column, int row)
+{
+    if (writer->row != row || column <= writer->column || column - writer->column > CHEAPER) {
+        return false;
+    }
+    const struct gm_cell *line = &cells->cells[(size_t)row * (size_t)cells->columns];
+    for (int i = writer->column; i < column; i++) {
+        if (!line[i].glyph) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void put_image(struct gm_writer *writer, const struct gm_cells *cells,
+                      const struct gm_writer_image *image)
+{
+    put(writer, image->bytes, image->size);
+    writer->row = -1;
+    for (int row = image->row; row < image->row + image->rows; row++) {
+        for (int column = image->column; column < image->column + image->columns; column++) {
+            if (cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column].glyph) {
+                move_to(writer, column, row);
+                put_cell(writer, cells, column, row);
+            }
+        }
+    }
+}
+
+void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
+                    const struct gm_writer_image *image)
 {
     if (!resize(writer, cells)) {
         return;
     }
     /* Synchronised output: a terminal that knows it shows the frame at once, others ignore it. */
-    bool together = writer->colours >= GM_COLOURS_256;
+    bool together = writer->colours >= GM_COLOURS_256 || image;
     if (together) {
         put_text(writer, "\033[?2026h");
     }
@@ -271,7 +312,7 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells)
             if (!writer->corner && row + 1 == cells->rows && column + 1 == cells->columns) {
                 continue;
             }
-            if (writer->row == row && column > writer->column && column - writer->column <= CHEAPER) {
+            if (may_write_on(writer, cells, column, row)) {
                 while (writer->column < column) {
                     put_cell(writer, cells, writer->column, row);
                 }
@@ -283,11 +324,70 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells)
     memcpy(writer->shown.cells, cells->cells,
            sizeof *cells->cells * (size_t)cells->columns * (size_t)cells->rows);
     writer->known = true;
+    if (image && image->size > 0) {
+        put_image(writer, cells, image);
+    }
     if (writer->length == begun) {
         writer->length = writer->sent = 0;
-    } else if (together) {
+        return;
+    }
+    if (together) {
         put_text(writer, "\033[?2026l");
     }
+    if (writer->asks && writer->asked - writer->answered < GM_WRITER_FLYING) {
+        put_text(writer, GM_ASK_READY);
+        writer->flying[writer->asked++ % GM_WRITER_FLYING] = writer->length;
+        writer->asked_at = milliseconds();
+    }
+}
+
+/* So many bytes may be on their way: some frames of cells, or one picture. */
+enum { ON_THE_WAY = 32768, LOST = 3000 };
+
+bool gm_writer_takes(struct gm_writer *writer, unsigned long ready)
+{
+    size_t flying = 0;
+    if (ready > writer->asked) { /* answers to questions that were given up */
+        ready = writer->asked;
+    }
+    if (ready > writer->answered) {
+        writer->answered = ready;
+        writer->asked_at = milliseconds();
+    } else if (writer->answered < writer->asked && milliseconds() - writer->asked_at >= LOST) {
+        writer->asks = false; /* it answers no more */
+        writer->answered = writer->asked;
+    }
+    for (unsigned long i = writer->answered; i < writer->asked; i++) {
+        flying += writer->flying[i % GM_WRITER_FLYING];
+    }
+    return gm_writer_idle(writer) && flying < ON_THE_WAY;
+}
+
+int gm_writer_patience(const struct gm_writer *writer)
+{
+    if (writer->answered == writer->asked) {
+        return -1;
+    }
+    int64_t left = writer->asked_at + LOST - milliseconds();
+    return left > 0 ? (int)left : 0;
+}
+
+void gm_writer_copy(struct gm_writer *writer, const char *text)
+{
+    size_t size = gm_base64_size(strlen(text));
+    char *coded = malloc(size);
+    if (coded) {
+        gm_base64((const unsigned char *)text, strlen(text), coded);
+        put_text(writer, "\033]52;c;");
+        put(writer, coded, size);
+        put_text(writer, "\a");
+    }
+    free(coded);
+}
+
+void gm_writer_tell(struct gm_writer *writer, const char *text)
+{
+    put_text(writer, text);
 }
 
 bool gm_writer_idle(const struct gm_writer *writer)
@@ -326,7 +426,10 @@ static const char *capability(const char *name)
 
 bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal)
 {
-    *writer = (struct gm_writer){.fd = -1, .colours = terminal->colours, .theme = terminal->theme};
+    *writer = (struct gm_writer){.fd = -1,
+                                 .colours = terminal->colours,
+                                 .theme = terminal->theme,
+                                 .asks = terminal->answers.attributes};
     writer->row = -1;
     writer->foreground = writer->background = -1;
     writer->place = capability("cup");

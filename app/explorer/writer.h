@@ -12,6 +12,8 @@
  * ends in -direct, and its output blocks. So ncurses sets the terminal up, reads the keys, knows terminfo and
  * restores everything at the end; its own screen stays blank and is refreshed once, at the start. */
 
+enum { GM_WRITER_FLYING = 64 };
+
 struct gm_writer {
     int fd;
     bool own_fd;
@@ -26,6 +28,11 @@ struct gm_writer {
     char *out;
     size_t length, capacity, sent;
     bool failed; /* memory is short or the terminal is gone */
+    /* screens that the terminal was asked about: how many, and the sizes of those it has not yet answered */
+    bool asks;
+    unsigned long asked, answered;
+    size_t flying[GM_WRITER_FLYING];
+    int64_t asked_at; /* in milliseconds: the last one, or the last answer */
     /* the state of the terminal */
     int column, row;
     long foreground, background; /* -1: unknown */
@@ -37,10 +44,31 @@ bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal
 /* Waits up to half a second for what is under way, so that no sequence is cut in two. */
 void gm_writer_close(struct gm_writer *writer);
 
-/* Whether everything was sent, so that another screen may be drawn. */
+/* Whether everything was sent. */
 bool gm_writer_idle(const struct gm_writer *writer);
-/* Takes a screen; what differs from the last one is put in line. Only when idle. */
-void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells);
+/* Whether another screen may be drawn: everything was sent, and not too much of it is still on its way. A
+   terminal at the end of a long line is asked after each screen whether it has read it, because otherwise
+   seconds of frames would pile up in the line, and keys be answered behind them. `ready` counts its answers.
+ */
+bool gm_writer_takes(struct gm_writer *writer, unsigned long ready);
+/* How long to wait for such an answer before it is given up, in milliseconds; -1: none is awaited. */
+int gm_writer_patience(const struct gm_writer *writer);
+/* A picture of pixels among the cells, as bytes (or those that remove one), and the cells that it fills. */
+struct gm_writer_image {
+    const char *bytes;
+    size_t size;
+    int column, row, columns, rows;
+};
+
+/* Takes a screen; what differs from the last one is put in line, and the image with it (NULL: none is to be
+   sent). Cells without a glyph are the image's; the others are seen above it. Only when idle. */
+void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
+                    const struct gm_writer_image *image);
+/* Offers a text to the clipboard of the terminal (OSC 52); most ask the user first, or need to be told that
+   they may. Only when idle, or after something else was put in line. */
+void gm_writer_copy(struct gm_writer *writer, const char *text);
+/* Puts something in line that is not seen on the screen. Only when idle. */
+void gm_writer_tell(struct gm_writer *writer, const char *text);
 /* Sends what the terminal takes now. False when it is gone. */
 bool gm_writer_send(struct gm_writer *writer);
 /* The terminal may show anything: the next screen is written in full. */

@@ -222,6 +222,9 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
     if (!moved || (flow->scalar && !advance_scalar(solver, dt, y, progress))) {
         return GM_NO_CONVERGENCE;
     }
+    if (!(gm_flow_kinetic_energy(flow, y) <= solver->energy_limit)) {
+        return GM_BLOW_UP;
+    }
     if (flow->tracers > 0) {
         gm_flow_vertex_velocities(flow->complex, block(flow, y, GM_FLOW_PSI_HALF), solver->velocities);
         gm_tracers_carry(flow, solver->velocities, dt, number, y, y);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/flow/boundary.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* A run of boundary edges of one side: `first` .. `first + count`, cyclic; psi goes from `from` to `to` along
@@ -123,9 +124,11 @@ enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned
             flow->sheet[end] -= speed * half;
         }
     }
+    flow->speed = speed;
     if (in.count == 0) {
         return GM_BOUNDARY_OK;
     }
+    flow->speed = fmax(speed, 1.5 * through / run_length(complex, &out));
     /* psi rises over the outlet, stays, and falls over the inlet */
     size_t e = out.first;
     for (size_t i = 0; i < out.count; i++) {

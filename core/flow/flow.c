@@ -131,6 +131,17 @@ void gm_flow_velocity(const struct gm_complex *complex, const double *psi, size_
     velocity[1] = -(first * (p[5] - p[1]) - second * (p[3] - p[1])) / twice;
 }
 
+double gm_flow_largest_speed(const struct gm_flow *flow, const double *psi)
+{
+    double largest = flow->speed;
+    for (size_t t = 0; t < flow->complex->triangles; t++) {
+        double u[2];
+        gm_flow_velocity(flow->complex, psi, t, u);
+        largest = fmax(largest, hypot(u[0], u[1]));
+    }
+    return largest;
+}
+
 void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *psi, double *velocities)
 {
     memset(velocities, 0, 3 * complex->vertices * sizeof *velocities);

@@ -34,6 +34,7 @@ struct gm_flow {
     double viscosity, diffusivity;
     double time_unit;    /* of a run, in the flow's own time */
     double reynolds;     /* where continuation of steady states ends; 0: none is needed */
+    double speed;        /* the largest that the boundary gives, of an inlet, an outlet or a lid; 0: none */
     bool scalar;         /* theta is carried */
     unsigned char *kind; /* enum gm_vertex_kind, a vertex */
     double *psi;         /* given values, 0 elsewhere */
@@ -91,6 +92,8 @@ void gm_flow_vorticity(const struct gm_flow *flow, const double *psi, double *om
 /* The velocity of a triangle: u, v. */
 void gm_flow_velocity(const struct gm_complex *complex, const double *psi, size_t triangle,
                       double velocity[2]);
+/* The largest speed of a triangle, or of the boundary. */
+double gm_flow_largest_speed(const struct gm_flow *flow, const double *psi);
 /* The velocities of the vertices, u and v of each: the mean over their triangles, weighted by area. The array
    has 3 * vertices numbers; the last third is scratch. */
 void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *psi, double *velocities);

@@ -64,6 +64,22 @@ static bool take_memory(struct gm_flow_solver *solver)
     return true;
 }
 
+/* Nothing that inlet, outlet and lid drive is faster, on the whole, than the fastest of the flow without
+   vorticity that they make: beyond twice its square in the mean over the domain a state is an artefact.
+   Where nothing drives there is no such limit. */
+static double energy_limit(struct gm_flow_solver *solver)
+{
+    const struct gm_flow *flow = solver->flow;
+    if (flow->speed == 0 || solver->unknowns.count == 0) {
+        return INFINITY;
+    }
+    memcpy(solver->rate, flow->psi, flow->complex->vertices * sizeof *solver->rate);
+    gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, NULL, solver->b, solver->x,
+                              solver->rate);
+    const double largest = gm_flow_largest_speed(flow, solver->rate);
+    return largest * largest * flow->complex->total_area;
+}
+
 struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
 {
     struct gm_flow_solver *solver = calloc(1, sizeof *solver);
@@ -82,6 +98,7 @@ struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
         gm_flow_solver_close(solver);
         return NULL;
     }
+    solver->energy_limit = energy_limit(solver);
     return solver;
 }
 

@@ -16,6 +16,7 @@ struct gm_flow_solver {
     int *soft_vertex;
     bool *held; /* vertices whose omega is given, where steps are made for omega */
     struct gm_cholesky *poisson;
+    double energy_limit;     /* no flow that these boundaries drive has more */
     double shift, viscosity; /* that stokes and soft_factor were made for; shift = 0: none yet */
     struct gm_cholesky *stokes, *soft_factor;
     struct gm_transport transport;

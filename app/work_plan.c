@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What work-precision is to measure: from the words of the command line to schemes, steps and a measure. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/nearest.h"
+#include "app/work.h"
+
+enum { MOST_WORDS = 64 };
+
+static const double usual_errors[3] = {1e-3, 1e-6, 1e-9};
+
+static const char solution_error[] = "solution_error";
+
+static bool refuse(char *message, const char *text)
+{
+    snprintf(message, GM_MESSAGE, "%s", text);
+    return false;
+}
+
+static struct gm_timing *timing_of(const struct gm_work_table *table)
+{
+    return table->request.lanes[0].parameters;
+}
+
+/* The scene, its arguments for this purpose unless overridden, and the user's words. */
+static bool parse(struct gm_request *request, const struct gm_options *options, char *message)
+{
+    char *words[MOST_WORDS], arguments[512] = "", *rest = NULL;
+    int count = 0;
+    const struct gm_scene *scene = options->word_count > 0 ? gm_scene_find(options->words[0]) : NULL;
+    if (options->word_count > 0) {
+        words[count++] = options->words[0];
+    }
+    if (scene && scene->work) {
+        snprintf(arguments, sizeof arguments, "%s", scene->work->arguments);
+    }
+    for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        if (!gm_options_have(options, word)) {
+            words[count++] = word;
+        }
+    }
+    for (int i = 1; i < options->word_count && count < MOST_WORDS; i++) {
+        words[count++] = options->words[i];
+    }
+    return gm_request_parse(request, count, words, 1, message);
+}
+
+/* Lanes may differ in scheme, dt and resolution alone, and in what was not typed but follows from those. */
+static bool alike(const struct gm_request *request, const struct gm_options *options,
+                  const struct gm_parameter *resolution)
+{
+    const struct gm_scene *scene = request->scene;
+    for (size_t i = 1; i < request->count; i++) {
+        for (size_t k = 0; k < scene->parameter_count; k++) {
+            const struct gm_parameter *row = &scene->parameters[k];
+            char word[64];
+            snprintf(word, sizeof word, "%s=", row->key);
+            const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == resolution ||
+                                !gm_options_have(options, word);
+            const double first = gm_parameter_get(row, request->lanes[0].parameters);
+            const double other = gm_parameter_get(row, request->lanes[i].parameters);
+            const bool left_to_itself = isnan(first) && isnan(other);
+            if (!varies && first != other && !left_to_itself) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool add_scheme(struct gm_work_table *table, const struct gm_scheme *scheme)
+{
+    for (size_t i = 0; i < table->scheme_count; i++) {
+        if (table->schemes[i] == scheme) {
+            return true;
+        }
+    }
+    table->schemes[table->scheme_count++] = scheme;
+    return true;
+}
+
+static bool choose_schemes(struct gm_work_table *table, bool named, char *message)
+{
+    const struct gm_request *request = &table->request;
+    table->schemes = calloc(gm_scheme_count() + request->count, sizeof *table->schemes);
+    table->lines = calloc(gm_scheme_count() + request->count, sizeof *table->lines);
+    if (!table->schemes || !table->lines) {
+        return refuse(message, "not enough memory");
+    }
+    for (size_t i = 0; named && i < request->count; i++) {
+        add_scheme(table, request->lanes[i].scheme);
+    }
+    for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
+        const struct gm_work *work = request->scene->work;
+        bool entrant = !work || !work->schemes;
+        for (size_t k = 0; !entrant && work->schemes[k]; k++) {
+            entrant = strcmp(work->schemes[k], gm_scheme_at(i)->name) == 0;
+        }
+        const bool exact =
+            work && work->is_exact && strcmp(work->is_exact, gm_scheme_at(i)->name) == 0 && table->observed;
+        if (entrant && !exact &&
+            gm_scene_fits(request->scene, request->lanes[0].parameters, gm_scheme_at(i))) {
+            add_scheme(table, gm_scheme_at(i));
+        }
+    }
+    return true;
+}
+
+static int falling(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x < *y) - (*x > *y);
+}
+
+static bool choose_steps(struct gm_work_table *table, bool given, char *message)
+{
+    const struct gm_request *request = &table->request;
+    const struct gm_work *work = request->scene->work;
+    const struct gm_timing *timing = timing_of(table);
+    const size_t most = given ? request->count : 64;
+    table->steps = calloc(most, sizeof *table->steps);
+    if (!table->steps) {
+        return refuse(message, "not enough memory");
+    }
+    if (given) {
+        for (size_t i = 0; i < request->count; i++) {
+            const double dt = ((const struct gm_timing *)request->lanes[i].parameters)->dt;
+            bool known = false;
+            for (size_t k = 0; k < table->step_count; k++) {
+                known |= table->steps[k] == dt;
+            }
+            if (!known) {
+                table->steps[table->step_count++] = dt;
+            }
+        }
+        qsort(table->steps, table->step_count, sizeof *table->steps, falling);
+        return true;
+    }
+    const double coarsest = work ? work->coarsest : 4 * timing->dt;
+    const int halvings = work ? work->halvings : 7;
+    double steps = fmax(1, ceil(timing->until / coarsest - 1e-9));
+    for (int i = 0; i <= halvings; i++, steps *= 2) {
+        table->steps[table->step_count++] = timing->until / steps;
+    }
+    return true;
+}
+
+/* The values of the plan, or those of the words if they give more than one; a single one is no ladder. */
+static bool choose_resolutions(struct gm_work_table *table, const struct gm_options *options, char *message)
+{
+    const struct gm_work *work = table->request.scene->work;
+    const struct gm_parameter *row = table->resolution;
+    char word[64];
+    snprintf(word, sizeof word, "%s=", row ? row->key : "");
+    const bool given = row && gm_options_have(options, word);
+    const size_t most = given ? table->request.count : row ? work->resolution_count : 0;
+    table->resolutions = calloc(most + 1, sizeof *table->resolutions);
+    if (!table->resolutions) {
+        return refuse(message, "not enough memory");
+    }
+    for (size_t i = 0; i < most; i++) {
+        const double value =
+            given ? gm_parameter_get(row, table->request.lanes[i].parameters) : work->resolutions[i];
+        bool known = false;
+        for (size_t k = 0; k < table->resolution_count; k++) {
+            known |= table->resolutions[k] == value;
+        }
+        if (!known) {
+            table->resolutions[table->resolution_count++] = value;
+        }
+    }
+    if (table->resolution_count < 2) {
+        table->resolution = NULL;
+        table->resolution_count = 1;
+    }
+    return true;
+}
+
+static const char *observable_name(size_t i, const void *scene)
+{
+    return ((const struct gm_scene *)scene)->observables[i].key;
+}
+
+/* A measure that says nothing with these parameters, as a distance from an exact solution that there is not.
+ */
+static bool is_silent(const struct gm_work_table *table, size_t observable)
+{
+    char sentence[GM_MESSAGE];
+    struct gm_lane *lane = gm_request_open_lane(&table->request, 0, sentence);
+    const bool silent = lane && !isfinite(gm_lane_observe(lane, observable));
+    gm_lane_close(lane);
+    return silent;
+}
+
+static bool choose_measure(struct gm_work_table *table, const char *asked, char *message)
+{
+    const struct gm_scene *scene = table->request.scene;
+    table->measure = asked                                 ? asked
+                     : scene->work && scene->work->measure ? scene->work->measure
+                                                           : solution_error;
+    table->measure_title = "largest difference from the true solution";
+    table->observed =
+        strcmp(table->measure, solution_error) != 0 ||
+        (scene->work && scene->work->measure && strcmp(scene->work->measure, solution_error) == 0);
+    if (!table->observed) {
+        return true;
+    }
+    for (size_t i = 0; i < scene->observable_count; i++) {
+        if (strcmp(scene->observables[i].key, table->measure) != 0) {
+            continue;
+        }
+        if (!is_silent(table, i)) {
+            table->measure_title = scene->observables[i].title;
+            return true;
+        }
+        if (!asked) {
+            table->measure = solution_error;
+            table->observed = false;
+            return true;
+        }
+        snprintf(message, GM_MESSAGE, "%s says nothing with these parameters", asked);
+        return false;
+    }
+    const char *near = gm_nearest(table->measure, scene->observable_count, observable_name, scene);
+    snprintf(message, GM_MESSAGE, "scene %s has no observable %.60s%s%s", scene->name, table->measure,
+             near ? "; did you mean " : "", near ? near : "");
+    return false;
+}
+
+bool gm_work_open(struct gm_work_table *table, const struct gm_options *options, char *message)
+{
+    *table = (struct gm_work_table){0};
+    if (options->word_count == 0) {
+        return refuse(message, "work-precision of which scene? See geomint list scenes");
+    }
+    if (!parse(&table->request, options, message)) {
+        return false;
+    }
+    const struct gm_work *work = table->request.scene->work;
+    table->resolution =
+        work && work->resolution ? gm_scene_parameter(table->request.scene, work->resolution) : NULL;
+    table->errors = work && work->errors ? work->errors : usual_errors;
+    if (!alike(&table->request, options, table->resolution)) {
+        snprintf(message, GM_MESSAGE,
+                 "work-precision compares on one problem: only scheme%s%s and dt take a list",
+                 table->resolution ? ", " : "", table->resolution ? table->resolution->key : "");
+        gm_work_close(table);
+        return false;
+    }
+    if (!(timing_of(table)->until > 0)) {
+        gm_work_close(table);
+        return refuse(message, "until is 0: there is nothing to measure");
+    }
+    if (!choose_steps(table, gm_options_have(options, "dt="), message) ||
+        !choose_resolutions(table, options, message) || !choose_measure(table, options->measure, message) ||
+        !choose_schemes(table, gm_options_have(options, "scheme="), message)) {
+        gm_work_close(table);
+        return false;
+    }
+    return true;
+}
+
+void gm_work_close(struct gm_work_table *table)
+{
+    for (size_t i = 0; i < table->line_count; i++) {
+        free(table->lines[i].points);
+        for (size_t cost = 0; cost < GM_COST_COUNT; cost++) {
+            free(table->lines[i].best[cost]);
+        }
+    }
+    free(table->lines);
+    free(table->schemes);
+    free(table->steps);
+    free(table->resolutions);
+    gm_request_close(&table->request);
+    *table = (struct gm_work_table){0};
+}

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the explorer shows in terminals with pixels is the picture that `geomint render` paints.
+Usage: pixels.py GEOMINT"""
+import base64
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+
+from terminal_emulator import Terminal, read_png
+
+geomint = os.path.realpath(sys.argv[1])
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
+failures = 0
+
+# without graphs, whose ranges grow while the explorer goes on
+SCENE = ['disc', 'scheme=explicit-euler,midpoint', 'dt=pi/12', 'show=disc']
+
+
+def check(good, sentence):
+    global failures
+    if not good:
+        print('FAILED:', sentence, flush=True)
+        failures += 1
+    return good
+
+
+def reference(steps, width, height, theme='dark'):
+    out = f'reference-{steps}-{width}-{theme}'
+    subprocess.run([geomint, 'render', *SCENE, f'steps={steps}', '--size', f'{width}x{height}', '--theme', theme,
+                    '--out', out], check=True, stdout=subprocess.DEVNULL)
+    return read_png(f'{out}/disc-render.png')
+
+
+def compare(shown, png, shift=(0, 0)):
+    """Greatest and mean difference of a channel, and how many pixels of the reference are not shown."""
+    width, height, rows = png
+    worst = total = missing = 0
+    for y in range(height):
+        wanted, line = rows[y], shown[y + shift[1]]
+        for x in range(width):
+            pixel = line[x + shift[0]]
+            if pixel is None:
+                missing += 1
+                continue
+            at = 3 * x
+            for k in range(3):
+                off = abs(pixel[k] - wanted[at + k])
+                total += off
+                if off > worst:
+                    worst = off
+    return worst, total / (3 * width * height), missing
+
+
+def paused_at(terminal, steps):
+    """The state after so many steps from the start."""
+    good = terminal.run(20, lambda: terminal.shows('SCHEMES') and terminal.picture()[30][30] is not None)
+    check(good, 'no picture came')
+    terminal.keys(' ')
+    check(terminal.run(10, lambda: terminal.shows('paused')), 'it does not pause')
+    terminal.keys('r')
+    terminal.settle()
+    terminal.keys('.' * steps)
+    check(terminal.settle(), 'it does not come to rest')
+
+
+def leave(terminal):
+    terminal.keys('q')
+    terminal.run(5, lambda: terminal.status is not None)
+    check(terminal.status == 0, f'it ended with the status {terminal.status}')
+    terminal.close()
+
+
+def picture_of(kind, steps, columns, rows, cell, exact, **how):
+    terminal = Terminal([geomint, *SCENE], columns=columns, rows=rows, cell=cell, kind=kind, **how)
+    paused_at(terminal, steps)
+    side = min(max(columns * 2 // 5, 31), 58)
+    width, height = (columns - side) * cell[0], (rows - 2) * cell[1]
+    if kind == 'sixel':
+        height -= height % 6
+    png = reference(steps, width, height)
+    worst, mean, missing = compare(terminal.picture(), png)
+    print(f'{kind} {width}x{height} {how}: greatest difference {worst}, mean {mean:.3f}, {missing} pixels missing, '
+          f'{terminal.images} images')
+    check(missing == 0, f'{kind}: parts of the picture are not shown')
+    check(worst <= exact[0] and mean <= exact[1], f'{kind}: the picture is another one')
+    # the comparison would see a picture that is one pixel off, or one of the step before
+    other = compare([row[1:] + row[:1] for row in terminal.picture()], png)
+    check(other[1] > exact[1] + 0.5, f'{kind}: a picture that is one pixel off is not told from it ({other})')
+    other = compare(terminal.picture(), reference(steps - 1, width, height))
+    check(other[1] > exact[1] + 0.5, f'{kind}: the picture of the step before is not told from it ({other})')
+    return terminal
+
+
+def ladder(terminal, *marks):
+    """b goes through what the terminal has, and comes back to the picture."""
+    for mark in marks:
+        terminal.keys('b')
+        check(terminal.run(5, lambda: mark(terminal)), f'b does not reach {mark.__name__}')
+
+
+def braille(terminal):
+    return not terminal.tiles and any(0x2800 < ord(c) < 0x2900 for row in terminal.text for c in row[:60])
+
+
+def quadrants(terminal):
+    return any(c in '▖▗▘▝▚▞' for row in terminal.text for c in row[:60])
+
+
+def half_blocks(terminal):
+    return not quadrants(terminal) and any(c in '▀▄' for row in terminal.text for c in row[:60])
+
+
+def ascii_letters(terminal):
+    return all(ord(c) < 127 for row in terminal.text for c in row)
+
+
+def pixels(terminal):
+    return terminal.picture()[30][30] is not None and not ascii_letters(terminal)
+
+
+# Kitty: exact
+kitty = picture_of('kitty', 5, 120, 36, (10, 20), (0, 0))
+kitty.keys('?')
+check(kitty.run(5, lambda: kitty.shows('KEYS') and not kitty.tiles), 'help is shown over the picture')
+kitty.keys('?')
+check(kitty.run(5, lambda: len(kitty.tiles) > 0), 'the picture does not come back')
+before = kitty.picture()
+ladder(kitty, braille, quadrants, half_blocks, ascii_letters, pixels)
+check(kitty.run(3, lambda: kitty.picture() == before), 'all around the ladder the picture is another one')
+tiles = kitty.images
+kitty.resize(100, 30)
+check(kitty.run(5, lambda: kitty.images > tiles and kitty.shows('paused')), 'no picture after a resize')
+kitty.run(0.5)
+check(all(x + w <= 600 and y + h <= 560 for x, y, w, h, _ in kitty.tiles.values()), 'a tile of the larger screen stays')
+tiles, written = kitty.images, kitty.output
+kitty.run(1)
+check(kitty.output == written, 'paused, it writes')
+leave(kitty)
+check(not kitty.tiles, 'it leaves pictures behind')
+
+# sixels: 256 colours in percents; cells of a height that bands of six rows do not fit
+sixel = picture_of('sixel', 5, 120, 36, (9, 17), (64, 0.9))
+sixel.keys('?')
+check(sixel.run(5, lambda: sixel.shows('KEYS')), 'no help')
+sixel.keys('?')
+check(sixel.run(5, lambda: sixel.shows('SCHEMES') and sixel.picture()[30][30]), 'the picture does not come back')
+sixel.settle()
+check(compare(sixel.picture(), reference(5, 648, 576))[1] <= 0.9, 'after the help the picture is another one')
+ladder(sixel, braille, quadrants, half_blocks, ascii_letters, pixels)
+sixel.keys('.')
+sixel.settle()
+check(compare(sixel.picture(), reference(6, 648, 576))[1] <= 0.9, 'a step later the picture is another one')
+leave(sixel)
+
+# a terminal that takes no large picture at once, and alone knows the size of its cells
+leave(picture_of('sixel', 3, 100, 30, (8, 16), (64, 0.9), sizes='terminal', limits=(400, 200)))
+# a picture in the light theme
+light = Terminal([geomint, *SCENE, '--theme', 'light'], columns=100, rows=30, kind='kitty', cell=(8, 16))
+paused_at(light, 3)
+check(compare(light.picture(), reference(3, 480, 448, 'light'))[0] == 0, 'in the light theme the picture is another one')
+leave(light)
+
+# nobody knows the size of a cell: blocks; unless pixels are demanded
+unknown = Terminal([geomint, *SCENE], kind='sixel', sizes='nobody')
+check(unknown.run(10, lambda: unknown.shows('SCHEMES')) and unknown.images == 0, 'pixels without a size')
+leave(unknown)
+forced = Terminal([geomint, *SCENE, '--graphics=sixel'], kind='sixel', sizes='nobody')
+check(forced.run(10, lambda: forced.images > 0), '--graphics=sixel has no effect')
+leave(forced)
+plain = Terminal([geomint, *SCENE, '--graphics', 'half'], kind='kitty')
+check(plain.run(10, lambda: half_blocks(plain)) and plain.images == 0, '--graphics=half has no effect')
+leave(plain)
+for how in ({'NO_COLOR': '1'}, {'TERM': 'tmux-256color'}, {'TERM': 'linux'}):
+    other = Terminal([geomint, *SCENE], kind='kitty', environment=how)
+    check(other.run(10, lambda: other.shows('SCHEMES')) and other.images == 0, f'pixels in spite of {how}')
+    check('TERM' not in how or 'kitty' not in other.questions, f'{how}: the question would be shown or lost')
+    leave(other)
+
+# keys that are typed before the answers come are keys; answers that come late are not
+early = Terminal([geomint, *SCENE], kind='sixel', delay=0.3, typed=b' \x1b[Bs')
+check(early.run(10, lambda: early.shows('SWITCH TO') and early.shows('paused')), 'keys typed ahead are lost')
+early.keys('\x1b')
+check(early.run(10, lambda: early.shows('▸ system')), 'a cursor key typed ahead is lost')
+leave(early)
+late = Terminal([geomint, *SCENE], kind='sixel', delay=1.6)
+check(late.run(10, lambda: late.shows('SCHEMES')), 'no screen without an answer')
+late.run(3)
+check(late.images == 0 and not late.shows('KEYS') and not late.shows('three') and late.shows('▸ dt'),
+      'a late answer is taken for keys')
+leave(late)
+
+# y: the command line that redoes the view, also after changes in flight
+told = Terminal([geomint, *SCENE], columns=100, rows=30, kind='kitty', cell=(8, 16))
+paused_at(told, 3)
+told.keys('\x1b[C' '..')  # another step: at once
+told.settle()
+told.keys('\t' 's' '\x1b[B' '\r')  # another scheme for the second lane, from here on
+told.settle()
+told.keys('..')
+told.settle()
+shown = told.picture()
+told.keys('y')
+check(told.run(5, lambda: told.shows('THIS VIEW')), 'y shows no command line')
+copied = [text for text in told.questions if text.startswith('52;c;')]
+if check(len(copied) == 1, 'y copies nothing'):
+    command = base64.b64decode(copied[0][5:]).decode()
+    check(command.startswith('geomint render disc ') and command[15:40] in ''.join(map(told.line, range(30))),
+          f'y copies something else: {command}')
+    check('--changes' in command, f'the changes are not in it: {command}')
+    words = [geomint] + shlex.split(command)[1:] + ['--size', '480x448', '--out', 'told']
+    subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
+    worst, mean, missing = compare(shown, read_png('told/disc-render.png'))
+    print(f'redone by "{command}": greatest difference {worst}, {missing} pixels missing')
+    check(worst == 0 and missing == 0, 'the command line makes another picture')
+told.keys('y')
+check(told.run(5, lambda: told.shows('SCHEMES')), 'the command line stays')
+
+# R: a movie of what is seen, finished when it is ended, and on leaving
+told.keys(' R')
+check(told.run(10, lambda: told.shows('Recording disc-0001.mp4')), 'R does not begin a movie')
+told.run(2)
+check(told.shows('●'), 'the status does not show the movie')
+told.keys('R')
+check(told.run(30, lambda: told.shows('Saved disc-0001.mp4')), 'R does not end the movie')
+
+
+def seconds_of(path):
+    probe = subprocess.run(['ffprobe', '-v', 'error', '-show_entries', 'format=duration', '-of', 'csv=p=0', path],
+                           capture_output=True, text=True)
+    return float(probe.stdout or 0)
+
+
+length = seconds_of('disc-0001.mp4')
+check(2 <= length <= 8, f'the movie of some 2 s, whose last frame stands for one, is {length} s long')
+told.keys('R')
+told.run(1.5)
+os.kill(told.pid, signal.SIGTERM)
+told.run(30, lambda: told.status is not None)
+check(told.status is not None and os.WTERMSIG(told.status) == signal.SIGTERM, f'after SIGTERM its status is {told.status}')
+check(seconds_of('disc-0002.mp4') > 1, 'the movie is lost with the signal')
+check(sorted(f for f in os.listdir('.') if f.startswith('disc-0')) == ['disc-0001.mp4', 'disc-0002.mp4'],
+      f'the movies leave files behind: {os.listdir(".")}')
+told.close()
+
+# a terminal at the end of a long line: frames are dropped and do not pile up
+slow = Terminal([geomint, *SCENE], kind='sixel', delay=0.4)
+slow.run(10, lambda: slow.images > 0)
+frames = len(slow.frames)
+slow.run(4)
+frames = len(slow.frames) - frames
+check(3 <= frames <= 22, f'{frames} frames in 4 s at .4 s a round trip')
+leave(slow)
+
+print('pixels:', 'all passed' if not failures else f'{failures} failures')
+sys.exit(failures > 0)

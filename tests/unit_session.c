@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A session without a terminal: the past can be visited and gone on from, forks share it, and time runs both
+   ways. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "app/explorer/session.h"
+
+static char message[GM_MESSAGE];
+
+static void open_session(struct gm_session *session)
+{
+    char *words[] = {"kepler", "scheme=rk4,verlet", "dt=0.05"};
+    struct gm_request request;
+    assert_true(gm_request_parse(&request, 3, words, 1, message));
+    assert_true(gm_session_open(session, &request, message));
+    gm_request_close(&request);
+}
+
+static void go(struct gm_session *session, double t)
+{
+    while (gm_session_advance(session, t)) {
+    }
+}
+
+static double *copy_state(const struct gm_lane *lane)
+{
+    size_t size = lane->problem.n * lane->problem.m * sizeof(double);
+    double *copy = malloc(size);
+    assert_non_null(copy);
+    memcpy(copy, gm_run_state(lane->run), size);
+    return copy;
+}
+
+static bool is_state(const struct gm_lane *lane, const double *state)
+{
+    return memcmp(state, gm_run_state(lane->run), lane->problem.n * lane->problem.m * sizeof(double)) == 0;
+}
+
+static void past_is_visited(void **unused)
+{
+    (void)unused;
+    struct gm_session session;
+    open_session(&session);
+    go(&session, 2.0001);
+    const struct gm_lane *lane = session.lanes[0];
+    double *end = copy_state(lane);
+    const size_t bins = lane->history.count, entries = lane->entries[0].count;
+
+    assert_true(gm_session_visit(&session, 1, message));
+    assert_true(fabs(gm_session_gone(&session) - 1) < 1e-9);
+    assert_true(lane->history.count < bins && lane->entries[0].count < entries);
+    assert_true(gm_session_visit(&session, 0, message));
+    assert_true(lane->run->steps == 0);
+    assert_true(fabs(gm_session_reach(&session) - 2) < 1e-9);
+    /* forwards again, all is as it was */
+    assert_true(gm_session_visit(&session, INFINITY, message));
+    assert_true(is_state(lane, end));
+    assert_int_equal(lane->history.count, bins);
+    assert_int_equal(lane->entries[0].count, entries);
+    /* a lane that goes on from the past makes another future: this one is the same */
+    assert_true(gm_session_visit(&session, 1, message));
+    go(&session, 2.0001);
+    assert_true(is_state(lane, end));
+    assert_true(fabs(gm_session_reach(&session) - 2) < 1e-9);
+    free(end);
+    gm_session_close(&session);
+}
+
+static void forks_share_the_past(void **unused)
+{
+    (void)unused;
+    struct gm_session session;
+    open_session(&session);
+    go(&session, 1.0001);
+    double *there = copy_state(session.lanes[0]);
+    assert_true(gm_session_fork(&session, 0, gm_scheme_find("gauss4"), message));
+    assert_int_equal(session.count, 3);
+    struct gm_lane *fork = session.lanes[2];
+    assert_true(is_state(fork, there));
+    assert_string_equal(fork->scheme->name, "gauss4");
+    go(&session, 1.5001);
+    double *end = copy_state(fork);
+    assert_false(is_state(session.lanes[0], end));
+    /* before the fork both are one; after it they part as they did */
+    assert_true(gm_session_visit(&session, 0.5, message));
+    double *before = copy_state(session.lanes[0]);
+    assert_true(is_state(fork, before));
+    assert_string_equal(fork->scheme->name, "rk4");
+    assert_true(gm_session_visit(&session, INFINITY, message));
+    assert_true(is_state(session.lanes[2], end));
+    assert_string_equal(fork->scheme->name, "gauss4");
+    /* step by step over the fork, and back */
+    for (int i = 0; i < 12; i++) {
+        assert_true(gm_session_back(&session, message));
+    }
+    assert_string_equal(session.lanes[2]->scheme->name, "rk4");
+    free(before);
+    free(end);
+    free(there);
+    gm_session_close(&session);
+}
+
+static void time_runs_both_ways(void **unused)
+{
+    (void)unused;
+    struct gm_session session;
+    open_session(&session);
+    go(&session, 2.0001);
+    const size_t entries = session.lanes[0]->entries[0].count;
+    assert_true(gm_session_turn(&session, message));
+    assert_true(gm_session_direction(&session) < 0);
+    go(&session, 1 - 1e-9);
+    assert_true(fabs(gm_session_gone(&session) - 3) < 1e-9);
+    go(&session, -1e-9);
+    /* Verlet is symmetric; RK4 is not, and misses by far more than round-off */
+    assert_true(gm_session_from_start(&session, 1) < 1e-13);
+    assert_true(gm_session_from_start(&session, 0) > 1e-6);
+    /* the moment of the turn is still within reach */
+    assert_true(gm_session_visit(&session, 2, message));
+    assert_true(fabs(session.lanes[0]->run->t - 2) < 1e-9);
+    assert_int_equal(session.lanes[0]->entries[0].count, entries);
+    /* a new start is forwards */
+    assert_true(gm_session_restart(&session, message));
+    assert_true(gm_session_direction(&session) > 0 && session.lanes[0]->run->t == 0);
+    /* who chooses its own step cannot turn */
+    assert_true(gm_session_switch(&session, 0, gm_scheme_find("logh2"), message));
+    assert_false(gm_session_turn(&session, message));
+    gm_session_close(&session);
+}
+
+static void lanes_are_overlaid(void **unused)
+{
+    (void)unused;
+    struct gm_session session;
+    open_session(&session);
+    assert_true(gm_session_overlay(&session, message));
+    assert_int_equal(session.lanes[1]->shown.panel, 0);
+    assert_int_equal(session.lanes[1]->shown.colour, 1);
+    /* what the lanes' arguments say is what is shown */
+    char *text = gm_request_format(&session.log), *words[16], *rest = NULL;
+    int count = 0;
+    assert_non_null(text);
+    assert_non_null(strstr(text, " overlay=yes"));
+    for (char *word = strtok_r(text, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        words[count++] = word;
+    }
+    struct gm_request again;
+    assert_true(gm_request_parse(&again, count, words, 1, message));
+    for (size_t i = 0; i < session.count; i++) {
+        assert_memory_equal(&again.lanes[i].shown, &session.lanes[i]->shown, sizeof again.lanes[i].shown);
+    }
+    gm_request_close(&again);
+    free(text);
+    assert_true(gm_session_overlay(&session, message));
+    assert_int_equal(session.lanes[1]->shown.panel, 1);
+    gm_session_close(&session);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(past_is_visited),
+        cmocka_unit_test(forks_share_the_past),
+        cmocka_unit_test(time_runs_both_ways),
+        cmocka_unit_test(lanes_are_overlaid),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
