@@ -313,8 +313,20 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
         return refuse(message, "there is no scene \"%.40s\"%s%s", typed[0],
                       near ? "; did you mean " : "; see geomint list", near ? near : "");
     }
+    enum { MOST_SHOWN = 8 };
+    char shown[256], *instead[MOST_SHOWN], *rest = NULL;
+    char *const *given = typed + 1;
+    int given_count = count - 1;
+    if (given_count == 0 && schemes > 1 && request->scene->lanes) {
+        snprintf(shown, sizeof shown, "%s", request->scene->lanes);
+        for (char *word = strtok_r(shown, " ", &rest); word && given_count < MOST_SHOWN;
+             word = strtok_r(NULL, " ", &rest)) {
+            instead[given_count++] = word;
+        }
+        given = instead;
+    }
     struct gm_words words;
-    bool good = gm_words_read(&words, request->scene, count - 1, typed + 1, schemes, message);
+    bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
     request->overlay = good && gm_words_chosen(&words, "overlay");
     good = good && make_lanes(request, &words, message);
     if (good) {

@@ -48,14 +48,18 @@ static bool parse(struct gm_request *request, const struct gm_options *options, 
     return gm_request_parse(request, count, words, 1, message);
 }
 
-/* Lanes may differ in scheme, dt and resolution alone. */
-static bool alike(const struct gm_request *request, const struct gm_parameter *resolution)
+/* Lanes may differ in scheme, dt and resolution alone, and in what was not typed but follows from those. */
+static bool alike(const struct gm_request *request, const struct gm_options *options,
+                  const struct gm_parameter *resolution)
 {
     const struct gm_scene *scene = request->scene;
     for (size_t i = 1; i < request->count; i++) {
         for (size_t k = 0; k < scene->parameter_count; k++) {
             const struct gm_parameter *row = &scene->parameters[k];
-            const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == resolution;
+            char word[64];
+            snprintf(word, sizeof word, "%s=", row->key);
+            const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == resolution ||
+                                !gm_options_have(options, word);
             const double first = gm_parameter_get(row, request->lanes[0].parameters);
             const double other = gm_parameter_get(row, request->lanes[i].parameters);
             const bool left_to_itself = isnan(first) && isnan(other);
@@ -239,7 +243,7 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_options *options,
     table->resolution =
         work && work->resolution ? gm_scene_parameter(table->request.scene, work->resolution) : NULL;
     table->errors = work && work->errors ? work->errors : usual_errors;
-    if (!alike(&table->request, table->resolution)) {
+    if (!alike(&table->request, options, table->resolution)) {
         snprintf(message, GM_MESSAGE,
                  "work-precision compares on one problem: only scheme%s%s and dt take a list",
                  table->resolution ? ", " : "", table->resolution ? table->resolution->key : "");

@@ -447,7 +447,7 @@ static double crossing_time(const void *own)
     return ((const struct scene *)own)->dx;
 }
 
-static const double viscosities[] = {0.001, 0.0025, 0.005, 0.01, 0.02, 0.05};
+static const double viscosities[] = {0.0025, 0.005, 0.0075, 0.01, 0.0125, 0.015, 0.0175};
 static const double courant_numbers[] = {0.1, 0.25, 0.5, 0.75, 0.95, 1.05, 1.5, 2, 4};
 
 static const struct gm_stability stability = {
@@ -476,6 +476,7 @@ const struct gm_scene gm_scene_burgers = {
     .parameters = parameters,
     .parameter_count = COUNT(parameters),
     .schemes = schemes,
+    .lanes = "scheme=ftcs,lax-wendroff,ftcs-invariant,lax-wendroff-invariant lambda=0,0.5,1",
     .observables = observables,
     .observable_count = COUNT(observables),
     .figures = figures,

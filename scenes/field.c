@@ -35,12 +35,13 @@ static double end_of(const struct gm_line *line)
     return line->first + line->dx * (double)line->points;
 }
 
-void gm_draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                      size_t track, const struct gm_field_look *look)
+/* A panel for every lane: the surface so far. */
+static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                          const struct gm_field_look *look)
 {
     for (size_t i = 0; i < count; i++) {
         const struct gm_lane *lane = lanes[i];
-        const struct gm_entries *rows = &lane->entries[track];
+        const struct gm_entries *rows = &lane->entries[0];
         const struct gm_timing *timing = lane->parameters;
         const struct gm_line *line = &lane->problem.line;
         const char *name =
@@ -110,8 +111,9 @@ static const struct gm_lane *farthest(const struct gm_lane *const *lanes, size_t
     return ahead;
 }
 
-void gm_draw_profiles(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                      const struct gm_field_look *look)
+/* One graph: the profiles of all lanes now, over the exact one. */
+static void draw_profiles(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                          const struct gm_field_look *look)
 {
     const struct gm_lane *ahead = farthest(lanes, count);
     const struct gm_line *line = &ahead->problem.line;
@@ -143,6 +145,17 @@ void gm_draw_profiles(struct gm_picture *picture, const struct gm_lane *const *l
         const size_t made = profile(lanes[i], look, points);
         const bool frozen = lanes[i]->run->status != GM_OK;
         gm_mark_line(picture, panel, gm_lane_style(lanes[i], frozen ? 0.5 : 1, 2), points, made, false);
+    }
+}
+
+void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                   const struct gm_field_look *look, const struct gm_graph *graphs, size_t graph_count)
+{
+    gm_draw_clock(picture, lanes, count);
+    draw_surfaces(picture, lanes, count, look);
+    draw_profiles(picture, lanes, count, look);
+    for (size_t i = 0; i < graph_count; i++) {
+        gm_draw_graph(picture, lanes, count, &graphs[i], -1, false);
     }
 }
 

@@ -19,18 +19,36 @@ struct gm_field_look {
     enum gm_map map;
 };
 
+/* Rows of a parameter table: the ring, and the points of its grid, in members of the scene's own struct. */
+#define GM_HALF_LENGTH(own, member, standard_text, help_text)                                                \
+    {                                                                                                        \
+        .key = "half_length", .unit = "", .help = help_text, .type = GM_REAL,                                \
+        .offset = offsetof(own, member), .standard = standard_text, .lowest = 0.1, .highest = 1e5,           \
+        .logarithmic = true,                                                                                 \
+    }
+#define GM_POINTS(own, member, standard_text, least, help_text)                                              \
+    {                                                                                                        \
+        .key = "points", .unit = "", .help = help_text, .type = GM_INTEGER, .offset = offsetof(own, member), \
+        .standard = standard_text, .lowest = least, .highest = 1e7, .logarithmic = true,                     \
+    }
+
+/* The track of the surface; `record_row` fills a row by gm_surface_record. */
+#define GM_SURFACE_TRACK(record_row)                                                                         \
+    {                                                                                                        \
+        .key = "surface", .width = gm_surface_width, .interval = gm_surface_interval,                        \
+        .bound = GM_SURFACE_ROWS, .record = record_row,                                                      \
+    }
+
 size_t gm_surface_width(const struct gm_view *view);
 double gm_surface_interval(const void *parameters);
 /* Fills one row of the surface. */
 void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
                        double *entry);
 
-/* A panel for every lane: the surface, from track `track`. */
-void gm_draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                      size_t track, const struct gm_field_look *look);
-/* One graph: the profiles of all lanes now, over the exact one. */
-void gm_draw_profiles(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                      const struct gm_field_look *look);
+/* The whole picture but its titles: the clock, the surfaces from track 0, the profiles and `graph_count`
+   graphs over time. */
+void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                   const struct gm_field_look *look, const struct gm_graph *graphs, size_t graph_count);
 
 /* The Delta t that all lanes share, as ",  dt = 0.05"; "" where they differ. */
 const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count);

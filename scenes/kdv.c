@@ -75,29 +75,10 @@ static const struct gm_parameter parameters[] = {
         .highest = 1e3,
         .logarithmic = true,
     },
-    {
-        .key = "half_length",
-        .unit = "",
-        .help =
-            "half the length of the ring (50 for two solitons, 20 for one, 1 for the cosine, unless given)",
-        .type = GM_REAL,
-        .offset = offsetof(struct scene, half_length),
-        .standard = "50",
-        .lowest = 0.1,
-        .highest = 1e5,
-        .logarithmic = true,
-    },
-    {
-        .key = "points",
-        .unit = "",
-        .help = "of the grid",
-        .type = GM_INTEGER,
-        .offset = offsetof(struct scene, points),
-        .standard = "1001",
-        .lowest = 5,
-        .highest = 1e7,
-        .logarithmic = true,
-    },
+    GM_HALF_LENGTH(
+        struct scene, half_length, "50",
+        "half the length of the ring (50 for two solitons, 20 for one, 1 for the cosine, unless given)"),
+    GM_POINTS(struct scene, points, "1001", 5, "of the grid"),
 };
 
 static bool given(const char *key, const char *const *keys, size_t count)
@@ -235,13 +216,7 @@ static void record(const struct gm_view *view, double *entry)
     gm_surface_record(view, value, entry);
 }
 
-static const struct gm_track tracks[] = {
-    {.key = "surface",
-     .width = gm_surface_width,
-     .interval = gm_surface_interval,
-     .bound = GM_SURFACE_ROWS,
-     .record = record},
-};
+static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
@@ -262,17 +237,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->title = titles[scene->kdv.initial];
     picture->subtitle = gm_picture_text(picture, "η = %g,  μ = %.3g,  %ld points%s", scene->kdv.eta,
                                         scene->kdv.mu, scene->points, gm_shared_step(picture, lanes, count));
-    gm_draw_clock(picture, lanes, count);
-    gm_draw_surfaces(picture, lanes, count, 0, &look);
-    gm_draw_profiles(picture, lanes, count, &look);
-    if (!cosine) {
-        const struct gm_graph error = {
-            .observable = "solution_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1};
-        gm_draw_graph(picture, lanes, count, &error, -1, false);
-    }
-    const struct gm_graph kept = {
-        .observable = "square_error", .scale = GM_LOG, .calm_low = 1e-12, .calm_high = 1e-2};
-    gm_draw_graph(picture, lanes, count, &kept, -1, false);
+    const struct gm_graph graphs[] = {
+        {.observable = "solution_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
+        {.observable = "square_error", .scale = GM_LOG, .calm_low = 1e-12, .calm_high = 1e-2},
+    };
+    /* the cosine has no exact solution */
+    gm_draw_field(picture, lanes, count, &look, cosine ? graphs + 1 : graphs, cosine ? 1 : 2);
 }
 
 static const char *const schemes[] = {"box", "zabusky-kruskal", NULL};

@@ -59,28 +59,8 @@ static const struct gm_parameter parameters[] = {
         .lowest = -1e4,
         .highest = 1e4,
     },
-    {
-        .key = "half_length",
-        .unit = "",
-        .help = "the ring is −half_length ≤ x < half_length",
-        .type = GM_REAL,
-        .offset = offsetof(struct scene, half_length),
-        .standard = "20",
-        .lowest = 0.1,
-        .highest = 1e5,
-        .logarithmic = true,
-    },
-    {
-        .key = "points",
-        .unit = "",
-        .help = "of the grid",
-        .type = GM_INTEGER,
-        .offset = offsetof(struct scene, points),
-        .standard = "400",
-        .lowest = 3,
-        .highest = 1e7,
-        .logarithmic = true,
-    },
+    GM_HALF_LENGTH(struct scene, half_length, "20", "the ring is −half_length ≤ x < half_length"),
+    GM_POINTS(struct scene, points, "400", 3, "of the grid"),
 };
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
@@ -209,13 +189,7 @@ static void record(const struct gm_view *view, double *entry)
     gm_surface_record(view, value, entry);
 }
 
-static const struct gm_track tracks[] = {
-    {.key = "surface",
-     .width = gm_surface_width,
-     .interval = gm_surface_interval,
-     .bound = GM_SURFACE_ROWS,
-     .record = record},
-};
+static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
@@ -233,15 +207,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->subtitle = gm_picture_text(picture, "amplitude %g,  velocity %s%g,  %ld points%s",
                                         scene->nls.amplitude, alone ? "" : "±", scene->nls.velocity,
                                         scene->points, gm_shared_step(picture, lanes, count));
-    gm_draw_clock(picture, lanes, count);
-    gm_draw_surfaces(picture, lanes, count, 0, &look);
-    gm_draw_profiles(picture, lanes, count, &look);
-    const struct gm_graph charge_graph = {
-        .observable = "charge_error", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2};
-    gm_draw_graph(picture, lanes, count, &charge_graph, -1, false);
-    const struct gm_graph energy_graph = {
-        .observable = "energy_error", .scale = GM_LOG, .calm_low = 1e-8, .calm_high = 1e-2};
-    gm_draw_graph(picture, lanes, count, &energy_graph, -1, false);
+    const struct gm_graph graphs[] = {
+        {.observable = "charge_error", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2},
+        {.observable = "energy_error", .scale = GM_LOG, .calm_low = 1e-8, .calm_high = 1e-2},
+    };
+    gm_draw_field(picture, lanes, count, &look, graphs, sizeof graphs / sizeof graphs[0]);
 }
 
 static const char *const schemes[] = {"box", "split-step2", NULL};

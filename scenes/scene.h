@@ -130,6 +130,8 @@ struct gm_scene {
     const struct gm_parameter *parameters;
     size_t parameter_count;
     const char *const *schemes; /* in preferred order, NULL-terminated; further ones may fit */
+    /* What is shown where nothing is asked for: key=value with lists, by blanks; NULL: the first schemes. */
+    const char *lanes;
     const struct gm_observable *observables;
     size_t observable_count;
     const struct gm_track *tracks;

@@ -47,17 +47,7 @@ static const struct gm_parameter parameters[] = {
         .highest = 1e6,
         .logarithmic = true,
     },
-    {
-        .key = "points",
-        .unit = "",
-        .help = "of the mesh on the ring −π ≤ x < π",
-        .type = GM_INTEGER,
-        .offset = offsetof(struct scene, points),
-        .standard = "64",
-        .lowest = 3,
-        .highest = 1e7,
-        .logarithmic = true,
-    },
+    GM_POINTS(struct scene, points, "64", 3, "of the mesh on the ring −π ≤ x < π"),
     {
         .key = "courant",
         .unit = "",
@@ -285,13 +275,7 @@ static void record(const struct gm_view *view, double *entry)
     gm_surface_record(view, value, entry);
 }
 
-static const struct gm_track tracks[] = {
-    {.key = "surface",
-     .width = gm_surface_width,
-     .interval = gm_surface_interval,
-     .bound = GM_SURFACE_ROWS,
-     .record = record},
-};
+static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
@@ -305,15 +289,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                         "%ld points,  Courant number %.4g;  mesh and time varied too: %.0f "
                         "equations for %.0f unknowns, of rank %.0f",
                         scene->points, scene->courant, equations(&view), unknowns(&view), rank(&view));
-    gm_draw_clock(picture, lanes, count);
-    gm_draw_surfaces(picture, lanes, count, 0, &look);
-    gm_draw_profiles(picture, lanes, count, &look);
-    const struct gm_graph pointwise = {
-        .observable = "energy_law_residual", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1};
-    gm_draw_graph(picture, lanes, count, &pointwise, -1, false);
-    const struct gm_graph summed = {
-        .observable = "energy_sum_residual", .scale = GM_LOG, .calm_low = 1e-17, .calm_high = 1e-2};
-    gm_draw_graph(picture, lanes, count, &summed, -1, false);
+    const struct gm_graph graphs[] = {
+        {.observable = "energy_law_residual", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
+        {.observable = "energy_sum_residual", .scale = GM_LOG, .calm_low = 1e-17, .calm_high = 1e-2},
+    };
+    gm_draw_field(picture, lanes, count, &look, graphs, sizeof graphs / sizeof graphs[0]);
 }
 
 static const char *const schemes[] = {"leapfrog", "box", NULL};
@@ -329,7 +309,7 @@ static double crossing_time(const void *own)
     return 2 * M_PI / (double)((const struct scene *)own)->points;
 }
 
-static const double sharpnesses[] = {2, 8, 32, 128};
+static const double sharpnesses[] = {1, 2, 4, 8};
 static const double courant_numbers[] = {0.25, 0.5, 0.9, 0.99, 1, 1.01, 1.1, 2, 4};
 
 static const struct gm_stability stability = {

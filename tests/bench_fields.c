@@ -60,7 +60,8 @@ static double time_of(const struct gm_problem *problem, const char *scheme, doub
     static const struct gm_settings no_settings;
     double taken[REPEATS];
     for (int r = 0; r < REPEATS; r++) {
-        struct gm_run *run = gm_run_open(problem, gm_scheme_find(scheme), &no_settings, 0, dt, y);
+        struct gm_run *run =
+            gm_run_open(problem, gm_scheme_find_for(scheme, problem), &no_settings, 0, dt, y);
         gm_run_advance(run, 10);
         const double start = seconds();
         gm_run_advance(run, steps);

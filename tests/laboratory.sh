@@ -109,6 +109,31 @@ grep -q 'imaginary z up to 2.82' "$folder/out" || fail "the region of rk4: $(cat
 [ -s "$folder/rk4-stability.png" ] || fail "no PNG of the region"
 "$program" stability --region verlet --size 320x180 --out "$folder" | grep -q 'up to h ω = 2$' || fail "Verlet's limit"
 
+# fields on a line: every scene has both, and the limits are the known ones
+for scene in sine-gordon kdv nls wave burgers; do
+    "$program" stability $scene --size 320x180 --out "$folder" >"$folder/$scene.txt" 2>"$folder/err" ||
+        fail "stability $scene: $(cat "$folder/err")"
+    [ -s "$folder/$scene-stability.png" ] || fail "no PNG of the map of $scene"
+done
+# limit SCENE SCHEME: the largest step that is bounded throughout
+limit()
+{
+    awk -v scheme="$2" '$1 == scheme { found = 1 } found && /bounded for all/ { print $NF; exit }' "$folder/$1.txt"
+}
+[ "$(limit sine-gordon leapfrog)" = 0.99 ] || fail "leapfrog is not lost at a Courant number of 1"
+[ "$(limit sine-gordon energy-conserving)" = 1 ] || fail "energy-conserving is not lost above 1"
+[ "$(limit sine-gordon box)" = 8 ] || fail "the box is lost"
+[ "$(limit kdv zabusky-kruskal)" = 0.37 ] || fail "Zabusky-Kruskal is not lost above 0.385"
+[ "$(limit wave leapfrog)" = 1 ] || fail "leapfrog for the wave equation is not lost above 1"
+for words in 'sine-gordon scheme=leapfrog,box dt=.04,.02 until=1' 'kdv scheme=box dt=.1,.05 until=1' \
+    'nls scheme=box,split-step2 dt=.04,.02 until=1' 'wave scheme=leapfrog dt=.01,.005 until=1' \
+    'burgers scheme=ftcs,crank-nicolson dt=.004,.002 until=.2'; do
+    # shellcheck disable=SC2086
+    "$program" work-precision $words --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
+        fail "work-precision $words: $(cat "$folder/err")"
+    grep -q '^Cheapest by run time: ' "$folder/out" || fail "work-precision $words: no sentence"
+done
+
 # charts tell how they were made, and are measured again
 for chart in kepler-work-precision vortices-work-precision stiff-stability rk4-stability; do
     "$program" again "$folder/$chart.png" --out "$folder/again" >"$folder/out" 2>&1 || fail "again $chart"
