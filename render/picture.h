@@ -122,7 +122,7 @@ struct gm_picture {
     const struct gm_paragraph *told; /* told_count paragraphs below all else, in place of the caption */
     size_t told_count, told_lines;   /* with room for so many lines at least: what is above stands still */
     size_t state_columns;            /* of the grid of states; 0: as many as make them largest */
-    bool graphs_below; /* graphs may stand in a row under the states, if these are larger so */
+    bool graphs_below;               /* graphs may stand in a row under the states, if these are larger so */
     struct gm_panel *first, *last;
     struct gm_arena *arena;
 };

@@ -79,10 +79,10 @@ struct gm_work {
     double coarsest;       /* the largest step of the ladder, */
     int halvings;          /* halved so many times */
     const char *const *schemes; /* the entrants, NULL-terminated; NULL: every scheme that fits */
-    const char *reference; /* the scheme of the reference run, where the problem has no exact solution; NULL:
-                              the highest order that fits */
-    const char *is_exact;  /* name of a scheme that solves the scene exactly where it has an exact solution,
-                              and is no  entrant then; NULL: none */
+    const char *reference;  /* the scheme of the reference run, where the problem has no exact solution; NULL:
+                               the highest order that fits */
+    const char *is_exact;   /* name of a scheme that solves the scene exactly where it has an exact solution,
+                               and is no  entrant then; NULL: none */
     const char *resolution; /* key of a parameter that is measured at `resolution_count` values beside the
                                steps: each scheme is judged by its best pairs; NULL: none */
     const double *resolutions;
@@ -162,8 +162,8 @@ struct gm_scene {
                        const struct gm_scheme *scheme, double *y, char *sentence);
     /* Draws the lanes, count >= 1, into an empty picture; looks only. */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
-    /* The parameters, at most GM_CHOICES, with which a run starts at the point (x, y) of a state's panel; 0 where
-       it cannot. NULL: the scene has no such points. */
+    /* The parameters, at most GM_CHOICES, with which a run starts at the point (x, y) of a state's panel; 0
+       where it cannot. NULL: the scene has no such points. */
     size_t (*point)(const void *parameters, double x, double y, struct gm_choice *choices);
     /* Writes profiles of a state as rows of CSV, each beginning with `front`; NULL if there are none. The
        columns are GM_PROFILE_COLUMNS. */
