@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "render/canvas.h"
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -119,36 +120,7 @@ static bool gl_open(struct gm_canvas *canvas, char *message)
            gm_batch_open(&canvas->batch, &canvas->gl, message, GM_MESSAGE);
 }
 
-struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message)
-{
-    struct gm_canvas *canvas = calloc(1, sizeof *canvas);
-    if (canvas != NULL) {
-        *canvas = (struct gm_canvas){.width = width, .height = height, .theme = theme};
-    }
-    if (canvas == NULL) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture.");
-        return NULL;
-    }
-    if (!gl_open(canvas, message)) {
-        gm_canvas_close(canvas);
-        return NULL;
-    }
-    set_sizes(canvas);
-    textures_open(canvas);
-    canvas->glyphs = gm_glyphs_open(message, GM_MESSAGE);
-    canvas->pixels = malloc((size_t)width * (size_t)height * 4);
-    if (canvas->glyphs != NULL && canvas->pixels == NULL) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture of %d x %d pixels.", width,
-                 height);
-    }
-    if (canvas->glyphs == NULL || canvas->pixels == NULL) {
-        gm_canvas_close(canvas);
-        return NULL;
-    }
-    return canvas;
-}
-
-void gm_canvas_close(struct gm_canvas *canvas)
+static void close_alone(struct gm_canvas *canvas)
 {
     if (canvas == NULL) {
         return;
@@ -172,6 +144,35 @@ void gm_canvas_close(struct gm_canvas *canvas)
     free(canvas->pixels);
     gm_context_close(canvas->context);
     free(canvas);
+}
+
+static struct gm_canvas *open_alone(int width, int height, enum gm_theme theme, char *message)
+{
+    struct gm_canvas *canvas = calloc(1, sizeof *canvas);
+    if (canvas != NULL) {
+        *canvas = (struct gm_canvas){.width = width, .height = height, .theme = theme};
+    }
+    if (canvas == NULL) {
+        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture.");
+        return NULL;
+    }
+    if (!gl_open(canvas, message)) {
+        close_alone(canvas);
+        return NULL;
+    }
+    set_sizes(canvas);
+    textures_open(canvas);
+    canvas->glyphs = gm_glyphs_open(message, GM_MESSAGE);
+    canvas->pixels = malloc((size_t)width * (size_t)height * 4);
+    if (canvas->glyphs != NULL && canvas->pixels == NULL) {
+        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture of %d x %d pixels.", width,
+                 height);
+    }
+    if (canvas->glyphs == NULL || canvas->pixels == NULL) {
+        close_alone(canvas);
+        return NULL;
+    }
+    return canvas;
 }
 
 const char *gm_canvas_backend(const struct gm_canvas *canvas)
@@ -221,7 +222,7 @@ static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
     }
 }
 
-bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
+static bool paint_alone(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
 {
     const struct gm_metrics metrics = gm_canvas_metrics(canvas);
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
@@ -239,6 +240,33 @@ bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsig
     const bool drawn = gm_batch_draw(&canvas->batch, canvas->width, canvas->height);
     read_back(canvas, rgb);
     return drawn;
+}
+
+/* Mesa's software contexts of one process are not safe from each other: two threads that paint at once crash
+   in libOSMesa 22.3. So all canvases take turns. */
+static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+
+struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message)
+{
+    pthread_mutex_lock(&turn);
+    struct gm_canvas *canvas = open_alone(width, height, theme, message);
+    pthread_mutex_unlock(&turn);
+    return canvas;
+}
+
+void gm_canvas_close(struct gm_canvas *canvas)
+{
+    pthread_mutex_lock(&turn);
+    close_alone(canvas);
+    pthread_mutex_unlock(&turn);
+}
+
+bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
+{
+    pthread_mutex_lock(&turn);
+    const bool painted = paint_alone(canvas, picture, rgb);
+    pthread_mutex_unlock(&turn);
+    return painted;
 }
 
 const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,

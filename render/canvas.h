@@ -6,7 +6,8 @@
 #include "render/theme.h"
 
 /* The GL painter: pictures to pixels, without a screen. One canvas has one size and one theme and is used
-   by one thread. The context comes from OSMesa or from EGL without a surface (render/context.h). */
+   by one thread at a time; canvases of several threads take turns. The context comes from OSMesa or from EGL
+   without a surface (render/context.h). */
 
 struct gm_canvas;
 
