@@ -136,9 +136,9 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         return;
     case GM_NO_CONVERGENCE:
         snprintf(text, size,
-                 "the implicit equations of the step after t = %.6g were not solved to round-off "
-                 "(%.0f iterations so far)",
-                 run->t, gm_run_per_member(run, run->iterations));
+                 "the implicit equations of the step after t = %.6g were not solved to round-off in %.0f "
+                 "iterations",
+                 run->t, gm_run_per_member(run, run->failed_iterations));
         return;
     case GM_MESH_CROSSING:
         snprintf(text, size, "the mesh would have tangled in the step after t = %.6g", run->t);

@@ -58,7 +58,9 @@ struct gm_progress {
     long done;
     enum gm_status status;
     unsigned long evaluations, solves, iterations;
-    double t; /* the time reached, of schemes that choose their own step */
+    unsigned long
+        failed_iterations; /* of the step that was not solved, where they are not among the others */
+    double t;              /* the time reached, of schemes that choose their own step */
 };
 
 typedef struct gm_progress gm_loop(const struct gm_task *task);

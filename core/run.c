@@ -143,13 +143,20 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
     gm_loop *loop = gm_scheme_loop(run->scheme, run->problem);
     struct gm_progress progress = loop(&task);
     if (progress.done < steps) {
+        /* loops that do not tell the failed step's iterations apart have counted them among the others */
+        const struct gm_progress attempt = progress;
         run->status = progress.status;
-        if (progress.done == 0) {
+        progress = (struct gm_progress){.status = progress.status};
+        if (attempt.done > 0) {
+            /* some members went further than the one that failed: stop all at the last step that all made */
+            task.steps = attempt.done;
+            progress = loop(&task);
+        }
+        run->failed_iterations = attempt.failed_iterations > 0 ? attempt.failed_iterations
+                                                               : attempt.iterations - progress.iterations;
+        if (attempt.done == 0) {
             return run->status;
         }
-        /* some members went further than the one that failed: stop all at the last step that all made */
-        task.steps = progress.done;
-        progress = loop(&task);
     }
     run->evaluations += progress.evaluations;
     run->solves += progress.solves;

@@ -65,7 +65,7 @@ static void drift_by_midpoint(double ds, double binding, double complex *u, doub
 
 static void levi_civita(const struct gm_problem *problem, double ds, double binding, double *y, double *t)
 {
-    double complex u = csqrt(CMPLX(y[0], y[1])), w = 2 * conj(u) * CMPLX(y[2], y[3]);
+    double complex u = csqrt(y[0] + I * y[1]), w = 2 * conj(u) * (y[2] + I * y[3]);
     drift_by_midpoint(ds / 2, binding, &u, &w, t);
     const double complex q = u * u;
     const double at[] = {creal(q), cimag(q)};
@@ -73,7 +73,7 @@ static void levi_civita(const struct gm_problem *problem, double ds, double bind
     problem->kepler_split->potential(problem, at, &potential, 1);
     problem->kepler_split->perturbing_force(problem, at, force, 1);
     const double r = sqrt(at[0] * at[0] + at[1] * at[1]), W = potential + 1 / r;
-    w -= ds * (2 * W * u - 2 * r * conj(u) * CMPLX(force[0], force[1]));
+    w -= ds * (2 * W * u - 2 * r * conj(u) * (force[0] + I * force[1]));
     drift_by_midpoint(ds / 2, binding, &u, &w, t);
     const double complex end = u * u, p = w * u / (2 * square(u));
     y[0] = creal(end);
