@@ -91,13 +91,14 @@ wait_for 'SCHEMES'
 wait_for 'work-precision ([0-9]+ %|is finished)'
 keys w
 wait_for 'what an accuracy costs'
+wait_for 'work-precision ([1-9][0-9]* %|is finished)'
 keys x
 wait_for 'Stopped|Done'
 keys p
 wait_for 'Saved disc-work-precision-0001.png and disc-work-precision-0001.csv'
 [ "$(head -c 4 "$folder/disc-work-precision-0001.png" | tail -c 3)" = PNG ] || fail "the diagram is no PNG"
 head -1 "$folder/disc-work-precision-0001.csv" | grep -q '^scene,scheme,order,dt' || fail "the diagram's CSV"
-[ "$(wc -l <"$folder/disc-work-precision-0001.csv")" -gt 3 ] || fail "nothing was measured"
+[ "$(wc -l <"$folder/disc-work-precision-0001.csv")" -gt 1 ] || fail "nothing was measured"
 keys w
 wait_for 'SCHEMES'
 keys m
