@@ -11,6 +11,7 @@ lanes=scheme=explicit-euler,implicit-euler,symplectic-euler,midpoint
 
 # render FRAMES: seconds and kilobytes
 render() {
+    rm -rf "$folder" # frames that are there would be kept
     /usr/bin/env bash -c '
         start=$(date +%s.%N)
         "$1" render disc "$2" --frames "$3" --out "$4" 2>/dev/null &
