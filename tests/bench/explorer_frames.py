@@ -18,11 +18,12 @@ import termios
 import time
 
 COLUMNS, ROWS = 160, 45
+END = b'\x1b[?2026l'  # of a frame
 TICKS = os.sysconf('SC_CLK_TCK')
 FOUR = 'explicit-euler,implicit-euler,symplectic-euler,midpoint'
-SIX = 'explicit-euler,implicit-euler,symplectic-euler,midpoint,rk4,verlet'
-STANDARD = [['disc', f'scheme={FOUR}']] + [
-    [scene, f'scheme={schemes}'] for scene in ('disc', 'kepler', 'vortices') for schemes in ('midpoint', SIX)] + [
+SIX = 'explicit-euler,implicit-euler,midpoint,rk2,rk4,gauss4'
+STANDARD = [['disc', f'scheme={FOUR}', 'dt=0.02']] + [
+    [scene, f'scheme={schemes}', 'dt=0.02'] for scene in ('disc', 'kepler', 'vortices') for schemes in ('rk4', SIX)] + [
     ['sine-gordon', 'scheme=leapfrog'],
     ['sine-gordon', 'scheme=leapfrog', 'dt=0.02,0.019,0.018,0.017,0.016,0.015'],
     ['room'], ['room', 'dt=0.002,0.0019,0.0018,0.0017,0.0016,0.0015']]
@@ -39,8 +40,8 @@ def open_terminal(command, environment):
 
 
 def serve(master, seconds):
-    """Reads and answers for so long; returns how much it read."""
-    end, size = time.monotonic() + seconds, 0
+    """Reads and answers for so long; returns how many bytes and ends of frames it read."""
+    end, size, frames, last = time.monotonic() + seconds, 0, 0, b''
     while (left := end - time.monotonic()) > 0:
         if not select.select([master], [], [], left)[0]:
             break
@@ -49,21 +50,17 @@ def serve(master, seconds):
         except OSError:
             break
         size += len(data)
+        frames += (last + data).count(END)
+        last = data[1 - len(END):]
         for question in re.findall(rb'\x1b\[(?:5n|c)', data):
             os.write(master, b'\x1b[0n' if question.endswith(b'n') else b'\x1b[?62;22c')
-    return size
+    return size, frames
 
 
 def processor(pid):
     """Seconds that all threads of a process took so far."""
     fields = open(f'/proc/{pid}/stat').read().rsplit(')', 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / TICKS
-
-
-def written(pid):
-    """How often the thread that has the terminal wrote, and how much: a frame is one write."""
-    fields = dict(line.split(': ') for line in open(f'/proc/{pid}/task/{pid}/io').read().split('\n') if line)
-    return int(fields['syscw']), int(fields['wchar'])
 
 
 def resident(pid):
@@ -92,15 +89,22 @@ def measure(geomint, words, through, seconds):
             explorer, master = open_terminal([geomint, 'tui'] + words, environment)
             others = []
         serve(master, 4)  # until it is at its pace
+        copy = f'{folder}/copy'
+        if through == 'tmux':
+            subprocess.run(tmux + ['pipe-pane', f'cat >{copy}'], check=True, env=environment)
         begun = time.monotonic()
-        before = written(explorer), processor(explorer), [processor(pid) for pid in others]
-        received = serve(master, seconds)
-        now = written(explorer), processor(explorer), [processor(pid) for pid in others]
+        before = processor(explorer), [processor(pid) for pid in others]
+        received, frames = serve(master, seconds)
+        now = processor(explorer), [processor(pid) for pid in others]
         passed = time.monotonic() - begun
-        frames, size = now[0][0] - before[0][0], now[0][1] - before[0][1]
-        own, rest = (now[1] - before[1]) / passed, sum(b - a for a, b in zip(before[2], now[2])) / passed
-        print(f'{" ".join(words)[:70]:70} {frames / passed:5.1f} frames/s {size / max(frames, 1) / 1000:6.1f} kB/frame '
-              f'{received / passed / 1000:5.0f} kB/s  geomint {100 * own:3.0f} % {through} {100 * rest:3.0f} % '
+        size = received
+        if through == 'tmux':
+            with open(copy, 'rb') as stream:
+                data = stream.read()
+            size, frames = len(data), data.count(END)
+        own, rest = (now[0] - before[0]) / passed, sum(b - a for a, b in zip(before[1], now[1])) / passed
+        print(f'{" ".join(words)[:70]:70} {frames / passed:5.1f} frames/s {size / max(frames, 1) / 1000:5.1f} kB/frame '
+              f'{size / passed / 1000:4.0f} kB/s  geomint {100 * own:3.0f} % {through} {100 * rest:3.0f} % '
               f'{resident(explorer):4.0f} MB', flush=True)
         os.write(master, b'q')
         serve(master, 1)
