@@ -259,7 +259,8 @@ static void put_base64(struct gm_inline *image, const unsigned char *bytes, size
 }
 
 /* A tile under a number of its own replaces the one that was there before. q=2: the terminal answers nothing;
-   C=1: the cursor stays; z=-1: text that is written over it is seen. */
+   C=1: the cursor stays. Not below the text (z < 0): Kitty 0.26 with llvmpipe then leaves old letters in all
+   of its window, on a wrong ground. */
 static void put_tile(struct gm_inline *image, const unsigned char *rgb, const struct patch *patch, int number)
 {
     int x, y, width, height;
@@ -276,7 +277,7 @@ static void put_tile(struct gm_inline *image, const unsigned char *rgb, const st
     for (size_t at = 0; at < packed; at += step) {
         bool more = at + step < packed;
         if (at == 0) {
-            put_format(image, "\033_Ga=T,q=2,f=24,o=z,i=%d,p=1,s=%d,v=%d,c=%d,r=%d,C=1,z=-1,m=%d;",
+            put_format(image, "\033_Ga=T,q=2,f=24,o=z,i=%d,p=1,s=%d,v=%d,c=%d,r=%d,C=1,m=%d;",
                        FIRST_NUMBER + number, width, height, patch->columns, patch->rows, more);
         } else {
             put_format(image, "\033_Gq=2,m=%d;", more);

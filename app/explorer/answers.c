@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app/explorer/answers.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
@@ -20,18 +21,37 @@ static bool is_parameter(char c)
     return (c >= '0' && c <= '9') || c == ';';
 }
 
-/* Whether the held bytes are an answer, may become one, or are keys. No key of ncurses begins with CSI ?,
-   with APC G, or ends its numbers with n, t. */
+/* Answers that are strings: what they begin with, and all of that is needed to tell them from keys. */
+static const char images[] = "\033_G", ground[] = "\033]11;", setting[] = "\033P1$r",
+                  no_setting[] = "\033P0$r";
+static const char *const strings[] = {images, ground, setting, no_setting};
+
+/* A string ends with ST, or with the bell as xterm once had it. */
+static enum verdict judge_string(const char *held, size_t count, const char *begin)
+{
+    const size_t size = strlen(begin);
+    if (count <= size) {
+        return memcmp(held, begin, count) == 0 ? PERHAPS : KEYS;
+    }
+    if (memcmp(held, begin, size) != 0) {
+        return KEYS;
+    }
+    const bool ends = held[count - 1] == '\a' || (held[count - 2] == '\033' && held[count - 1] == '\\');
+    return ends ? ANSWER : PERHAPS;
+}
+
+/* Whether the held bytes are an answer, may become one, or are keys. No key of ncurses begins like one of the
+   strings or with CSI ?, or ends its numbers with n, t. */
 static enum verdict judge(const char *held, size_t count)
 {
     if (count < 2) {
         return PERHAPS;
     }
-    if (held[1] == '_') {
-        if (count > 2 && held[2] != 'G') {
-            return KEYS;
+    for (size_t i = 0; i < sizeof strings / sizeof *strings; i++) {
+        const enum verdict verdict = judge_string(held, count, strings[i]);
+        if (verdict != KEYS) {
+            return verdict;
         }
-        return count > 3 && held[count - 2] == '\033' && held[count - 1] == '\\' ? ANSWER : PERHAPS;
     }
     if (held[1] != '[') {
         return KEYS;
@@ -85,12 +105,50 @@ static void take_private(struct gm_answers *answers, const int *numbers, int cou
     }
 }
 
+/* rgb:RRRR/GGGG/BBBB, with one to four digits each, or rgba: with a fourth. Rec. 709's weights. */
+static void take_ground(struct gm_answers *answers, const char *text)
+{
+    static const double weights[] = {0.2126, 0.7152, 0.0722};
+    double luminance = 0;
+    const char *digits = strchr(text, ':');
+    for (size_t i = 0; i < 3; i++) {
+        char *end;
+        if (!digits || !isxdigit((unsigned char)digits[1])) {
+            return;
+        }
+        const unsigned long value = strtoul(digits + 1, &end, 16);
+        const long count = end - (digits + 1);
+        if (count > 4 || (i < 2 && *end != '/')) {
+            return;
+        }
+        luminance += weights[i] * (double)value / (double)((1UL << 4 * count) - 1);
+        digits = end;
+    }
+    answers->ground_told = true;
+    answers->ground = luminance;
+}
+
+static void take_string(struct gm_answers *answers)
+{
+    const char *held = answers->held;
+    if (held[1] == '_') {
+        answers->kitty = answers->kitty || strstr(held, ";OK\033") != NULL;
+    } else if (held[1] == ']') {
+        take_ground(answers, held + sizeof ground - 1);
+    } else {
+        /* the colour that was set comes back as it was, or the nearest one of a palette */
+        const bool direct = strstr(held, "48:2:") || strstr(held, "48;2;");
+        answers->true_colour =
+            answers->true_colour || (direct && (strstr(held, "1:2:3") || strstr(held, "1;2;3")));
+    }
+}
+
 static void take(struct gm_answers *answers)
 {
     char *held = answers->held;
     int numbers[NUMBERS] = {0};
-    if (held[1] == '_') {
-        answers->kitty = answers->kitty || strstr(held, ";OK\033") != NULL;
+    if (held[1] != '[') {
+        take_string(answers);
         return;
     }
     char end = held[answers->count - 1];
@@ -128,7 +186,7 @@ size_t gm_answers_sort(struct gm_answers *answers, const char *bytes, size_t cou
             keys[written++] = bytes[i];
             continue;
         }
-        bool ends = bytes[i] == '\033' && answers->held[1] == '_';
+        bool ends = bytes[i] == '\033' && answers->count > 2 && answers->held[1] != '[';
         if (bytes[i] == '\033' && answers->count > 0 && !ends) { /* another one begins */
             written += gm_answers_release(answers, keys + written);
         }
@@ -197,8 +255,21 @@ static void ask(struct gm_answers *answers, const char *questions, int patience,
     }
 }
 
-int gm_answers_ask(struct gm_answers *answers, bool kitty, int patience, char *typed, size_t *typed_size)
+/* A background of true colour, the question which one is set (DECRQSS), and all attributes off again. */
+#define ASK_TRUE_COLOUR "\033[48;2;1;2;3m\033P$qm\033\\\033[m"
+#define ASK_GROUND "\033]11;?\033\\"
+#define ASK_SYNCHRONISED "\033[?2026$p"
+/* the image of one pixel is only asked about (a=q), not shown */
+#define ASK_IMAGES "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\"
+
+int gm_answers_ask(struct gm_answers *answers, enum gm_ask which, int patience, char *typed,
+                   size_t *typed_size)
 {
+    static const char *const questions[] = {
+        [GM_ASK_PLAIN] = ASK_SYNCHRONISED,
+        [GM_ASK_GROUND] = ASK_GROUND ASK_SYNCHRONISED,
+        [GM_ASK_ALL] = ASK_IMAGES ASK_GROUND ASK_TRUE_COLOUR ASK_SYNCHRONISED,
+    };
     struct termios before, raw;
     struct timespec begun;
     *answers = (struct gm_answers){0};
@@ -213,9 +284,7 @@ int gm_answers_ask(struct gm_answers *answers, bool kitty, int patience, char *t
     raw.c_cc[VMIN] = 1;
     raw.c_cc[VTIME] = 0;
     tcsetattr(STDIN_FILENO, TCSANOW, &raw); /* what was typed already stays */
-    /* the image of one pixel is only asked about (a=q), not shown */
-    ask(answers, kitty ? "\033_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\033\\\033[?2026$p" : "\033[?2026$p", patience,
-        typed, typed_size);
+    ask(answers, questions[which], patience, typed, typed_size);
     if (answers->attributes && (answers->sixel || answers->kitty)) {
         ask(answers, "\033[?1;1;0S\033[?2;1;0S" GM_ASK_CELL "\033[14t", patience, typed, typed_size);
         answers->attributes = true;

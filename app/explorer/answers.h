@@ -15,6 +15,9 @@ struct gm_answers {
     bool sixel;                  /* and sixels are among them */
     bool kitty;                  /* Kitty's images */
     bool synchronised;           /* frames are shown at once (mode 2026) */
+    bool true_colour;            /* a colour of 24 bits that was set came back as it was */
+    bool ground_told;            /* it told its background, */
+    double ground;               /* of this luminance, from 0 to 1 */
     int cell_width, cell_height; /* in pixels; 0: not told */
     int text_width, text_height; /* the whole text area in pixels; 0: not told */
     int registers;               /* colours of a sixel picture; 0: not told */
@@ -31,11 +34,16 @@ size_t gm_answers_sort(struct gm_answers *answers, const char *bytes, size_t cou
 /* The end of what was kept, after a pause that no answer makes. */
 size_t gm_answers_release(struct gm_answers *answers, char *keys);
 
+/* What to ask for beside device attributes and synchronised output: a few terminals would show the rest as
+   text. The background; that, Kitty's images and colours of 24 bits. */
+enum gm_ask { GM_ASK_PLAIN, GM_ASK_GROUND, GM_ASK_ALL };
+
 /* Asks the terminal at standard input and output what it can show and waits for the answers, no longer than
    `patience` milliseconds for each of at most two rounds. What the user typed in the meantime goes to `typed`
-   (GM_TYPED_AHEAD bytes). `kitty` asks for Kitty's images too, which a few terminals would show as text. The
-   terminal's settings are as before when it returns. Returns the milliseconds it took. */
-int gm_answers_ask(struct gm_answers *answers, bool kitty, int patience, char *typed, size_t *typed_size);
+   (GM_TYPED_AHEAD bytes). The terminal's settings are as before when it returns. Returns the milliseconds it
+   took. */
+int gm_answers_ask(struct gm_answers *answers, enum gm_ask which, int patience, char *typed,
+                   size_t *typed_size);
 
 /* Asks whether it has read all; answers count up `ready`. */
 #define GM_ASK_READY "\033[5n"

@@ -142,13 +142,6 @@ static void add_parting(const char *text)
     }
 }
 
-/* Without a second screen the first one is at least left empty. */
-static bool has_other_screen(void)
-{
-    const char *leave = tigetstr("rmcup");
-    return leave && leave != (char *)-1;
-}
-
 static void prepare_parting(bool modern)
 {
     parting_size = 0;
@@ -161,7 +154,8 @@ static void prepare_parting(bool modern)
     add_parting(tigetstr("sgr0"));
     add_parting(tigetstr("rmkx"));
     add_parting(tigetstr("cnorm"));
-    add_parting(tigetstr(has_other_screen() ? "rmcup" : "clear"));
+    add_parting(tigetstr("clear"));
+    add_parting(tigetstr("rmcup"));
 }
 
 static void say_mouse(const char *mode)
@@ -184,10 +178,14 @@ static void take_over(void)
 static void give_back(void)
 {
     say_mouse(GM_MOUSE_OFF);
-    if (!has_other_screen()) {
-        clearok(stdscr, TRUE);
-        refresh();
+    /* ncurses did not draw, so it does not know which colours and attributes are on */
+    const char *plain = tigetstr("sgr0");
+    if (plain && plain != (char *)-1) {
+        putp(plain);
     }
+    /* Also where there is another screen to go back to: GNU screen says so and mostly has none. */
+    clearok(stdscr, TRUE);
+    refresh();
     endwin();
     active = 0;
 }
@@ -358,8 +356,13 @@ bool gm_console_stopping(void)
 
 void gm_console_stop(void)
 {
+    struct sigaction ours;
     give_back();
-    raise(SIGSTOP);
+    /* Not SIGSTOP: where no shell could wake it again, as in a terminal of its own, the system lets this
+     * pass. */
+    handle(SIGTSTP, SIG_DFL, &ours);
+    raise(SIGTSTP);
+    sigaction(SIGTSTP, &ours, NULL);
     reset_prog_mode();
     curs_set(0);
     take_over();

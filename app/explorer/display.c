@@ -71,18 +71,6 @@ void gm_display_finish(struct gm_display *display)
     }
 }
 
-static size_t covered_cells(const struct gm_screen *screen)
-{
-    const struct gm_inline_place *place = &screen->pixels;
-    size_t count = 0;
-    for (int row = place->row; row < place->row + place->rows; row++) {
-        for (int column = place->column; column < place->column + place->columns; column++) {
-            count += screen->cells.cells[row * screen->cells.columns + column].glyph != 0;
-        }
-    }
-    return count;
-}
-
 static void remove_picture(struct gm_display *display)
 {
     gm_writer_tell(&display->writer, gm_inline_removal(display->shown));
@@ -110,13 +98,10 @@ static bool begin(struct gm_display *display, const struct gm_screen *screen, co
     };
     job.place.cell_width = terminal->cell_width;
     job.place.cell_height = terminal->cell_height;
-    size_t covered = covered_cells(screen);
     if (!same_kind(&job, &display->job)) {
         remove_picture(display);
     }
-    /* what covered it has overwritten it */
-    display->lost = display->lost || covered < display->covered || job.theme != display->job.theme;
-    display->covered = covered;
+    display->lost = display->lost || job.theme != display->job.theme;
     if (!display->lost && (display->painted || !display->stale)) {
         return false;
     }
@@ -145,12 +130,7 @@ bool gm_display_show(struct gm_display *display, const struct gm_screen *screen,
         remove_picture(display);
     }
     bool new = pixels && display->painted;
-    const struct gm_writer_image image = {.bytes = display->bytes,
-                                          .size = display->size,
-                                          .column = screen->pixels.column,
-                                          .row = screen->pixels.row,
-                                          .columns = screen->pixels.columns,
-                                          .rows = screen->pixels.rows};
+    const struct gm_writer_image image = {.bytes = display->bytes, .size = display->size};
     gm_writer_draw(&display->writer, &screen->cells, new ? &image : NULL);
     if (new) {
         display->shown = display->job.kind;

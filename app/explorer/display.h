@@ -20,7 +20,6 @@ struct gm_display {
     bool painted;              /* `bytes` wait to be shown */
     bool failed;               /* there is no GL: no pixels */
     enum gm_inline_kind shown; /* what the terminal shows */
-    size_t covered;            /* cells of it that had a glyph in the last screen */
     struct gm_pixels_job job;  /* the last that was begun */
     const char *bytes;
     size_t size;

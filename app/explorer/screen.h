@@ -16,8 +16,8 @@ struct gm_screen {
     enum gm_blocks blocks;   /* and was painted with these */
     enum gm_theme theme;
     int picture_column, picture_row; /* where it is */
-    struct gm_inline_place pixels;   /* the cells left for a picture of pixels; no columns: none */
-    struct gm_hits hits;             /* what can be clicked */
+    struct gm_inline_place pixels; /* cells for a picture of pixels, all without a glyph; no columns: none */
+    struct gm_hits hits;           /* what can be clicked */
 };
 
 bool gm_screen_resize(struct gm_screen *screen, int columns, int rows);

@@ -166,11 +166,13 @@ static void ask(struct gm_terminal *terminal)
         snprintf(terminal->sixel_why, GM_REASON, "not asked");
         return;
     }
-    bool multiplexer =
-        *environment("TMUX") || begins(terminal->name, "tmux") || begins(terminal->name, "screen");
+    bool tmux = *environment("TMUX") || begins(terminal->name, "tmux");
+    bool multiplexer = tmux || begins(terminal->name, "screen");
     bool old = begins(terminal->name, "linux") || begins(terminal->name, "vt");
-    terminal->asked = gm_answers_ask(&terminal->answers, !multiplexer && !old, PATIENCE, terminal->typed,
-                                     &terminal->typed_size);
+    /* screen would pass some questions on as text */
+    enum gm_ask which = tmux ? GM_ASK_GROUND : multiplexer || old ? GM_ASK_PLAIN : GM_ASK_ALL;
+    terminal->asked =
+        gm_answers_ask(&terminal->answers, which, PATIENCE, terminal->typed, &terminal->typed_size);
     const struct gm_answers *answers = &terminal->answers;
     snprintf(terminal->kitty_why, GM_REASON, "%s",
              answers->kitty ? "the terminal answered so"
@@ -208,22 +210,17 @@ static void find_cell(struct gm_terminal *terminal)
 
 /* ---- what follows from it ---- */
 
-static bool decide_colours(struct gm_terminal *terminal, const struct gm_overrides *overrides, bool mono,
-                           char *message)
+static void decide_colours(struct gm_terminal *terminal, const struct demand *demand, bool mono)
 {
     const char *said = environment("COLORTERM");
     bool says_true = strcasecmp(said, "truecolor") == 0 || strcasecmp(said, "24bit") == 0;
-    struct demand demand;
-    if (!find_demand(&demand, "--colours", overrides->colours, "GEOMINT_COLOURS", colours_names, message)) {
-        return false;
-    }
     int has = terminal->terminfo_colours;
     if (mono) {
         terminal->colours = GM_COLOURS_NONE;
         snprintf(terminal->colours_why, GM_REASON, "the theme is monochrome");
-    } else if (demand.number >= 0) {
-        terminal->colours = (enum gm_colours)demand.number;
-        because(terminal->colours_why, &demand);
+    } else if (demand->number >= 0) {
+        terminal->colours = (enum gm_colours)demand->number;
+        because(terminal->colours_why, demand);
     } else if (*environment("NO_COLOR")) {
         terminal->colours = GM_COLOURS_NONE;
         snprintf(terminal->colours_why, GM_REASON, "NO_COLOR is set");
@@ -235,13 +232,15 @@ static bool decide_colours(struct gm_terminal *terminal, const struct gm_overrid
                  says_true ? ", whatever COLORTERM says" : "");
     } else if (says_true) {
         terminal->colours = GM_COLOURS_TRUE;
-        snprintf(terminal->colours_why, GM_REASON, "COLORTERM=%s", said);
+        snprintf(terminal->colours_why, GM_REASON, "COLORTERM=%.60s", said);
+    } else if (terminal->answers.true_colour) {
+        terminal->colours = GM_COLOURS_TRUE;
+        snprintf(terminal->colours_why, GM_REASON, "the terminal kept a colour of 24 bits when it was asked");
     } else {
         terminal->colours = has >= 1 << 24 ? GM_COLOURS_TRUE : has >= 256 ? GM_COLOURS_256 : GM_COLOURS_16;
         snprintf(terminal->colours_why, GM_REASON, "terminfo gives TERM=%s %d colours%s", terminal->name, has,
                  *said ? "" : ", and COLORTERM is not set");
     }
-    return true;
 }
 
 static void find_graphics(struct gm_terminal *terminal)
@@ -266,21 +265,16 @@ static void find_graphics(struct gm_terminal *terminal)
     terminal->can_pixels[GM_INLINE_SIXEL] = answers->sixel && !hindrance;
 }
 
-static bool decide_graphics(struct gm_terminal *terminal, const struct gm_overrides *overrides, char *message)
+static void decide_graphics(struct gm_terminal *terminal, const struct demand *demand)
 {
-    struct demand demand;
-    if (!find_demand(&demand, "--graphics", overrides->graphics, "GEOMINT_GRAPHICS", graphics_names,
-                     message)) {
-        return false;
-    }
     find_graphics(terminal);
     int rung = 0;
     while (!can(terminal, rung)) {
         rung++;
     }
-    if (demand.number >= 0) {
-        rung = demand.number;
-        because(terminal->graphics_why, &demand);
+    if (demand->number >= 0) {
+        rung = demand->number;
+        because(terminal->graphics_why, demand);
         if (ladder[rung].pixels && terminal->cell_width == 0) {
             terminal->cell_width = 10; /* those of the VT340, which emulations of it keep to */
             terminal->cell_height = 20;
@@ -300,30 +294,29 @@ static bool decide_graphics(struct gm_terminal *terminal, const struct gm_overri
         snprintf(terminal->graphics_why, GM_REASON, "no pixels, and the locale's letters are UTF-8");
     }
     terminal->graphics = step_on(terminal, rung);
-    return true;
 }
 
-static bool decide_theme(struct gm_terminal *terminal, const struct gm_overrides *overrides, bool *mono,
-                         char *message)
+static void decide_theme(struct gm_terminal *terminal, const struct demand *demand)
 {
-    struct demand demand;
-    if (!find_demand(&demand, "--theme", overrides->theme, "GEOMINT_THEME", theme_names, message)) {
-        return false;
-    }
-    *mono = demand.number == MONO;
+    const struct gm_answers *answers = &terminal->answers;
+    /* "default" may stand there too, and tells nothing */
     const char *said = environment("COLORFGBG"), *ground = strrchr(said, ';');
-    if (demand.number >= 0) {
-        terminal->theme = demand.number == LIGHT ? GM_THEME_LIGHT : GM_THEME_DARK;
-        because(terminal->theme_why, &demand);
-    } else if (ground) {
+    bool numbered = ground && ground[1] >= '0' && ground[1] <= '9';
+    if (demand->number >= 0) {
+        terminal->theme = demand->number == LIGHT ? GM_THEME_LIGHT : GM_THEME_DARK;
+        because(terminal->theme_why, demand);
+    } else if (numbered) {
         int colour = atoi(ground + 1);
         terminal->theme = colour == 7 || colour >= 9 ? GM_THEME_LIGHT : GM_THEME_DARK;
         snprintf(terminal->theme_why, GM_REASON, "COLORFGBG=%.40s", said);
+    } else if (answers->ground_told) {
+        terminal->theme = answers->ground > 0.5 ? GM_THEME_LIGHT : GM_THEME_DARK;
+        snprintf(terminal->theme_why, GM_REASON, "the terminal answered that its background is %s",
+                 answers->ground > 0.5 ? "light" : "dark");
     } else {
         terminal->theme = GM_THEME_DARK;
         snprintf(terminal->theme_why, GM_REASON, "nothing says otherwise");
     }
-    return true;
 }
 
 bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides *overrides, char *message)
@@ -342,14 +335,19 @@ bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides 
              asked                     ? "the terminal was asked"
              : *environment("COLUMNS") ? "COLUMNS and LINES"
                                        : "assumed, as there is no terminal to ask");
-    bool mono = false;
-    if (!decide_theme(terminal, overrides, &mono, message) ||
-        !decide_colours(terminal, overrides, mono, message)) {
+    struct demand theme, colours, graphics;
+    if (!find_demand(&theme, "--theme", overrides->theme, "GEOMINT_THEME", theme_names, message) ||
+        !find_demand(&colours, "--colours", overrides->colours, "GEOMINT_COLOURS", colours_names, message) ||
+        !find_demand(&graphics, "--graphics", overrides->graphics, "GEOMINT_GRAPHICS", graphics_names,
+                     message)) {
         return false;
     }
     ask(terminal);
+    decide_theme(terminal, &theme);
+    decide_colours(terminal, &colours, theme.number == MONO);
     find_cell(terminal);
-    return decide_graphics(terminal, overrides, message);
+    decide_graphics(terminal, &graphics);
+    return true;
 }
 
 bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)

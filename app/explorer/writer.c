@@ -273,21 +273,6 @@ static bool may_write_on(const struct gm_writer *writer, const struct gm_cells *
     return true;
 }
 
-static void put_image(struct gm_writer *writer, const struct gm_cells *cells,
-                      const struct gm_writer_image *image)
-{
-    put(writer, image->bytes, image->size);
-    writer->row = -1;
-    for (int row = image->row; row < image->row + image->rows; row++) {
-        for (int column = image->column; column < image->column + image->columns; column++) {
-            if (cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column].glyph) {
-                move_to(writer, column, row);
-                put_cell(writer, cells, column, row);
-            }
-        }
-    }
-}
-
 void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
                     const struct gm_writer_image *image)
 {
@@ -325,7 +310,8 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
            sizeof *cells->cells * (size_t)cells->columns * (size_t)cells->rows);
     writer->known = true;
     if (image && image->size > 0) {
-        put_image(writer, cells, image);
+        put(writer, image->bytes, image->size);
+        writer->row = -1; /* the cursor may be anywhere */
     }
     if (writer->length == begun) {
         writer->length = writer->sent = 0;

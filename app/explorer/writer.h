@@ -53,15 +53,14 @@ bool gm_writer_idle(const struct gm_writer *writer);
 bool gm_writer_takes(struct gm_writer *writer, unsigned long ready);
 /* How long to wait for such an answer before it is given up, in milliseconds; -1: none is awaited. */
 int gm_writer_patience(const struct gm_writer *writer);
-/* A picture of pixels among the cells, as bytes (or those that remove one), and the cells that it fills. */
+/* A picture of pixels among the cells, as bytes. */
 struct gm_writer_image {
     const char *bytes;
     size_t size;
-    int column, row, columns, rows;
 };
 
 /* Takes a screen; what differs from the last one is put in line, and the image with it (NULL: none is to be
-   sent). Cells without a glyph are the image's; the others are seen above it. Only when idle. */
+   sent). Cells without a glyph are the image's. Only when idle. */
 void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
                     const struct gm_writer_image *image);
 /* Offers a text to the clipboard of the terminal (OSC 52); most ask the user first, or need to be told that
