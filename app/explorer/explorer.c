@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/eventfd.h>
 #include <sys/ioctl.h>
 #include <time.h>
@@ -82,7 +83,7 @@ static void read_picture(struct gm_explorer *explorer)
     }
 }
 
-/* A command line that was asked for is shown, and offered to the clipboard. */
+/* Command lines that were asked for are shown, and the first is offered to the clipboard. */
 static void read_command(struct gm_explorer *explorer)
 {
     const struct gm_shot *shot = explorer->shot;
@@ -92,9 +93,8 @@ static void read_command(struct gm_explorer *explorer)
     explorer->told = shot->command_number;
     explorer->face.page = GM_PAGE_COMMAND;
     explorer->face.scroll = 0;
-    if (shot->command) {
-        gm_writer_copy(&explorer->display.writer, shot->command);
-    }
+    explorer->face.command = GM_COMMAND_PICTURE;
+    gm_explorer_copy(explorer);
 }
 
 static void read_news(struct gm_explorer *explorer)
@@ -217,12 +217,15 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     }
     gm_console_close();
     gm_measure_close(&explorer.measure);
-    gm_worker_close(explorer.worker);
+    gm_explorer_close_worker(&explorer);
     gm_studies_close(&explorer.studies);
     gm_screen_close(&explorer.screen);
+    gm_tours_close(explorer.tours, explorer.tour_count);
     if (explorer.wake >= 0) {
         close(explorer.wake);
     }
+    fputs(explorer.partings ? explorer.partings : "", stderr);
+    free(explorer.partings);
     if (!ok || explorer.status == GM_EXIT_USAGE) {
         fprintf(stderr, "geomint: %s\n",
                 explorer.message[0] ? explorer.message : "There is not enough memory.");

@@ -2,6 +2,9 @@
 /* What is open: a scene, or a step of a tour with its study. */
 #include "app/explorer/explorer_parts.h"
 
+#include <stdio.h>
+#include <stdlib.h>
+
 enum { FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
 
 /* A new worker owes its first shot. */
@@ -23,15 +26,36 @@ bool gm_explorer_open_request(struct gm_explorer *explorer, const struct gm_requ
     return explorer->worker != NULL;
 }
 
+/* Keeps a line for the shell. */
+static void keep_parting(struct gm_explorer *explorer, const char *line)
+{
+    char *before = explorer->partings, *longer = NULL;
+    if (line[0] && asprintf(&longer, "%sgeomint: %s\n", before ? before : "", line) > 0) {
+        explorer->partings = longer;
+        free(before);
+    }
+}
+
+void gm_explorer_close_worker(struct gm_explorer *explorer)
+{
+    char parting[GM_MESSAGE];
+    gm_worker_close(explorer->worker, parting);
+    explorer->worker = NULL;
+    keep_parting(explorer, parting);
+}
+
 static void abandon(struct gm_explorer *explorer)
 {
+    char parting[GM_MESSAGE];
     gm_display_finish(&explorer->display); /* it may be painting a picture of this worker's */
-    if (explorer->guide.tour) {
-        gm_worker_close(explorer->worker); /* the tour does not outlive it otherwise */
+    if (explorer->touring) {
+        gm_explorer_close_worker(explorer); /* the tour does not outlive it otherwise */
     } else if (explorer->worker) {
-        gm_worker_abandon(explorer->worker);
+        gm_worker_abandon(explorer->worker, parting);
+        keep_parting(explorer, parting);
     }
     explorer->worker = NULL;
+    explorer->touring = false;
     explorer->scene = NULL;
     explorer->said[0] = '\0';
     expect_shot(explorer);
@@ -68,6 +92,7 @@ bool gm_explorer_open_step(struct gm_explorer *explorer)
     explorer->at_start = explorer->kept = false;
     explorer->look_due = -1;
     explorer->face.parameter = 0;
+    explorer->touring = true;
     return gm_explorer_open_request(
         explorer, &guide->tour->steps[gm_tour_first(guide->tour, guide->step)].request, &first);
 }

@@ -11,8 +11,8 @@
 #include "app/explorer/worker.h"
 
 /* What the files of the explorer share: explorer.c its beginning, its events and its end, explorer_open.c
-   which scene or step of a tour is open, explorer_start.c the list of scenes, explorer_press.c the keys,
-   explorer_mouse.c the mouse, explorer_show.c what is shown and when. */
+   which scene or step of a tour is open, explorer_start.c the list of scenes and tours, explorer_press.c the
+   keys, explorer_mouse.c the mouse, explorer_show.c what is shown and when. */
 
 struct gm_explorer {
     struct gm_terminal terminal;
@@ -25,6 +25,8 @@ struct gm_explorer {
     struct gm_shot *shot;         /* NULL: it has given none yet */
     bool at_start;                /* the list of scenes is shown, and the worker is a look at one */
     struct gm_start start;
+    struct gm_tour *tours; /* that the list offers; NULL: not read yet */
+    size_t tour_count;
     char said[GM_MESSAGE]; /* why that look failed, or "" */
     bool kept;             /* that look is a scene that was left and can be gone back to */
     int64_t look_due;      /* when the chosen scene is looked at; -1: it is */
@@ -33,6 +35,7 @@ struct gm_explorer {
     bool holding;
     struct gm_measure measure;
     struct gm_guide guide; /* without a tour: none */
+    bool touring;          /* the worker is led by it */
     struct gm_studies studies;
     bool dirty;         /* the screen has to be composed again */
     bool fresh;         /* with a new picture */
@@ -42,6 +45,7 @@ struct gm_explorer {
     bool leave;
     int status;
     char message[GM_MESSAGE]; /* said when the terminal is the shell's again */
+    char *partings;           /* and a line for every movie that was finished by leaving its scene, or NULL */
 };
 
 int64_t gm_explorer_milliseconds(void);
@@ -49,6 +53,9 @@ int64_t gm_explorer_milliseconds(void);
 void gm_explorer_leave(struct gm_explorer *explorer, int status);
 
 /* ---- what is open ---- */
+
+/* Ends the worker, a movie that it makes included. */
+void gm_explorer_close_worker(struct gm_explorer *explorer);
 
 /* `first` is the worker's first order; NULL: it has none. False with the explorer's message. */
 bool gm_explorer_open_request(struct gm_explorer *explorer, const struct gm_request *request,
@@ -61,17 +68,19 @@ bool gm_explorer_open_step(struct gm_explorer *explorer);
 /* ---- the list of scenes ---- */
 
 void gm_explorer_show_start(struct gm_explorer *explorer);
-/* The chosen one; NULL if none is found. */
-const struct gm_scene *gm_explorer_chosen_scene(const struct gm_explorer *explorer);
-/* The chosen scene is looked at in a while, unless it is open already; or now. */
+/* Whether the worker is a look at what is chosen. */
+bool gm_explorer_is_looked_at(const struct gm_explorer *explorer);
+/* The chosen scene is looked at in a while, unless it is open already; or now. Tours are only told of. */
 void gm_explorer_look_soon(struct gm_explorer *explorer);
 void gm_explorer_look(struct gm_explorer *explorer);
-/* Opens the chosen scene, or goes back to it where it was left. */
+/* Opens the chosen scene or tour, or goes back to it where it was left. */
 void gm_explorer_enter(struct gm_explorer *explorer);
 
 /* ---- input ---- */
 
 void gm_explorer_press(struct gm_explorer *explorer, int key);
+/* Offers the chosen one of the command lines that are shown to the terminal's clipboard. */
+void gm_explorer_copy(struct gm_explorer *explorer);
 void gm_explorer_press_at_start(struct gm_explorer *explorer, int key);
 void gm_explorer_press_in_tour(struct gm_explorer *explorer, int key);
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event);

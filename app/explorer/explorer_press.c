@@ -24,6 +24,14 @@ static void next_graphics(struct gm_explorer *explorer)
     explorer->dirty = true;
 }
 
+void gm_explorer_copy(struct gm_explorer *explorer)
+{
+    const char *command = explorer->shot->commands[explorer->face.command];
+    if (command) {
+        gm_writer_copy(&explorer->display.writer, command);
+    }
+}
+
 void gm_explorer_press(struct gm_explorer *explorer, int key)
 {
     if (explorer->at_start) {
@@ -71,6 +79,10 @@ void gm_explorer_press(struct gm_explorer *explorer, int key)
         break;
     case GM_KEY_TOUR:
         gm_explorer_press_in_tour(explorer, key);
+        break;
+    case GM_KEY_COPY:
+        gm_explorer_copy(explorer);
+        explorer->dirty = true;
         break;
     case GM_KEY_FACE:
     case GM_KEY_ORDER:

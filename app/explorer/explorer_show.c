@@ -35,7 +35,7 @@ static void draw(struct gm_explorer *explorer)
     struct gm_screen *screen = &explorer->screen;
     struct gm_picture *picture = explorer->shot ? explorer->shot->picture : NULL;
     if (explorer->at_start) {
-        bool looked = gm_explorer_chosen_scene(explorer) == explorer->scene;
+        bool looked = gm_explorer_is_looked_at(explorer);
         gm_screen_draw_start(screen, &explorer->face, &explorer->start, looked ? explorer->shot : NULL,
                              explorer->fresh, looked ? explorer->said : "");
     } else if (explorer->shot) {
