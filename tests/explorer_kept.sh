@@ -11,10 +11,10 @@ start 80x24 COLORTERM=truecolor TERM=tmux-256color
 tm set-option -s set-clipboard on
 # the words of a command on the page of key y, joined again
 told() {
-    screen | awk -v heading="$1" '
+    screen | sed 's/▸/ /; s/^ *//' | awk -v heading="$1" '
         index($0, heading) { on = 1; next }
-        on && /^ *$/ { exit }
-        on { sub(/^ *▸? */, ""); text = text (text == "" ? "" : " ") $0 }
+        on && /^$/ { exit }
+        on { text = text (text == "" ? "" : " ") $0 }
         END { print text }'
 }
 copied() {
@@ -30,9 +30,9 @@ keys "\"$geomint\" disc scheme=rk4,midpoint dt=0.2,0.1; echo \"left \$?\"" Enter
 wait_for 'SCHEMES'
 pause
 keys r
-wait_for 't = 0 '
+wait_for 't = 0(\.0*)? '
 keys . . .
-wait_for 't = 0.3'
+wait_for 't = 0\.3'
 keys y
 wait_for 'THIS VIEW AS A PICTURE'
 picture=$(told 'AS A PICTURE')

@@ -132,10 +132,10 @@ keys "\"$geomint\" tour area --colours truecolor --theme light --graphics ascii;
 wait_for '1/7: '
 wait_for 'paused'
 [[ $(in_colour) == *'38;2;29;31;36'* ]] || fail "a tour in the light theme has no dark ink"
-screen | grep -q '[⠀-⣿▀-▟]' && fail "a tour in ASCII has other letters"
+settled | LC_ALL=C grep -q '[^ -~]' && fail "a tour in ASCII has other letters"
 keys q
 wait_for 'left 0'
-[ "$("$geomint" tour area --theme mono --movie "$folder/x.mp4" 2>&1)" = \
+[ "$(GEOMINT_TOURS="$tours" "$geomint" tour area --theme mono --movie "$folder/x.mp4" 2>&1)" = \
     'geomint: --theme mono: is none of: light, dark' ] || fail "a movie in no colours"
 
 # ---- studies ----

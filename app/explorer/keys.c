@@ -240,7 +240,12 @@ static enum gm_key_result press_leave(const struct gm_press *press)
 const struct gm_key_row gm_key_rows[] = {
     {{' '}, "space", "pause", 2, "pause and go on", press_pause},
     {{'.', ','}, ". ,", "step", 9, "one step forward, one step back; this pauses", press_step},
-    {{'[', ']'}, "[ ]", "speed", 10, "slower, faster: model time per second", press_speed},
+    {{'[', ']'},
+     "[ ]",
+     "speed",
+     10,
+     "slower, faster: model time per second, down to single steps",
+     press_speed},
     {{KEY_PPAGE, KEY_NPAGE, KEY_HOME, KEY_END},
      "PgUp PgDn",
      NULL,

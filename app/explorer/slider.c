@@ -117,7 +117,7 @@ static bool next_choice(const struct gm_parameter *row, const void *owner, int d
     return true;
 }
 
-/* The distance of fine values: a fiftieth to a hundredth of the value, about a tenth of a step of `rounds`.
+/* The distance of fine values: a fortieth to a hundredth of the value, about a tenth of a step of `rounds`.
  */
 static double fine_step(double value, int direction)
 {

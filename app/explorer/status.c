@@ -72,13 +72,18 @@ static const struct gm_hint parameter_hints[] = {
 static const struct gm_hint prompt_hints[] = {{"enter", "do", '\n'}, {"esc", "back", 27}, {NULL, NULL, 0}};
 static const struct gm_hint ahead_hints[] = {{"any key", "stop", ' '}, {NULL, NULL, 0}};
 
+/* Slower than this, in steps per second, a step can be seen by itself. */
+static const double slow_motion = 20;
+
 void gm_speed_text(const struct gm_shot *shot, char *text, size_t size)
 {
-    char movie[24] = "";
+    char movie[24] = "", pace[32] = "";
     if (shot->recorded >= 0) {
         snprintf(movie, sizeof movie, "● %d:%04.1f  ", (int)(shot->recorded / 60), fmod(shot->recorded, 60));
+    } else if (!shot->paused && shot->pace < slow_motion) {
+        snprintf(pace, sizeof pace, "%.2g steps/s  ", shot->pace);
     }
-    snprintf(text, size, "%s%s %s%g×%s", movie,
+    snprintf(text, size, "%s%s%s %s%g×%s", movie, pace,
              shot->paused      ? "‖"
              : shot->backwards ? "◂"
                                : "▸",

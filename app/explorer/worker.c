@@ -46,6 +46,7 @@ static void take_shot(struct gm_worker *worker)
     shot->paused = worker->paused;
     shot->behind = worker->behind;
     shot->speed = gm_worker_speed_of(worker->speed);
+    shot->pace = shot->speed / fabs(worker->session.lanes[worker->selected]->run->dt);
     snprintf(shot->message, sizeof shot->message, "%s", worker->message);
     shot->message_number = worker->message_number;
     shot->recorded = worker->recorder ? gm_recorder_length(worker->recorder) : -1;

@@ -21,7 +21,7 @@ enum { GM_WORKER_QUEUE = 256 };
 /* A change that starts everything again is made at most this often, in seconds. */
 #define GM_WORKER_RESTART_PAUSE (1.0 / 30)
 
-enum { GM_WORKER_SLOWEST = -12, GM_WORKER_FASTEST = 15 }; /* numbers of speeds */
+enum { GM_WORKER_SLOWEST = -21, GM_WORKER_FASTEST = 15 }; /* numbers of speeds */
 
 struct gm_worker {
     pthread_t thread;
