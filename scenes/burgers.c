@@ -33,6 +33,7 @@ static const struct gm_parameter parameters[] = {
         .standard = "5e-3",
         .lowest = 0,
         .highest = 10,
+        .logarithmic = true,
     },
     {
         .key = "dx",

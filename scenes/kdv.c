@@ -218,6 +218,14 @@ static void record(const struct gm_view *view, double *entry)
 
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
+/* The one soliton starts there. */
+static size_t point(const void *own, double x, double u, struct gm_choice *choices)
+{
+    (void)u;
+    gm_choose(&choices[0], "position", x);
+    return ((const struct scene *)own)->kdv.initial == GM_KDV_SOLITON ? 1 : 0;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct scene *scene = lanes[0]->parameters;
@@ -308,4 +316,5 @@ const struct gm_scene gm_scene_kdv = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };

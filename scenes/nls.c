@@ -191,6 +191,15 @@ static void record(const struct gm_view *view, double *entry)
 
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
+/* The soliton starts there; of two that meet the other one at the mirror image. */
+static size_t point(const void *own, double x, double u, struct gm_choice *choices)
+{
+    const bool one = ((const struct scene *)own)->nls.initial == GM_NLS_SOLITON;
+    (void)u;
+    gm_choose(&choices[0], "position", one ? x : -fabs(x));
+    return 1;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct scene *scene = lanes[0]->parameters;
@@ -272,4 +281,5 @@ const struct gm_scene gm_scene_nls = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };

@@ -209,6 +209,15 @@ static void draw_position(struct gm_picture *picture, const struct gm_lane *cons
     }
 }
 
+/* The curve begins as high as the point is. */
+static size_t point(const void *own, double t, double q, struct gm_choice *choices)
+{
+    (void)own;
+    (void)t;
+    gm_choose(&choices[0], "q0", q);
+    return 1;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct oscillator *own = lanes[0]->parameters;
@@ -286,4 +295,5 @@ const struct gm_scene gm_scene_oscillator = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };
