@@ -112,33 +112,28 @@ static double nine_points(const struct base *base, const struct tangent *a, size
     return in_time / (4 * dt * dt) - in_space / (4 * dx * dx) + force / 16;
 }
 
-/* Iterated with the circulant part. */
+/* The next level is the solution of a linear system. */
 static bool linearised_box(const struct base *base, const struct tangent *a)
 {
-    enum { MOST = 200 };
     const size_t points = base->problem->line.points;
     const double dx = base->problem->line.dx;
     const double in_time = 1 / (4 * base->dt * base->dt), in_space = 1 / (4 * dx * dx);
-    const struct gm_ring solver = gm_ring_make(points, 2 * (in_time + in_space), in_time - in_space);
-    double *residual = malloc(points * sizeof *residual), last = INFINITY;
-    bool good = false;
+    struct gm_ring_band band;
+    if (!gm_ring_band_open(&band, points, 1, 1)) {
+        return false;
+    }
+    memset(a->next, 0, points * sizeof *a->next);
+    double *right = a->v_next; /* no scheme of cells keeps u_t */
     for (size_t i = 0; i < points; i++) {
-        a->next[i] = 2 * a->now[i] - a->past[i];
+        const double before = base->later[left_of(i, points)] / 16, after = base->later[i] / 16;
+        right[i] = -nine_points(base, a, i);
+        gm_ring_band_add(&band, i, 0, -1, 0, in_time - in_space + before);
+        gm_ring_band_add(&band, i, 0, 0, 0, 2 * (in_time + in_space) + before + after);
+        gm_ring_band_add(&band, i, 0, 1, 0, in_time - in_space + after);
     }
-    for (int k = 0; residual && k < MOST && !good; k++) {
-        double largest = 0;
-        for (size_t i = 0; i < points; i++) {
-            residual[i] = nine_points(base, a, i);
-        }
-        gm_ring_solve(&solver, residual);
-        for (size_t i = 0; i < points; i++) {
-            a->next[i] -= residual[i];
-            largest = fmax(largest, fabs(residual[i]));
-        }
-        good = largest >= last && largest < 1e-11;
-        last = largest;
-    }
-    free(residual);
+    const bool good = gm_ring_band_solve(&band, right);
+    memcpy(a->next, right, points * sizeof *right);
+    gm_ring_band_close(&band);
     return good;
 }
 
