@@ -223,7 +223,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_field(picture, lanes, count, &look, graphs, sizeof graphs / sizeof graphs[0]);
 }
 
-static const char *const schemes[] = {"box", "split-step2", NULL};
+static const char *const schemes[] = {"box", "split-step2", "euler-box", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -264,7 +264,10 @@ static const struct gm_stability stability = {
 const struct gm_scene gm_scene_nls = {
     .name = "nls",
     .title = "Solitons of the nonlinear Schrödinger equation",
-    .blurb = "One soliton or a collision, by the multisymplectic box and by the split-step Fourier method.",
+    .blurb =
+        "One soliton or a collision, by the multisymplectic box, by the split-step Fourier method and by the Euler "
+        "box, which is explicit, of order 1 and bound by Δx²/2. A midpoint box is not there: it is bound by Δx² and "
+        "yet a soliton blows up with it at t = 34 with 0.4 Δx², for every second level drifts away.",
     .watch =
         "Watch the charge: each scheme keeps its own, of cell means or of nodes, to round-off; the energy only "
         "nearly, and it dips while the solitons meet.",
@@ -272,6 +275,7 @@ const struct gm_scene gm_scene_nls = {
     .parameters = parameters,
     .parameter_count = COUNT(parameters),
     .schemes = schemes,
+    .lanes = "scheme=box,split-step2",
     .observables = observables,
     .observable_count = COUNT(observables),
     .tracks = tracks,
