@@ -202,6 +202,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->caption =
         "The exact flow keeps every volume. Being symplectic does not help in three dimensions: the splitting "
         "into shears does. The graph ends where the cell is drawn out too far.";
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
         struct gm_panel *panel = NULL;

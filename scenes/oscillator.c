@@ -235,6 +235,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
             ? "The printed rectangle rule finds no real step at the first turning point; the published motion over "
               "several periods needs restarts there."
             : "Energy is kept to round-off by construction; the price is a slip in phase.";
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     draw_position(picture, lanes, count);
     gm_draw_graph(
