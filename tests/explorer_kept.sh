@@ -65,14 +65,16 @@ case $again in
 esac
 keys q
 wait_for 'left 0'
-# it opens what it says, in a terminal that is narrower than its words
-tm resize-window -t "$pane" -x 50 -y 24
+# it opens what it says, and says it again, also in a terminal that is narrower than its words
 keys "clear; \"$geomint\" ${again#geomint }; echo \"left \$?\"" Enter
 wait_for 'SCHEMES'
 wait_for 'Verlet'
 pause
 keys y
 wait_for 'THIS VIEW AS A PICTURE'
+tm resize-window -t "$pane" -x 32 -y 24
+wait_for 'scheme=rk4,.*,$'
+settled >/dev/null
 [ "$(told 'THE EXPLORER, FROM')" = "$again" ] || fail "opened again: $(told 'THE EXPLORER, FROM'), not $again"
 keys q
 wait_for 'left 0'
