@@ -78,6 +78,7 @@ settled >/dev/null
 [ "$(told 'THE EXPLORER, FROM')" = "$again" ] || fail "opened again: $(told 'THE EXPLORER, FROM'), not $again"
 keys q
 wait_for 'left 0'
+tm resize-window -t "$pane" -x 80 -y 24
 
 # ---- movies ----
 
