@@ -149,6 +149,9 @@ static void draw_above(const struct gm_sheet *whole, const char *text)
     }
     const struct gm_sheet above = gm_sheet_part(whole, 1, first, whole->width - 2, rows);
     gm_sheet_wrapped(&above, 0, 0, rows, text, GM_INK);
+    if (wanted > rows) {
+        gm_sheet_text(&above, above.width - 1, rows - 1, "…", GM_INK, true);
+    }
 }
 
 void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, int side)
