@@ -14,7 +14,7 @@ told() {
     screen | sed 's/▸/ /; s/^ *//' | awk -v heading="$1" '
         index($0, heading) { on = 1; next }
         on && /^$/ { exit }
-        on { text = text (text == "" ? "" : " ") $0 }
+        on { text = text (text == "" || text ~ /,$/ ? "" : " ") $0 }
         END { print text }'
 }
 copied() {
@@ -36,7 +36,7 @@ wait_for 't = 0\.3'
 keys y
 wait_for 'THIS VIEW AS A PICTURE'
 picture=$(told 'AS A PICTURE')
-again=$(told 'THE EXPLORER WITH')
+again=$(told 'THE EXPLORER, FROM')
 copied "$picture"
 [ "$again" = 'geomint disc scheme=rk4,midpoint dt=0.2,0.1' ] || fail "as typed: $again"
 keys y
@@ -58,23 +58,27 @@ keys pendulum Enter
 wait_for '‹ pendulum ›'
 keys y
 wait_for 'THIS VIEW AS A PICTURE'
-again=$(told 'THE EXPLORER WITH')
+again=$(told 'THE EXPLORER, FROM')
 case $again in
 'geomint disc '*verlet*system=pendulum*) ;;
 *) fail "changed: $again" ;;
 esac
 keys q
 wait_for 'left 0'
-# it opens what it says
+# it opens what it says, and says it again, also in a terminal that is narrower than its words
 keys "clear; \"$geomint\" ${again#geomint }; echo \"left \$?\"" Enter
 wait_for 'SCHEMES'
 wait_for 'Verlet'
 pause
 keys y
 wait_for 'THIS VIEW AS A PICTURE'
-[ "$(told 'THE EXPLORER WITH')" = "$again" ] || fail "opened again: $(told 'THE EXPLORER WITH'), not $again"
+tm resize-window -t "$pane" -x 32 -y 24
+wait_for 'scheme=rk4,.*,$'
+settled >/dev/null
+[ "$(told 'THE EXPLORER, FROM')" = "$again" ] || fail "opened again: $(told 'THE EXPLORER, FROM'), not $again"
 keys q
 wait_for 'left 0'
+tm resize-window -t "$pane" -x 80 -y 24
 
 # ---- movies ----
 

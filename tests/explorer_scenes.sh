@@ -29,8 +29,8 @@ for scene in $("$geomint" list scenes --json | grep -o '"scene":"[^"]*"' | sed '
     wait_for 'SCHEMES' || echo "  in $scene"
     # every parameter can be chosen, one after the other, and says what it is
     for key in $(keys_of "$scene"); do
-        screen | grep -q "▸ $key " || keys Down
-        wait_for "▸ $key " || echo "  in $scene"
+        screen | grep -qE "▸ $key( |‹)" || keys Down
+        wait_for "▸ $key( |‹)" || echo "  in $scene"
     done
     readable "$scene"
     keys '?'
@@ -42,7 +42,7 @@ for scene in $("$geomint" list scenes --json | grep -o '"scene":"[^"]*"' | sed '
     # forked, six, overlaid, one
     keys f Enter c c c c o
     readable "$scene with lanes"
-    keys x x x x x x
+    for ((i = 0; i < 30; i++)); do keys x; done # some scenes begin with many lanes
     wait_for 'The last lane stays' || echo "  in $scene"
     screen | grep -q 'all lanes' && fail "$scene: one lane is shown as all lanes"
     keys q

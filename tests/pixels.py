@@ -216,7 +216,12 @@ if check(len(copied) == 1, 'y copies nothing'):
     worst, mean, missing = compare(shown, read_png('told/disc-render.png'))
     print(f'redone by "{command}": greatest difference {worst}, {missing} pixels missing')
     check(worst == 0 and missing == 0, 'the command line makes another picture')
-told.keys('y')
+told.keys('y')  # the other one
+check(told.run(5, lambda: len([text for text in told.questions if text.startswith('52;c;')]) == 2),
+      'y copies the explorer\'s command line not')
+copied = [text for text in told.questions if text.startswith('52;c;')]
+check(base64.b64decode(copied[-1][5:]).startswith(b'geomint disc '), 'the second command line is no explorer')
+told.keys('\x1b')
 check(told.run(5, lambda: told.shows('SCHEMES')), 'the command line stays')
 
 # R: a movie of what is seen, finished when it is ended, and on leaving

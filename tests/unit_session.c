@@ -245,6 +245,11 @@ static void sliders_tell_places(void **unused)
     /* of a range that is far wider than what is of use, a quarter is for values near the usual ones */
     struct numbers numbers = {-10}, other = {10};
     assert_true(gm_slider_position(&rows[1], &other) - gm_slider_position(&rows[1], &numbers) > 0.25);
+    /* and no part of it is for what no one means */
+    const struct gm_parameter endless = NUMBER("1000", -1e300, 1e300, false);
+    char text[GM_VALUE_TEXT];
+    assert_true(gm_slider_at(&endless, 1, text) && gm_number_parse(text, &other.value));
+    assert_true(other.value <= 1e9);
     numbers.value = 0.255;
     assert_true(fabs(gm_slider_position(&rows[3], &numbers) - 0.2475) < 0.001);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app/explorer/explorer.h"
 
+#include <curses.h>
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
@@ -48,7 +49,7 @@ static void read_keys(struct gm_explorer *explorer)
     for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
         struct gm_mouse_event event;
         enum gm_mouse_result result = gm_mouse_feed(&explorer->mouse, key, &event);
-        if (result == GM_MOUSE_NOT) {
+        if (result == GM_MOUSE_NOT && key != KEY_RESIZE) { /* a size is no key: a page stays open */
             gm_explorer_press(explorer, key);
         } else if (result == GM_MOUSE_EVENT) {
             gm_explorer_point(explorer, &event);

@@ -146,7 +146,7 @@ static int draw_commands(const struct gm_sheet *sheet, int scroll, const struct 
 {
     static const char *const headings[GM_COMMANDS] = {
         [GM_COMMAND_PICTURE] = "THIS VIEW AS A PICTURE",
-        [GM_COMMAND_EXPLORER] = "THE EXPLORER WITH THESE LANES, FROM THE START",
+        [GM_COMMAND_EXPLORER] = "THE EXPLORER, FROM THE START",
     };
     struct page page = {.sheet = *sheet, .scroll = scroll};
     for (size_t i = 0; i < GM_COMMANDS; i++) {

@@ -81,6 +81,31 @@ void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, do
     }
 }
 
+static bool is_wide(const struct gm_sheet *sheet, const char *text, size_t length, int room)
+{
+    char line[512];
+    snprintf(line, sizeof line, "%.*s", (int)length, text);
+    return gm_sheet_width(sheet, line) > room;
+}
+
+/* How many bytes of a line fit: all, or, as it is one long word, those up to a comma in its second half, or
+   to any letter. */
+static size_t broken(const struct gm_sheet *sheet, const char *word, size_t length, int room)
+{
+    size_t fits = length;
+    while (fits > 1 && is_wide(sheet, word, fits, room)) {
+        do {
+            fits--;
+        } while (fits > 1 && ((unsigned char)word[fits] & 0xC0) == 0x80);
+    }
+    for (size_t at = fits; fits < length && at > fits / 2; at--) {
+        if (word[at - 1] == ',') {
+            return at;
+        }
+    }
+    return fits;
+}
+
 int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows, const char *text,
                      enum gm_role role)
 {
@@ -91,8 +116,7 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
         for (size_t i = 1; i < sizeof line; i++) {
             bool end = text[i] == '\0' || text[i] == '\n', blank = end || text[i] == ' ';
             if (blank) {
-                snprintf(line, sizeof line, "%.*s", (int)i, text);
-                if (gm_sheet_width(sheet, line) > room && fits > 0) {
+                if (fits > 0 && is_wide(sheet, text, i, room)) {
                     break;
                 }
                 fits = i;
@@ -104,6 +128,7 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
         if (fits == 0) {
             fits = strlen(text) < sizeof line ? strlen(text) : sizeof line - 1;
         }
+        fits = broken(sheet, text, fits, room);
         snprintf(line, sizeof line, "%.*s", (int)fits, text);
         gm_sheet_text(sheet, column, row + taken, line, role, false);
         taken++;

@@ -108,7 +108,11 @@ void gm_side_number(double value, char *text, size_t size)
         snprintf(text, size, "–"); /* there is no such number here */
         return;
     }
-    snprintf(digits, sizeof digits, "%.3g", value);
+    if (fabs(value) >= 1e-4 && fabs(value) < 1e-3) { /* shorter so than with all its zeros */
+        snprintf(digits, sizeof digits, "%.3ge-4", value * 1e4);
+    } else {
+        snprintf(digits, sizeof digits, "%.3g", value);
+    }
     /* a true minus sign, and no zeros or plus signs to fill an exponent */
     size_t at = 0;
     text[0] = '\0';
@@ -167,8 +171,9 @@ static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm
     gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_PARAMETER, .index = index});
     gm_sheet_text(sheet, 2, row, parameter->row->key, ink, chosen);
     if (parameter->position < 0) {
-        snprintf(text, sizeof text, chosen ? "‹ %s ›" : "%s", parameter->value);
-        gm_sheet_text(sheet, values - (chosen ? 2 : 0), row, text, GM_INK, chosen);
+        const bool tight = 2 + gm_sheet_width(sheet, parameter->row->key) > values - 2;
+        snprintf(text, sizeof text, !chosen ? "%s" : tight ? "‹%s›" : "‹ %s ›", parameter->value);
+        gm_sheet_text(sheet, values - (!chosen ? 0 : tight ? 1 : 2), row, text, GM_INK, chosen);
         return;
     }
     value_text(parameter, text, sizeof text);

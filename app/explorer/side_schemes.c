@@ -71,14 +71,36 @@ static void scheme_title(const struct gm_sheet *sheet, int column, int row, cons
     gm_sheet_cut(&left, column, row, text, role, bold);
 }
 
-static void lane_name(const struct gm_shot_lane *lane, bool overlaid, char *text, size_t size)
+/* What tells the lane from others of its scheme. */
+static void lane_difference(const struct gm_shot_lane *lane, bool overlaid, char *text, size_t size)
 {
     const char *panel = overlaid ? "" : lane->shown.panel_name, *colour = lane->shown.colour_name;
-    const char *title = lane->scheme->title;
-    if (strcmp(colour, title) == 0) {
+    if (strcmp(panel, lane->scheme->title) == 0) {
+        panel = "";
+    }
+    if (strcmp(colour, lane->scheme->title) == 0) {
         colour = "";
     }
-    snprintf(text, size, "%s%s%s%s%s", title, panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
+    snprintf(text, size, "%s%s%s%s", panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
+}
+
+/* Where room is short the scheme's title is cut before the difference is. */
+static void lane_title(const struct gm_sheet *sheet, int row, const struct gm_shot_lane *lane, bool overlaid,
+                       unsigned columns, bool bold)
+{
+    enum { LEAST_TITLE = 5 };
+    char difference[128], text[192];
+    const int column = title_column(sheet), room = title_width(sheet, columns) - column;
+    lane_difference(lane, overlaid, difference, sizeof difference);
+    const int tail = gm_sheet_width(sheet, difference), title = gm_sheet_width(sheet, lane->scheme->title);
+    if (title + tail <= room || room - tail < LEAST_TITLE) {
+        snprintf(text, sizeof text, "%s%s", lane->scheme->title, difference);
+        scheme_title(sheet, column, row, text, columns, gm_side_role(lane), bold);
+        return;
+    }
+    const struct gm_sheet front = gm_sheet_part(sheet, 0, 0, column + room - tail, sheet->height);
+    gm_sheet_cut(&front, column, row, lane->scheme->title, gm_side_role(lane), bold);
+    gm_sheet_text(sheet, front.width, row, difference, gm_side_role(lane), bold);
 }
 
 static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot_lane *lane, bool overlaid,
@@ -90,13 +112,11 @@ static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot
         gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
     }
     gm_sheet_text(sheet, title_column(sheet) - 4, row, gm_side_dash(lane), role, false);
-    lane_name(lane, overlaid, text, sizeof text);
+    lane_title(sheet, row, lane, overlaid, columns, selected);
     if (lane->status == GM_OK) {
-        scheme_title(sheet, title_column(sheet), row, text, columns, role, selected);
         scheme_facts(sheet, row, lane->scheme, columns, GM_INK);
         return;
     }
-    gm_sheet_text(sheet, title_column(sheet), row, text, role, selected);
     snprintf(text, sizeof text, is_narrow(sheet) ? " ✕ %s" : "  ✕ %s, t = %.4g", gm_status_name(lane->status),
              lane->t);
     gm_sheet_right(sheet, sheet->width, row, text, GM_INITIAL, true);

@@ -11,6 +11,23 @@ static double size_of(const struct gm_parameter *row, const void *owner)
     return value < 0 && row->lowest >= 0 ? -value : value;
 }
 
+/* The size of a linear parameter's usual values: that of its default. */
+static double usual_size(const struct gm_parameter *row)
+{
+    double standard = 0;
+    gm_number_parse(row->standard, &standard);
+    return isfinite(standard) && standard != 0 ? fabs(standard) : fmin(1, (row->highest - row->lowest) / 4);
+}
+
+/* A linear range that is so many times as wide as the usual values is bent as arsinh is: even near 0, by
+   ratios far from it, and its ends are not further than that. */
+enum { WIDE = 50, FAR = 1000000 };
+
+static bool is_bent(const struct gm_parameter *row)
+{
+    return !row->logarithmic && row->highest - row->lowest > WIDE * usual_size(row);
+}
+
 /* The ends of a slider; false where there is none. */
 static bool slider_range(const struct gm_parameter *row, double *low, double *high)
 {
@@ -23,24 +40,11 @@ static bool slider_range(const struct gm_parameter *row, double *low, double *hi
     if (row->logarithmic && *low <= 0) { /* a range from 0 on has no logarithm; ten decades stand for it */
         *low = *high * 1e-10;
     }
+    if (is_bent(row)) { /* there is no use in 10^300 */
+        *low = fmax(*low, -FAR * usual_size(row));
+        *high = fmin(*high, FAR * usual_size(row));
+    }
     return true;
-}
-
-/* The size of a linear parameter's usual values: that of its default. */
-static double usual_size(const struct gm_parameter *row)
-{
-    double standard = 0;
-    gm_number_parse(row->standard, &standard);
-    return isfinite(standard) && standard != 0 ? fabs(standard) : fmin(1, (row->highest - row->lowest) / 4);
-}
-
-/* A linear range that is so many times as wide as the usual values is bent as arsinh is: even near 0, by
-   ratios far from it. */
-enum { WIDE = 50 };
-
-static bool is_bent(const struct gm_parameter *row)
-{
-    return !row->logarithmic && row->highest - row->lowest > WIDE * usual_size(row);
 }
 
 /* The place of a value on a scale that is drawn evenly, and back. */

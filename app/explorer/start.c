@@ -126,7 +126,7 @@ static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
     row += gm_sheet_wrapped(sheet, 0, row, 4, tour->about ? tour->about : "", GM_SECONDARY) + 1;
     for (size_t i = 0; i < tour->count; i++) {
         const struct gm_tour_step *step = &tour->steps[i];
-        char number[16];
+        char number[24];
         snprintf(number, sizeof number, "%zu.", i + 1);
         gm_sheet_text(sheet, 0, row, number, GM_SECONDARY, false);
         row += gm_sheet_wrapped(sheet, 4, row, 2, step->title, GM_INK);

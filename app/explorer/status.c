@@ -80,7 +80,7 @@ void gm_speed_text(const struct gm_shot *shot, char *text, size_t size)
     char movie[24] = "", pace[32] = "";
     if (shot->recorded >= 0) {
         snprintf(movie, sizeof movie, "● %d:%04.1f  ", (int)(shot->recorded / 60), fmod(shot->recorded, 60));
-    } else if (!shot->paused && shot->pace < slow_motion) {
+    } else if (!shot->paused && !shot->behind && shot->pace < slow_motion) {
         snprintf(pace, sizeof pace, "%.2g steps/s  ", shot->pace);
     }
     snprintf(text, size, "%s%s%s %s%g×%s", movie, pace,
@@ -138,15 +138,20 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, bool sid
    as it takes. */
 static void draw_above(const struct gm_sheet *whole, const char *text)
 {
-    struct gm_sheet nothing = gm_sheet_part(whole, 1, 0, whole->width - 2, 0);
+    const struct gm_sheet nothing = gm_sheet_part(whole, 1, 0, whole->width - 2, 0);
     const int wanted = gm_sheet_wrapped(&nothing, 0, 0, whole->height, text, GM_INK),
-              most = whole->height / 3, rows = wanted < most ? wanted : most;
-    for (int row = 0; row < rows; row++) {
+              most = whole->height / 3, rows = wanted < most ? wanted : most,
+              first = whole->height - 1 - rows;
+    for (int row = first; row < first + rows; row++) {
         for (int column = 0; column < whole->width; column++) {
-            gm_sheet_glyph(whole, column, whole->height - 1 - rows + row, ' ', GM_INK, false);
+            gm_sheet_glyph(whole, column, row, ' ', GM_INK, false);
         }
     }
-    gm_sheet_wrapped(whole, 1, whole->height - 1 - rows, rows, text, GM_INK);
+    const struct gm_sheet above = gm_sheet_part(whole, 1, first, whole->width - 2, rows);
+    gm_sheet_wrapped(&above, 0, 0, rows, text, GM_INK);
+    if (wanted > rows) {
+        gm_sheet_text(&above, above.width - 1, rows - 1, "…", GM_INK, true);
+    }
 }
 
 void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, int side)
