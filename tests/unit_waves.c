@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "core/certify.h"
 #include "core/fourier.h"
 #include "core/multisymplectic.h"
 #include "core/problems/dispersive.h"
@@ -493,6 +494,22 @@ static void nodes_solve_the_whole_system(void **unused)
     }
 }
 
+/* What a row does not claim it does not keep: the Euler box of Schroedinger's equation is caught. */
+static void nodes_do_not_claim_too_much(void **unused)
+{
+    (void)unused;
+    static const unsigned bits[] = {1, 4}; /* symmetric, keeps quadratic invariants */
+    const struct gm_problem nls = nls_problem(101);
+    for (size_t i = 0; i < sizeof bits / sizeof bits[0]; i++) {
+        struct gm_scheme wrong = *gm_scheme_find_for("euler-box", &nls);
+        assert_true(gm_certify(&wrong).holds);
+        wrong.claims |= 1u << bits[i];
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        assert_false(certificate.holds);
+        assert_true(certificate.order_holds && certificate.claims[bits[i]].defect > 1e-6);
+    }
+}
+
 /* The linear limits of the schemes of nodes: just below them a run stays bounded, just above it does not. */
 static void nodes_are_stable_below_their_limits(void **unused)
 {
@@ -750,6 +767,7 @@ int main(void)
         cmocka_unit_test(collocation_at_one_point_is_the_box),
         cmocka_unit_test(dispersive_levels_agree),
         cmocka_unit_test(nodes_solve_the_whole_system),
+        cmocka_unit_test(nodes_do_not_claim_too_much),
         cmocka_unit_test(nodes_are_stable_below_their_limits),
         cmocka_unit_test(large_steps_are_solved),
         cmocka_unit_test(matrices_are_skew),
