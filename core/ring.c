@@ -192,12 +192,14 @@ void gm_ring_band_add(struct gm_ring_band *band, size_t point, size_t row_part, 
                   folded_place(at % n, n) * band->parts + column_part, value);
 }
 
-bool gm_ring_band_solve(struct gm_ring_band *band, double *b)
+bool gm_ring_band_factor(struct gm_ring_band *band)
+{
+    return gm_banded_factor(&band->folded);
+}
+
+void gm_ring_band_solve(struct gm_ring_band *band, double *b)
 {
     const size_t n = band->count, parts = band->parts;
-    if (!gm_banded_factor(&band->folded)) {
-        return false;
-    }
     for (size_t i = 0; i < n; i++) {
         for (size_t part = 0; part < parts; part++) {
             band->right[folded_place(i, n) * parts + part] = b[part * n + i];
@@ -209,5 +211,4 @@ bool gm_ring_band_solve(struct gm_ring_band *band, double *b)
             b[part * n + i] = band->right[folded_place(i, n) * parts + part];
         }
     }
-    return true;
 }

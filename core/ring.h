@@ -54,8 +54,9 @@ void gm_ring_band_clear(struct gm_ring_band *band);
 /* Adds to the entry of a row at `point` and a column `by` points on. */
 void gm_ring_band_add(struct gm_ring_band *band, size_t point, size_t row_part, long by, size_t column_part,
                       double value);
-/* Replaces b, [part * count + point], by the solution and the matrix by its factors; false where it is
-   singular. */
-bool gm_ring_band_solve(struct gm_ring_band *band, double *b);
+/* The matrix becomes its factors; false where it is singular. */
+bool gm_ring_band_factor(struct gm_ring_band *band);
+/* Replaces b, [part * count + point], by the solution. */
+void gm_ring_band_solve(struct gm_ring_band *band, double *b);
 
 #endif
