@@ -61,12 +61,16 @@ void gm_ring_solve(const struct gm_ring *ring, double *b)
 
 void gm_ring_unaverage(double *b, size_t count)
 {
-    double alternating = 0;
+    double alternating = 0, largest = 0;
     for (size_t i = 0; i < count; i++) {
         alternating += i % 2 ? -b[i] : b[i];
+        largest = fmax(largest, fabs(b[i]));
     }
     const bool even = count % 2 == 0;
-    const double part = even ? alternating / (double)count : 0;
+    double part = even ? alternating / (double)count : 0;
+    if (fabs(part) > 1e-7 * largest) {
+        part = NAN;
+    }
     double f = even ? 0 : alternating, mean = 0;
     for (size_t i = 0; i < count; i++) {
         const double given = b[i] - (i % 2 ? -part : part);

@@ -52,6 +52,13 @@ static void rings_are_solved(void **unused)
         for (size_t i = 0; i < n; i++) {
             assert_true(fabs((f[i] + f[(i + 1) % n]) / 2 - b[i]) < 1e-13);
         }
+        if (n % 2 == 0) {
+            for (size_t i = 0; i < n; i++) {
+                f[i] = i % 2 ? 0 : 1;
+            }
+            gm_ring_unaverage(f, n);
+            assert_true(isnan(f[n - 1]));
+        }
         const struct gm_ring ring = gm_ring_make(n, 2.5, -1.1);
         gm_ring_solve(&ring, x);
         for (size_t i = 0; i < n; i++) {
