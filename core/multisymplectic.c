@@ -61,7 +61,7 @@ double gm_cells_law(const struct gm_field *field, const struct gm_cells *cells, 
                         (form_at(d, field->k, a->sides + right, b->sides + right) -
                          form_at(d, field->k, a->sides + left, b->sides + left));
         }
-        largest = residual == residual ? fmax(largest, fabs(residual)) : NAN;
+        largest = fabs(residual) > largest || isnan(residual) ? fabs(residual) : largest;
     }
     return largest;
 }

@@ -61,12 +61,16 @@ void gm_ring_solve(const struct gm_ring *ring, double *b)
 
 void gm_ring_unaverage(double *b, size_t count)
 {
-    double alternating = 0;
+    double alternating = 0, largest = 0;
     for (size_t i = 0; i < count; i++) {
         alternating += i % 2 ? -b[i] : b[i];
+        largest = fmax(largest, fabs(b[i]));
     }
     const bool even = count % 2 == 0;
-    const double part = even ? alternating / (double)count : 0;
+    double part = even ? alternating / (double)count : 0;
+    if (fabs(part) > 1e-7 * largest) {
+        part = NAN;
+    }
     double f = even ? 0 : alternating, mean = 0;
     for (size_t i = 0; i < count; i++) {
         const double given = b[i] - (i % 2 ? -part : part);
@@ -192,12 +196,14 @@ void gm_ring_band_add(struct gm_ring_band *band, size_t point, size_t row_part, 
                   folded_place(at % n, n) * band->parts + column_part, value);
 }
 
-bool gm_ring_band_solve(struct gm_ring_band *band, double *b)
+bool gm_ring_band_factor(struct gm_ring_band *band)
+{
+    return gm_banded_factor(&band->folded);
+}
+
+void gm_ring_band_solve(struct gm_ring_band *band, double *b)
 {
     const size_t n = band->count, parts = band->parts;
-    if (!gm_banded_factor(&band->folded)) {
-        return false;
-    }
     for (size_t i = 0; i < n; i++) {
         for (size_t part = 0; part < parts; part++) {
             band->right[folded_place(i, n) * parts + part] = b[part * n + i];
@@ -209,5 +215,4 @@ bool gm_ring_band_solve(struct gm_ring_band *band, double *b)
             b[part * n + i] = band->right[folded_place(i, n) * parts + part];
         }
     }
-    return true;
 }

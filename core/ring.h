@@ -21,8 +21,9 @@ struct gm_ring gm_ring_make(size_t count, double diagonal, double off);
 /* Replaces b by the solution. */
 void gm_ring_solve(const struct gm_ring *ring, double *b);
 
-/* Replaces b by f with (f_i + f_{i+1})/2 = b_i. On an even number of points the alternating part of b is left
-   out, and f has none: where b has one there is no solution. */
+/* Replaces b by f with (f_i + f_{i+1})/2 = b_i. On an even number of points the alternating part of b, which
+   no f has, is left out where it is rounding, below 1e-7 of the largest, and f has none; where it is more
+   there is no solution, and f is NaN. */
 void gm_ring_unaverage(double *b, size_t count);
 
 /* scale (z - roots[0]) (z - roots[1]) ... f = b for complex b, (z f)_i = f_{i+1}; no root on the unit circle.
@@ -54,8 +55,9 @@ void gm_ring_band_clear(struct gm_ring_band *band);
 /* Adds to the entry of a row at `point` and a column `by` points on. */
 void gm_ring_band_add(struct gm_ring_band *band, size_t point, size_t row_part, long by, size_t column_part,
                       double value);
-/* Replaces b, [part * count + point], by the solution and the matrix by its factors; false where it is
-   singular. */
-bool gm_ring_band_solve(struct gm_ring_band *band, double *b);
+/* The matrix becomes its factors; false where it is singular. */
+bool gm_ring_band_factor(struct gm_ring_band *band);
+/* Replaces b, [part * count + point], by the solution. */
+void gm_ring_band_solve(struct gm_ring_band *band, double *b);
 
 #endif

@@ -60,9 +60,10 @@ enum gm_status gm_ring_newton_solve(struct gm_ring_newton *newton, const struct 
         memcpy(newton->change, newton->residual, n * sizeof *u);
         progress->iterations++;
         progress->solves++;
-        if (!gm_ring_band_solve(&newton->band, newton->change)) {
+        if (!gm_ring_band_factor(&newton->band)) {
             return GM_NO_CONVERGENCE;
         }
+        gm_ring_band_solve(&newton->band, newton->change);
         const double scale = largest(u, n), change = largest(newton->change, n);
         if (!isfinite(change)) {
             return GM_NO_CONVERGENCE;

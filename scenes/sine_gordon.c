@@ -302,7 +302,8 @@ const struct gm_scene gm_scene_sine_gordon = {
     .blurb =
         "A breather, a kink or a collision on a ring, by an explicit, an energy-conserving and a multisymplectic "
         "scheme. At Δt = Δx the explicit one lies beyond its Courant limit 4/Δt² ≥ 4/Δx² + 1: rounding grows "
-        "until it destroys the wave.",
+        "until it destroys the wave. The box has no such limit: up to Δt = 2 the equations of its step "
+        "have one solution, beyond maybe several.",
     .watch =
         "Watch leapfrog roughen near t = 25 and break the breather by t = 31, as published; it is not for want of "
         "a multisymplectic law, which leapfrog keeps to round-off, but of stability.",

@@ -58,6 +58,9 @@ static void the_law_of_the_box(void **unused)
         {"sine-gordon scheme=box points=101 dt=.1 until=10", 4e-13},
         {"sine-gordon scheme=midpoint-box dt=.04 until=10", 4e-13},
         {"kdv until=10", 4e-12},
+        {"kdv scheme=euler-box points=401 dt=2.5e-3 until=10", 2e-10},
+        {"kdv scheme=midpoint-box points=401 dt=.01 until=10", 2e-10},
+        {"nls scheme=euler-box dt=.004 until=2", 1e-10},
         {"nls points=401 until=2", 4e-12},
     };
     for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {

@@ -115,7 +115,7 @@ static double nine_points(const struct base *base, const struct tangent *a, size
     return in_time / (4 * dt * dt) - in_space / (4 * dx * dx) + force / 16;
 }
 
-/* The next level is the solution of a linear system. */
+/* The next level is the solution of a linear system, which is solved again for what rounding leaves. */
 static bool linearised_box(const struct base *base, const struct tangent *a)
 {
     const size_t points = base->problem->line.points;
@@ -129,13 +129,20 @@ static bool linearised_box(const struct base *base, const struct tangent *a)
     double *right = a->v_next; /* no scheme of cells keeps u_t */
     for (size_t i = 0; i < points; i++) {
         const double before = base->later[left_of(i, points)] / 16, after = base->later[i] / 16;
-        right[i] = -nine_points(base, a, i);
         gm_ring_band_add(&band, i, 0, -1, 0, in_time - in_space + before);
         gm_ring_band_add(&band, i, 0, 0, 0, 2 * (in_time + in_space) + before + after);
         gm_ring_band_add(&band, i, 0, 1, 0, in_time - in_space + after);
     }
-    const bool good = gm_ring_band_solve(&band, right);
-    memcpy(a->next, right, points * sizeof *right);
+    const bool good = gm_ring_band_factor(&band);
+    for (int k = 0; good && k < 3; k++) {
+        for (size_t i = 0; i < points; i++) {
+            right[i] = -nine_points(base, a, i);
+        }
+        gm_ring_band_solve(&band, right);
+        for (size_t i = 0; i < points; i++) {
+            a->next[i] += right[i];
+        }
+    }
     gm_ring_band_close(&band);
     return good;
 }
