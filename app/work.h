@@ -31,6 +31,7 @@ struct gm_work_line { /* one scheme, from the longest step to the shortest, at e
 
 struct gm_work_table {
     struct gm_request request; /* its first lane has the parameters that all share */
+    char settings[160];        /* the words that set parameters which all runs share: "viscosity=0.05" */
     const char *measure;       /* "solution_error" or an observable's key */
     bool observed;             /* it is the observable, not the distance of the states */
     const char *measure_title;
