@@ -291,15 +291,18 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_options *options,
     }
     if (!alike(table, options)) {
         snprintf(message, GM_MESSAGE,
-                 "work-precision compares on one problem: only scheme%s%s and dt take a list",
-                 table->resolution ? ", " : "", table->resolution ? table->resolution->key : "");
+                 "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
+                 table->resolution ? ", " : "", table->resolution ? table->resolution->key : "",
+                 work && work->ratio ? ", " : "", work && work->ratio ? work->ratio : "");
         gm_work_close(table);
         return false;
     }
     tell_settings(table, options);
     if (!(timing_of(table)->until > gm_scene_t0(table->request.scene, timing_of(table)))) {
+        snprintf(message, GM_MESSAGE, "until=%g is the start: there is nothing to measure",
+                 timing_of(table)->until);
         gm_work_close(table);
-        return refuse(message, "until is the start: there is nothing to measure");
+        return false;
     }
     if (!choose_steps(table, gm_options_have(options, "dt=") || table->ratio, message) ||
         !choose_resolutions(table, options, message) || !choose_measure(table, options->measure, message) ||
