@@ -50,7 +50,7 @@ static const char style[] =
     "nav ol{list-style:none;padding:0;margin:1.5rem 0;columns:17rem;column-gap:2rem}\n"
     "nav li{break-inside:avoid;display:flex;justify-content:space-between;gap:1rem;padding:.2rem 0;"
     "border-bottom:1px solid var(--line)}\n"
-    "nav li a{min-width:0;overflow-wrap:anywhere}\n"
+    "nav li a{min-width:0;overflow-wrap:anywhere}nav .scene{flex:1}\n"
     "footer{padding-top:3rem;padding-bottom:3rem;color:var(--soft);font-size:.9rem}\n"
     "@media(max-width:40rem){header{padding-top:1.5rem}h1{font-size:1.6rem}h2{margin-top:3rem}"
     ".judged,.judged tbody,.judged tr,.judged td{display:block}.judged thead{display:none}"
@@ -60,7 +60,7 @@ static const char style[] =
     "@media print{:root{--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--tint:#f4f4f4;--good:#004d38;"
     "--bad:#8a3700;--link:#000}body{font-size:9.5pt}header,main,footer{max-width:none;padding-left:0;"
     "padding-right:0}article{break-inside:avoid;margin-top:1.2rem;padding-top:.8rem}h2{break-after:avoid}"
-    "figure{max-width:11cm;margin:.4rem 0}p{margin:.4rem 0}table{font-size:8.5pt}"
+    "figure{margin:.4rem 0}p{margin:.4rem 0}table{font-size:8.5pt}"
     "pre{font-size:7.5pt}td,th{padding:.2rem .6rem .2rem 0}details{display:none}a{text-decoration:none}@page{margin:1.6cm}}\n";
 
 static void put_text(FILE *page, const char *text)
@@ -303,7 +303,9 @@ static void put_contents(FILE *page, const struct gm_document *document, const s
         const struct sum sum = sum_of(&jobs[i], &outcomes[i], 1);
         fprintf(page, "<li><a href=\"#%s\">", jobs[i].figure->name);
         put_title(page, jobs[i].figure->name);
-        fputs("</a>", page);
+        const char *scene = jobs[i].scene->name;
+        fprintf(page, "</a><span class=\"soft scene\">%s</span>",
+                strstr(jobs[i].figure->name, scene) ? "" : scene);
         if (!sum.made) {
             fputs("<span class=\"bad\">✗ not made</span>", page);
         } else if (sum.hold + sum.fail == 0) {
@@ -338,7 +340,8 @@ static void put_head(FILE *page, const struct gm_options *options, const struct 
         "second half of the time is more than 1.1 times that in the first, and is <i>bounded</i> otherwise; "
         "<i>round-off</i> is at most 1e-13; <i>close</i> is within 5 % of the solution’s own size; "
         "<i>about</i> is up to twice as much. A run that "
-        "ended before its time never has a number that is small enough.</p>\n",
+        "ended before its time never has a number that is small enough. Where a statement does not hold, the reason "
+        "stands under it.</p>\n",
         page);
     if (options->quick) {
         fputs(

@@ -31,6 +31,7 @@ struct gm_work_line { /* one scheme, from the longest step to the shortest, at e
 
 struct gm_work_table {
     struct gm_request request; /* its first lane has the parameters that all share */
+    char settings[160];        /* the words that set parameters which all runs share: "viscosity=0.05" */
     const char *measure;       /* "solution_error" or an observable's key */
     bool observed;             /* it is the observable, not the distance of the states */
     const char *measure_title;
@@ -41,8 +42,8 @@ struct gm_work_table {
     double *resolutions;                   /* in the order of the plan */
     size_t resolution_count;               /* 1 where nothing varies */
     bool smaller_is_finer;                 /* of the resolution, as of the distance of nodes */
-    const struct gm_parameter *ratio;      /* the ladder has its values instead of steps; NULL: it has steps */
-    const double *errors;                  /* 3, falling: at which schemes are compared */
+    const struct gm_parameter *ratio; /* the ladder has its values instead of steps; NULL: it has steps */
+    const double *errors;             /* 3, falling: at which schemes are compared */
     const struct gm_scheme **schemes;
     size_t scheme_count;
     struct gm_work_line *lines; /* line_count <= scheme_count are finished */

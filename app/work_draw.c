@@ -155,10 +155,10 @@ void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture)
     char sentence[512];
     picture->title = gm_picture_text(picture, "%s: what an accuracy costs", scene->title);
 
-    picture->subtitle =
-        gm_picture_text(picture, "%s at t = %.6g, %zu schemes%s", table->measure_title,
-                        ((const struct gm_timing *)table->request.lanes[0].parameters)->until,
-                        table->line_count, count < table->line_count ? ";  grey: those without a name" : "");
+    picture->subtitle = gm_picture_text(picture, "%s at t = %.6g, %s%s%zu schemes%s", table->measure_title,
+                                        ((const struct gm_timing *)table->request.lanes[0].parameters)->until,
+                                        table->settings, table->settings[0] ? ", " : "", table->line_count,
+                                        count < table->line_count ? ";  grey: those without a name" : "");
 
     picture->clock = "";
     picture->caption = gm_picture_text(picture, "%s", gm_work_sentence(table, sentence, sizeof sentence));

@@ -72,6 +72,41 @@ static bool alike(const struct gm_work_table *table, const struct gm_options *op
     return true;
 }
 
+/* Whether the ladders or the lines of the diagram have the values of this word. */
+static bool is_varied(const struct gm_work_table *table, const char *word)
+{
+    const char *const keys[] = {"scheme", "dt", "until", table->resolution ? table->resolution->key : NULL,
+                                table->ratio ? table->ratio->key : NULL};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        const size_t length = keys[i] ? strlen(keys[i]) : 0;
+        if (length > 0 && strncmp(word, keys[i], length) == 0 && word[length] == '=') {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Tells the words of the plan and of the user. */
+static void tell_settings(struct gm_work_table *table, const struct gm_options *options)
+{
+    const struct gm_work *work = table->request.scene->work;
+    char arguments[512], *rest = NULL;
+    size_t used = 0;
+    snprintf(arguments, sizeof arguments, "%s", work ? work->arguments : "");
+    for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        if (!gm_options_have(options, word) && !is_varied(table, word) && used < sizeof table->settings) {
+            used += (size_t)snprintf(table->settings + used, sizeof table->settings - used, "%s%s",
+                                     used ? " " : "", word);
+        }
+    }
+    for (int i = 1; i < options->word_count && used < sizeof table->settings; i++) {
+        if (!is_varied(table, options->words[i])) {
+            used += (size_t)snprintf(table->settings + used, sizeof table->settings - used, "%s%s",
+                                     used ? " " : "", options->words[i]);
+        }
+    }
+}
+
 static bool add_scheme(struct gm_work_table *table, const struct gm_scheme *scheme)
 {
     for (size_t i = 0; i < table->scheme_count; i++) {
@@ -256,14 +291,18 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_options *options,
     }
     if (!alike(table, options)) {
         snprintf(message, GM_MESSAGE,
-                 "work-precision compares on one problem: only scheme%s%s and dt take a list",
-                 table->resolution ? ", " : "", table->resolution ? table->resolution->key : "");
+                 "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
+                 table->resolution ? ", " : "", table->resolution ? table->resolution->key : "",
+                 work && work->ratio ? ", " : "", work && work->ratio ? work->ratio : "");
         gm_work_close(table);
         return false;
     }
+    tell_settings(table, options);
     if (!(timing_of(table)->until > gm_scene_t0(table->request.scene, timing_of(table)))) {
+        snprintf(message, GM_MESSAGE, "until=%g is the start: there is nothing to measure",
+                 timing_of(table)->until);
         gm_work_close(table);
-        return refuse(message, "until is the start: there is nothing to measure");
+        return false;
     }
     if (!choose_steps(table, gm_options_have(options, "dt=") || table->ratio, message) ||
         !choose_resolutions(table, options, message) || !choose_measure(table, options->measure, message) ||

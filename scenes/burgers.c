@@ -261,11 +261,24 @@ static double projection_defect(const struct gm_view *view)
                                         view->problem->line.dx, view->dt, 0.5, 0.3, u);
 }
 
+/* Where it is 1 or more, no projection turns D0 u into 0: the frame in which an invariant scheme steps does
+   not exist. */
+static double compression(const struct gm_view *view)
+{
+    const double half = view->dt / (2 * view->problem->line.dx);
+    double largest = 0;
+    for (size_t j = 1; j + 1 < view->problem->line.points; j++) {
+        largest = fmax(largest, half * (view->state[j - 1] - view->state[j + 1]));
+    }
+    return largest;
+}
+
 static const struct gm_observable observables[] = {
     {.key = "sup_error", .title = "largest error", .unit = "", .evaluate = sup_error, .logarithmic = true},
     {.key = "l1_error", .title = "mean error, h Σ|e|", .unit = "", .evaluate = l1_error, .logarithmic = true},
     {.key = "overshoot", .title = "overshoot", .unit = "", .evaluate = overshoot},
     {.key = "amplitude", .title = "largest |u − λ|", .unit = "", .evaluate = amplitude},
+    {.key = "compression", .title = "compression in a step, −Δt D₀u", .unit = "", .evaluate = compression},
     {.key = "galilean_defect",
      .title = "difference from the run at λ = 0",
      .unit = "",

@@ -297,7 +297,7 @@ static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const 
     if (go_over_frames(lanes, count)) {
         draw_over_frames(picture, lanes, count, "sup_error", "largest error so far, over λ", 1e-2, 1);
         draw_over_frames(picture, lanes, count, "galilean_defect", "difference from the run at λ = 0", 1e-16,
-                         10);
+                         1e3);
         return;
     }
     const struct gm_graph error = {

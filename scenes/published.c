@@ -187,8 +187,8 @@ static const struct gm_published published[] = {
     {"razafindralandy-32",
      .remark =
          "The document's mesh is not given, and its pressure equation (157) carries terms that do not belong "
-         "to this flow; the pressure here follows from the momentum equation edge by edge. Its error is largest "
-         "in the cells along the walls: there it is of order 1, in the middle of the channel of order 2.",
+         "to this flow; the pressure here follows from the momentum equation edge by edge. Its error lies near the "
+         "walls, where it is of first order; farther than 0.2 from them it is of second order.",
      STATEMENTS({"the stream function converges with order 1.84, at least", .lanes = "",
                  .observable = "psi_error", .over = "mean_edge", .measure = GM_AT_END, AT_LEAST(1.84)},
                 {"the temperature with order 2", .lanes = "", .observable = "theta_error",

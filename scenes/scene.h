@@ -87,8 +87,8 @@ struct gm_work {
                                steps: each scheme is judged by its best pairs; NULL: none */
     const double *resolutions; /* from coarse to fine */
     size_t resolution_count;
-    const char *ratio;    /* key of a parameter with which the step follows the resolution (settle); typed, its
-                             values take the place of the ladder; NULL: none */
+    const char *ratio; /* key of a parameter with which the step follows the resolution (settle); typed, its
+                          values take the place of the ladder; NULL: none */
     const double *errors; /* three, falling, at which prices are compared; NULL: 1e-3, 1e-6, 1e-9 */
 };
 

@@ -134,6 +134,17 @@ for words in 'sine-gordon scheme=leapfrog,box dt=.04,.02 until=1' 'kdv scheme=bo
     grep -q '^Cheapest by run time: ' "$folder/out" || fail "work-precision $words: no sentence"
 done
 
+# Burgers: the Courant numbers typed are those measured at every distance of the nodes; a shock begins at t = 1
+"$program" work-precision burgers scheme=ftcs,crank-nicolson dx=.04,.02,.01 courant=.5,.25 --size 320x180 \
+    --out "$folder" >"$folder/out" 2>"$folder/err" || fail "work-precision burgers courant: $(cat "$folder/err")"
+awk -F, 'NR > 1 { ratio = $5 / $4; rows++; if (ratio != .5 && ratio != .25) wrong++
+        if ($2 == "crank-nicolson" && ratio == .5) error[$4 + 0] = $9 }
+    END { exit !(rows == 12 && !wrong && error[.02] / error[.01] > 3 && error[.02] / error[.01] < 5) }' \
+    "$folder/burgers-work-precision.csv" || fail "Courant numbers: $(cat "$folder/burgers-work-precision.csv")"
+"$program" work-precision burgers test=shock until=2 scheme=ftcs dx=.02 dt=.002 --size 320x180 --out "$folder" \
+    >"$folder/out" 2>"$folder/err" || fail "work-precision of the shock: $(cat "$folder/err")"
+grep -q ',500,2,ok,' "$folder/burgers-work-precision.csv" || fail "the shock's runs do not end at t = 2"
+
 # charts tell how they were made, and are measured again
 for chart in kepler-work-precision vortices-work-precision stiff-stability rk4-stability; do
     "$program" again "$folder/$chart.png" --out "$folder/again" >"$folder/out" 2>&1 || fail "again $chart"
