@@ -218,8 +218,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         scene->solution.initial == GM_BREATHER ? scene->solution.frequency : scene->solution.velocity,
         scene->points, lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count));
     const struct gm_graph graphs[] = {
-        {.observable = "solution_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
-        {.observable = "own_energy_error", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2},
+        {.observable = "solution_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
+        {.observable = "own_energy_error",
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = 1e-16,
+         .calm_high = 1e-2},
     };
     gm_draw_field(picture, lanes, count, &look, graphs, sizeof graphs / sizeof graphs[0]);
 }
