@@ -19,7 +19,8 @@ static bool holds(const struct gm_work_line *const *chosen, size_t count, const 
     return false;
 }
 
-/* The cheapest at each error by either cost, then the scene's preferred ones. */
+/* The cheapest at each error by either cost, then the scene's preferred ones, then, where there are few,
+ * others. */
 static size_t choose(const struct gm_work_table *table, const struct gm_work_line *chosen[NAMED])
 {
     size_t count = 0;
@@ -42,6 +43,11 @@ static size_t choose(const struct gm_work_table *table, const struct gm_work_lin
                 !holds(chosen, count, &table->lines[i])) {
                 chosen[count++] = &table->lines[i];
             }
+        }
+    }
+    for (size_t i = 0; table->line_count <= 2 * NAMED && i < table->line_count && count < NAMED; i++) {
+        if (table->lines[i].count > 1 && !holds(chosen, count, &table->lines[i])) {
+            chosen[count++] = &table->lines[i];
         }
     }
     return count;

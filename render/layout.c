@@ -179,6 +179,11 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
     const double width = fmax(0.0, column - border.left - border.right);
     const double height = fmax(0.0, row - border.top - border.bottom);
 
+    bool noted = false;
+    for (size_t i = 0; i < group->count; i++) {
+        const struct gm_panel *panel = group->frames[i].panel;
+        noted |= panel->first_key != NULL || (panel->note != NULL && panel->note[0] != '\0');
+    }
     const bool small_titles = titles_too_long(list, group, column);
     for (size_t i = 0; i < group->count; i++) {
         const struct gm_panel *panel = group->frames[i].panel;
@@ -200,6 +205,7 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
                       &(struct gm_fill){.box = box,
                                         .detail = group->detail,
                                         .x_label = names_x(group, i),
+                                        .noted = noted,
                                         .small_title = small_titles,
                                         .title_left = x,
                                         .title_width = column});

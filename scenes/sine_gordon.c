@@ -201,8 +201,10 @@ static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct scene *scene = lanes[0]->parameters;
-    static const char *const titles[] = {"A breather", "A kink", "An antikink", "A kink and an antikink part",
-                                         "An antikink and a kink collide"};
+    static const char *const titles[] = {
+        "A breather of the sine-Gordon equation", "A kink of the sine-Gordon equation",
+        "An antikink of the sine-Gordon equation", "A sine-Gordon kink and antikink part",
+        "A sine-Gordon antikink and kink collide"};
     const double jump = gm_sine_gordon_jump(&scene->solution);
     const bool whole = jump != 0;
     const double highest = scene->solution.initial == GM_BREATHER ? 5 : 2 * M_PI;
@@ -210,8 +212,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .value = value, .exact = exact, .name = "u", .low = -highest, .high = highest};
     look.map = whole ? GM_MAP_SEQUENTIAL : GM_MAP_DIVERGING;
     look.low = whole ? 0 : -highest;
-    picture->title =
-        gm_picture_text(picture, "%s of the sine-Gordon equation", titles[scene->solution.initial]);
+    picture->title = titles[scene->solution.initial];
     picture->subtitle = gm_picture_text(
         picture, "%s = %g,  %ld points,  Δx = %g%s",
         scene->solution.initial == GM_BREATHER ? "ω" : "velocity",
