@@ -160,8 +160,10 @@ static void put_surroundings(void)
     static const char *const environment[][2] = {
         {"GEOMINT_GL", "osmesa or egl: which OpenGL paints without a screen"},
         {"GEOMINT_COLOURS", "truecolor, 256, 16 or none, whatever the terminal says"},
-        {"GEOMINT_BLOCKS", "braille, quadrants, half or ascii: the characters that pictures are made of"},
-        {"GEOMINT_THEME", "light or dark, in the terminal"},
+        {"GEOMINT_GRAPHICS",
+         "kitty, sixel, braille, quadrants, half or ascii: what pictures in the terminal are made of"},
+        {"GEOMINT_THEME", "light, dark or mono, in the terminal"},
+        {"GEOMINT_TOURS", "a folder with tours, in place of the installed ones"},
         {"NO_COLOR", "if it is not empty, the explorer uses no colour"},
     };
     printf(".SH EXIT STATUS\n");
@@ -202,11 +204,12 @@ int gm_command_manual(const struct gm_options *options)
            "integrator keeps and what an ordinary one destroys\n.SH SYNOPSIS\n",
            GM_VERSION);
     for (size_t i = 0; i < gm_command_count; i++) {
-        printf(".B geomint ");
-        put(i ? gm_commands[i].name : "");
-        printf("\n.I ");
-        put_line(gm_commands[i].synopsis);
-        printf(".br\n");
+        printf("%s.B geomint%s", i ? ".br\n" : "", i ? " " : "");
+        put_line(i ? gm_commands[i].name : "");
+        if (gm_commands[i].synopsis[0]) {
+            printf(".I ");
+            put_line(gm_commands[i].synopsis);
+        }
     }
     printf(
         ".SH DESCRIPTION\nShows and measures geometric integrators: live in a terminal, or as pictures and movies "
