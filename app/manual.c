@@ -54,15 +54,16 @@ static void put_commands(void)
     for (size_t i = 0; i < gm_command_count; i++) {
         put_term(gm_commands[i].name, gm_commands[i].synopsis);
         put_line(gm_commands[i].help);
-        printf(".RS\n");
+        size_t options = 0;
         for (size_t k = 0; k < gm_option_count(); k++) {
             const struct gm_option option = gm_option_at(k);
             if (option.commands & gm_commands[i].bit) {
+                printf("%s", options++ ? "" : ".RS\n");
                 put_term(option.name, option.value);
                 put_line(option.help);
             }
         }
-        printf(".RE\n");
+        printf("%s", options ? ".RE\n" : "");
     }
     put_term("--help", "");
     put_line("commands and options");

@@ -257,6 +257,17 @@ static void three_states_stand_in_a_row(void **state)
     }
     assert_false(isnan(title));
     gm_picture_close(picture);
+
+    /* also where a grid would make them a little larger */
+    picture = picture_of(3, 1, false, false);
+    for (struct gm_panel *panel = picture->first; panel->place == GM_PLACE_STATE; panel = panel->next) {
+        panel->x.low = -1.6;
+        panel->x.high = 1.6;
+    }
+    layout = gm_layout_make(picture, &metrics);
+    assert_non_null(layout);
+    assert_true(layout->frames[0].box.y == layout->frames[2].box.y);
+    gm_picture_close(picture);
 }
 
 /* One colour bar for all takes its room once. */
