@@ -13,18 +13,22 @@ static const char *command_name(size_t i, const void *data)
     return (void)data, gm_commands[i].name;
 }
 
+static void help_command(const struct gm_command_row *command)
+{
+    printf("  geomint %s %s\n      %s\n", command->name, command->synopsis, command->help);
+    gm_options_help(command->bit);
+}
+
 static int help(void)
 {
     printf("geomint %s: see what a geometric integrator keeps and what an ordinary one destroys.\n\n"
            "  geomint [tui [SCENE] [key=value ...]]\n",
            GM_VERSION);
     for (size_t i = 0; i < gm_command_count; i++) {
-        printf("  geomint %s %s\n      %s\n", gm_commands[i].name, gm_commands[i].synopsis,
-               gm_commands[i].help);
-        gm_options_help(gm_commands[i].bit);
+        help_command(&gm_commands[i]);
     }
     printf(
-        "  geomint --version | --help\n\n"
+        "  geomint --version | --help, geomint COMMAND --help\n\n"
         "key=value sets a parameter (geomint list SCENE names them), scheme=a,b,c the schemes; every key takes\n"
         "a list, and lanes are the product of the lists (zip=yes pairs them, overlay=yes puts all\n"
         "into one panel). Numbers are typed as 1e-3, pi/60.\n"
@@ -59,6 +63,12 @@ int main(int argc, char *argv[])
     }
     if (command->bit == GM_COMPLETE) {
         return gm_command_complete(argc - first, argv + first);
+    }
+    for (int i = first; i < argc; i++) {
+        if (strcmp(argv[i], "--help") == 0) {
+            help_command(command);
+            return gm_finish(GM_EXIT_OK);
+        }
     }
     char message[GM_MESSAGE];
     struct gm_options options;

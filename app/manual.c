@@ -54,15 +54,16 @@ static void put_commands(void)
     for (size_t i = 0; i < gm_command_count; i++) {
         put_term(gm_commands[i].name, gm_commands[i].synopsis);
         put_line(gm_commands[i].help);
-        printf(".RS\n");
+        size_t options = 0;
         for (size_t k = 0; k < gm_option_count(); k++) {
             const struct gm_option option = gm_option_at(k);
             if (option.commands & gm_commands[i].bit) {
+                printf("%s", options++ ? "" : ".RS\n");
                 put_term(option.name, option.value);
                 put_line(option.help);
             }
         }
-        printf(".RE\n");
+        printf("%s", options ? ".RE\n" : "");
     }
     put_term("--help", "");
     put_line("commands and options");
@@ -160,8 +161,10 @@ static void put_surroundings(void)
     static const char *const environment[][2] = {
         {"GEOMINT_GL", "osmesa or egl: which OpenGL paints without a screen"},
         {"GEOMINT_COLOURS", "truecolor, 256, 16 or none, whatever the terminal says"},
-        {"GEOMINT_BLOCKS", "braille, quadrants, half or ascii: the characters that pictures are made of"},
-        {"GEOMINT_THEME", "light or dark, in the terminal"},
+        {"GEOMINT_GRAPHICS",
+         "kitty, sixel, braille, quadrants, half or ascii: what pictures in the terminal are made of"},
+        {"GEOMINT_THEME", "light, dark or mono, in the terminal"},
+        {"GEOMINT_TOURS", "a folder with tours, in place of the installed ones"},
         {"NO_COLOR", "if it is not empty, the explorer uses no colour"},
     };
     printf(".SH EXIT STATUS\n");
@@ -202,11 +205,12 @@ int gm_command_manual(const struct gm_options *options)
            "integrator keeps and what an ordinary one destroys\n.SH SYNOPSIS\n",
            GM_VERSION);
     for (size_t i = 0; i < gm_command_count; i++) {
-        printf(".B geomint ");
-        put(i ? gm_commands[i].name : "");
-        printf("\n.I ");
-        put_line(gm_commands[i].synopsis);
-        printf(".br\n");
+        printf("%s.B geomint%s", i ? ".br\n" : "", i ? " " : "");
+        put_line(i ? gm_commands[i].name : "");
+        if (gm_commands[i].synopsis[0]) {
+            printf(".I ");
+            put_line(gm_commands[i].synopsis);
+        }
     }
     printf(
         ".SH DESCRIPTION\nShows and measures geometric integrators: live in a terminal, or as pictures and movies "

@@ -90,10 +90,9 @@ static void draw_map(const struct gm_stability_table *table, const struct gm_sta
 void gm_stability_draw(const struct gm_stability_table *table, struct gm_picture *picture)
 {
     const struct gm_timing *timing = table->request.lanes[0].parameters;
-    picture->title =
-        gm_picture_text(picture, "%s: which time step keeps which scheme", table->request.scene->title);
-    picture->subtitle =
-        gm_picture_text(picture, "up: %s;  after t = %.6g", table->plan->label, timing->until);
+    picture->title = gm_picture_text(picture, "%s: which step is stable", table->request.scene->title);
+    picture->subtitle = gm_picture_text(picture, "up: %s;  after t = %s", table->plan->label,
+                                        gm_step_text(picture, timing->until));
     char letters[128];
     gm_stability_letters(table, letters, sizeof letters);
     picture->caption = gm_picture_text(picture, "Empty: bounded.  %s%s", letters, letters[0] ? "." : "");

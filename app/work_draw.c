@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/work.h"
+#include "scenes/graph.h"
 
 enum { NAMED = GM_LANE_COLOURS };
 
@@ -18,7 +19,8 @@ static bool holds(const struct gm_work_line *const *chosen, size_t count, const 
     return false;
 }
 
-/* The cheapest at each error by either cost, then the scene's preferred ones. */
+/* The cheapest at each error by either cost, then the scene's preferred ones, then, where there are few,
+ * others. */
 static size_t choose(const struct gm_work_table *table, const struct gm_work_line *chosen[NAMED])
 {
     size_t count = 0;
@@ -43,6 +45,11 @@ static size_t choose(const struct gm_work_table *table, const struct gm_work_lin
             }
         }
     }
+    for (size_t i = 0; table->line_count <= 2 * NAMED && i < table->line_count && count < NAMED; i++) {
+        if (table->lines[i].count > 1 && !holds(chosen, count, &table->lines[i])) {
+            chosen[count++] = &table->lines[i];
+        }
+    }
     return count;
 }
 
@@ -61,32 +68,84 @@ static size_t points_of(const struct gm_work_line *line, enum gm_work_cost cost,
     return count;
 }
 
-/* Where a name stands: beside the point of its line that is farthest from the names that stand already. */
-static size_t free_point(const struct gm_panel *panel, const double *points, size_t count,
-                         const double *taken, size_t taken_count)
+/* Where names stand. Everything in parts of the panel's width and height. */
+struct place {
+    double left, low, right, high;
+};
+
+/* A drawn line, as it stands in the panel. */
+struct drawn {
+    const double *points;
+    size_t count;
+};
+
+static double across(const struct gm_axis *axis, double value)
 {
-    const double wide = log(panel->x.high / panel->x.low), tall = log(panel->y.high / panel->y.low);
-    size_t best = count - 1;
-    double most = -1;
-    for (size_t k = count; k-- > 0;) {
-        /* room for the text to the right, and above the axis */
-        if (log(panel->x.high / points[2 * k]) < 0.3 * wide ||
-            log(points[2 * k + 1] / panel->y.low) < 0.04 * tall) {
-            continue;
+    return log(value / axis->low) / log(axis->high / axis->low);
+}
+
+/* How much of a line runs through a place, in steps of a hundredth of the panel. */
+static double covered(const struct gm_panel *panel, const struct drawn *line, const struct place *place)
+{
+    double steps = 0;
+    for (size_t k = 0; k + 1 < line->count; k++) {
+        const double *from = &line->points[2 * k], *to = from + 2;
+        const double x = across(&panel->x, from[0]), y = across(&panel->y, from[1]);
+        const double dx = across(&panel->x, to[0]) - x, dy = across(&panel->y, to[1]) - y;
+        const int pieces = 1 + (int)fmin(100, 100 * hypot(dx, dy));
+        for (int i = 0; i <= pieces; i++) {
+            const double u = x + dx * i / pieces, v = y + dy * i / pieces;
+            steps += u > place->left && u < place->right && v > place->low && v < place->high;
         }
-        double least = 1;
-        for (size_t i = 0; i < taken_count; i++) {
-            const double right = log(points[2 * k] / taken[2 * i]) / wide;
-            const double up = log(points[2 * k + 1] / taken[2 * i + 1]) / tall;
-            /* names are wide and low */
-            least = fmin(least, hypot(right / 4, up));
-        }
-        if (least > most + 1e-9) {
-            most = least;
-            best = k;
+    }
+    return steps;
+}
+
+/* The place for the name of line `own` among those drawn, that covers least and touches no other name: beside
+   one of its points, right or left, above or below. */
+static struct place name_place(const struct gm_panel *panel, const struct drawn *lines, size_t line_count,
+                               size_t own, const struct place *taken, size_t taken_count, size_t letters)
+{
+    /* a letter, and a line of text, in a picture of usual size */
+    const double wide = 0.016 * (double)letters, tall = 0.042, aside = 0.012;
+    struct place best = {0};
+    double least = INFINITY;
+    for (size_t k = 0; k < lines[own].count; k++) {
+        const double u = across(&panel->x, lines[own].points[2 * k]);
+        const double v = across(&panel->y, lines[own].points[2 * k + 1]);
+        for (int side = 0; side < 4; side++) {
+            const double left = side & 1 ? u - aside - wide : u + aside;
+            const double low = side & 2 ? v - 0.8 * tall : v - 0.2 * tall;
+            const struct place place = {left, low, left + wide, low + tall};
+            /* later points lie lower, where lines part */
+            double cost =
+                0.2 * (double)side + 0.5 * (double)(lines[own].count - k) / (double)lines[own].count;
+            cost += place.left < 0 || place.right > 1 ? 40 : 0;
+            cost += place.low < 0 || place.high > 1.02 ? 40 : 0;
+            for (size_t i = 0; i < taken_count; i++) {
+                const bool apart = place.left > taken[i].right || place.right < taken[i].left ||
+                                   place.low > taken[i].high || place.high < taken[i].low;
+                cost += apart ? 0 : 100;
+            }
+            for (size_t i = 0; i < line_count; i++) {
+                cost += covered(panel, &lines[i], &place);
+            }
+            if (cost < least) {
+                least = cost;
+                best = place;
+            }
         }
     }
     return best;
+}
+
+static size_t letters_of(const char *text)
+{
+    size_t letters = 0;
+    for (; *text; text++) {
+        letters += ((unsigned char)*text & 0xc0) != 0x80;
+    }
+    return letters;
 }
 
 static void draw_cost(const struct gm_work_table *table, struct gm_picture *picture, enum gm_work_cost cost,
@@ -124,26 +183,30 @@ static void draw_cost(const struct gm_work_table *table, struct gm_picture *pict
                          false);
         }
     }
-    double taken[2 * NAMED];
+    struct drawn lines[NAMED];
+    for (size_t i = 0; i < chosen_count; i++) {
+        const size_t most = table->step_count * table->resolution_count;
+        double *own = gm_picture_memory(picture, 2 * most * sizeof *own);
+        lines[i] = (struct drawn){own, own ? points_of(chosen[i], cost, own) : 0};
+        const struct gm_style style = {gm_lane_role(i), 1, 2.4, gm_lane_dash(i)};
+        gm_mark_line(picture, panel, style, own, lines[i].count, false);
+        gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, own,
+                       lines[i].count);
+    }
+    struct place taken[NAMED];
     size_t taken_count = 0;
     for (size_t i = 0; i < chosen_count; i++) {
-        const size_t count = points_of(chosen[i], cost, points);
-        if (count == 0) {
+        const char *name = chosen[i]->scheme->title;
+        if (lines[i].count == 0) {
             continue;
         }
-        const struct gm_style style = {gm_lane_role(i), 1, 2.4, gm_lane_dash(i)};
-        gm_mark_line(picture, panel, style, points, count, false);
-        gm_mark_points(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 6}, points,
-                       count);
-        const size_t at = free_point(panel, points, count, taken, taken_count);
-        taken[2 * taken_count] = points[2 * at];
-        taken[2 * taken_count + 1] = points[2 * at + 1];
-        taken_count++;
-        /* a little to the right of its point */
-        gm_mark_text(picture, panel, (struct gm_style){.role = style.role, .alpha = 1, .width = 1},
-                     points[2 * at] * pow(panel->x.high / panel->x.low, 0.015),
-                     points[2 * at + 1] * pow(panel->y.high / panel->y.low, 0.02), GM_ANCHOR_LEFT,
-                     chosen[i]->scheme->title);
+        const struct place place =
+            name_place(panel, lines, chosen_count, i, taken, taken_count, letters_of(name));
+        taken[taken_count++] = place;
+        gm_mark_text(picture, panel, (struct gm_style){.role = gm_lane_role(i), .alpha = 1, .width = 1},
+                     panel->x.low * pow(panel->x.high / panel->x.low, place.left),
+                     panel->y.low * pow(panel->y.high / panel->y.low, 0.5 * (place.low + place.high)),
+                     GM_ANCHOR_LEFT, name);
     }
 }
 
@@ -152,12 +215,13 @@ void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture)
     const struct gm_work_line *chosen[NAMED] = {NULL};
     const size_t count = choose(table, chosen);
     const struct gm_scene *scene = table->request.scene;
+    const struct gm_timing *timing = table->request.lanes[0].parameters;
     char sentence[512];
     picture->title = gm_picture_text(picture, "%s: what an accuracy costs", scene->title);
 
-    picture->subtitle = gm_picture_text(picture, "%s at t = %.6g, %s%s%zu schemes%s", table->measure_title,
-                                        ((const struct gm_timing *)table->request.lanes[0].parameters)->until,
-                                        table->settings, table->settings[0] ? ", " : "", table->line_count,
+    picture->subtitle = gm_picture_text(picture, "%s at t = %s,  %s%s%zu schemes%s", table->measure_title,
+                                        gm_step_text(picture, timing->until), table->settings,
+                                        table->settings[0] ? ",  " : "", table->line_count,
                                         count < table->line_count ? ";  grey: those without a name" : "");
 
     picture->clock = "";

@@ -104,30 +104,33 @@ const struct gm_work_line *gm_work_cheapest(const struct gm_work_table *table, d
 const char *gm_work_error_text(double error, char text[24])
 {
     static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    const int power = (int)round(-log10(error));
-    if (power < 3 || power > 9) {
+    const double power = round(-log10(error));
+    if (power < 1 || power > 9 || fabs(error * pow(10, power) - 1) > 1e-9) {
         snprintf(text, 24, "%.3g", error);
     } else {
-        snprintf(text, 24, "10⁻%s", digits[power]);
+        snprintf(text, 24, "10⁻%s", digits[(int)power]);
     }
     return text;
 }
 
-/* "uniform Gauss 4 at 1 and 0.1, control Gauss 4 at 0.01." */
+/* "uniform Gauss 4 at 1 and 10⁻¹, control Gauss 4 at 10⁻²." */
 static size_t tell_cheapest(const struct gm_work_table *table, const char *front, enum gm_work_cost cost,
                             char *text, size_t size)
 {
     size_t used = (size_t)snprintf(text, size, "%s", front);
-    const struct gm_work_line *before = NULL;
-    for (size_t i = 0; i < 3 && used < size; i++) {
-        const struct gm_work_line *line = gm_work_cheapest(table, table->errors[i], cost);
+    enum { ERRORS = 3 };
+    const struct gm_work_line *lines[ERRORS];
+    for (size_t i = 0; i < ERRORS; i++) {
+        lines[i] = gm_work_cheapest(table, table->errors[i], cost);
+    }
+    for (size_t i = 0; i < ERRORS && used < size; i++) {
         char word[24];
         gm_work_error_text(table->errors[i], word);
-        used += i > 0 && line == before
-                    ? (size_t)snprintf(text + used, size - used, " and %s", word)
-                    : (size_t)snprintf(text + used, size - used, "%s %s at %s", i ? "," : "",
-                                       line ? line->scheme->title : "none", word);
-        before = line;
+        const bool same = i > 0 && lines[i] == lines[i - 1];
+        const bool last = i + 1 == ERRORS || lines[i + 1] != lines[i];
+        used += same ? (size_t)snprintf(text + used, size - used, "%s %s", last ? " and" : ",", word)
+                     : (size_t)snprintf(text + used, size - used, "%s %s at %s", i ? ";" : "",
+                                        lines[i] ? lines[i]->scheme->title : "none", word);
     }
     used = used < size ? used : size - 1;
     used += (size_t)snprintf(text + used, size - used, ".");

@@ -179,6 +179,11 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
     const double width = fmax(0.0, column - border.left - border.right);
     const double height = fmax(0.0, row - border.top - border.bottom);
 
+    bool noted = false;
+    for (size_t i = 0; i < group->count; i++) {
+        const struct gm_panel *panel = group->frames[i].panel;
+        noted |= panel->first_key != NULL || (panel->note != NULL && panel->note[0] != '\0');
+    }
     const bool small_titles = titles_too_long(list, group, column);
     for (size_t i = 0; i < group->count; i++) {
         const struct gm_panel *panel = group->frames[i].panel;
@@ -200,6 +205,7 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
                       &(struct gm_fill){.box = box,
                                         .detail = group->detail,
                                         .x_label = names_x(group, i),
+                                        .noted = noted,
                                         .small_title = small_titles,
                                         .title_left = x,
                                         .title_width = column});
@@ -224,15 +230,20 @@ static double place_header(struct gm_label_list *list, const struct gm_picture *
         left -= gm_labels_width(list, GM_TEXT_TITLE, picture->clock) + column_gap * scale;
         header = true;
     }
-    header |= gm_labels_add(
-        list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_TITLE, picture->title, left),
-                                .size = GM_TEXT_TITLE,
-                                .role = GM_INK,
-                                .bold = true,
-                                .x = margin,
-                                .y = y});
+    /* upright surfaces have room for a second line */
+    const char *lines[2];
+    const size_t count = gm_labels_wrap(list, GM_TEXT_TITLE, picture->title, left,
+                                        metrics->height > metrics->width ? 2 : 1, lines);
+    for (size_t i = 0; i < count; i++) {
+        header |= gm_labels_add(list, (struct gm_label){.text = lines[i],
+                                                        .size = GM_TEXT_TITLE,
+                                                        .role = GM_INK,
+                                                        .bold = true,
+                                                        .x = margin,
+                                                        .y = y + (double)i * metrics->line[GM_TEXT_TITLE]});
+    }
     if (header) {
-        y += metrics->line[GM_TEXT_TITLE];
+        y += (double)(count > 1 ? count : 1) * metrics->line[GM_TEXT_TITLE];
     }
     if (!metrics->terse &&
         gm_labels_add(

@@ -207,6 +207,8 @@ static void label_panel(struct gm_label_list *list, const struct gm_panel *panel
     } else if (fill->detail < GM_DETAIL_NO_NOTE && panel->first_key != NULL) {
         y -= metrics->line[GM_TEXT_LABEL];
         label_keys(list, panel, fill->box.x, y, fill->title_left + fill->title_width - fill->box.x);
+    } else if (fill->detail < GM_DETAIL_NO_NOTE && fill->noted) {
+        y -= metrics->line[GM_TEXT_LABEL];
     }
     if (fill->detail < GM_DETAIL_DATA && has(panel->title)) {
         gm_labels_add(list, (struct gm_label){.text = title,

@@ -32,8 +32,9 @@ void gm_axis_range(const struct gm_axis *axis, double *low, double *high);
 struct gm_fill {
     struct gm_box box; /* of the data */
     enum gm_detail detail;
-    bool x_label;                   /* names the x axis */
-    bool small_title;               /* where the group's titles are too long for their usual size */
+    bool x_label;     /* names the x axis */
+    bool noted;       /* some panel of the group has a note: titles stand above notes in all of them */
+    bool small_title; /* where the group's titles are too long for their usual size */
     double title_left, title_width; /* room for titles, which begin with the box where they fit so */
 };
 

@@ -357,7 +357,7 @@ static void format_log(struct writer *writer, double value, double step)
     const int leading = (int)floor(exponent + 1e-9);
     /* As many digits as the value has: ticks are round, but those of a narrow range are not one digit. */
     const int digits = 1 + decimals_of(scaled(value, -leading));
-    if (leading < -3 || leading > 4) {
+    if (leading < -2 || leading > 4) {
         put_scientific(writer, value, scaled(1.0, leading + 1 - digits));
         return;
     }

@@ -127,6 +127,28 @@ static bool is_wild(const struct gm_field_look *look, const double *points, size
     return wild;
 }
 
+/* A profile that jumps from point to point as the band that it sweeps: its line would hide all others. */
+static void draw_band(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                      const double *points, size_t count)
+{
+    enum { PLACES = 160 };
+    double band[4 * PLACES];
+    const size_t places = count / 2 < PLACES ? count / 2 : PLACES;
+    for (size_t p = 0; p < places; p++) {
+        const size_t first = p * (count - 1) / places, last = (p + 1) * (count - 1) / places;
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = first; i <= last; i++) {
+            gm_range_add(&low, &high, points[2 * i + 1]);
+        }
+        const double x = 0.5 * (points[2 * first] + points[2 * last]);
+        double *above = &band[2 * p], *below = &band[2 * (2 * places - 1 - p)];
+        above[0] = below[0] = x;
+        above[1] = fmin(high, panel->y.high);
+        below[1] = fmax(low, panel->y.low);
+    }
+    gm_mark_polygon(picture, panel, style, band, 2 * places);
+}
+
 /* One graph: the profiles of all lanes now, over the exact one. A lane that froze is not there any more. */
 static void draw_profiles(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                           const struct gm_field_look *look)
@@ -164,8 +186,12 @@ static void draw_profiles(struct gm_picture *picture, const struct gm_lane *cons
         for (size_t i = 0; i < count; i++) {
             const size_t made = profile(lanes[i], look, points);
             const bool here = lanes[i]->run->status == GM_OK || lanes[i] == ahead;
-            if (here && is_wild(look, points, made) == !tame) {
-                gm_mark_line(picture, panel, gm_lane_style(lanes[i], tame ? 1 : 0.6, 2), points, made, false);
+            if (here && !is_wild(look, points, made) == tame) {
+                if (tame) {
+                    gm_mark_line(picture, panel, gm_lane_style(lanes[i], 1, 2), points, made, false);
+                } else {
+                    draw_band(picture, panel, gm_lane_style(lanes[i], 0.3, 1), points, made);
+                }
             }
         }
     }

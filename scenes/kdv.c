@@ -246,8 +246,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->subtitle = gm_picture_text(picture, "η = %g,  μ = %.3g,  %ld points%s", scene->kdv.eta,
                                         scene->kdv.mu, scene->points, gm_shared_step(picture, lanes, count));
     const struct gm_graph graphs[] = {
-        {.observable = "solution_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
-        {.observable = "square_error", .scale = GM_LOG, .calm_low = 1e-12, .calm_high = 1e-2},
+        {.observable = "solution_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
+        {.observable = "square_error",
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = 1e-12,
+         .calm_high = 1e-2},
     };
     /* the cosine has no exact solution */
     gm_draw_field(picture, lanes, count, &look, cosine ? graphs + 1 : graphs, cosine ? 1 : 2);

@@ -217,8 +217,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                         scene->nls.amplitude, alone ? "" : "±", scene->nls.velocity,
                                         scene->points, gm_shared_step(picture, lanes, count));
     const struct gm_graph graphs[] = {
-        {.observable = "charge_error", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2},
-        {.observable = "energy_error", .scale = GM_LOG, .calm_low = 1e-8, .calm_high = 1e-2},
+        {.observable = "charge_error",
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = 1e-16,
+         .calm_high = 1e-2},
+        {.observable = "energy_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-8, .calm_high = 1e-2},
     };
     gm_draw_field(picture, lanes, count, &look, graphs, sizeof graphs / sizeof graphs[0]);
 }

@@ -211,8 +211,10 @@ static size_t point(const void *own, double x, double u, struct gm_choice *choic
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct scene *scene = lanes[0]->parameters;
-    static const char *const titles[] = {"A breather", "A kink", "An antikink", "A kink and an antikink part",
-                                         "An antikink and a kink collide"};
+    static const char *const titles[] = {
+        "A breather of the sine-Gordon equation", "A kink of the sine-Gordon equation",
+        "An antikink of the sine-Gordon equation", "A sine-Gordon kink and antikink part",
+        "A sine-Gordon antikink and kink collide"};
     const double jump = gm_sine_gordon_jump(&scene->solution);
     const bool whole = jump != 0;
     const double highest = scene->solution.initial == GM_BREATHER ? 5 : 2 * M_PI;
@@ -220,16 +222,19 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .value = value, .exact = exact, .name = "u", .low = -highest, .high = highest};
     look.map = whole ? GM_MAP_SEQUENTIAL : GM_MAP_DIVERGING;
     look.low = whole ? 0 : -highest;
-    picture->title =
-        gm_picture_text(picture, "%s of the sine-Gordon equation", titles[scene->solution.initial]);
+    picture->title = titles[scene->solution.initial];
     picture->subtitle = gm_picture_text(
         picture, "%s = %g,  %ld points,  Δx = %g%s",
         scene->solution.initial == GM_BREATHER ? "ω" : "velocity",
         scene->solution.initial == GM_BREATHER ? scene->solution.frequency : scene->solution.velocity,
         scene->points, lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count));
     const struct gm_graph graphs[] = {
-        {.observable = "solution_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
-        {.observable = "own_energy_error", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2},
+        {.observable = "solution_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
+        {.observable = "own_energy_error",
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = 1e-16,
+         .calm_high = 1e-2},
     };
     gm_draw_field(picture, lanes, count, &look, graphs, sizeof graphs / sizeof graphs[0]);
 }

@@ -117,6 +117,21 @@ static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, c
     }
 }
 
+/* How a lane stands: failed, or gone where nothing is drawn. */
+static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane, double reach)
+{
+    const size_t carried = gm_vortices_carried(lane->parameters);
+    const double *state = gm_run_state(lane->run);
+    size_t gone = 0;
+    for (size_t i = 0; i < carried; i++) {
+        gone += fmax(fabs(state[i]), fabs(state[carried + i])) > reach;
+    }
+    return lane->run->status != GM_OK ? gm_lane_failure(picture, lane)
+           : gone == 0                ? ""
+           : gone == carried          ? "out of the picture"
+                             : gm_picture_text(picture, "%zu of %zu out of the picture", gone, carried);
+}
+
 static void draw_plane(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     const double reach = reach_of(lanes, count);
@@ -133,7 +148,7 @@ static void draw_plane(struct gm_picture *picture, const struct gm_lane *const *
                     (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = -reach, .high = reach};
                 panel->equal = true;
                 panel->title_role = gm_lane_role(lane->shown.colour);
-                panel->note = gm_lane_failure(picture, lane);
+                panel->note = note_of(picture, lane, reach);
             } else {
                 panel->title_role = GM_INK;
                 panel->note = "";

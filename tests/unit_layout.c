@@ -232,6 +232,67 @@ static void coordinates_follow_the_axes(void **state)
     gm_picture_close(picture);
 }
 
+/* A row of three is better than a grid with a hole, flat graphs below it make it larger, and what one panel
+   has to say does not push its title out of line. */
+static void three_states_stand_in_a_row(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(1280, 720);
+    metrics.self = &metrics;
+    struct gm_picture *picture = picture_of(3, 2, false, false);
+    picture->graphs_below = true;
+    picture->first->note = "";
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    assert_non_null(layout);
+    const struct gm_frame *frames = layout->frames;
+    assert_true(frames[0].box.y == frames[1].box.y && frames[1].box.y == frames[2].box.y);
+    assert_true(frames[3].box.y > frames[2].box.y + frames[2].box.height);
+    assert_true(frames[3].box.y == frames[4].box.y);
+    double title = NAN;
+    for (size_t i = 0; i < layout->label_count; i++) {
+        if (strcmp(layout->labels[i].text, "symplectic Euler") == 0) {
+            assert_true(isnan(title) || layout->labels[i].y == title);
+            title = layout->labels[i].y;
+        }
+    }
+    assert_false(isnan(title));
+    gm_picture_close(picture);
+
+    /* also where a grid would make them a little larger */
+    picture = picture_of(3, 1, false, false);
+    for (struct gm_panel *panel = picture->first; panel->place == GM_PLACE_STATE; panel = panel->next) {
+        panel->x.low = -1.6;
+        panel->x.high = 1.6;
+    }
+    layout = gm_layout_make(picture, &metrics);
+    assert_non_null(layout);
+    assert_true(layout->frames[0].box.y == layout->frames[2].box.y);
+    gm_picture_close(picture);
+}
+
+/* One colour bar for all takes its room once. */
+static void a_bar_that_all_share_stands_beside_them(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(1280, 720);
+    metrics.self = &metrics;
+    double width[2];
+    for (int shared = 0; shared < 2; shared++) {
+        struct gm_picture *picture = picture_of(2, 0, true, true);
+        picture->state_columns = 2;
+        picture->first->equal = picture->last->equal = false;
+        picture->first->colour_bar = !shared;
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        assert_non_null(layout);
+        width[shared] = layout->frames[0].box.width;
+        assert_true(layout->frames[0].box.width == layout->frames[1].box.width);
+        const struct gm_box bar = layout->frames[1].colour_bar;
+        assert_true(bar.width > 0.0 && bar.x > layout->frames[1].box.x + layout->frames[1].box.width);
+        gm_picture_close(picture);
+    }
+    assert_true(width[1] > width[0] + 20.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -240,6 +301,8 @@ int main(void)
         cmocka_unit_test(terse_pictures_keep_one_graph),
         cmocka_unit_test(states_or_graphs_alone_take_the_width),
         cmocka_unit_test(coordinates_follow_the_axes),
+        cmocka_unit_test(three_states_stand_in_a_row),
+        cmocka_unit_test(a_bar_that_all_share_stands_beside_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -166,7 +166,9 @@ run "$folder/geomint" setup
 check "root installs without asking where nobody answers" says log \
     'apt-get -q install -y --no-install-recommends libpng-dev ffmpeg'
 check "from fresh lists" says log 'apt-get -q update'
-check "and builds anew, with what is there now" says log 'meson setup --wipe'
+check "and looks anew for what is there now" says log 'meson configure --clearcache'
+check "and configures with it" says log 'meson setup --reconfigure'
+check "what is built stays built" silent log '--wipe'
 check "successfully" same "$status" 0
 
 run "$folder/geomint" setup
