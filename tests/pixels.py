@@ -255,5 +255,36 @@ frames = len(slow.frames) - frames
 check(3 <= frames <= 22, f'{frames} frames in 4 s at .4 s a round trip')
 leave(slow)
 
+# a slow line: what is on the way is bounded, so keys are answered soon; model time goes on
+narrow = Terminal([geomint, 'disc', 'dt=0.02'], kind='plain', rate=8000)
+check(narrow.run(30, lambda: narrow.shows('SCHEMES')), 'no screen at 8 kB/s')
+narrow.run(6)
+narrow.keys(' ')
+read = narrow.output
+check(narrow.run(30, lambda: narrow.shows('paused')), 'it does not pause at 8 kB/s')
+print(f'8 kB/s: a key is answered after {narrow.output - read} bytes')
+check(narrow.output - read <= 20000, f'{narrow.output - read} bytes are before the answer to a key')
+narrow.rate = None
+leave(narrow)
+
+# what the terminal answers about its colours; the environment counts more
+for answers, how, colours in (({'background': 'ffff/ffff/dddd'}, {'COLORTERM': ''}, ['256', 'light']),
+                              ({'background': '1e/1e/22', 'true_colour': True}, {'COLORTERM': ''}, ['truecolor', 'dark']),
+                              ({'background': 'ffff/ffff/dddd'}, {'COLORFGBG': '15;0'}, ['truecolor', 'dark']),
+                              ({'background': 'fff/fff/ddd'}, {'COLORFGBG': 'default;default'}, ['truecolor', 'light']),
+                              ({'background': 'white'}, {}, ['truecolor', 'dark'])):
+    asked = Terminal([geomint, 'terminal'], kind='plain', environment=how, **answers)
+    asked.run(10, lambda: asked.status is not None)
+    for line in range(asked.rows):
+        words = asked.line(line).split()
+        if words[:1] == ['colours']:
+            check(words[1] == colours[0], f'{answers}, {how}: {words}')
+        if words[:1] == ['theme']:
+            check(words[1] == colours[1], f'{answers}, {how}: {words}')
+            colours = None
+            break
+    check(colours is None, f'{answers}, {how}: no theme is told')
+    asked.close()
+
 print('pixels:', 'all passed' if not failures else f'{failures} failures')
 sys.exit(failures > 0)

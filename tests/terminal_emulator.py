@@ -74,11 +74,13 @@ def decode_sixel(body):
 
 class Terminal:
     def __init__(self, command, columns=160, rows=45, cell=(10, 20), kind='sixel', sizes='system', delay=0,
-                 typed=b'', limits=None, environment=None, synchronised=True):
+                 typed=b'', limits=None, environment=None, synchronised=True, rate=None, background=None, true_colour=False):
         """kind: sixel, kitty or plain. sizes: who knows the size of a cell, 'system', 'terminal' or 'nobody'.
-        delay: of every answer, in seconds. typed: keys that are there when the program begins."""
+        delay: of every answer, in seconds. typed: keys that are there when the program begins. rate: bytes a second
+        that it reads. background: what it answers, as rgb:. true_colour: it keeps colours of 24 bits."""
         self.columns, self.rows, self.cell, self.kind, self.sizes = columns, rows, cell, kind, sizes
         self.delay, self.limits, self.synchronised = delay, limits, synchronised
+        self.rate, self.background, self.true_colour = rate, background, true_colour
         self.pending, self.answers, self.output = b'', [], 0
         self.text = [[' '] * columns for _ in range(rows)]
         self.pixels = [[None] * (columns * cell[0]) for _ in range(rows * cell[1])]
@@ -137,7 +139,9 @@ class Terminal:
                 return False
             if select.select([self.master], [], [], max(left, 0))[0]:
                 try:
-                    data = os.read(self.master, 65536)
+                    if self.rate:
+                        time.sleep(0.02)
+                    data = os.read(self.master, max(1, self.rate // 50) if self.rate else 65536)
                 except OSError:
                     data = b''
                 if not data:
@@ -213,6 +217,9 @@ class Terminal:
                 break
             if token[4]:
                 self.control(token[1].decode(), token[2].decode(), (token[3] + token[4]).decode())
+            elif token[5] == b'$qm':
+                colour = '48:2::1:2:3' if self.true_colour else '48:5:16'
+                self.answer(f'\x1bP1$r0;{colour}m\x1b\\')
             elif token[5] is not None:
                 self.sixel(token[5].decode('latin-1'))
             elif token[6] is not None:
@@ -231,6 +238,8 @@ class Terminal:
 
     def command(self, text):
         self.questions.append(text)
+        if text == '11;?' and self.background:
+            self.answer(f'\x1b]11;rgb:{self.background}\x07')
 
     def special(self, byte):
         if byte == b'\r':
@@ -299,6 +308,7 @@ class Terminal:
                 self.answer(f'\x1b_Gi={keys["i"]};OK\x1b\\')
             return
         assert self.kind == 'kitty', 'images for a terminal without'
+        assert int(keys.get('z', 0)) >= 0, 'below the text Kitty 0.26 draws its window wrong'
         if keys.get('a') == 'd':
             assert keys['d'] == 'A'
             self.tiles = {}
