@@ -77,10 +77,11 @@ class Terminal:
                  typed=b'', limits=None, environment=None, synchronised=True, rate=None, background=None, true_colour=False):
         """kind: sixel, kitty or plain. sizes: who knows the size of a cell, 'system', 'terminal' or 'nobody'.
         delay: of every answer, in seconds. typed: keys that are there when the program begins. rate: bytes a second
-        that it reads. background: what it answers, as rgb:. true_colour: it keeps colours of 24 bits."""
+        that it reads, at the end of a line that takes any number. background: what it answers, as rgb:. true_colour: it keeps colours of 24 bits."""
         self.columns, self.rows, self.cell, self.kind, self.sizes = columns, rows, cell, kind, sizes
         self.delay, self.limits, self.synchronised = delay, limits, synchronised
         self.rate, self.background, self.true_colour = rate, background, true_colour
+        self.queue, self.read_on = b'', 0  # what is on its way where it reads slowly, and when it read last
         self.pending, self.answers, self.output = b'', [], 0
         self.text = [[' '] * columns for _ in range(rows)]
         self.pixels = [[None] * (columns * cell[0]) for _ in range(rows * cell[1])]
@@ -135,20 +136,27 @@ class Terminal:
             left = end - now
             if self.answers:
                 left = min(left, self.answers[0][0] - now)
+            if self.queue:
+                left = min(left, 0.02)
             if end <= now:
                 return False
             if select.select([self.master], [], [], max(left, 0))[0]:
                 try:
-                    if self.rate:
-                        time.sleep(0.02)
-                    data = os.read(self.master, max(1, self.rate // 50) if self.rate else 65536)
+                    data = os.read(self.master, 65536)
                 except OSError:
                     data = b''
                 if not data:
                     self.status = os.waitpid(self.pid, 0)[1]
                     return bool(until and until())
                 self.output += len(data)
-                self.pending += data
+                self.queue += data
+                self.read_on = max(self.read_on, now - 0.02)
+            passed = time.monotonic() - self.read_on
+            if self.queue and (not self.rate or passed >= 0.01):
+                count = int(passed * self.rate) if self.rate else len(self.queue)
+                self.pending += self.queue[:count]
+                self.queue = self.queue[count:]
+                self.read_on += passed
                 self.parse()
 
     def settle(self, seconds=20):

@@ -329,7 +329,7 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
 }
 
 /* At most so many bytes may be on their way: some frames of cells, or one picture. A queue of more than LAG
-   milliseconds is too long; without an answer for LOST, it is not waited for. */
+   milliseconds is too long; an answer that is LOST later than even a slow line explains is not waited for. */
 enum { ON_THE_WAY = 32768, LEAST_ON_THE_WAY = 1024, LAG = 200, LOST = 3000 };
 
 /* Additive increase and multiplicative decrease, as for the window of TCP. */
@@ -381,9 +381,8 @@ int gm_writer_patience(const struct gm_writer *writer)
     if (writer->answered == writer->asked) {
         return -1;
     }
-    /* who answered once will again, be it at a kilobyte a second */
-    const int64_t extra = writer->heard > 0 ? (int64_t)flying(writer) : 0;
-    const int64_t left = writer->asked_at + LOST + extra - milliseconds();
+    /* the line may take a kilobyte a second */
+    const int64_t left = writer->asked_at + LOST + (int64_t)flying(writer) - milliseconds();
     return left > 0 ? (int)left : 0;
 }
 
