@@ -269,6 +269,27 @@ check(queued < 40000 and waited < 12, f'at 4 kB/s {queued} bytes are on their wa
 narrow.rate = None
 leave(narrow)
 
+# Ctrl-Z gives the shell a clean screen, and fg takes it back; where no shell could wake it, it passes
+shell = Terminal(['/bin/bash', '--norc', '--noprofile', '-i'], kind='kitty')
+shell.keys(f'{shlex.quote(geomint)} {" ".join(SCENE)}\n')
+check(shell.run(20, lambda: shell.shows('SCHEMES') and shell.tiles), 'no screen in a shell')
+for _ in range(2):
+    shell.keys('\x1a')
+    check(shell.run(10, lambda: shell.shows(SCENE[1])), 'Ctrl-Z does not stop it')  # the shell tells what it stopped
+    check(not shell.tiles and not shell.shows('PARAMETERS'), 'stopped, it leaves its screen behind')
+    shell.keys('fg\n')
+    check(shell.run(10, lambda: shell.shows('SCHEMES') and shell.tiles), 'fg does not bring it back')
+shell.keys('q')
+check(shell.run(5, lambda: not shell.shows('SCHEMES') and not shell.tiles), 'it leaves its screen behind')
+shell.keys('exit\n')
+shell.run(5, lambda: shell.status is not None)
+shell.close()
+alone = Terminal([geomint, *SCENE], kind='plain')
+check(alone.run(10, lambda: alone.shows('SCHEMES')), 'no screen')
+alone.keys('\x1a')
+alone.run(1)
+leave(alone)
+
 # what the terminal answers about its colours; the environment counts more
 for answers, how, colours in (({'background': 'ffff/ffff/dddd'}, {'COLORTERM': ''}, ['256', 'light']),
                               ({'background': '1e/1e/22', 'true_colour': True}, {'COLORTERM': ''}, ['truecolor', 'dark']),
