@@ -83,17 +83,28 @@ static void print_text(const struct outcome *outcome)
     if (lane->shown.colour_name[0]) {
         printf("  %s\n", lane->shown.colour_name);
     }
-    printf("  %-20s %s\n", "status", gm_status_name(run->status));
-    printf("  %-20s %.10g\n  %-20s %ld\n  %-20s %.0f\n  %-20s %.0f\n  %-20s %.3g\n", "t", run->t, "steps",
-           run->steps, "evaluations", gm_run_per_member(run, run->evaluations), "solves",
-           gm_run_per_member(run, run->solves), "seconds", outcome->drive.seconds);
+    int width = 0; /* of the names */
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        printf("  %-20s %.10g\n", lane->scene->observables[i].key, gm_lane_observe(lane, i));
+        const int length = (int)strlen(lane->scene->observables[i].key) + (outcome->maxima ? 4 : 0);
+        width = length > width ? length : width;
+    }
+    width = width > 20 ? width : 20;
+    printf("  %-*s %s\n", width, "status", gm_status_name(run->status));
+    char sentence[GM_SENTENCE];
+    gm_failure_sentence(lane, sentence, sizeof sentence);
+    if (sentence[0]) {
+        printf("  %-*s %s\n", width, "message", sentence);
+    }
+    printf("  %-*s %.10g\n  %-*s %ld\n  %-*s %.0f\n  %-*s %.0f\n  %-*s %.3g\n", width, "t", run->t, width,
+           "steps", run->steps, width, "evaluations", gm_run_per_member(run, run->evaluations), width,
+           "solves", gm_run_per_member(run, run->solves), width, "seconds", outcome->drive.seconds);
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        printf("  %-*s %.10g\n", width, lane->scene->observables[i].key, gm_lane_observe(lane, i));
     }
     char name[64];
     for (size_t i = 0; outcome->maxima && i < lane->scene->observable_count; i++) {
         snprintf(name, sizeof name, "%s_max", lane->scene->observables[i].key);
-        printf("  %-20s %.10g\n", name, outcome->maxima[i]);
+        printf("  %-*s %.10g\n", width, name, outcome->maxima[i]);
     }
 }
 

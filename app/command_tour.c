@@ -51,6 +51,20 @@ static int list_steps(const struct gm_tour *tour)
     return gm_finish(GM_EXIT_OK);
 }
 
+/* A movie has light or dark paper. */
+static int make_movie(const struct gm_tour *tour, const struct gm_options *options)
+{
+    struct gm_options painted = *options;
+    const bool dark = options->look && strcmp(options->look, "dark") == 0;
+    if (options->look && !dark && strcmp(options->look, "light") != 0) {
+        gm_complain("--theme %.60s: is none of: light, dark", options->look);
+        return GM_EXIT_USAGE;
+    }
+    painted.theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
+    gm_catch_interrupts();
+    return gm_finish(gm_tour_render(tour, &painted));
+}
+
 int gm_command_tour(const struct gm_options *options)
 {
     char message[GM_MESSAGE], path[8192];
@@ -79,10 +93,10 @@ int gm_command_tour(const struct gm_options *options)
     if (options->listing) {
         status = list_steps(&tour);
     } else if (options->movie || options->out) {
-        gm_catch_interrupts();
-        status = gm_finish(gm_tour_render(&tour, options));
+        status = make_movie(&tour, options);
     } else {
-        status = gm_explorer_tour(&tour, &(const struct gm_overrides){0});
+        const struct gm_overrides overrides = gm_overrides_of(options);
+        status = gm_explorer_tour(&tour, &overrides);
     }
     gm_tour_close(&tour);
     return status;

@@ -5,7 +5,7 @@
 #include "app/explorer/explorer.h"
 #include "app/explorer/terminal.h"
 
-static struct gm_overrides overrides_of(const struct gm_options *options)
+struct gm_overrides gm_overrides_of(const struct gm_options *options)
 {
     return (struct gm_overrides){
         .colours = options->colours, .graphics = options->graphics, .theme = options->look};
@@ -17,7 +17,7 @@ int gm_command_terminal(const struct gm_options *options)
         gm_complain("terminal takes no arguments");
         return GM_EXIT_USAGE;
     }
-    const struct gm_overrides overrides = overrides_of(options);
+    const struct gm_overrides overrides = gm_overrides_of(options);
     return gm_finish(gm_terminal_report(&overrides));
 }
 
@@ -30,7 +30,7 @@ int gm_command_tui(const struct gm_options *options)
         gm_complain("%s", message);
         return GM_EXIT_USAGE;
     }
-    const struct gm_overrides overrides = overrides_of(options);
+    const struct gm_overrides overrides = gm_overrides_of(options);
     const int status = gm_explorer(options->word_count > 0 ? &request : NULL, &overrides);
     gm_request_close(&request);
     return status;

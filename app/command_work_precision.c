@@ -45,7 +45,8 @@ static void print_table(const struct gm_work_table *table)
             print_cell(1e3 * gm_work_price(line, table->errors[k], GM_COST_SECONDS));
         }
         for (size_t k = 0; k < 3; k++) {
-            print_cell(gm_work_price(line, table->errors[k], second));
+            const double price = gm_work_price(line, table->errors[k], second);
+            print_cell(second == GM_COST_RESOLUTION ? gm_work_resolution(table, price) : price);
         }
         for (size_t k = 0; k < line->count; k++) {
             least = fmin(least, line->points[k].error);

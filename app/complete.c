@@ -7,6 +7,7 @@
 #include "app/catalogue.h"
 #include "app/commands.h"
 #include "app/drive.h"
+#include "app/tour.h"
 #include "app/words.h"
 
 /* The word that is being typed: what stays of it, and what the candidates have to begin with. */
@@ -66,10 +67,33 @@ static void offer_figures(const struct stem *stem)
     }
 }
 
+static void offer_tours(const struct stem *stem)
+{
+    char message[GM_MESSAGE];
+    size_t count = 0;
+    struct gm_tour *tours = gm_tours_read(&count, message);
+    for (size_t i = 0; i < count; i++) {
+        offer(stem, tours[i].name, tours[i].title);
+    }
+    gm_tours_close(tours, count);
+}
+
 static void offer_observables(const struct stem *stem, const struct gm_scene *scene)
 {
     for (size_t i = 0; scene && i < scene->observable_count; i++) {
         offer(stem, scene->observables[i].key, scene->observables[i].title);
+    }
+}
+
+/* The values that an option's help names: "truecolor, 256, 16 or none". */
+static void offer_named(const struct stem *stem, const char *names)
+{
+    char copy[128], *rest = NULL;
+    snprintf(copy, sizeof copy, "%s", names);
+    for (char *name = strtok_r(copy, ", ", &rest); name; name = strtok_r(NULL, ", ", &rest)) {
+        if (strcmp(name, "or") != 0) {
+            offer(stem, name, "");
+        }
     }
 }
 
@@ -84,6 +108,11 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
     } else if (strcmp(option->name, "--theme") == 0) {
         offer(stem, "light", "for paper");
         offer(stem, "dark", "for a screen");
+        if (option->commands & GM_TUI) {
+            offer(stem, "mono", "without colours");
+        }
+    } else if (strcmp(option->name, "--graphics") == 0 || strcmp(option->name, "--colours") == 0) {
+        offer_named(stem, option->help);
     }
 }
 
@@ -189,6 +218,9 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
     case GM_CERTIFY:
         offer(&stem, "all", "every scheme");
         offer_schemes(&stem, NULL);
+        return;
+    case GM_TOUR:
+        offer_tours(&stem);
         return;
     case GM_TUI:
     case GM_RUN:

@@ -208,6 +208,25 @@ static double largest(const struct gm_lane *lane, int observable, double from, d
     return most;
 }
 
+/* The middle of the bin that holds the largest or smallest value, or the first one above a level. */
+static double when(const struct gm_lane *lane, int observable, const struct gm_statement *statement)
+{
+    const struct gm_history *history = &lane->history;
+    double best = NAN, at = INFINITY, before = lane->t0;
+    for (size_t i = 0; i < history->count; i++) {
+        const struct gm_bin *bin = &history->bins[i * history->series + (size_t)observable];
+        const bool better = statement->measure == GM_EXCEEDS ? isnan(best) && bin->high > statement->level
+                            : statement->measure == GM_PEAKS ? !(bin->high <= best)
+                                                             : !(bin->low >= best);
+        if (better) {
+            best = statement->measure == GM_DIPS ? bin->low : bin->high;
+            at = (before + bin->t) / 2;
+        }
+        before = bin->t;
+    }
+    return at;
+}
+
 static double at_start(const struct gm_lane *lane, size_t observable)
 {
     struct gm_view view = gm_lane_view(lane);
@@ -230,6 +249,10 @@ static double measure(const struct gm_lane *lane, const struct gm_statement *sta
         return lane->run->t;
     case GM_FACTOR:
         return gm_lane_observe(lane, (size_t)observable) / at_start(lane, (size_t)observable);
+    case GM_PEAKS:
+    case GM_DIPS:
+    case GM_EXCEEDS:
+        return when(lane, observable, statement);
     case GM_AT_END:
         return gm_lane_observe(lane, (size_t)observable);
     }

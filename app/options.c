@@ -20,6 +20,7 @@ struct row {
 
 #define AT(member) offsetof(struct gm_options, member)
 #define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_TOUR)
+#define EXPLORES (GM_TUI | GM_TERMINAL | GM_TOUR)
 
 static const struct row rows[] = {
     {"--json", FLAG, GM_RUN | GM_LIST | GM_CERTIFY, AT(json), "", "one JSON object a line"},
@@ -37,13 +38,12 @@ static const struct row rows[] = {
     {"--from", NUMBER, GM_RENDER, AT(from), "T", "first frame at model time T"},
     {"--at", NUMBER, GM_RENDER, AT(at), "T", "one picture at model time T"},
     {"--size", SIZE, PAINTS, AT(width), "WxH", "pixels (1280x720)"},
-    {"--theme", THEME, PAINTS & ~(unsigned)GM_FIGURES, AT(theme), "light|dark",
+    {"--theme", THEME, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(theme), "light|dark",
      "colours for paper or for a screen"},
     {"--changes", TEXT, GM_RENDER, AT(changes), "LIST", "LANE:STEP:KEY=VALUE,...: changes in flight (key y)"},
-    {"--graphics", TEXT, GM_TUI | GM_TERMINAL, AT(graphics), "KIND",
-     "kitty, sixel, braille, quadrants, half or ascii"},
-    {"--colours", TEXT, GM_TUI | GM_TERMINAL, AT(colours), "HOWMANY", "truecolor, 256, 16 or none"},
-    {"--theme", TEXT, GM_TUI | GM_TERMINAL, AT(look), "THEME", "light, dark or mono"},
+    {"--graphics", TEXT, EXPLORES, AT(graphics), "KIND", "kitty, sixel, braille, quadrants, half or ascii"},
+    {"--colours", TEXT, EXPLORES, AT(colours), "HOWMANY", "truecolor, 256, 16 or none"},
+    {"--theme", TEXT, EXPLORES, AT(look), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", TEXT, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},

@@ -45,6 +45,12 @@ static struct gm_lane *open_lane(const struct gm_work_table *table, const struct
     return lane;
 }
 
+/* How much time the runs of the table are to cover. */
+static double whole_time(const struct gm_work_table *table)
+{
+    return timing_of(table)->until - gm_scene_t0(table->request.scene, timing_of(table));
+}
+
 static bool stopped(const struct gm_work_table *table)
 {
     return gm_listener_stops(table->listener);
@@ -117,7 +123,7 @@ static double *reference_state(struct gm_work_table *table, char *message)
                  dt);
         gm_lane_close(lane);
         lane = open_lane(table, trusted, dt, message);
-        const long steps = (long)round(timing_of(table)->until / dt);
+        const long steps = (long)round(whole_time(table) / dt);
         if (lane) {
             /* the carried rounding errors are worth their price here */
             run_through(table, lane, steps, false, INFINITY);
@@ -167,7 +173,7 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
                           const double *reference, struct gm_work_point *point, char *message)
 {
     const bool own_time = scheme->family->own_time;
-    const long steps = own_time ? INT64_MAX : (long)round(timing_of(table)->until / dt);
+    const long steps = own_time ? INT64_MAX : (long)round(whole_time(table) / dt);
     const bool follow = table->request.scene->follow > 0 && !reference;
     *point = (struct gm_work_point){.dt = dt, .error = NAN, .seconds = INFINITY};
     double spent = 0;
@@ -221,6 +227,19 @@ static bool is_enough(const struct gm_work_table *table, const struct gm_work_li
     return resolved || round_off || long_enough || !isfinite(last->seconds);
 }
 
+/* The step of a rung of the ladder, at the present resolution. */
+static double step_of(const struct gm_work_table *table, size_t rung)
+{
+    struct gm_timing *timing = timing_of(table);
+    if (!table->ratio) {
+        return table->steps[rung];
+    }
+    char sentence[GM_SENTENCE];
+    gm_parameter_put(table->ratio, timing, table->steps[rung]);
+    table->request.scene->settle(timing, &table->ratio->key, 1, sentence);
+    return timing->dt;
+}
+
 static bool measure_line(struct gm_work_table *table, struct gm_work_line *line, const double *reference,
                          char *message)
 {
@@ -236,13 +255,13 @@ static bool measure_line(struct gm_work_table *table, struct gm_work_line *line,
             struct gm_work_point point;
             gm_listener_hears(table->listener, line->scheme->name,
                               table->line_count * each - each + r * table->step_count + k, all);
-            if (!measure_point(table, line->scheme, table->steps[k], reference, &point, message)) {
+            if (!measure_point(table, line->scheme, step_of(table, k), reference, &point, message)) {
                 return false;
             }
             if (stopped(table)) {
                 return true;
             }
-            point.resolution = table->resolution ? table->resolutions[r] : 0;
+            point.resolution = table->resolution ? gm_work_resolution(table, table->resolutions[r]) : 0;
             line->points[line->count++] = point;
         }
     }

@@ -9,7 +9,8 @@
 
 struct gm_work_point {
     double dt, t;      /* the step, and the time reached */
-    double resolution; /* value of the plan's parameter, where that varies; else 0 */
+    double resolution; /* value of the plan's parameter where that varies, or its reciprocal where smaller is
+                          finer (gm_work_resolution); else 0 */
     long steps;
     double error;   /* NAN where the run failed */
     double seconds; /* processor time, best of several */
@@ -34,11 +35,13 @@ struct gm_work_table {
     bool observed;             /* it is the observable, not the distance of the states */
     const char *measure_title;
     char reference[96]; /* what the error is measured against, in words */
-    double *steps;      /* the ladder, falling */
+    double *steps;      /* the ladder, falling: steps, or values of `ratio` */
     size_t step_count;
     const struct gm_parameter *resolution; /* what varies beside the step; NULL: nothing does */
     double *resolutions;                   /* in the order of the plan */
     size_t resolution_count;               /* 1 where nothing varies */
+    bool smaller_is_finer;                 /* of the resolution, as of the distance of nodes */
+    const struct gm_parameter *ratio;      /* the ladder has its values instead of steps; NULL: it has steps */
     const double *errors;                  /* 3, falling: at which schemes are compared */
     const struct gm_scheme **schemes;
     size_t scheme_count;
@@ -84,6 +87,9 @@ const char *gm_work_sentence(const struct gm_work_table *table, char *text, size
 
 /* Fills an empty picture: error against run time, error against evaluations. */
 void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture);
+
+/* The parameter's value of what a point has as its resolution, and back. */
+double gm_work_resolution(const struct gm_work_table *table, double resolution);
 
 /* "10⁻³" */
 const char *gm_work_error_text(double error, char text[24]);

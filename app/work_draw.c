@@ -92,11 +92,11 @@ static size_t free_point(const struct gm_panel *panel, const double *points, siz
 static void draw_cost(const struct gm_work_table *table, struct gm_picture *picture, enum gm_work_cost cost,
                       const struct gm_work_line *const *chosen, size_t chosen_count)
 {
-    const char *const titles[] = {
-        "error against run time", "error against evaluations",
-        gm_picture_text(picture, "error against %s", table->resolution ? table->resolution->key : "")};
-    const char *const labels[] = {"processor time, s", "evaluations of f or force",
-                                  table->resolution ? table->resolution->key : ""};
+    const char *finer = gm_picture_text(picture, "%s%s", table->smaller_is_finer ? "1/" : "",
+                                        table->resolution ? table->resolution->key : "");
+    const char *const titles[] = {"error against run time", "error against evaluations",
+                                  gm_picture_text(picture, "error against %s", finer)};
+    const char *const labels[] = {"processor time, s", "evaluations of f or force", finer};
     double *points =
         gm_picture_memory(picture, 2 * table->step_count * table->resolution_count * sizeof *points);
     if (!points) {

@@ -48,18 +48,19 @@ static bool parse(struct gm_request *request, const struct gm_options *options, 
     return gm_request_parse(request, count, words, 1, message);
 }
 
-/* Lanes may differ in scheme, dt and resolution alone, and in what was not typed but follows from those. */
-static bool alike(const struct gm_request *request, const struct gm_options *options,
-                  const struct gm_parameter *resolution)
+/* Lanes may differ in scheme, dt, resolution and ratio alone, and in what was not typed but follows from
+   those. */
+static bool alike(const struct gm_work_table *table, const struct gm_options *options)
 {
+    const struct gm_request *request = &table->request;
     const struct gm_scene *scene = request->scene;
     for (size_t i = 1; i < request->count; i++) {
         for (size_t k = 0; k < scene->parameter_count; k++) {
             const struct gm_parameter *row = &scene->parameters[k];
             char word[64];
             snprintf(word, sizeof word, "%s=", row->key);
-            const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == resolution ||
-                                !gm_options_have(options, word);
+            const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == table->resolution ||
+                                row == table->ratio || !gm_options_have(options, word);
             const double first = gm_parameter_get(row, request->lanes[0].parameters);
             const double other = gm_parameter_get(row, request->lanes[i].parameters);
             const bool left_to_itself = isnan(first) && isnan(other);
@@ -120,6 +121,7 @@ static bool choose_steps(struct gm_work_table *table, bool given, char *message)
     const struct gm_request *request = &table->request;
     const struct gm_work *work = request->scene->work;
     const struct gm_timing *timing = timing_of(table);
+    const double whole = timing->until - gm_scene_t0(request->scene, timing);
     const size_t most = given ? request->count : 64;
     table->steps = calloc(most, sizeof *table->steps);
     if (!table->steps) {
@@ -127,13 +129,15 @@ static bool choose_steps(struct gm_work_table *table, bool given, char *message)
     }
     if (given) {
         for (size_t i = 0; i < request->count; i++) {
-            const double dt = ((const struct gm_timing *)request->lanes[i].parameters)->dt;
+            const void *own = request->lanes[i].parameters;
+            const double step =
+                table->ratio ? gm_parameter_get(table->ratio, own) : ((const struct gm_timing *)own)->dt;
             bool known = false;
             for (size_t k = 0; k < table->step_count; k++) {
-                known |= table->steps[k] == dt;
+                known |= table->steps[k] == step;
             }
             if (!known) {
-                table->steps[table->step_count++] = dt;
+                table->steps[table->step_count++] = step;
             }
         }
         qsort(table->steps, table->step_count, sizeof *table->steps, falling);
@@ -141,9 +145,9 @@ static bool choose_steps(struct gm_work_table *table, bool given, char *message)
     }
     const double coarsest = work ? work->coarsest : 4 * timing->dt;
     const int halvings = work ? work->halvings : 7;
-    double steps = fmax(1, ceil(timing->until / coarsest - 1e-9));
+    double steps = fmax(1, ceil(whole / coarsest - 1e-9));
     for (int i = 0; i <= halvings; i++, steps *= 2) {
-        table->steps[table->step_count++] = timing->until / steps;
+        table->steps[table->step_count++] = whole / steps;
     }
     return true;
 }
@@ -157,6 +161,7 @@ static bool choose_resolutions(struct gm_work_table *table, const struct gm_opti
     snprintf(word, sizeof word, "%s=", row ? row->key : "");
     const bool given = row && gm_options_have(options, word);
     const size_t most = given ? table->request.count : row ? work->resolution_count : 0;
+    table->smaller_is_finer = row && work->resolutions[0] > work->resolutions[work->resolution_count - 1];
     table->resolutions = calloc(most + 1, sizeof *table->resolutions);
     if (!table->resolutions) {
         return refuse(message, "not enough memory");
@@ -243,18 +248,24 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_options *options,
     table->resolution =
         work && work->resolution ? gm_scene_parameter(table->request.scene, work->resolution) : NULL;
     table->errors = work && work->errors ? work->errors : usual_errors;
-    if (!alike(&table->request, options, table->resolution)) {
+    if (work && work->ratio) {
+        char word[64];
+        snprintf(word, sizeof word, "%s=", work->ratio);
+        table->ratio =
+            gm_options_have(options, word) ? gm_scene_parameter(table->request.scene, work->ratio) : NULL;
+    }
+    if (!alike(table, options)) {
         snprintf(message, GM_MESSAGE,
                  "work-precision compares on one problem: only scheme%s%s and dt take a list",
                  table->resolution ? ", " : "", table->resolution ? table->resolution->key : "");
         gm_work_close(table);
         return false;
     }
-    if (!(timing_of(table)->until > 0)) {
+    if (!(timing_of(table)->until > gm_scene_t0(table->request.scene, timing_of(table)))) {
         gm_work_close(table);
-        return refuse(message, "until is 0: there is nothing to measure");
+        return refuse(message, "until is the start: there is nothing to measure");
     }
-    if (!choose_steps(table, gm_options_have(options, "dt="), message) ||
+    if (!choose_steps(table, gm_options_have(options, "dt=") || table->ratio, message) ||
         !choose_resolutions(table, options, message) || !choose_measure(table, options->measure, message) ||
         !choose_schemes(table, gm_options_have(options, "scheme="), message)) {
         gm_work_close(table);

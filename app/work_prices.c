@@ -19,6 +19,11 @@ double gm_work_cost(const struct gm_work_point *point, enum gm_work_cost cost)
     }
 }
 
+double gm_work_resolution(const struct gm_work_table *table, double resolution)
+{
+    return table->smaller_is_finer ? 1 / resolution : resolution;
+}
+
 static bool is_better(const struct gm_work_point *a, const struct gm_work_point *b, enum gm_work_cost cost)
 {
     const double here = gm_work_cost(a, cost), there = gm_work_cost(b, cost);
@@ -134,7 +139,8 @@ const char *gm_work_sentence(const struct gm_work_table *table, char *text, size
     const size_t used = tell_cheapest(table, "Cheapest by run time:", GM_COST_SECONDS, text, size);
     if (table->resolution) {
         char front[64];
-        snprintf(front, sizeof front, "  Fewest %s:", table->resolution->key);
+        snprintf(front, sizeof front, "  %s %s:", table->smaller_is_finer ? "Largest" : "Fewest",
+                 table->resolution->key);
         tell_cheapest(table, front, GM_COST_RESOLUTION, text + used, size - used);
     }
     return text;
@@ -154,7 +160,7 @@ bool gm_work_write(const struct gm_work_table *table, const char *path)
             const struct gm_work_point *point = &line->points[k];
             fprintf(csv, "%s,%s,%d,", table->request.scene->name, line->scheme->name, line->scheme->order);
             if (table->resolution) {
-                fprintf(csv, "%.17g,", point->resolution);
+                fprintf(csv, "%.17g,", gm_work_resolution(table, point->resolution));
             }
             fprintf(csv, "%.17g,%ld,%.17g,%s,", point->dt, point->steps, point->t,
                     gm_status_name(point->status));

@@ -67,20 +67,29 @@ double gm_cells_law(const struct gm_field *field, const struct gm_cells *cells, 
 }
 
 double gm_nodes_law(const struct gm_field *field, bool centred, size_t points, double dx, double dt,
-                    const double *const a[3], const double *const b[3])
+                    gm_complete_node *complete, const void *a, const void *b)
 {
     const size_t d = field->dimension;
     const double over_t = 1 / (centred ? 2 * dt : dt), over_x = 1 / (centred ? 2 * dx : dx);
-    double largest = 0;
-    for (size_t i = 0; i < points; i++) {
-        const size_t here = i * d, right = (i + 1 < points ? i + 1 : 0) * d,
-                     left = (i ? i - 1 : points - 1) * d;
-        const double earlier = form(d, field->m, centred, a[0] + here, a[1] + here, b[0] + here, b[1] + here);
-        const double later = form(d, field->m, centred, a[1] + here, a[2] + here, b[1] + here, b[2] + here);
-        const double before = form(d, field->k, centred, a[1] + left, a[1] + here, b[1] + left, b[1] + here);
-        const double behind =
-            form(d, field->k, centred, a[1] + here, a[1] + right, b[1] + here, b[1] + right);
-        largest = fmax(largest, fabs(over_t * (later - earlier) + over_x * (behind - before)));
+    /* both tangents at a node and the next; the flux in space behind a node is that before the next */
+    double sides[2][2][3 * GM_MOST_COMPONENTS] = {{{0}}};
+    double largest = 0, before = 0;
+    complete(a, points - 1, sides[0][0]);
+    complete(b, points - 1, sides[0][1]);
+    for (size_t i = 0; i <= points; i++) {
+        double(*const left)[3 * GM_MOST_COMPONENTS] = sides[i % 2];
+        double(*const here)[3 * GM_MOST_COMPONENTS] = sides[(i + 1) % 2];
+        complete(a, i < points ? i : 0, here[0]);
+        complete(b, i < points ? i : 0, here[1]);
+        const double behind = form(d, field->k, centred, left[0] + d, here[0] + d, left[1] + d, here[1] + d);
+        if (i > 0) {
+            const double earlier = form(d, field->m, centred, left[0], left[0] + d, left[1], left[1] + d);
+            const double later =
+                form(d, field->m, centred, left[0] + d, left[0] + 2 * d, left[1] + d, left[1] + 2 * d);
+            const double residual = fabs(over_t * (later - earlier) + over_x * (behind - before));
+            largest = residual > largest || isnan(residual) ? residual : largest;
+        }
+        before = behind;
     }
     return largest;
 }

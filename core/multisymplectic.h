@@ -35,19 +35,22 @@ void gm_faces_close(struct gm_faces *faces);
 double gm_cells_law(const struct gm_field *field, const struct gm_cells *cells, const struct gm_faces *a,
                     const struct gm_faces *b);
 
+/* Fills in a tangent at a node at the three levels n - 1, n, n + 1, [level * dimension + component]. */
+typedef void gm_complete_node(const void *tangent, size_t node, double *s);
+
 /* The largest residual of schemes of nodes: with M+ and K+ the upper triangles
        M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s)        (Euler box)
-   or with `centred` the whole matrices and centred differences (midpoint). Tangents at three levels, [node *
-   dimension + component], on a ring. */
+   or with `centred` the whole matrices and centred differences (midpoint). Tangents a and b on a ring; no
+   dimension is above GM_MOST_COMPONENTS. */
+enum { GM_MOST_COMPONENTS = 4 };
 double gm_nodes_law(const struct gm_field *field, bool centred, size_t points, double dx, double dt,
-                    const double *const a[3], const double *const b[3]);
+                    gm_complete_node *complete, const void *a, const void *b);
 
 /* The residual of the scheme's multisymplectic law (core/multisymplectic.h) over the grid, with two tangent
    solutions that start from unit waves at the last levels of the state `y` and make one step of the
    linearised scheme; the variables that elimination left out are found again from the scheme's equations.
    `memory` is the scheme's own, where it has one. NaN where a scheme has no such law, memory is short or the
-   next step fails. For u_tt - u_xx + V'(u) = 0 schemes of nodes and of cells, for equations of first order in
-   time the box. */
+   next step fails. */
 double gm_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                         const double *y, const double *memory);
 

@@ -2,10 +2,13 @@
 /* A circulant band matrix is a polynomial in the shift z. Each of its linear factors is inverted by one
    recursion, forwards where the root lies inside the unit circle, backwards where it lies outside, so that
    rounding errors die out. What the recursion starts from follows from the closed ring: a geometric sum, cut
-   where it no longer counts. */
+   where it no longer counts.
+
+   A band around a ring that is folded flat, 0, n - 1, 1, n - 2, ..., is a band of twice the width. */
 #include "core/ring.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* How many terms of 1 + r + r^2 + ... count. */
@@ -151,4 +154,60 @@ void gm_ring_roots_solve(const struct gm_ring_roots *ring, double *re, double *i
         re[to] = f_re * scratch[i] - f_im * scratch[n + i];
         im[to] = f_re * scratch[n + i] + f_im * scratch[i];
     }
+}
+
+bool gm_ring_band_open(struct gm_ring_band *band, size_t count, size_t parts, size_t reach)
+{
+    *band = (struct gm_ring_band){.count = count, .parts = parts};
+    band->right = malloc(count * parts * sizeof *band->right);
+    if (!band->right || !gm_banded_open(&band->folded, count * parts, (2 * reach + 1) * parts - 1)) {
+        free(band->right);
+        return false;
+    }
+    return true;
+}
+
+void gm_ring_band_close(struct gm_ring_band *band)
+{
+    gm_banded_close(&band->folded);
+    free(band->right);
+}
+
+void gm_ring_band_clear(struct gm_ring_band *band)
+{
+    gm_banded_clear(&band->folded);
+}
+
+/* Where a point lies on the folded ring. */
+static size_t folded_place(size_t point, size_t count)
+{
+    return 2 * point < count ? 2 * point : 2 * (count - 1 - point) + 1;
+}
+
+void gm_ring_band_add(struct gm_ring_band *band, size_t point, size_t row_part, long by, size_t column_part,
+                      double value)
+{
+    const size_t n = band->count, at = by < 0 ? point + n - (size_t)-by % n : point + (size_t)by;
+    gm_banded_add(&band->folded, folded_place(point, n) * band->parts + row_part,
+                  folded_place(at % n, n) * band->parts + column_part, value);
+}
+
+bool gm_ring_band_solve(struct gm_ring_band *band, double *b)
+{
+    const size_t n = band->count, parts = band->parts;
+    if (!gm_banded_factor(&band->folded)) {
+        return false;
+    }
+    for (size_t i = 0; i < n; i++) {
+        for (size_t part = 0; part < parts; part++) {
+            band->right[folded_place(i, n) * parts + part] = b[part * n + i];
+        }
+    }
+    gm_banded_solve(&band->folded, band->right);
+    for (size_t i = 0; i < n; i++) {
+        for (size_t part = 0; part < parts; part++) {
+            b[part * n + i] = band->right[folded_place(i, n) * parts + part];
+        }
+    }
+    return true;
 }

@@ -6,8 +6,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Linear systems that look the same at every point of a ring of `count` points: circulant band matrices,
-   solved in a time proportional to count, whatever its factors, by sweeps of recursions that only damp. */
+#include "core/mesh/banded.h"
+
+/* Linear systems around a ring of `count` points, solved in a time proportional to count whatever its
+   factors: circulant band matrices, which look the same at every point, by sweeps of recursions that only
+   damp, and others by elimination. */
 
 /* (off f_{i-1} + diagonal f_i + off f_{i+1}) = b_i, diagonal > 2 |off|. */
 struct gm_ring {
@@ -35,5 +38,24 @@ bool gm_ring_roots_make(struct gm_ring_roots *ring, size_t count, int power, dou
                         double complex difference, double h);
 /* Replaces b (re and im apart) by the solution; scratch has room for 2 count numbers. */
 void gm_ring_roots_solve(const struct gm_ring_roots *ring, double *re, double *im, double *scratch);
+
+/* A matrix whose entries differ from point to point: `parts` unknowns at each, and no entry between points
+   more than `reach` apart. What it needs of memory is touched when it is first used. */
+struct gm_ring_band {
+    size_t count, parts;
+    struct gm_banded folded;
+    double *right; /* a right side in the folded order */
+};
+/* False: out of memory, nothing is held. */
+bool gm_ring_band_open(struct gm_ring_band *band, size_t count, size_t parts, size_t reach);
+void gm_ring_band_close(struct gm_ring_band *band);
+/* All entries := 0. */
+void gm_ring_band_clear(struct gm_ring_band *band);
+/* Adds to the entry of a row at `point` and a column `by` points on. */
+void gm_ring_band_add(struct gm_ring_band *band, size_t point, size_t row_part, long by, size_t column_part,
+                      double value);
+/* Replaces b, [part * count + point], by the solution and the matrix by its factors; false where it is
+   singular. */
+bool gm_ring_band_solve(struct gm_ring_band *band, double *b);
 
 #endif

@@ -45,9 +45,11 @@ static bool names_x(const struct group *group, size_t i)
            strcmp(group->frames[i].panel->x.label, group->frames[below].panel->x.label) != 0;
 }
 
-static double cell_width(const struct group *group, double gap)
+/* A colour bar that all share stands beside the grid: border->bar. */
+static double cell_width(const struct group *group, const struct gm_border *border, double gap)
 {
-    return fmax(0.0, (group->area.width - (double)(group->columns - 1) * gap) / (double)group->columns);
+    const double gaps = (double)(group->columns - 1) * gap;
+    return fmax(0.0, (group->area.width - border->bar - gaps) / (double)group->columns);
 }
 
 static double cell_height(const struct group *group, double gap)
@@ -59,6 +61,7 @@ static double cell_height(const struct group *group, double gap)
 static struct gm_border common_border(const struct gm_label_list *list, const struct group *group, bool calm)
 {
     struct gm_border border = {0};
+    size_t bars = 0;
     for (size_t i = 0; i < group->count; i++) {
         const struct gm_border own =
             gm_border_of(list, group->frames[i].panel, group->detail, names_x(group, i), calm);
@@ -66,6 +69,12 @@ static struct gm_border common_border(const struct gm_label_list *list, const st
         border.right = fmax(border.right, own.right);
         border.top = fmax(border.top, own.top);
         border.bottom = fmax(border.bottom, own.bottom);
+        border.bar = fmax(border.bar, own.bar);
+        bars += own.bar > 0.0;
+    }
+    if (bars > 1) {
+        border.right += border.bar;
+        border.bar = 0.0;
     }
     return border;
 }
@@ -84,7 +93,7 @@ static double data_size(const struct gm_label_list *list, const struct group *gr
 {
     const double scale = list->metrics->scale;
     const struct gm_border border = common_border(list, group, true);
-    const double width = cell_width(group, column_gap * scale) - border.left - border.right;
+    const double width = cell_width(group, &border, column_gap * scale) - border.left - border.right;
     const double height = cell_height(group, row_gap * scale) - border.top - border.bottom;
     double aspect = 0.0;
     for (size_t i = 0; i < group->count && aspect == 0.0; i++) {
@@ -96,7 +105,8 @@ static double data_size(const struct gm_label_list *list, const struct group *gr
     return fmin(width / sqrt(aspect), height * sqrt(aspect));
 }
 
-/* Chooses the grid that makes the panels largest, and how much they show besides their data. */
+/* Chooses the grid that makes the panels largest, and how much they show besides their data. A hole in the
+   grid costs its share: what is compared stands best in one row. */
 static void choose_grid(const struct gm_label_list *list, struct group *group, size_t most_columns)
 {
     const double least = 4.5 * list->metrics->line[GM_TEXT_TICK];
@@ -112,7 +122,7 @@ static void choose_grid(const struct gm_label_list *list, struct group *group, s
         if ((trial.rows - 1) * columns >= group->count || (columns - 1) * trial.rows >= group->count) {
             continue; /* an empty row or column */
         }
-        double loss = 1.0;
+        double loss = (double)group->count / (double)(trial.columns * trial.rows);
         for (int detail = GM_DETAIL_ALL; detail <= GM_DETAIL_DATA; detail++, loss *= 0.8) {
             trial.detail = (enum gm_detail)detail;
             const double size = data_size(list, &trial);
@@ -164,7 +174,8 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
     if (!bars) { /* the last tick label may hang over into the margin or the gap */
         border.right = fmax(0.0, border.right - fmin(overhang, column_gap * scale));
     }
-    const double column = cell_width(group, column_gap * scale), row = cell_height(group, row_gap * scale);
+    const double column = cell_width(group, &border, column_gap * scale),
+                 row = cell_height(group, row_gap * scale);
     const double width = fmax(0.0, column - border.left - border.right);
     const double height = fmax(0.0, row - border.top - border.bottom);
 
@@ -190,7 +201,8 @@ static void place_group(struct gm_label_list *list, struct group *group, double 
                                         .detail = group->detail,
                                         .x_label = names_x(group, i),
                                         .small_title = small_titles,
-                                        .title_width = fmax(0.0, x + column - box.x)});
+                                        .title_left = x,
+                                        .title_width = column});
     }
 }
 
@@ -349,7 +361,7 @@ static double height_needed(const struct gm_label_list *list, const struct group
 {
     const double scale = list->metrics->scale;
     const struct gm_border border = common_border(list, states, false);
-    const double width = cell_width(states, column_gap * scale) - border.left - border.right;
+    const double width = cell_width(states, &border, column_gap * scale) - border.left - border.right;
     double tallest = 0.0;
     for (size_t i = 0; i < states->count; i++) {
         const double aspect = aspect_of(states->frames[i].panel);

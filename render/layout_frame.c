@@ -103,10 +103,11 @@ struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_
     const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
     if (field != NULL && detail < GM_DETAIL_NO_TICKS) {
         const struct gm_axis axis = bar_axis(field);
-        border.right = (bar_gap + bar_width + tick_gap) * scale + widest_tick(list, &axis, calm);
+        double right = (bar_gap + bar_width + tick_gap) * scale + widest_tick(list, &axis, calm);
         if (has(panel->colour_bar_label)) {
-            border.right += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
+            right += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
         }
+        border.bar = fmax(0.0, right - border.right);
         border.top = fmax(border.top, 0.5 * metrics->line[GM_TEXT_TICK]);
         border.bottom = fmax(border.bottom, 0.5 * metrics->line[GM_TEXT_TICK]);
     }
@@ -162,6 +163,12 @@ static void label_ticks(struct gm_label_list *list, const struct gm_tick *ticks,
     }
 }
 
+/* Where a title begins that is so wide: with the box, or as far before it as its room needs. */
+static double title_start(const struct gm_fill *fill, double width)
+{
+    return fmax(fill->title_left, fmin(fill->box.x, fill->title_left + fill->title_width - width));
+}
+
 /* Keys side by side, each behind a piece of its line; those that do not fit are left out. */
 static void label_keys(struct gm_label_list *list, const struct gm_panel *panel, double x, double y,
                        double width)
@@ -186,27 +193,28 @@ static void label_panel(struct gm_label_list *list, const struct gm_panel *panel
     const struct gm_metrics *metrics = list->metrics;
     const bool state = panel->place == GM_PLACE_STATE;
     const enum gm_text_size size = fill->small_title ? GM_TEXT_TICK : title_size(panel);
+    const char *title = gm_labels_shorten(list, size, panel->title, fill->title_width);
+    const char *note = gm_labels_shorten(list, GM_TEXT_LABEL, panel->note, fill->title_width);
+    const double wider =
+        fmax(gm_labels_width(list, size, title),
+             fill->detail < GM_DETAIL_NO_NOTE ? gm_labels_width(list, GM_TEXT_LABEL, note) : 0.0);
+    const double x = title_start(fill, wider);
     double y = fill->box.y - title_gap * metrics->scale;
     if (fill->detail < GM_DETAIL_NO_NOTE && has(panel->note)) {
         y -= metrics->line[GM_TEXT_LABEL];
-        gm_labels_add(list, (struct gm_label){.text = gm_labels_shorten(list, GM_TEXT_LABEL, panel->note,
-                                                                        fill->title_width),
-                                              .size = GM_TEXT_LABEL,
-                                              .role = GM_SECONDARY,
-                                              .x = fill->box.x,
-                                              .y = y});
+        gm_labels_add(list, (struct gm_label){
+                                .text = note, .size = GM_TEXT_LABEL, .role = GM_SECONDARY, .x = x, .y = y});
     } else if (fill->detail < GM_DETAIL_NO_NOTE && panel->first_key != NULL) {
         y -= metrics->line[GM_TEXT_LABEL];
-        label_keys(list, panel, fill->box.x, y, fill->title_width);
+        label_keys(list, panel, fill->box.x, y, fill->title_left + fill->title_width - fill->box.x);
     }
     if (fill->detail < GM_DETAIL_DATA && has(panel->title)) {
-        gm_labels_add(
-            list, (struct gm_label){.text = gm_labels_shorten(list, size, panel->title, fill->title_width),
-                                    .size = size,
-                                    .role = state ? panel->title_role : GM_INK,
-                                    .bold = state && !fill->small_title,
-                                    .x = fill->box.x,
-                                    .y = y - metrics->line[size]});
+        gm_labels_add(list, (struct gm_label){.text = title,
+                                              .size = size,
+                                              .role = state ? panel->title_role : GM_INK,
+                                              .bold = state && !fill->small_title,
+                                              .x = x,
+                                              .y = y - metrics->line[size]});
     }
 }
 

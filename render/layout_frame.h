@@ -17,6 +17,7 @@ enum gm_detail {
 
 struct gm_border {
     double left, right, top, bottom;
+    double bar; /* of a colour bar, beyond `right` */
 };
 
 /* The room around the data. With `calm`, tick labels count with a usual width instead of their own, so that
@@ -31,9 +32,9 @@ void gm_axis_range(const struct gm_axis *axis, double *low, double *high);
 struct gm_fill {
     struct gm_box box; /* of the data */
     enum gm_detail detail;
-    bool x_label;       /* names the x axis */
-    bool small_title;   /* where the group's titles are too long for their usual size */
-    double title_width; /* room for titles */
+    bool x_label;                   /* names the x axis */
+    bool small_title;               /* where the group's titles are too long for their usual size */
+    double title_left, title_width; /* room for titles, which begin with the box where they fit so */
 };
 
 /* Maps the panel to the box, places ticks and labels. */

@@ -18,6 +18,7 @@ struct abc {
     struct gm_timing timing;
     int system;
     double abc[3];
+    double start[DIMENSION];
 };
 
 static const char *const systems[] = {"abc", "linear", NULL};
@@ -26,6 +27,13 @@ static const char *const systems[] = {"abc", "linear", NULL};
     {                                                                                                        \
         .key = key_, .unit = "", .help = "of the ABC flow", .type = GM_REAL,                                 \
         .offset = offsetof(struct abc, abc) + (index) * sizeof(double), .standard = standard_,               \
+        .lowest = -10, .highest = 10,                                                                        \
+    }
+
+#define START(key_, index, standard_)                                                                        \
+    {                                                                                                        \
+        .key = key_, .unit = "", .help = "at the start", .type = GM_REAL,                                    \
+        .offset = offsetof(struct abc, start) + (index) * sizeof(double), .standard = standard_,             \
         .lowest = -10, .highest = 10,                                                                        \
     }
 
@@ -44,6 +52,9 @@ static const struct gm_parameter parameters[] = {
     CONSTANT("A", 0, "1"),
     CONSTANT("B", 1, "sqrt(2/3)"),
     CONSTANT("C", 2, "sqrt(1/3)"),
+    START("x", 0, "0.5"),
+    START("y", 1, "1.1"),
+    START("z", 2, "-0.4"),
 };
 
 /* Its trace is zero. */
@@ -61,8 +72,7 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
 
 static void start(const void *own, const struct gm_problem *problem, double *y)
 {
-    (void)own;
-    static const double at[DIMENSION] = {0.5, 1.1, -0.4};
+    const double *at = ((const struct abc *)own)->start;
     const size_t m = problem->m;
     for (size_t c = 0; c < DIMENSION; c++) {
         for (size_t i = 0; i < m; i++) {
@@ -164,6 +174,15 @@ static void trail_range(const struct gm_lane *const *lanes, size_t count, struct
     gm_range_round(&y->low, &y->high, GM_LINEAR);
 }
 
+/* The section is that of z = 0. */
+static size_t point(const void *own, double x, double y, struct gm_choice *choices)
+{
+    gm_choose(&choices[0], "x", x);
+    gm_choose(&choices[1], "y", y);
+    gm_choose(&choices[2], "z", 0);
+    return ((const struct abc *)own)->system == ABC ? 3 : 2;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct abc *own = lanes[0]->parameters;
@@ -183,6 +202,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->caption =
         "The exact flow keeps every volume. Being symplectic does not help in three dimensions: the splitting "
         "into shears does. The graph ends where the cell is drawn out too far.";
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
         struct gm_panel *panel = NULL;
@@ -258,4 +278,5 @@ const struct gm_scene gm_scene_abc = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };

@@ -6,16 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/families/burgers.h"
-#include "scenes/graph.h"
-
-enum { DRAWN = 1600 /* most points of a profile */ };
-
-struct scene {
-    struct gm_timing timing;
-    struct gm_burgers burgers;
-    double dx, courant, offset;
-};
+#include "scenes/burgers.h"
 
 static const char *const tests[] = {"front", "shock", NULL};
 static const char *const frames[] = {"each", "fixed", "moving", NULL};
@@ -29,7 +20,7 @@ static const struct gm_parameter parameters[] = {
         .unit = "",
         .help = "a front from t = 0, or a self-similar shock from t = 1",
         .type = GM_CHOICE,
-        .offset = offsetof(struct scene, burgers.test),
+        .offset = offsetof(struct gm_burgers_scene, burgers.test),
         .standard = "front",
         .choices = tests,
     },
@@ -38,17 +29,18 @@ static const struct gm_parameter parameters[] = {
         .unit = "",
         .help = "ν",
         .type = GM_REAL,
-        .offset = offsetof(struct scene, burgers.viscosity),
+        .offset = offsetof(struct gm_burgers_scene, burgers.viscosity),
         .standard = "5e-3",
         .lowest = 0,
         .highest = 10,
+        .logarithmic = true,
     },
     {
         .key = "dx",
         .unit = "",
         .help = "distance of the nodes; made to divide the interval",
         .type = GM_REAL,
-        .offset = offsetof(struct scene, dx),
+        .offset = offsetof(struct gm_burgers_scene, dx),
         .standard = "0.01",
         .lowest = 1e-6,
         .highest = 0.5,
@@ -59,7 +51,7 @@ static const struct gm_parameter parameters[] = {
         .unit = "",
         .help = "dt / dx: either this or dt is given",
         .type = GM_REAL,
-        .offset = offsetof(struct scene, courant),
+        .offset = offsetof(struct gm_burgers_scene, courant),
         .standard = "0.5",
         .lowest = 1e-6,
         .highest = 1e3,
@@ -70,7 +62,7 @@ static const struct gm_parameter parameters[] = {
         .unit = "",
         .help = "velocity of the frame",
         .type = GM_REAL,
-        .offset = offsetof(struct scene, burgers.lambda),
+        .offset = offsetof(struct gm_burgers_scene, burgers.lambda),
         .standard = "0",
         .lowest = -1e4,
         .highest = 1e4,
@@ -82,7 +74,7 @@ static const struct gm_parameter parameters[] = {
             "nodes at rest in the frame, or moving by lambda dt a step, which only invariant schemes know of; each: "
             "moving for the invariant schemes, fixed for the others",
         .type = GM_CHOICE,
-        .offset = offsetof(struct scene, burgers.frame),
+        .offset = offsetof(struct gm_burgers_scene, burgers.frame),
         .standard = "each",
         .choices = frames,
     },
@@ -91,7 +83,7 @@ static const struct gm_parameter parameters[] = {
         .unit = "",
         .help = "of the convection in ftcs and crank-nicolson: D(u²/2), or u Du as printed",
         .type = GM_CHOICE,
-        .offset = offsetof(struct scene, burgers.printed),
+        .offset = offsetof(struct gm_burgers_scene, burgers.printed),
         .standard = "conservative",
         .choices = forms,
     },
@@ -100,26 +92,26 @@ static const struct gm_parameter parameters[] = {
         .unit = "",
         .help = "shift of the nodes, in dx",
         .type = GM_REAL,
-        .offset = offsetof(struct scene, offset),
+        .offset = offsetof(struct gm_burgers_scene, offset),
         .standard = "0",
         .lowest = 0,
         .highest = 1,
     },
 };
 
-static double half_length(const struct scene *scene)
+static double half_length(const struct gm_burgers_scene *scene)
 {
     return scene->burgers.test == GM_BURGERS_SHOCK ? 1 : 2;
 }
 
 static double t0(const void *own)
 {
-    return gm_burgers_t0(&((const struct scene *)own)->burgers);
+    return gm_burgers_t0(&((const struct gm_burgers_scene *)own)->burgers);
 }
 
 static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
 {
-    struct scene *scene = own;
+    struct gm_burgers_scene *scene = own;
     bool dt = false, courant = false;
     for (size_t i = 0; i < count; i++) {
         dt |= strcmp(keys[i], "dt") == 0;
@@ -143,7 +135,7 @@ static bool settle(void *own, const char *const *keys, size_t count, char *sente
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
 {
-    const struct scene *scene = own;
+    const struct gm_burgers_scene *scene = own;
     const double most = 1e7, lambda = scene->burgers.lambda;
     *problem = gm_problem_burgers;
     problem->burgers = &scene->burgers;
@@ -173,7 +165,7 @@ static double node(const struct gm_problem *problem, size_t j)
 
 static void start(const void *own, const struct gm_problem *problem, double *y)
 {
-    struct gm_burgers burgers = ((const struct scene *)own)->burgers;
+    struct gm_burgers burgers = ((const struct gm_burgers_scene *)own)->burgers;
     const size_t points = problem->line.points;
     for (size_t j = 0; j < points; j++) {
         y[j] = gm_burgers_exact(&burgers, true, node(problem, j), t0(own));
@@ -286,126 +278,6 @@ static const struct gm_observable observables[] = {
      .logarithmic = true},
 };
 
-/* Where node j stands in the original frame. */
-static double original(const struct gm_view *view, size_t j)
-{
-    const struct gm_burgers *burgers = view->problem->burgers;
-    const bool fixed = gm_burgers_fixed(burgers, view->scheme);
-    return node(view->problem, j) - (fixed ? burgers->lambda * (view->t - view->t0) : 0);
-}
-
-static size_t profile(const struct gm_view *view, double *points)
-{
-    const size_t nodes = view->problem->line.points, stride = (nodes + DRAWN - 1) / DRAWN;
-    size_t count = 0;
-    for (size_t j = 0; j < nodes; j += stride, count++) {
-        points[2 * count] = original(view, j);
-        points[2 * count + 1] = view->state[j] - view->problem->burgers->lambda;
-    }
-    return count;
-}
-
-/* The exact profile at the view's time in the original frame. */
-static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const struct gm_view *view,
-                       struct gm_style style, double *points)
-{
-    struct gm_burgers burgers = *view->problem->burgers;
-    burgers.lambda = 0;
-    for (size_t i = 0; i < DRAWN; i++) {
-        points[2 * i] = panel->x.low + (panel->x.high - panel->x.low) * (double)i / (DRAWN - 1);
-        points[2 * i + 1] = gm_burgers_exact(&burgers, true, points[2 * i], view->t);
-    }
-    gm_mark_line(picture, panel, style, points, DRAWN, false);
-}
-
-static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_lane *lane, bool alone)
-{
-    const struct scene *scene = lane->parameters;
-    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
-    const double reach = scene->burgers.test == GM_BURGERS_SHOCK ? 1 : 0.25;
-    panel->axes = true;
-    panel->title_role = alone ? gm_lane_role(lane->shown.colour) : GM_INK;
-    panel->x = (struct gm_axis){.label = "x", .low = -reach, .high = reach};
-    panel->y = (struct gm_axis){.label = "", .low = -1.6, .high = 1.6};
-    panel->note = "";
-    return panel;
-}
-
-static void draw_panel(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                       size_t number, double *points)
-{
-    struct gm_panel *panel = NULL;
-    size_t sharing = 0, named = 0;
-    for (size_t i = 0; i < count; i++) {
-        sharing += lanes[i]->shown.panel == number;
-    }
-    for (size_t i = 0; i < count; i++) {
-        if (lanes[i]->shown.panel != number) {
-            continue;
-        }
-        struct gm_view view = gm_lane_view(lanes[i]);
-        if (!panel) {
-            panel = add_panel(picture, lanes[i], sharing == 1);
-            struct gm_view before = view;
-            before.t = view.t0;
-            before.state = view.start;
-            draw_exact(picture, panel, &before, (struct gm_style){GM_INITIAL, 0.5, 1.2, GM_SOLID}, points);
-            draw_exact(picture, panel, &view, (struct gm_style){GM_EXACT, 0.8, 4, GM_SOLID}, points);
-        }
-        const bool frozen = lanes[i]->run->status != GM_OK;
-        const size_t made = profile(&view, points);
-        gm_mark_line(picture, panel, gm_lane_style(lanes[i], frozen ? 0.55 : 1, 2.2), points, made, false);
-        const char *typed = lanes[i]->shown.colour_name;
-        const bool of_lambda = strncmp(typed, "lambda", 6) == 0;
-        const char *name = of_lambda ? gm_picture_text(picture, "λ%s", typed + 6) : typed;
-        if (frozen) {
-            panel->note =
-                gm_picture_text(picture, "%s%s%s%s%s at %s", panel->note, panel->note[0] ? ", " : "", name,
-                                name[0] ? " " : "", gm_status_name(lanes[i]->run->status),
-                                gm_time_text(picture, lanes[i]->run->t, lanes[i]->run->dt));
-        }
-        if (name[0] && number == 0) {
-            /* in the empty corner above the front, one below the other */
-            gm_mark_text(
-                picture, panel,
-                (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 1, .width = 1},
-                panel->x.high, 1.3 - 0.46 * (double)named++, GM_ANCHOR_RIGHT, name);
-        }
-    }
-}
-
-static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
-{
-    const struct scene *scene = lanes[0]->parameters;
-    const bool shock = scene->burgers.test == GM_BURGERS_SHOCK;
-    double *points = gm_picture_memory(picture, 2 * (DRAWN + 1) * sizeof *points);
-    if (!points) {
-        return;
-    }
-    bool boosted = false;
-    for (size_t i = 0; i < count; i++) {
-        boosted |= lanes[i]->problem.burgers->lambda != 0;
-    }
-    picture->title = shock     ? "A viscous shock of Burgers' equation"
-                     : boosted ? "Burgers' front from moving frames, drawn at rest"
-                               : "A front of Burgers' equation";
-    picture->subtitle = gm_picture_text(
-        picture, "ν = %g,  Δx = %g,  Courant number %.4g,  exact solution in grey, start in red",
-        scene->burgers.viscosity, scene->dx, lanes[0]->run->dt / scene->dx);
-    gm_draw_clock(picture, lanes, count);
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        draw_panel(picture, lanes, count, p, points);
-    }
-    const struct gm_graph error = {
-        .observable = "sup_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1};
-    const struct gm_graph defect = {
-        .observable = "galilean_defect", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1};
-    gm_draw_graph(picture, lanes, count, &error, -1, false);
-    if (boosted) {
-        gm_draw_graph(picture, lanes, count, &defect, -1, false);
-    }
-}
-
 static const char *const schemes[] = {"ftcs",
                                       "lax-wendroff",
                                       "ftcs-invariant",
@@ -438,17 +310,29 @@ static const struct gm_figure figures[] = {
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+/* The error of the mesh hides that of the step, and the other way round: both are refined. */
+static const double mesh[] = {0.08, 0.04, 0.02, 0.01, 0.005, 0.0025};
+static const double compared[] = {1e-2, 1e-3, 1e-4};
 static const struct gm_work work = {
-    .arguments = "viscosity=0.05 until=1", .measure = "sup_error", .coarsest = 0.01, .halvings = 5};
+    .arguments = "viscosity=0.05 until=1",
+    .measure = "sup_error",
+    .coarsest = 0.1,
+    .halvings = 11,
+    .resolution = "dx",
+    .resolutions = mesh,
+    .resolution_count = COUNT(mesh),
+    .ratio = "courant",
+    .errors = compared,
+};
 
 /* A Courant number of 1. */
 static double crossing_time(const void *own)
 {
-    return ((const struct scene *)own)->dx;
+    return ((const struct gm_burgers_scene *)own)->dx;
 }
 
 static const double viscosities[] = {0.0025, 0.005, 0.0075, 0.01, 0.0125, 0.015, 0.0175};
-static const double courant_numbers[] = {0.1, 0.25, 0.5, 0.75, 0.95, 1.05, 1.5, 2, 4};
+static const double courant_numbers[] = {0.1, 0.16, 0.25, 0.4, 0.63, 1, 1.6, 2.5, 4};
 
 static const struct gm_stability stability = {
     .arguments = "dx=0.02 until=1",
@@ -472,7 +356,7 @@ const struct gm_scene gm_scene_burgers = {
     .watch =
         "Watch the profiles part as lambda grows: invariantised schemes on moving nodes give one and the same "
         "(confirmed to round-off); that they never oscillate holds for Lax-Wendroff only, and for all at dx = 0.01.",
-    .size = sizeof(struct scene),
+    .size = sizeof(struct gm_burgers_scene),
     .parameters = parameters,
     .parameter_count = COUNT(parameters),
     .schemes = schemes,
@@ -487,5 +371,5 @@ const struct gm_scene gm_scene_burgers = {
     .settle = settle,
     .setup = setup,
     .start = start,
-    .draw = draw,
+    .draw = gm_burgers_draw,
 };

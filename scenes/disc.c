@@ -424,6 +424,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         gm_picture_text(picture, "%s%s%s%s", disc->system == PENDULUM ? "pendulum" : "harmonic oscillator",
                         one_step ? ",  Δt = " : "", one_step ? gm_step_text(picture, dt) : "",
                         disc->show == SHOW_ENERGY ? "" : ",  shapes every π/6");
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     if (disc->show != SHOW_ENERGY) {
         draw_states(picture, lanes, count);

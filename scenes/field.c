@@ -57,12 +57,16 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
             panel->y.high = panel->y.low + 1;
         }
         panel->note = gm_lane_failure(picture, lane);
-        if (rows->count < 2) {
+        if (rows->count == 0) {
             continue;
         }
         panel->colour_bar = i + 1 == count;
         panel->colour_bar_label = look->name;
-        const double corners[] = {line->first, lane->t0, end_of(line), rows->times[rows->count - 1]};
+        /* what is there at the start is seen as a thin strip */
+        const double thin = (panel->y.high - panel->y.low) / 200;
+        const double reached = rows->times[rows->count - 1];
+        const double corners[] = {line->first, lane->t0, end_of(line),
+                                  reached > lane->t0 ? reached : lane->t0 + thin};
         gm_mark_image(picture, panel, look->map, look->low, look->high, corners, rows->values, rows->count,
                       rows->width);
     }
@@ -111,7 +115,19 @@ static const struct gm_lane *farthest(const struct gm_lane *const *lanes, size_t
     return ahead;
 }
 
-/* One graph: the profiles of all lanes now, over the exact one. */
+/* Whether a profile goes far beyond what is shown at least. Where it does so, others have the graph first. */
+static bool is_wild(const struct gm_field_look *look, const double *points, size_t count)
+{
+    const double most = 0.5 * (look->high - look->low);
+    bool wild = false;
+    for (size_t i = 0; i < count; i++) {
+        const double value = points[2 * i + 1];
+        wild |= !(value >= look->low - most && value <= look->high + most);
+    }
+    return wild;
+}
+
+/* One graph: the profiles of all lanes now, over the exact one. A lane that froze is not there any more. */
 static void draw_profiles(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                           const struct gm_field_look *look)
 {
@@ -130,27 +146,35 @@ static void draw_profiles(struct gm_picture *picture, const struct gm_lane *cons
     panel->title_role = GM_INK;
     panel->x = (struct gm_axis){.label = "x", .low = line->first, .high = end_of(line)};
     panel->y = (struct gm_axis){.label = "", .low = look->low, .high = look->high};
+    const double most = 0.5 * (look->high - look->low);
     for (size_t i = 0; i < count; i++) {
-        /* what blew up does not flatten the others */
-        if (lanes[i]->run->status == GM_OK || count == 1) {
+        if (lanes[i]->run->status == GM_OK || lanes[i] == ahead) {
             hold(&panel->y, points, profile(lanes[i], look, points));
         }
     }
+    /* of what goes wild, enough to see that it does: it does not flatten the others */
+    panel->y.low = fmax(panel->y.low, look->low - most);
+    panel->y.high = fmin(panel->y.high, look->high + most);
     gm_range_round(&panel->y.low, &panel->y.high, GM_LINEAR);
     if (look->exact) {
         const size_t made = exact_profile(ahead, look, points);
         gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 0.9, 4, GM_SOLID}, points, made, false);
     }
-    for (size_t i = 0; i < count; i++) {
-        const size_t made = profile(lanes[i], look, points);
-        const bool frozen = lanes[i]->run->status != GM_OK;
-        gm_mark_line(picture, panel, gm_lane_style(lanes[i], frozen ? 0.5 : 1, 2), points, made, false);
+    for (int tame = 0; tame <= 1; tame++) {
+        for (size_t i = 0; i < count; i++) {
+            const size_t made = profile(lanes[i], look, points);
+            const bool here = lanes[i]->run->status == GM_OK || lanes[i] == ahead;
+            if (here && is_wild(look, points, made) == !tame) {
+                gm_mark_line(picture, panel, gm_lane_style(lanes[i], tame ? 1 : 0.6, 2), points, made, false);
+            }
+        }
     }
 }
 
 void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                    const struct gm_field_look *look, const struct gm_graph *graphs, size_t graph_count)
 {
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     draw_surfaces(picture, lanes, count, look);
     draw_profiles(picture, lanes, count, look);

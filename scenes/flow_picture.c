@@ -244,6 +244,7 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
     for (size_t i = 0; i < count; i++) {
         struct gm_panel *panel = draw_state(picture, lanes[i], look, low, high, count > 1, count == 1);
         panel->title_role = graphs ? gm_lane_role(lanes[i]->shown.colour) : GM_INK;
+        panel->colour_bar &= i + 1 == count; /* the colours mean the same in all */
     }
     if (graphs && look->graphs[0]) {
         gm_flow_draw_graphs(picture, lanes, count, look);

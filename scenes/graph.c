@@ -300,11 +300,13 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
 
     const double roundoff = 2.220446049250313e-16;
     if (graph->scale == GM_LOG && low < roundoff && high > roundoff) {
+        /* the word stands under the line, where no errors are */
+        low = fmin(low, roundoff * pow(high / roundoff, -0.16));
+        panel->y.low = low;
         const double line[] = {panel->x.low, roundoff, panel->x.high, roundoff};
         gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.6, 1, GM_SHORT_DASH}, line, 2, false);
-        /* the word stands on the line, half a line of text above it */
         gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
-                     panel->x.high, roundoff * pow(high / low, 0.045), GM_ANCHOR_RIGHT, "round-off");
+                     panel->x.high, roundoff * pow(high / low, -0.07), GM_ANCHOR_RIGHT, "round-off");
     }
     for (size_t i = 0; i < count; i++) {
         if (only >= 0 && lanes[i]->shown.panel != (size_t)only) {

@@ -181,6 +181,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->caption =
         "A regular orbit draws a curve, a chaotic one fills an area; an integrator that gains or loses energy "
         "smears the curve.";
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     const double tall = 1.08 * sqrt(2 * widest);
     double ends[2];

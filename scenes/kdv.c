@@ -218,6 +218,14 @@ static void record(const struct gm_view *view, double *entry)
 
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
+/* The one soliton starts there. */
+static size_t point(const void *own, double x, double u, struct gm_choice *choices)
+{
+    (void)u;
+    gm_choose(&choices[0], "position", x);
+    return ((const struct scene *)own)->kdv.initial == GM_KDV_SOLITON ? 1 : 0;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct scene *scene = lanes[0]->parameters;
@@ -245,7 +253,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_field(picture, lanes, count, &look, cosine ? graphs + 1 : graphs, cosine ? 1 : 2);
 }
 
-static const char *const schemes[] = {"box", "zabusky-kruskal", NULL};
+static const char *const schemes[] = {"box", "zabusky-kruskal", "euler-box", "midpoint-box", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -290,7 +298,8 @@ const struct gm_scene gm_scene_kdv = {
     .title = "Solitons of the Korteweg-de Vries equation",
     .blurb =
         "One soliton, two, or Zabusky's and Kruskal's cosine, by the multisymplectic box and by leapfrog, whose step "
-        "is bound by 0.385 Δx³/μ.",
+        "is bound by 0.385 Δx³/μ; the Euler box and the midpoint box are explicit and multisymplectic, bound by "
+        "Δx³/4μ and Δx³/μ.",
     .watch =
         "Watch what a step costs: at Δx = 0.1 leapfrog blows up at Δt = 0.05, where the box runs on; at equal "
         "Δt and Δx its error is the smaller one, by a factor of 1.5, so the box gains its step and nothing else.",
@@ -298,6 +307,7 @@ const struct gm_scene gm_scene_kdv = {
     .parameters = parameters,
     .parameter_count = COUNT(parameters),
     .schemes = schemes,
+    .lanes = "scheme=box,zabusky-kruskal",
     .observables = observables,
     .observable_count = COUNT(observables),
     .tracks = tracks,
@@ -308,4 +318,5 @@ const struct gm_scene gm_scene_kdv = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };

@@ -265,7 +265,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         one_orbit &=
             other->eccentricity == kepler->eccentricity && other->perturbation == kepler->perturbation;
     }
-    const double periods = lanes[0]->run->t / (2 * M_PI);
+    double farthest = 0;
+    for (size_t i = 0; i < count; i++) {
+        farthest = fabs(lanes[i]->run->t) > fabs(farthest) ? lanes[i]->run->t : farthest;
+    }
+    const double periods = farthest / (2 * M_PI);
     picture->title =
         gm_picture_text(picture, "A Kepler orbit, followed by %s for %.4g %s",
                         gm_counted_schemes(lanes, count), periods, periods == 1 ? "period" : "periods");
@@ -281,6 +285,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
             : "",
         one_step && one_orbit ? ",  " : "", one_step ? gm_picture_text(picture, "Δt = %s", step) : "",
         kepler->perturbation == 0 ? ";  grey: the exact orbit" : "");
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     draw_orbits(picture, lanes, count);
     gm_draw_graph(

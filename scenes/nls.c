@@ -191,6 +191,15 @@ static void record(const struct gm_view *view, double *entry)
 
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
+/* The soliton starts there; of two that meet the other one at the mirror image. */
+static size_t point(const void *own, double x, double u, struct gm_choice *choices)
+{
+    const bool one = ((const struct scene *)own)->nls.initial == GM_NLS_SOLITON;
+    (void)u;
+    gm_choose(&choices[0], "position", one ? x : -fabs(x));
+    return 1;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct scene *scene = lanes[0]->parameters;
@@ -214,7 +223,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_field(picture, lanes, count, &look, graphs, sizeof graphs / sizeof graphs[0]);
 }
 
-static const char *const schemes[] = {"box", "split-step2", NULL};
+static const char *const schemes[] = {"box", "split-step2", "euler-box", NULL};
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
@@ -255,7 +264,10 @@ static const struct gm_stability stability = {
 const struct gm_scene gm_scene_nls = {
     .name = "nls",
     .title = "Solitons of the nonlinear Schrödinger equation",
-    .blurb = "One soliton or a collision, by the multisymplectic box and by the split-step Fourier method.",
+    .blurb =
+        "One soliton or a collision, by the multisymplectic box, by the split-step Fourier method and by the Euler "
+        "box, which is explicit, of order 1 and bound by Δx²/2. A midpoint box is not there: it is bound by Δx² and "
+        "yet a soliton blows up with it at t = 34 with 0.4 Δx², for every second level drifts away.",
     .watch =
         "Watch the charge: each scheme keeps its own, of cell means or of nodes, to round-off; the energy only "
         "nearly, and it dips while the solitons meet.",
@@ -263,6 +275,7 @@ const struct gm_scene gm_scene_nls = {
     .parameters = parameters,
     .parameter_count = COUNT(parameters),
     .schemes = schemes,
+    .lanes = "scheme=box,split-step2",
     .observables = observables,
     .observable_count = COUNT(observables),
     .tracks = tracks,
@@ -272,4 +285,5 @@ const struct gm_scene gm_scene_nls = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };

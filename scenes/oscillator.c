@@ -209,6 +209,15 @@ static void draw_position(struct gm_picture *picture, const struct gm_lane *cons
     }
 }
 
+/* The curve begins as high as the point is. */
+static size_t point(const void *own, double t, double q, struct gm_choice *choices)
+{
+    (void)own;
+    (void)t;
+    gm_choose(&choices[0], "q0", q);
+    return 1;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct oscillator *own = lanes[0]->parameters;
@@ -226,6 +235,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
             ? "The printed rectangle rule finds no real step at the first turning point; the published motion over "
               "several periods needs restarts there."
             : "Energy is kept to round-off by construction; the price is a slip in phase.";
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     draw_position(picture, lanes, count);
     gm_draw_graph(
@@ -286,4 +296,5 @@ const struct gm_scene gm_scene_oscillator = {
     .setup = setup,
     .start = start,
     .draw = draw,
+    .point = point,
 };

@@ -13,6 +13,9 @@ enum gm_figure_measure {
     GM_GROWTH,  /* its largest value in the second half of the time, divided by that in the first */
     GM_FACTOR,  /* at the end, divided by that at the start */
     GM_LASTS,   /* the time that a run came to: less than asked for where it failed */
+    GM_PEAKS,   /* the time of its largest value, */
+    GM_DIPS,    /* of its smallest, */
+    GM_EXCEEDS, /* of the first one above `level`, infinite if there is none; as exact as bins are wide */
 };
 
 struct gm_statement {
@@ -26,6 +29,7 @@ struct gm_statement {
     /* NULL; or the key of a parameter or observable: then the number is the order of convergence, the slope
        of the measure against that on log axes, from the first of the lanes to the last */
     const char *over;
+    double level;     /* of GM_EXCEEDS */
     double low, high; /* it holds where low <= number <= high */
 };
 

@@ -85,8 +85,10 @@ struct gm_work {
                                and is no  entrant then; NULL: none */
     const char *resolution; /* key of a parameter that is measured at `resolution_count` values beside the
                                steps: each scheme is judged by its best pairs; NULL: none */
-    const double *resolutions;
+    const double *resolutions; /* from coarse to fine */
     size_t resolution_count;
+    const char *ratio;    /* key of a parameter with which the step follows the resolution (settle); typed, its
+                             values take the place of the ladder; NULL: none */
     const double *errors; /* three, falling, at which prices are compared; NULL: 1e-3, 1e-6, 1e-9 */
 };
 

@@ -193,6 +193,22 @@ static double lead(const struct gm_view *view)
     return fabs(shift) < 1 ? shift : NAN;
 }
 
+/* Where the first soliton is: where the field, linear between the nodes, is half of its height, π. NaN where
+   it is not, or has no such height (phi^4). */
+static double position(const struct gm_view *view)
+{
+    const struct gm_soliton_scene *soliton = view->parameters;
+    const size_t points = (size_t)soliton->own.points;
+    const double *field = view->state, *place = field + points;
+    for (size_t k = 1; k < points && soliton->own.field == GM_SINE_GORDON; k++) {
+        const double before = field[k - 1] - M_PI, after = field[k] - M_PI;
+        if (before * after <= 0 && before != after) {
+            return place[k - 1] + (place[k] - place[k - 1]) * before / (before - after);
+        }
+    }
+    return NAN;
+}
+
 static double energy(const struct gm_view *view)
 {
     const struct gm_mesh mesh = gm_soliton_mesh(view);
@@ -240,6 +256,7 @@ static const struct gm_observable observables[] = {
      .evaluate = gm_soliton_error,
      .logarithmic = true},
     {.key = "lead", .title = "time ahead of the exact solution", .unit = "", .evaluate = lead},
+    {.key = "position", .title = "place of the soliton, φ = π", .unit = "", .evaluate = position},
     {.key = "energy", .title = "discrete energy", .unit = "", .evaluate = energy},
     {.key = "energy_error",
      .title = "energy error  |E − E₀| / E₀",

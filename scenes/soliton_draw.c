@@ -79,6 +79,15 @@ static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const
     }
 }
 
+/* How a lane stands: failed, or its error. */
+static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const char *failure = gm_lane_failure(picture, lane);
+    const double error = gm_soliton_error(&view);
+    return failure[0] ? failure : isfinite(error) ? gm_picture_text(picture, "error %.3f", error) : "";
+}
+
 static void draw_fields(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
@@ -93,11 +102,7 @@ static void draw_fields(struct gm_picture *picture, const struct gm_lane *const 
                 panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lanes[i]));
                 field_axes(panel, view.parameters, &mesh);
                 panel->title_role = gm_lane_role(lanes[i]->shown.colour);
-                const char *failure = gm_lane_failure(picture, lanes[i]);
-                const double error = gm_soliton_error(&view);
-                panel->note = failure[0]        ? failure
-                              : isfinite(error) ? gm_picture_text(picture, "error %.3f", error)
-                                                : "";
+                panel->note = note_of(picture, lanes[i]);
                 draw_exact(picture, panel, &view);
             } else {
                 panel->title_role = GM_INK;
@@ -146,7 +151,7 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
                 panel->x =
                     (struct gm_axis){.label = "X", .scale = GM_LINEAR, .low = 0, .high = soliton->own.length};
                 panel->y = (struct gm_axis){.label = "t", .scale = GM_LINEAR, .low = 0, .high = 0};
-                panel->note = named ? gm_lane_failure(picture, lanes[i]) : "";
+                panel->note = named ? note_of(picture, lanes[i]) : "";
             }
             const double *times = lanes[i]->entries[0].times;
             panel->y.low = fmin(panel->y.low, fmin(times[0], lanes[i]->run->t));
@@ -309,21 +314,23 @@ void gm_soliton_draw(const struct gm_lane *const *lanes, size_t count, struct gm
         draw_convergence(picture, lanes, count);
         return;
     }
-    const bool both = soliton->show == GM_SOLITON_ALL && panels <= 3;
-    if (soliton->show == GM_SOLITON_ALL || soliton->show == GM_SOLITON_FIELD) {
+    /* of many lanes the paths alone are shown, which are what the scene is about */
+    const bool all = soliton->show == GM_SOLITON_ALL, both = all && panels <= 4;
+    if (both || soliton->show == GM_SOLITON_FIELD) {
         draw_fields(picture, lanes, count);
     }
-    if (both || soliton->show == GM_SOLITON_MESH) {
+    if (all || soliton->show == GM_SOLITON_MESH) {
         draw_meshes(picture, lanes, count, !both);
     }
     /* three side by side leave no hole */
-    if (both || (panels == 3 && soliton->show != GM_SOLITON_ALL)) {
+    if (both || (panels == 3 && !all)) {
         picture->state_columns = panels;
     }
     if (soliton->show == GM_SOLITON_ENERGY) {
         draw_energies(picture, lanes, count);
     }
-    if (soliton->show == GM_SOLITON_ALL) {
+    if (all) {
+        picture->graphs_below = true;
         const struct gm_graph kept = {.observable = "energy",
                                       .title = "energy / initial energy",
                                       .relative = true,

@@ -226,11 +226,51 @@ static size_t springs_of(const struct gm_lane *lane)
 }
 
 /* The energies of the first stiff springs and the sum of all over time: one panel a lane. */
+static const char *ratio_text(struct gm_picture *picture, const struct gm_lane *lane)
+{
+    const double ratio = stiff_ratio(lane);
+    return gm_picture_text(picture, "stiff energy × %s",
+                           ratio < 0.01 ? gm_power_text(picture, ratio)
+                                        : gm_picture_text(picture, "%.3g", ratio));
+}
+
+/* The highest value of the axis of energies: room for the sum where a lane that has not failed needs it. */
+static double highest_energy(const struct gm_lane *const *lanes, size_t count)
+{
+    static const double usual = 1.5, most = 3;
+    double highest = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_history *history = &lanes[i]->history;
+        for (size_t b = 0; b < history->count && lanes[i]->run->status == GM_OK; b++) {
+            highest = fmax(highest, history->bins[b * history->series + SUM].high);
+        }
+    }
+    return highest <= usual ? usual : highest <= 2 ? 2 : most;
+}
+
+/* The point of line k that its name stands above: where the lines of the true motion are apart, and out of
+   the band that the sum may have become. `made` if there is none. */
+static size_t name_place(const struct gm_lane *lane, size_t k, size_t made, const double *points)
+{
+    static const size_t percent[] = {12, 55, 85, 92};
+    const struct gm_history *history = &lane->history;
+    for (size_t later = 0; made > 20 && later < 100; later += 8) {
+        const size_t at = made * ((percent[k] + later) % 100) / 100;
+        const struct gm_bin *sum = &history->bins[at * history->count / made * history->series + SUM];
+        const double y = points[2 * at + 1];
+        if (k == TOLD || y < sum->low - 0.15 || y > sum->high + 0.1) {
+            return at;
+        }
+    }
+    return made;
+}
+
 static void draw_exchange(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     static const char *const names[] = {"I₁", "I₂", "I₃", "I"};
     struct gm_axis x;
     gm_time_axis(&x, lanes, count);
+    const double high = highest_energy(lanes, count);
     for (size_t i = 0; i < count; i++) {
         const struct gm_lane *lane = lanes[i];
         const enum gm_role role = gm_lane_role(lane->shown.colour);
@@ -238,10 +278,9 @@ static void draw_exchange(struct gm_picture *picture, const struct gm_lane *cons
         panel->axes = true;
         panel->title_role = role;
         panel->x = x;
-        panel->y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = 0, .high = 1.5};
+        panel->y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = 0, .high = high};
         const char *failure = gm_lane_failure(picture, lane);
-        panel->note =
-            failure[0] ? failure : gm_picture_text(picture, "stiff energy × %.3g", stiff_ratio(lane));
+        panel->note = failure[0] ? failure : ratio_text(picture, lane);
         double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
         for (size_t k = 0; points && k < TOLD + 1; k++) {
             if (k < TOLD && k >= springs_of(lane)) {
@@ -252,14 +291,13 @@ static void draw_exchange(struct gm_picture *picture, const struct gm_lane *cons
             const struct gm_style style = {role, k < TOLD ? 0.75 : 1, k < TOLD ? 1.3 : 2.4,
                                            k < TOLD ? gm_lane_dash(k) : GM_SOLID};
             for (size_t m = 0; m < made; m++) {
-                points[2 * m + 1] = fmin(points[2 * m + 1], 3); /* far beyond the panel is beyond it */
+                points[2 * m + 1] = fmin(points[2 * m + 1], 2 * high); /* far beyond the panel is beyond it */
             }
             gm_mark_line(picture, panel, style, points, made, false);
-            /* names stand where the lines of the true motion are apart */
-            const size_t at = made * (k == 2 ? 85 : k == 1 ? 55 : k == 0 ? 12 : 92) / 100;
-            if (made > 20 && points[2 * at + 1] < 1.4) {
+            const size_t at = name_place(lane, k, made, points);
+            if (at < made && points[2 * at + 1] < high - 0.1) {
                 gm_mark_text(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 1},
-                             points[2 * at], points[2 * at + 1] + 0.07, GM_ANCHOR_CENTRE, names[k]);
+                             points[2 * at], points[2 * at + 1] + 0.05 * high, GM_ANCHOR_CENTRE, names[k]);
             }
         }
     }
@@ -282,8 +320,7 @@ static void draw_pendulum(struct gm_picture *picture, const struct gm_lane *cons
                 panel->equal = true;
                 panel->title_role = role;
                 const char *failure = gm_lane_failure(picture, lane);
-                panel->note =
-                    failure[0] ? failure : gm_picture_text(picture, "stiff energy × %.3g", stiff_ratio(lane));
+                panel->note = failure[0] ? failure : ratio_text(picture, lane);
             }
             const double *state = gm_run_state(lane->run);
             const double spring[] = {0, 0, state[0], state[1]};
@@ -329,6 +366,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                            ? "Springs may trade energy; their sum I should nearly stay. RK4 and other "
                              "damping methods let it die without a word."
                            : "";
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     if (stiff->system == FPU) {
         draw_exchange(picture, lanes, count);

@@ -276,6 +276,28 @@ static double section_shift(const struct gm_view *view)
     return tenth > 0 ? (last - first) / (double)tenth : 0;
 }
 
+/* Vortices that were turned from the square go to where the point is seen from the middle; the close pair is
+   drawn as far apart. */
+static size_t point(const void *parameters_of, double x, double y, struct gm_choice *choices)
+{
+    const struct gm_vortices *own = parameters_of;
+    const double turned = atan2(y, x) - M_PI / 2; /* the first one that is stands at pi/2 in the square */
+    switch (own->configuration) {
+    case GM_REDUCED:
+    case GM_TWO_TURNED: /* and its mirror image is as near */
+        gm_choose(&choices[0], "angle", remainder(turned, M_PI));
+        return 1;
+    case GM_ONE_TURNED:
+        gm_choose(&choices[0], "angle", remainder(turned, 2 * M_PI));
+        return 1;
+    case GM_COLLISION:
+        gm_choose(&choices[0], "distance", fmin(2 * hypot(x, y), 1));
+        return 1;
+    default:
+        return 0;
+    }
+}
+
 static const struct gm_observable observables[] = {
     {.key = "energy_error",
      .title = "energy error  |H − H₀| / |H₀|",
@@ -469,4 +491,5 @@ const struct gm_scene gm_scene_vortices = {
     .setup = setup,
     .start = gm_vortices_start,
     .draw = gm_vortices_draw,
+    .point = point,
 };

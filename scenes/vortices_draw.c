@@ -251,6 +251,7 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
         one_start && turned ? gm_picture_text(picture, "angle %.4g°,  ", own->angle * 180 / M_PI) : "",
         own->strength, one_step ? ",  Δt = " : "", one_step ? gm_step_text(picture, dt) : "");
     picture->caption = one_start ? caption_of(own) : "";
+    picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     draw_plane(picture, lanes, count);
     if (one_start && own->configuration == GM_REDUCED) {

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "core/families/burgers.h"
+#include "core/problems/dispersive.h"
 #include "core/problems/problems.h"
 #include "core/problems/sine_gordon.h"
 #include "core/run.h"
@@ -100,6 +101,65 @@ static void waves(size_t points, double half_length, double dt, long steps, doub
     free(y);
 }
 
+/* The implicit schemes at steps from small to large: the iteration, and Newton's method where it is slow. */
+static void larger_steps(struct gm_problem *problem, const double *ratios, size_t count, double unit,
+                         long steps, void (*levels)(const struct gm_problem *, double, double *))
+{
+    double *y = malloc(problem->n * sizeof *y);
+    printf("%s, box, %zu points\n", problem->name, problem->line.points);
+    for (size_t i = 0; i < count; i++) {
+        static const struct gm_settings no_settings;
+        const double dt = ratios[i] * unit;
+        levels(problem, dt, y);
+        struct gm_run *run = gm_run_open(problem, gm_scheme_find_for("box", problem), &no_settings, 0, dt, y);
+        gm_run_advance(run, steps);
+        const double iterations = (double)run->iterations / (double)(run->steps > 0 ? run->steps : 1);
+        gm_run_close(run);
+        printf("  dt %-8.3g dt/dx %-7.3g %9.2f ns a point and step   %5.1f iterations\n", dt,
+               dt / problem->line.dx, time_of(problem, "box", dt, steps, y), iterations);
+    }
+    free(y);
+}
+
+static void breather_levels(const struct gm_problem *problem, double dt, double *y)
+{
+    gm_sine_gordon_levels(problem, 0, dt, y);
+}
+
+static void nls_levels(const struct gm_problem *problem, double dt, double *y)
+{
+    (void)dt;
+    const size_t points = problem->line.points;
+    for (size_t i = 0; i < points; i++) {
+        gm_nls_exact(problem->nls, &problem->line, gm_line_node(&problem->line, i), 0, &y[i], &y[points + i]);
+    }
+}
+
+static void boxes(size_t points, double half_length, long steps)
+{
+    static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.5};
+    static const struct gm_kdv soliton = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1};
+    static const struct gm_nls bright = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
+    static const double ratios[] = {0.25, 0.5, 1, 2, 5, 10, 20, 30, 38, 40, 60};
+    enum { COUNT = sizeof ratios / sizeof ratios[0] };
+    const struct gm_line line = {points, 2 * half_length / (double)points, -half_length, 0};
+    struct gm_problem problem = gm_problem_sine_gordon;
+    problem.parameters = &breather;
+    problem.line = line;
+    problem.n = gm_wave_size(points);
+    larger_steps(&problem, ratios, COUNT, 0.05, steps, breather_levels);
+    problem = gm_problem_kdv;
+    problem.parameters = problem.kdv = &soliton;
+    problem.line = line;
+    problem.n = gm_wave_size(points);
+    larger_steps(&problem, ratios, COUNT, 0.05, steps, gm_kdv_levels);
+    problem = gm_problem_nls;
+    problem.parameters = problem.nls = &bright;
+    problem.line = line;
+    problem.n = 2 * points;
+    larger_steps(&problem, ratios, COUNT, 0.01, steps, nls_levels);
+}
+
 static void burgers(size_t points, long steps, double sine)
 {
     static const char *const names[] = {
@@ -132,6 +192,8 @@ int main(void)
     printf("a bare loop over libm's sin          %.2f ns\n", sine);
     waves(801, 20, 0.05, 4000, sine);
     waves(1000000, 20000, 0.04, 8, sine);
+    boxes(801, 20, 100);
+    boxes(100000, 2000, 2);
     burgers(801, 8000, sine);
     burgers(1000000, 8, sine);
     return 0;

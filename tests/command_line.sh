@@ -149,6 +149,8 @@ status 0 run disc scheme=rk2,rk4 dt=0.1,0.2 zip=yes --json
 [ "$(wc -l <out)" = 2 ] || fail 'zip=yes pairs lists'
 status 2 run disc scheme=explicit-euler dt=2 until=1000 --json
 grep -q '"status":"blow-up"' out || fail "a blow-up is a status: $(cat out)"
+status 2 run disc scheme=explicit-euler dt=2 until=1000
+grep -q '^  message  *the step after t = ' out || fail "a blow-up tells its reason: $(cat out)"
 status 0 run disc --csv history.csv steps=10 --every 5
 [ "$(wc -l <history.csv)" = 4 ] || fail "--every 5 of 10 steps is a head and three rows: $(wc -l <history.csv)"
 head -n 1 history.csv | grep -q '^scene,lane,scheme,t,area,' || fail 'the head of a CSV'

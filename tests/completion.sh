@@ -38,6 +38,18 @@ offers 'dt=pi/12' run disc dt=
 offers 'area area_error area_tangent' work-precision disc --measure area
 offers '' again pic
 offers '' nonsense x
+# tours: those of the folder
+GEOMINT_TOURS=$2/tours
+export GEOMINT_TOURS
+offers "$(cd "$GEOMINT_TOURS" && ls | sed 's/\.tour$//')" tour ''
+offers 'mesh' tour me
+offers '' tour nothing
+offers '--theme' tour --th
+offers 'dark light mono' tour --theme ''
+offers 'kitty' tour --graphics k
+offers '16 256 none truecolor' terminal --colours ''
+offers 'dark light' render disc --theme ''
+GEOMINT_TOURS=/nowhere offers '' tour ''
 [ "$("$geomint" complete | wc -l)" -gt 15 ] || fail 'without a word, commands and scenes'
 
 # bash asks a function; only what stands behind = is replaced
@@ -53,11 +65,14 @@ try "geomint run disc sys" system=
 try "geomint run disc system=pen" pendulum
 try "geomint run disc scheme=rk4,midpoint-su" rk4,midpoint-suzuki4
 try "geomint render disc --theme d" dark
+try "geomint tour gal" galilei
 ' bash "$completion" || fail 'bash'
 
 if command -v fish >/dev/null; then
     got=$(fish --no-config -c "source $completion/geomint.fish; complete -C 'geomint run disc system=pen'" | cut -f 1)
     [ "$got" = 'system=pendulum' ] || fail "fish: $got"
+    got=$(fish --no-config -c "source $completion/geomint.fish; complete -C 'geomint tour gal'" | cut -f 1)
+    [ "$got" = galilei ] || fail "fish: $got"
 fi
 if command -v zsh >/dev/null; then
     zsh -n "$completion/_geomint" || fail 'zsh does not read it'
@@ -69,10 +84,12 @@ if command -v zsh >/dev/null; then
         completion=$1
         try geomint run disc system=pen
         try geomint ren
+        try geomint tour gal
         try geomint again pic
     ' zsh "$completion")
     [ "$got" = "system=pendulum
 render
+galilei
 files" ] || fail "zsh: $got"
 fi
 

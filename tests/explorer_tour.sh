@@ -76,6 +76,68 @@ same "after all sizes" "$full" "$(settled)"
 keys q
 wait_for 'left 0'
 
+# ---- in the list of scenes ----
+
+start 80x24 COLORTERM=truecolor TERM=tmux-256color GEOMINT_TOURS="$tours"
+keys "\"$geomint\"; echo \"left \$?\"" Enter
+wait_for '▸ disc'
+keys Tab
+wait_for '▸ area'
+wait_for '7\. +What area cannot tell'
+keys Tab
+wait_for '▸ disc'
+keys train # a word of what a tour is about
+wait_for 'search: train_'
+wait_for '▸ galilei'
+wait_gone 'kepler'
+keys Enter
+wait_for 'Moving with the flow 1/6'
+keys n
+wait_for 'Moving with the flow 2/6'
+keys l
+wait_for '▸ galilei'
+keys Enter # as it was left
+wait_for 'Moving with the flow 2/6'
+keys l
+wait_for '▸ galilei'
+keys Home
+wait_for '▸ disc'
+keys Enter # a scene ends the tour
+wait_for '▸━+ explicit Euler|▸ ━+ explicit Euler'
+wait_gone 'Moving with the flow'
+keys n # means nothing now
+settled | grep -q 'Moving with the flow' && fail "the tour is not over"
+keys l
+wait_for '▸ disc'
+keys End
+wait_for '▸ worth'
+keys Enter
+wait_for 'What is it worth\? 1/5'
+keys q
+wait_for 'left 0'
+
+# without tours there are none
+start 80x24 COLORTERM=truecolor TERM=tmux-256color GEOMINT_TOURS=/nowhere
+keys "\"$geomint\"; echo \"left \$?\"" Enter
+wait_for '▸ disc'
+screen | grep -qE 'TOURS|tab tours' && fail "tours without a folder"
+keys Tab
+wait_for '▸ disc'
+keys q
+wait_for 'left 0'
+
+# the terminal's options
+start 80x24 TERM=xterm GEOMINT_TOURS="$tours"
+keys "\"$geomint\" tour area --colours truecolor --theme light --graphics ascii; echo \"left \$?\"" Enter
+wait_for '1/7: '
+wait_for 'paused'
+[[ $(in_colour) == *'38;2;29;31;36'* ]] || fail "a tour in the light theme has no dark ink"
+settled | LC_ALL=C grep -q '[^ -~]' && fail "a tour in ASCII has other letters"
+keys q
+wait_for 'left 0'
+[ "$(GEOMINT_TOURS="$tours" "$geomint" tour area --theme mono --movie "$folder/x.mp4" 2>&1)" = \
+    'geomint: --theme mono: is none of: light, dark' ] || fail "a movie in no colours"
+
 # ---- studies ----
 
 start 100x30 COLORTERM=truecolor TERM=tmux-256color

@@ -126,28 +126,3 @@ pause() {
     keys Space
     wait_for 'paused'
 }
-
-# becomes NAME SCREEN: until the screen is that one
-becomes() {
-    local i now
-    for ((i = 0; i < 200; i++)); do
-        now=$(screen)
-        [ "$now" = "$2" ] && return 0
-        sleep 0.1
-    done
-    fail "$1: the screens differ"
-    diff <(printf '%s\n' "$2") <(printf '%s\n' "$now")
-}
-
-# changes NAME SCREEN: until the screen is another one, and rests; prints it
-changes() {
-    local i
-    for ((i = 0; i < 200; i++)); do
-        [ "$(screen)" != "$2" ] && {
-            settled
-            return 0
-        }
-        sleep 0.1
-    done
-    fail "$1: the screen stays as it was" >&2
-}

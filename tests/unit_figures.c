@@ -182,6 +182,30 @@ static void orders_and_ratios(void **unused)
     assert_true(outcome.verdicts[2].holds);
 }
 
+/* When something is largest, smallest, or first above a level: with explicit Euler the energy error is
+   (1 + dt^2)^n - 1, above 1 from the 70th step on, and the area rises; with implicit Euler it falls. */
+static void times_are_measured(void **unused)
+{
+    (void)unused;
+    static const struct gm_statement statements[] = {
+        {"twice", .lanes = "", .observable = "energy_error", .measure = GM_EXCEEDS, .level = 1, .low = 6.89,
+         .high = 7.01},
+        {"never", .lanes = "", .observable = "energy_error", .measure = GM_EXCEEDS, .level = 1e3,
+         .low = -INFINITY, .high = 1e9},
+        {"most", .lanes = "", .observable = "area", .measure = GM_PEAKS, .low = 9.89, .high = 10},
+        {"least", .lanes = "", .observable = "area", .measure = GM_DIPS, .low = 0, .high = 0.11},
+    };
+    struct gm_outcome outcome;
+    make("scheme=explicit-euler dt=0.1 until=10", statements, 4, &outcome);
+    assert_true(outcome.verdicts[0].holds);
+    assert_false(outcome.verdicts[1].holds);
+    assert_true(outcome.verdicts[2].holds);
+    assert_true(outcome.verdicts[3].holds);
+    make("scheme=implicit-euler dt=0.1 until=10", statements, 4, &outcome);
+    assert_false(outcome.verdicts[2].holds);
+    assert_false(outcome.verdicts[3].holds);
+}
+
 static void unknown_names_are_refused(void **unused)
 {
     (void)unused;
@@ -212,6 +236,7 @@ int main(void)
         cmocka_unit_test(a_wrong_scheme_is_caught),
         cmocka_unit_test(a_failed_run_holds_nothing_small),
         cmocka_unit_test(orders_and_ratios),
+        cmocka_unit_test(times_are_measured),
         cmocka_unit_test(unknown_names_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "app/explorer/session.h"
+#include "app/explorer/slider.h"
 
 static char message[GM_MESSAGE];
 
@@ -161,16 +162,99 @@ static void lanes_are_overlaid(void **unused)
     free(text);
     assert_true(gm_session_overlay(&session, message));
     assert_int_equal(session.lanes[1]->shown.panel, 1);
+    /* a lane that is left alone has its own panel */
+    assert_true(gm_session_overlay(&session, message));
+    assert_true(gm_session_remove(&session, 0, message));
+    assert_false(session.overlaid);
+    assert_false(session.log.overlay);
+    assert_false(gm_session_overlay(&session, message));
     gm_session_close(&session);
+}
+
+/* ---- sliders ---- */
+
+struct numbers {
+    double value;
+};
+#define NUMBER(standard_, low, high, logarithmic_)                                                           \
+    {                                                                                                        \
+        .key = "value", .unit = "", .help = "", .type = GM_REAL, .offset = offsetof(struct numbers, value),  \
+        .standard = standard_, .lowest = low, .highest = high, .logarithmic = logarithmic_,                  \
+    }
+
+static void move(const struct gm_parameter *row, struct numbers *numbers, int direction, bool fine)
+{
+    char text[GM_VALUE_TEXT];
+    assert_true(gm_slider_next(row, numbers, direction, fine, text));
+    assert_true(gm_number_parse(text, &numbers->value));
+}
+
+static void sliders_move_finely(void **unused)
+{
+    (void)unused;
+    const struct gm_parameter step = NUMBER("0.02", 1e-6, 100, true), wide = NUMBER("0", -1e4, 1e4, false),
+                              narrow = NUMBER("0.5", 0.01, 0.9999, false);
+    struct numbers numbers = {0.02};
+    /* to 0.013 by keys alone: coarse, then fine */
+    move(&step, &numbers, -1, false);
+    move(&step, &numbers, -1, false);
+    assert_true(fabs(numbers.value - 0.012) < 1e-12);
+    for (int i = 0; i < 5; i++) {
+        move(&step, &numbers, 1, true);
+    }
+    assert_true(fabs(numbers.value - 0.013) < 1e-12);
+    /* a fine value lies within 2.5 % everywhere, there and back, borders of decades included */
+    for (double start = 0.9; start < 12; start *= 1.013) {
+        numbers.value = start;
+        move(&step, &numbers, 1, true);
+        assert_true(numbers.value > start && numbers.value < 1.0251 * start);
+        numbers.value = start;
+        move(&step, &numbers, -1, true);
+        assert_true(numbers.value < start && numbers.value > 0.9749 * start);
+    }
+    numbers.value = 0;
+    move(&wide, &numbers, 1, false);
+    const double coarse = numbers.value;
+    numbers.value = 0;
+    move(&wide, &numbers, 1, true);
+    assert_true(fabs(coarse - 10 * numbers.value) < 1e-12);
+    numbers.value = 0.9999;
+    char text[GM_VALUE_TEXT];
+    assert_false(gm_slider_next(&narrow, &numbers, 1, true, text));
+}
+
+static void sliders_tell_places(void **unused)
+{
+    (void)unused;
+    const struct gm_parameter rows[] = {NUMBER("0.02", 1e-6, 100, true), NUMBER("0", -1e4, 1e4, false),
+                                        NUMBER("150", -1e6, 1e6, false), NUMBER("0.5", 0.01, 0.9999, false),
+                                        NUMBER("5e-3", 0, 10, true)};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        double before = -INFINITY;
+        for (double place = 0; place <= 1; place += 1. / 16) {
+            char text[GM_VALUE_TEXT];
+            struct numbers numbers;
+            assert_true(gm_slider_at(&rows[i], place, text));
+            assert_true(gm_number_parse(text, &numbers.value));
+            assert_true(numbers.value > before);
+            before = numbers.value;
+            assert_true(fabs(gm_slider_position(&rows[i], &numbers) - place) < 0.01);
+        }
+        assert_true(before == rows[i].highest);
+    }
+    /* of a range that is far wider than what is of use, a quarter is for values near the usual ones */
+    struct numbers numbers = {-10}, other = {10};
+    assert_true(gm_slider_position(&rows[1], &other) - gm_slider_position(&rows[1], &numbers) > 0.25);
+    numbers.value = 0.255;
+    assert_true(fabs(gm_slider_position(&rows[3], &numbers) - 0.2475) < 0.001);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(past_is_visited),
-        cmocka_unit_test(forks_share_the_past),
-        cmocka_unit_test(time_runs_both_ways),
-        cmocka_unit_test(lanes_are_overlaid),
+        cmocka_unit_test(past_is_visited),     cmocka_unit_test(forks_share_the_past),
+        cmocka_unit_test(time_runs_both_ways), cmocka_unit_test(lanes_are_overlaid),
+        cmocka_unit_test(sliders_move_finely), cmocka_unit_test(sliders_tell_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "core/fourier.h"
 #include "core/multisymplectic.h"
 #include "core/problems/dispersive.h"
 #include "core/problems/problems.h"
@@ -350,10 +351,18 @@ static void the_form_is_kept_or_not(void **unused)
     const struct gm_problem kdv = kdv_problem(POINTS), nls = nls_problem(POINTS);
     gm_kdv_levels(&kdv, 0.05, y);
     expect_law(&kdv, "box", 0.05, y, true);
+    gm_kdv_levels(&kdv, 0.01, y);
+    expect_law(&kdv, "euler-box", 0.01, y, true);
+    expect_law(&kdv, "midpoint-box", 0.01, y, true);
+    gm_kdv_levels(&kdv, -0.01, y);
+    expect_law(&kdv, "euler-box", -0.01, y, true);
+    expect_law(&kdv, "midpoint-box", -0.01, y, true);
     for (size_t i = 0; i < POINTS; i++) {
         gm_nls_exact(&bright, &nls.line, gm_line_node(&nls.line, i), 0, &y[i], &y[POINTS + i]);
     }
     expect_law(&nls, "box", 0.02, y, true);
+    expect_law(&nls, "euler-box", 0.02, y, true);
+    expect_law(&nls, "euler-box", -0.02, y, true);
     struct gm_run *run = gm_run_open(&nls, gm_scheme_find("split-step2"), &no_settings, 0, 0.02, y);
     assert_true(isnan(gm_form_residual(&nls, run->scheme, 0.02, y, NULL)));
     gm_run_close(run);
@@ -433,6 +442,157 @@ static void dispersive_levels_agree(void **unused)
     gm_run_close(run);
 }
 
+/* The schemes of nodes against M D_t s + K D_x s - grad S of the facet, with all its variables: after a step
+   every equation holds at every node. */
+static void nodes_solve_the_whole_system(void **unused)
+{
+    (void)unused;
+    enum { POINTS = 101, PHI = 0, U, V, W, DIMENSION };
+    static const char *const names[] = {"euler-box", "midpoint-box"};
+    const double dt = 0.01;
+    for (size_t s = 0; s < 2; s++) {
+        const bool centred = s == 1;
+        struct gm_problem problem = kdv_problem(POINTS);
+        problem.parameters = problem.kdv;
+        double y[2 * POINTS + 1], u[3][POINTS], phi[3][POINTS + 1] = {{0}}, v[POINTS], w[POINTS];
+        gm_kdv_levels(&problem, dt, y);
+        memcpy(u[0], y, sizeof u[0]);
+        memcpy(u[1], y + POINTS, sizeof u[1]);
+        struct gm_run *run =
+            gm_run_open(&problem, gm_scheme_find_for(names[s], &problem), &no_settings, 0, dt, y);
+        assert_int_equal(gm_run_advance(run, 2), GM_OK);
+        memcpy(u[2], gm_run_state(run), sizeof u[2]);
+        gm_run_close(run);
+        const double dx = problem.line.dx, wide = centred ? 2 * dx : dx, long_step = centred ? 2 * dt : dt;
+        for (size_t n = 0; n < 3; n++) {
+            for (size_t k = 0, at = 0; k + 1 < POINTS; k++) {
+                const size_t next = (at + (centred ? 2 : 1)) % POINTS;
+                phi[n][next] = phi[n][at] + wide * u[n][centred ? (at + 1) % POINTS : next];
+                at = next;
+            }
+        }
+        double rise = 0;
+        for (size_t i = 0; i < POINTS; i++) {
+            const size_t l = (i + POINTS - 1) % POINTS, r = (i + 1) % POINTS;
+            v[i] = problem.kdv->mu * (centred ? u[1][r] - u[1][l] : u[1][i] - u[1][l]) / wide;
+        }
+        for (size_t i = 0; i < POINTS; i++) {
+            const size_t l = (i + POINTS - 1) % POINTS, r = (i + 1) % POINTS;
+            const double fall = (phi[centred ? 2 : 1][i] - phi[0][i]) / (2 * long_step);
+            w[i] = fall + (centred ? v[r] - v[l] : v[r] - v[i]) / wide + u[1][i] * u[1][i] / 2;
+        }
+        /* the exact levels differ in mass by 1e-9, by which phi and w do not close around the ring */
+        for (size_t i = 0; i + 1 < POINTS; i++) {
+            const size_t l = (i + POINTS - 1) % POINTS, r = i + 1;
+            const double u_t = (u[2][i] - u[centred ? 0 : 1][i]) / long_step;
+            rise = fmax(rise, fabs(u_t / 2 + (centred ? w[r] - w[l] : w[r] - w[i]) / wide));
+        }
+        if (!(rise < 1e-10)) {
+            fail_msg("%s leaves %.2e of its first equation", names[s], rise);
+        }
+    }
+}
+
+/* The linear limits of the schemes of nodes: just below them a run stays bounded, just above it does not. */
+static void nodes_are_stable_below_their_limits(void **unused)
+{
+    (void)unused;
+    enum { POINTS = 200 };
+    const struct gm_problem kdv = kdv_problem(POINTS), nls = nls_problem(POINTS);
+    const double dx = kdv.line.dx;
+    const struct {
+        const struct gm_problem *problem;
+        const char *name;
+        double limit;
+    } cases[] = {
+        {&kdv, "euler-box", dx * dx * dx / 4},
+        {&kdv, "midpoint-box", dx * dx * dx},
+        {&nls, "euler-box", dx * dx / 2},
+    };
+    static double y[2 * POINTS + 1];
+    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+        for (int k = 0; k < 4; k++) {
+            /* backwards as well */
+            const double dt = (k % 2 ? 1.06 : 0.94) * cases[c].limit * (k < 2 ? 1 : -1);
+            if (cases[c].problem == &kdv) {
+                gm_kdv_levels(&kdv, dt, y);
+            } else {
+                for (size_t i = 0; i < POINTS; i++) {
+                    gm_nls_exact(&bright, &nls.line, gm_line_node(&nls.line, i), 0, &y[i], &y[POINTS + i]);
+                }
+            }
+            struct gm_run *run =
+                gm_run_open(cases[c].problem, gm_scheme_find_for(cases[c].name, cases[c].problem),
+                            &no_settings, 0, dt, y);
+            const bool stays = gm_run_advance(run, lround(10 / fabs(dt))) == GM_OK;
+            if (stays != (k % 2 == 0)) {
+                fail_msg("%s, %s: dt = %g is %s", cases[c].problem->name, cases[c].name, dt,
+                         gm_status_name(run->status));
+            }
+            gm_run_close(run);
+        }
+    }
+}
+
+/* Where the iteration of the boxes no longer contracts Newton's method goes on; what it finds solves the
+   equations, and small steps give the same by either. */
+static void large_steps_are_solved(void **unused)
+{
+    (void)unused;
+    static const double steps[] = {0.5, 1.25, 1.9, 2};
+    for (size_t s = 0; s < sizeof steps / sizeof steps[0]; s++) {
+        enum { POINTS = 201 };
+        const double dt = steps[s];
+        struct gm_problem problem;
+        struct gm_run *run = breather_run(&problem, "box", POINTS, dt);
+        double u[3][POINTS];
+        for (size_t n = 0; n < 3; n++) {
+            assert_int_equal(gm_run_advance(run, n ? 1 : 7), GM_OK);
+            memcpy(u[n], gm_run_state(run), sizeof u[n]);
+        }
+        const double dx = problem.line.dx;
+        double worst = 0;
+        for (size_t i = 0; i < POINTS; i++) {
+            const size_t l = (i + POINTS - 1) % POINTS, r = (i + 1) % POINTS;
+            double means[3], bends[3], force = 0;
+            for (size_t n = 0; n < 3; n++) {
+                means[n] = (u[n][r] + 2 * u[n][i] + u[n][l]) / 4;
+                bends[n] = u[n][r] - 2 * u[n][i] + u[n][l];
+            }
+            for (size_t n = 0; n < 2; n++) {
+                force += sin((u[n][i] + u[n][r] + u[n + 1][i] + u[n + 1][r]) / 4) / 4;
+                force += sin((u[n][i] + u[n][l] + u[n + 1][i] + u[n + 1][l]) / 4) / 4;
+            }
+            worst = fmax(worst, fabs((means[2] - 2 * means[1] + means[0]) / (dt * dt) -
+                                     (bends[2] + 2 * bends[1] + bends[0]) / (4 * dx * dx) + force));
+        }
+        if (!(worst < 1e-11)) {
+            fail_msg("dt = %g leaves %.2e", dt, worst);
+        }
+        gm_run_close(run);
+    }
+    enum { POINTS = 201 };
+    double y[2 * POINTS + 1];
+    const struct gm_problem kdv = kdv_problem(POINTS), nls = nls_problem(POINTS);
+    for (int k = 0; k < 3; k++) {
+        gm_kdv_levels(&kdv, ldexp(1, k), y);
+        struct gm_run *run =
+            gm_run_open(&kdv, gm_scheme_find_for("box", &kdv), &no_settings, 0, ldexp(1, k), y);
+        const double mass = gm_kdv_mass(&kdv, y);
+        assert_int_equal(gm_run_advance(run, 20), GM_OK);
+        expect_number(gm_kdv_mass(&kdv, gm_run_state(run)), mass, 1e-11);
+        gm_run_close(run);
+        for (size_t i = 0; i < POINTS; i++) {
+            gm_nls_exact(&bright, &nls.line, gm_line_node(&nls.line, i), 0, &y[i], &y[POINTS + i]);
+        }
+        run = gm_run_open(&nls, gm_scheme_find_for("box", &nls), &no_settings, 0, ldexp(1, k), y);
+        const double charge = gm_nls_charge(&nls, y);
+        assert_int_equal(gm_run_advance(run, 20), GM_OK);
+        expect_number(gm_nls_charge(&nls, gm_run_state(run)), charge, 1e-12);
+        gm_run_close(run);
+    }
+}
+
 /* The matrices of every equation are skew. */
 static void matrices_are_skew(void **unused)
 {
@@ -495,6 +655,34 @@ static void rings_are_solved(void **unused)
         for (size_t i = 0; i < n; i++) {
             assert_true(fabs(2.5 * x[i] - 1.1 * (x[(i + 1) % n] + x[(i + n - 1) % n]) - b[i]) < 1e-13);
         }
+        for (size_t reach = 1; reach <= 2 && 2 * reach < n; reach++) {
+            struct gm_ring_band band;
+            double two[202], matrix[2][2][5][101], given[202];
+            assert_true(gm_ring_band_open(&band, n, 2, reach));
+            gm_ring_band_clear(&band);
+            for (size_t i = 0; i < 2 * n; i++) {
+                two[i] = given[i] = sin(0.3 + (double)i);
+            }
+            for (size_t i = 0; i < n; i++) {
+                for (size_t part = 0; part < 4; part++) {
+                    for (long by = -(long)reach; by <= (long)reach; by++) {
+                        double *entry = &matrix[part / 2][part % 2][by + 2][i];
+                        *entry = cos(7.1 * (double)i + 3.3 * (double)part + 1.7 * (double)by);
+                        gm_ring_band_add(&band, i, part / 2, by, part % 2, *entry);
+                    }
+                }
+            }
+            assert_true(gm_ring_band_solve(&band, two));
+            for (size_t i = 0; i < 2 * n; i++) {
+                double left = -given[i];
+                for (size_t k = 0; k < 2 * (2 * reach + 1); k++) {
+                    const size_t column = k % 2, by = k / 2 + 2 - reach;
+                    left += matrix[i / n][column][by][i % n] * two[column * n + (i % n + n + by - 2) % n];
+                }
+                assert_true(fabs(left) < 1e-11);
+            }
+            gm_ring_band_close(&band);
+        }
         for (int power = 1; power <= 3; power++) {
             const double complex mean = power == 2 ? 3 * I : 3, difference = 0.2;
             const double h = 0.3;
@@ -522,6 +710,34 @@ static void rings_are_solved(void **unused)
     }
 }
 
+/* Transforms against their sums; lengths with small factors alone, and primes. */
+static void transforms_of_any_length(void **unused)
+{
+    (void)unused;
+    static const size_t sizes[] = {1, 2, 3, 64, 101, 300, 809};
+    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+        const size_t n = sizes[s];
+        double complex x[809], y[809];
+        for (size_t j = 0; j < n; j++) {
+            x[j] = y[j] = sin(1 + 3.7 * (double)j) + I * cos(0.3 * (double)(j * j));
+        }
+        struct gm_fourier *fourier = gm_fourier_open(n);
+        gm_fourier_forward(fourier, y);
+        for (size_t k = 0; k < n; k += 1 + n / 20) {
+            double complex sum = 0;
+            for (size_t j = 0; j < n; j++) {
+                sum += x[j] * cexp(-2 * M_PI * I * (double)(j * k % n) / (double)n);
+            }
+            assert_true(cabs(y[k] - sum) < 1e-12 * (double)n);
+        }
+        gm_fourier_inverse(fourier, y);
+        for (size_t j = 0; j < n; j++) {
+            assert_true(cabs(y[j] - x[j]) < 1e-12);
+        }
+        gm_fourier_close(fourier);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -533,9 +749,13 @@ int main(void)
         cmocka_unit_test(the_form_is_kept_or_not),
         cmocka_unit_test(collocation_at_one_point_is_the_box),
         cmocka_unit_test(dispersive_levels_agree),
+        cmocka_unit_test(nodes_solve_the_whole_system),
+        cmocka_unit_test(nodes_are_stable_below_their_limits),
+        cmocka_unit_test(large_steps_are_solved),
         cmocka_unit_test(matrices_are_skew),
         cmocka_unit_test(sines_are_sines),
         cmocka_unit_test(rings_are_solved),
+        cmocka_unit_test(transforms_of_any_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,7 +3,7 @@
 #define GM_APP_EXPLORER_EXPLORER_H
 
 #include "app/explorer/terminal.h"
-#include "app/request.h"
+#include "app/options.h"
 #include "app/tour.h"
 
 /* The interactive explorer. A request without a scene (or NULL) begins with the list of scenes. Returns an
@@ -11,5 +11,8 @@
 int gm_explorer(const struct gm_request *request, const struct gm_overrides *overrides);
 /* The same, led by a tour. */
 int gm_explorer_tour(const struct gm_tour *tour, const struct gm_overrides *overrides);
+
+/* What the options of a command say of the terminal. */
+struct gm_overrides gm_overrides_of(const struct gm_options *options);
 
 #endif

@@ -42,6 +42,7 @@ struct gm_face {
     const struct gm_scheme *explained; /* by its page */
     const char *measured;              /* what certify says of it, line by line; NULL: not yet */
     int scroll;                        /* lines of the page above the screen */
+    size_t command;                    /* the one that was copied */
     enum gm_choosing choosing;
     const struct gm_scheme *choice;
     enum gm_prompt prompt;

@@ -42,7 +42,7 @@ static void put_scene(struct page *page, const struct gm_scene *scene)
 
 enum { KEY_COLUMNS = 11 };
 
-static void put_keys(struct page *page)
+static void put_keys(struct page *page, const struct gm_scene *scene)
 {
     put_heading(page, "KEYS");
     for (size_t i = 0; i < gm_key_row_count; i++) {
@@ -55,9 +55,11 @@ static void put_keys(struct page *page)
     put_wrapped(
         page, 0,
         "Never needed. Click a lane, a scheme, a parameter or a word of the last line; drag a slider, or the "
-        "line under the picture through the past; the wheel changes the speed; in the picture of a phase "
-        "plane a click is a new start.",
+        "line under the picture through the past; the wheel changes the speed.",
         GM_INK);
+    if (scene->point) {
+        put_wrapped(page, 0, "In the picture of this scene a click is a new start.", GM_INK);
+    }
 }
 
 static void put_claims(struct page *page)
@@ -128,7 +130,7 @@ static int draw_help(const struct gm_sheet *sheet, int scroll, const struct gm_s
         right.sheet.column += left.sheet.width + COLUMN_GAP;
     }
     put_scene(&left, shot->scene);
-    put_keys(&left);
+    put_keys(&left, shot->scene);
     if (!two) {
         right.row = left.row;
     }
@@ -140,20 +142,27 @@ static int draw_help(const struct gm_sheet *sheet, int scroll, const struct gm_s
     return left.row > right.row ? left.row : right.row;
 }
 
-static int draw_command(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
+static int draw_commands(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
 {
+    static const char *const headings[GM_COMMANDS] = {
+        [GM_COMMAND_PICTURE] = "THIS VIEW AS A PICTURE",
+        [GM_COMMAND_EXPLORER] = "THE EXPLORER WITH THESE LANES, FROM THE START",
+    };
     struct page page = {.sheet = *sheet, .scroll = scroll};
-    put_heading(&page, "THIS VIEW, FROM THE COMMAND LINE");
-    put_wrapped(&page, 0, shot->command ? shot->command : "There is not enough memory.", GM_INK);
+    for (size_t i = 0; i < GM_COMMANDS; i++) {
+        put_heading(&page, headings[i]);
+        put(&page, 0, i == sheet->face->command ? "▸" : " ", GM_INK, true);
+        put_wrapped(&page, 2, shot->commands[i] ? shot->commands[i] : "There is not enough memory.", GM_INK);
+    }
     page.row++;
-    put_wrapped(&page, 0, "It was copied too, if the terminal lets programs do that.", GM_SECONDARY);
+    put_wrapped(&page, 0, "▸ was copied too, if the terminal lets programs do that.", GM_SECONDARY);
     return page.row;
 }
 
 static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
 {
     if (sheet->face->page == GM_PAGE_COMMAND) {
-        return draw_command(sheet, scroll, shot);
+        return draw_commands(sheet, scroll, shot);
     }
     return sheet->face->page == GM_PAGE_SCHEME ? draw_scheme(sheet, scroll) : draw_help(sheet, scroll, shot);
 }

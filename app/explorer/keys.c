@@ -134,6 +134,12 @@ static enum gm_key_result press_change(const struct gm_press *press)
     return order_parameter(press, GM_ORDER_MOVE, press->key == KEY_LEFT ? -1 : 1);
 }
 
+static enum gm_key_result press_nudge(const struct gm_press *press)
+{
+    bool down = press->key == KEY_SLEFT || press->key == '-';
+    return order_parameter(press, GM_ORDER_NUDGE, down ? -1 : 1);
+}
+
 static enum gm_key_result press_type(const struct gm_press *press)
 {
     return gm_prompt_open(press, GM_PROMPT_VALUE);
@@ -234,7 +240,12 @@ static enum gm_key_result press_leave(const struct gm_press *press)
 const struct gm_key_row gm_key_rows[] = {
     {{' '}, "space", "pause", 2, "pause and go on", press_pause},
     {{'.', ','}, ". ,", "step", 9, "one step forward, one step back; this pauses", press_step},
-    {{'[', ']'}, "[ ]", "speed", 10, "slower, faster: model time per second", press_speed},
+    {{'[', ']'},
+     "[ ]",
+     "speed",
+     10,
+     "slower, faster: model time per second, down to single steps",
+     press_speed},
     {{KEY_PPAGE, KEY_NPAGE, KEY_HOME, KEY_END},
      "PgUp PgDn",
      NULL,
@@ -257,7 +268,13 @@ const struct gm_key_row gm_key_rows[] = {
      7,
      "change it; live ones act at once, others start again",
      press_change},
-    {{'\n', '\r', KEY_ENTER}, "enter", NULL, 0, "type its value: 0.1, 1e-3, pi/60", press_type},
+    {{'-', '+', KEY_SLEFT, KEY_SRIGHT},
+     "- +",
+     NULL,
+     0,
+     "change it finely, by about a tenth of that; shift with ← → does the same",
+     press_nudge},
+    {{'\n', '\r', KEY_ENTER}, "enter", NULL, 0, "type its value: 0.013, 1e-3, pi/60", press_type},
     {{KEY_BACKSPACE, 127, 8}, "⌫", NULL, 0, "set it to its default", press_default},
     {{'v'}, "v", "view", 16, "more room for: schemes, parameters, observables, the picture", press_side},
     {{'t'}, "t", "theme", 18, "dark, light, monochrome", press_theme},
@@ -269,7 +286,12 @@ const struct gm_key_row gm_key_rows[] = {
      press_blocks},
     {{'p'}, "p", "save", 11, "save the picture as PNG; `geomint again` redoes it", press_save},
     {{'R'}, "R", "record", 20, "begin a movie of what is seen; again: end it", press_record},
-    {{'y'}, "y", "command", 21, "the command line that redoes this view; copied too", press_tell},
+    {{'y'},
+     "y",
+     "command",
+     21,
+     "command lines: of this view as a picture, and of the explorer; copied too",
+     press_tell},
     {{'w', 'm'},
      "w m",
      "diagrams",

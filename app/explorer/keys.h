@@ -15,6 +15,7 @@ enum gm_key_result {
     GM_KEY_SCENES,  /* to the list of scenes */
     GM_KEY_STUDY,   /* a diagram in the background, by the key */
     GM_KEY_TOUR,    /* another step of a tour, by the key */
+    GM_KEY_COPY,    /* the chosen command line to the clipboard */
     GM_KEY_LEAVE,
 };
 

@@ -50,10 +50,17 @@ static enum gm_key_result press_in_page(int key, struct gm_face *face)
     case ' ':
         face->scroll += PAGE;
         return GM_KEY_FACE;
+    case 'y':
+        if (face->page == GM_PAGE_COMMAND) {
+            face->command = (face->command + 1) % GM_COMMANDS;
+            return GM_KEY_COPY;
+        }
+        break;
     default:
-        face->page = GM_PAGE_SCENE;
-        return GM_KEY_FACE;
+        break;
     }
+    face->page = GM_PAGE_SCENE;
+    return GM_KEY_FACE;
 }
 
 /* ---- the list of schemes ---- */

@@ -69,10 +69,15 @@ void gm_screen_close(struct gm_screen *screen)
 
 enum { SIDE_FROM_COLUMNS = 60, SIDE_FROM_ROWS = 12, SIDE_LEAST = 31, SIDE_MOST = 58 };
 
+/* Where there is no room for picture and panel, the panel comes when it is asked for, and alone. */
 static int side_columns(const struct gm_cells *cells, const struct gm_face *face)
 {
-    if (cells->columns < SIDE_FROM_COLUMNS || cells->rows < SIDE_FROM_ROWS ||
-        (face->side == GM_SIDE_NONE && face->choosing == GM_CHOOSE_NOTHING)) {
+    const bool choosing = face->choosing != GM_CHOOSE_NOTHING;
+    if (cells->columns < SIDE_FROM_COLUMNS || cells->rows < SIDE_FROM_ROWS) {
+        const bool asked = choosing || (face->side != GM_SIDE_ALL && face->side != GM_SIDE_NONE);
+        return asked ? cells->columns : 0;
+    }
+    if (face->side == GM_SIDE_NONE && !choosing) {
         return 0;
     }
     int columns = cells->columns * 2 / 5;
@@ -154,6 +159,9 @@ static void draw_head(const struct gm_sheet *sheet, const struct gm_shot *shot)
 static void draw_past(const struct gm_sheet *whole, const struct gm_shot *shot, int width)
 {
     const struct gm_sheet sheet = gm_sheet_part(whole, 1, whole->height - 2, width - 2, 1);
+    if (sheet.width < 1) {
+        return;
+    }
     if (shot->reach > 0 && shot->paused) {
         gm_sheet_slider(&sheet, 0, sheet.width, 0, shot->gone / shot->reach, false);
     }
@@ -197,6 +205,11 @@ static void draw_news(const struct gm_sheet *whole)
 
 static const struct gm_hint page_hints[] = {
     {"?", "back", '?'}, {"↑↓", "scroll", 0}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
+static const struct gm_hint command_hints[] = {{"esc", "back", 27},
+                                               {"y", "copy the other", 'y'},
+                                               {"↑↓", "scroll", 0},
+                                               {"q", "quit", 'q'},
+                                               {NULL, NULL, 0}};
 
 void gm_screen_draw(struct gm_screen *screen, struct gm_face *face, const struct gm_shot *shot, bool fresh)
 {
@@ -214,7 +227,7 @@ void gm_screen_draw(struct gm_screen *screen, struct gm_face *face, const struct
         }
         if (below > 0) {
             const struct gm_sheet last = gm_sheet_part(&whole, 0, cells->rows - 1, cells->columns, 1);
-            gm_hints_draw(&last, 1, page_hints);
+            gm_hints_draw(&last, 1, face->page == GM_PAGE_COMMAND ? command_hints : page_hints);
         }
         return;
     }

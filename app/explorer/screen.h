@@ -4,6 +4,7 @@
 
 #include "app/explorer/sheet.h"
 #include "app/explorer/shot.h"
+#include "app/tour.h"
 #include "render/inline_image.h"
 
 /* What is on the screen: the picture at the left, the side panel at the right, a status line below; or a page
@@ -28,12 +29,17 @@ void gm_screen_close(struct gm_screen *screen);
 /* Composes the screen. `fresh` says that the shot's picture is a new one. */
 void gm_screen_draw(struct gm_screen *screen, struct gm_face *face, const struct gm_shot *shot, bool fresh);
 
-/* The start: the scenes found, number `choice` of them marked; `shot` is a look at that one, or NULL where
-   there is none yet, and `said` why it cannot be looked at, or "". */
-enum { GM_START_SCENES = 64 };
+/* The start: the scenes found, and behind them the tours, number `choice` of all marked; `shot` is a look at
+   that scene, or NULL where there is none yet, and `said` why it cannot be looked at, or "". */
+struct gm_start_entry {
+    const struct gm_scene *scene; /* one of the two is NULL */
+    const struct gm_tour *tour;
+};
+enum { GM_START_ENTRIES = 128 };
 struct gm_start {
-    const struct gm_scene *found[GM_START_SCENES];
+    struct gm_start_entry found[GM_START_ENTRIES];
     size_t count, choice;
+    size_t scenes; /* so many of them are scenes */
     char typed[GM_TYPED];
 };
 void gm_screen_draw_start(struct gm_screen *screen, const struct gm_face *face, const struct gm_start *start,

@@ -181,7 +181,7 @@ void gm_session_close(struct gm_session *session)
 bool gm_session_restart(struct gm_session *session, char *message)
 {
     struct gm_fresh fresh[GM_MOST_LANES] = {0};
-    bool ok = true;
+    bool ok = true, same = session->log.change_count == 0;
     for (size_t i = 0; ok && i < session->count; i++) {
         const struct gm_lane *lane = session->lanes[i];
         fresh[i] = gm_session_open_lane(session->scene, gm_session_owner(session, i, false),
@@ -189,6 +189,7 @@ bool gm_session_restart(struct gm_session *session, char *message)
         ok = fresh[i].lane != NULL;
     }
     for (size_t i = 0; i < session->count; i++) {
+        same = same && !session->wanted[i].parameters;
         gm_session_forget_wanted(session, i);
         if (ok) {
             const struct gm_shown shown = session->lanes[i]->shown;
@@ -199,8 +200,10 @@ bool gm_session_restart(struct gm_session *session, char *message)
             free(fresh[i].start);
         }
     }
-    if (ok) {
+    if (ok && !same) {
         forget_arguments(session);
+    }
+    if (ok) {
         session->log.overlay = session->overlaid;
         session->visiting = session->turned = false;
         gm_session_note_all(session);

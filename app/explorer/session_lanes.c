@@ -114,6 +114,7 @@ bool gm_session_remove(struct gm_session *session, size_t lane, char *message)
     }
     session->log.count = --session->count;
     session->log.lanes[session->count] = session->wanted[session->count] = (struct gm_lane_spec){0};
+    session->overlaid = session->overlaid && session->count > 1;
     gm_session_show_in_order(session);
     gm_session_share_budget(session);
     return true;

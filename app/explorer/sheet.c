@@ -31,6 +31,17 @@ int gm_sheet_width(const struct gm_sheet *sheet, const char *text)
     return gm_text_width(text, sheet->face->blocks == GM_ASCII);
 }
 
+void gm_sheet_cut(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
+                  bool bold)
+{
+    const int room = sheet->width - column;
+    gm_sheet_text(sheet, column, row, text, role, bold);
+    if (room > 1 && gm_sheet_width(sheet, text) > room) {
+        const char *end = sheet->face->blocks == GM_ASCII ? "." : "…";
+        gm_sheet_text(sheet, sheet->width - 1, row, end, role, bold);
+    }
+}
+
 void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
                     bool bold)
 {
@@ -51,6 +62,7 @@ void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t 
     cell->glyph = glyph;
     cell->role = role;
     cell->foreground = gm_theme_colour(sheet->face->theme, role);
+    cell->background = gm_theme_colour(sheet->face->theme, GM_PAPER);
     cell->bold = bold;
 }
 

@@ -9,7 +9,7 @@
 /* What a click does. */
 enum gm_hit_kind {
     GM_HIT_KEY,       /* the same as key `index` */
-    GM_HIT_SCENE,     /* of the start screen: entry `index` of those found */
+    GM_HIT_SCENE,     /* of the start screen: a scene or a tour, entry `index` of those found */
     GM_HIT_LANE,      /* selects lane `index` */
     GM_HIT_SCHEME,    /* `scheme` for the selected lane */
     GM_HIT_PARAMETER, /* chooses parameter `index` */
@@ -44,6 +44,9 @@ struct gm_sheet gm_sheet_part(const struct gm_sheet *sheet, int column, int row,
 
 /* Writes in the sheet's own coordinates and stays in it; returns the cells that the text takes. */
 int gm_sheet_text(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
+                  bool bold);
+/* The same; what does not fit ends with an ellipsis. */
+void gm_sheet_cut(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,
                   bool bold);
 /* The same, with the text's end at `column` (exclusive). */
 void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role,

@@ -14,8 +14,10 @@ void gm_shot_close(struct gm_shot *shot)
 {
     gm_picture_close(shot->picture);
     shot->picture = NULL;
-    free(shot->command);
-    shot->command = NULL;
+    for (size_t i = 0; i < GM_COMMANDS; i++) {
+        free(shot->commands[i]);
+        shot->commands[i] = NULL;
+    }
 }
 
 static void take_sparks(struct gm_shot_lane *shot, const struct gm_lane *lane, size_t observables)

@@ -15,6 +15,9 @@ enum {
     GM_SPARK = 16, /* places of a tiny graph */
 };
 
+/* The command lines of a view: as a picture, and the explorer with these lanes from their start. */
+enum { GM_COMMAND_PICTURE, GM_COMMAND_EXPLORER, GM_COMMANDS };
+
 struct gm_spark {
     double low[GM_SPARK], high[GM_SPARK]; /* low > high where there is nothing */
 };
@@ -48,6 +51,7 @@ struct gm_shot {
     size_t scheme_count;
     const struct gm_scheme *schemes[GM_SHOT_SCHEMES]; /* all that fit */
     double t, speed;
+    double pace;        /* steps of the selected lane per second at that speed */
     double ahead;       /* where to run ahead is of use */
     double gone, reach; /* model time gone through, and up to the last snapshot */
     bool backwards;     /* time runs */
@@ -61,7 +65,7 @@ struct gm_shot {
     char message[GM_MESSAGE];
     unsigned long message_number; /* changes with every message */
     double recorded;              /* seconds of the movie so far; below 0: none is made */
-    char *command;                /* that redoes a view, or NULL */
+    char *commands[GM_COMMANDS];  /* that redo a view; NULL: memory was short */
     unsigned long command_number; /* changes with every one */
 };
 

@@ -112,7 +112,7 @@ static void draw_numbers(const struct gm_sheet *sheet, int row, const struct gm_
 {
     const struct gm_sheet label = gm_sheet_part(sheet, 0, 0, columns->label, sheet->height);
     char text[64];
-    gm_sheet_text(&label, 0, row, name, GM_SECONDARY, false);
+    gm_sheet_cut(&label, 0, row, name, GM_SECONDARY, false);
     if (columns->label == sheet->width) {
         row++;
     }

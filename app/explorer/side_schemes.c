@@ -68,7 +68,7 @@ static void scheme_title(const struct gm_sheet *sheet, int column, int row, cons
                          unsigned columns, enum gm_role role, bool bold)
 {
     const struct gm_sheet left = gm_sheet_part(sheet, 0, 0, title_width(sheet, columns), sheet->height);
-    gm_sheet_text(&left, column, row, text, role, bold);
+    gm_sheet_cut(&left, column, row, text, role, bold);
 }
 
 static void lane_name(const struct gm_shot_lane *lane, bool overlaid, char *text, size_t size)
@@ -162,7 +162,7 @@ void gm_side_formula(const struct gm_sheet *sheet, int row, const struct gm_sche
         gm_sheet_text(sheet, 0, row, line, GM_INK, false);
         at += length + (at[length] == '\n');
     }
-    gm_sheet_text(sheet, 0, row, scheme->reference ? scheme->reference : "", GM_SECONDARY, false);
+    gm_sheet_cut(sheet, 0, row, scheme->reference ? scheme->reference : "", GM_SECONDARY, false);
 }
 
 /* ---- choosing a scheme ---- */

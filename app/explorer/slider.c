@@ -26,15 +26,42 @@ static bool slider_range(const struct gm_parameter *row, double *low, double *hi
     return true;
 }
 
+/* The size of a linear parameter's usual values: that of its default. */
+static double usual_size(const struct gm_parameter *row)
+{
+    double standard = 0;
+    gm_number_parse(row->standard, &standard);
+    return isfinite(standard) && standard != 0 ? fabs(standard) : fmin(1, (row->highest - row->lowest) / 4);
+}
+
+/* A linear range that is so many times as wide as the usual values is bent as arsinh is: even near 0, by
+   ratios far from it. */
+enum { WIDE = 50 };
+
+static bool is_bent(const struct gm_parameter *row)
+{
+    return !row->logarithmic && row->highest - row->lowest > WIDE * usual_size(row);
+}
+
+/* The place of a value on a scale that is drawn evenly, and back. */
+static double to_scale(const struct gm_parameter *row, double value)
+{
+    return row->logarithmic ? log(value) : is_bent(row) ? asinh(value / usual_size(row)) : value;
+}
+
+static double from_scale(const struct gm_parameter *row, double place)
+{
+    return row->logarithmic ? exp(place) : is_bent(row) ? usual_size(row) * sinh(place) : place;
+}
+
 double gm_slider_position(const struct gm_parameter *row, const void *owner)
 {
     double value = size_of(row, owner), low, high;
     if (!slider_range(row, &low, &high)) {
         return -1;
     }
-    double position =
-        row->logarithmic ? log(fmax(value, low) / low) / log(high / low) : (value - low) / (high - low);
-    return fmin(fmax(position, 0), 1);
+    double from = to_scale(row, low), to = to_scale(row, high);
+    return fmin(fmax((to_scale(row, fmax(value, low)) - from) / (to - from), 0), 1);
 }
 
 /* Round values of about equal ratio, ten a decade. */
@@ -62,10 +89,7 @@ static double next_by_ratio(double value, int direction)
    than what is of use, so it is a tenth of the value or of its default, whichever is larger. */
 static double linear_step(const struct gm_parameter *row, double value)
 {
-    double range = row->highest - row->lowest, standard = 0;
-    gm_number_parse(row->standard, &standard);
-    double size = isfinite(standard) && standard != 0 ? fabs(standard) : fmin(1, range / 4);
-    double raw = fmin(fmax(size, fabs(value)) / 10, range / 20);
+    double raw = fmin(fmax(usual_size(row), fabs(value)) / 10, (row->highest - row->lowest) / 20);
     double scale = pow(10, floor(log10(raw) + 1e-9)), mantissa = raw / scale;
     return scale * (mantissa < 1.5 ? 1 : mantissa < 3.5 ? 2 : mantissa < 7.5 ? 5 : 10);
 }
@@ -93,7 +117,16 @@ static bool next_choice(const struct gm_parameter *row, const void *owner, int d
     return true;
 }
 
-bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction,
+/* The distance of fine values: a fortieth to a hundredth of the value, about a tenth of a step of `rounds`.
+ */
+static double fine_step(double value, int direction)
+{
+    double decade = floor(log10(value) + 1e-9), scale = pow(10, decade), mantissa = value / scale;
+    double at = mantissa + direction * 1e-6; /* down from a border the finer distance counts */
+    return scale * (at < 1 ? 0.01 : at < 2 ? 0.02 : at < 5 ? 0.05 : 0.1);
+}
+
+bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction, bool fine,
                     char text[GM_VALUE_TEXT])
 {
     if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
@@ -104,13 +137,15 @@ bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direc
     }
     double value = size_of(row, owner), next;
     if (row->logarithmic && value > 0) {
-        next = next_by_ratio(value, direction);
+        next = fine ? next_by_step(value, fine_step(value, direction), direction)
+                    : next_by_ratio(value, direction);
     } else if (row->logarithmic) {
         next = direction > 0 ? fmax(row->highest * 1e-10, row->type == GM_INTEGER ? 1 : 0) : 0;
     } else {
-        next = next_by_step(value, linear_step(row, value), direction);
+        next = next_by_step(value, linear_step(row, value) / (fine ? 10 : 1), direction);
     }
     if (row->type == GM_INTEGER) {
+        next = fine ? value : next;
         next = direction > 0 ? fmax(value + 1, floor(next)) : fmin(value - 1, ceil(next));
     }
     next = fmin(fmax(next, row->lowest), row->highest);
@@ -128,12 +163,18 @@ bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_
         return false;
     }
     position = fmin(fmax(position, 0), 1);
-    double value = row->logarithmic ? low * pow(high / low, position) : low + position * (high - low);
+    double from = to_scale(row, low), to = to_scale(row, high);
+    double value = position <= 0   ? low
+                   : position >= 1 ? high
+                                   : from_scale(row, from + position * (to - from));
     if (row->type == GM_INTEGER) {
         value = round(value);
     } else if (position > 0 && position < 1) {
         /* two digits of the value, or of the range where that is all a slider can tell */
-        double unit = pow(10, floor(log10(row->logarithmic ? fabs(value) : high - low)) - 1);
+        double size = row->logarithmic ? value
+                      : is_bent(row)   ? fmax(fabs(value), usual_size(row))
+                                       : high - low;
+        double unit = pow(10, floor(log10(size)) - 1);
         value = round(value / unit) * unit;
     }
     value = fmin(fmax(value, row->lowest), row->highest);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The start: the scenes, and a live look at the chosen one. */
+/* The start: the scenes with a live look at the chosen one, and the tours. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -36,11 +36,6 @@ bool gm_is_found(const char *typed, const char *const *texts)
     return true;
 }
 
-static const struct gm_hint start_hints[] = {
-    {"enter", "open", '\n'}, {"↑↓", "choose", 0}, {"a–z", "search", 0}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
-static const struct gm_hint search_hints[] = {
-    {"enter", "open", '\n'}, {"↑↓", "choose", 0}, {"esc", "all scenes", 27}, {NULL, NULL, 0}};
-
 enum {
     NAME_COLUMNS = 17,
     TITLE_COLUMNS = 38,
@@ -49,26 +44,49 @@ enum {
     TITLES_FROM = 120
 };
 
+static void draw_entry(const struct gm_sheet *sheet, int row, const struct gm_start_entry *entry,
+                       size_t index, bool chosen, bool titles)
+{
+    gm_sheet_text(sheet, 0, row, chosen ? "▸" : " ", GM_LANE, true);
+    gm_sheet_text(sheet, 2, row, entry->tour ? entry->tour->name : entry->scene->name,
+                  chosen ? GM_LANE : GM_INK, chosen);
+    if (titles) {
+        gm_sheet_text(sheet, NAME_COLUMNS + 1, row, entry->tour ? entry->tour->title : entry->scene->title,
+                      GM_SECONDARY, chosen);
+    }
+    gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_SCENE, .index = index});
+}
+
+/* The scenes, and below a heading the tours. */
 static void draw_list(const struct gm_sheet *sheet, const struct gm_start *start, bool titles)
 {
-    int rows = sheet->height, first = 0, count = (int)start->count, choice = (int)start->choice;
+    const int scenes = (int)start->scenes, count = (int)start->count, choice = (int)start->choice;
     if (count == 0) {
         gm_sheet_text(sheet, 2, 0, "nothing found", GM_SECONDARY, false);
         return;
     }
-    if (choice >= rows) {
-        first = choice - rows + 1;
-    }
-    for (int i = first; i < count && i < first + rows; i++) {
-        const struct gm_scene *scene = start->found[i];
-        bool chosen = i == choice;
-        gm_sheet_text(sheet, 0, i - first, chosen ? "▸" : " ", GM_LANE, true);
-        gm_sheet_text(sheet, 2, i - first, scene->name, chosen ? GM_LANE : GM_INK, chosen);
-        if (titles) {
-            gm_sheet_text(sheet, NAME_COLUMNS + 1, i - first, scene->title, GM_SECONDARY, chosen);
+    const bool tours = count > scenes;
+    const int gap = tours && scenes > 0 && count + 2 <= sheet->height, heading = scenes + gap,
+              behind = gap + tours, lines = count + behind;
+    const int chosen = choice < scenes ? choice : choice + behind;
+    /* the chosen one in the middle, where the list is longer than the sheet */
+    int first = chosen - sheet->height / 2;
+    first = first > lines - sheet->height ? lines - sheet->height : first;
+    first = first < 0 ? 0 : first;
+    for (int i = 0; i < count; i++) {
+        const int row = (i < scenes ? i : i + behind) - first;
+        if (row >= 0 && row < sheet->height) {
+            draw_entry(sheet, row, &start->found[i], (size_t)i, i == choice, titles);
         }
-        gm_sheet_hit(sheet, 0, i - first, sheet->width,
-                     (struct gm_hit){.kind = GM_HIT_SCENE, .index = (size_t)i});
+    }
+    if (tours && heading >= first) {
+        gm_sheet_text(sheet, 2, heading - first, "TOURS", GM_SECONDARY, true);
+    }
+    if (first > 0) {
+        gm_sheet_text(sheet, sheet->width - 1, 0, "↑", GM_SECONDARY, true);
+    }
+    if (first + sheet->height < lines) {
+        gm_sheet_text(sheet, sheet->width - 1, sheet->height - 1, "↓", GM_SECONDARY, true);
     }
 }
 
@@ -100,12 +118,53 @@ static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet, co
     gm_sheet_wrapped(sheet, 0, rows - below, below, watch, GM_INK);
 }
 
+/* The chosen tour: what it is about, and its steps. */
+static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
+{
+    int row = 0;
+    gm_sheet_text(sheet, 0, row++, tour->title, GM_INK, true);
+    row += gm_sheet_wrapped(sheet, 0, row, 4, tour->about ? tour->about : "", GM_SECONDARY) + 1;
+    for (size_t i = 0; i < tour->count; i++) {
+        const struct gm_tour_step *step = &tour->steps[i];
+        char number[16];
+        snprintf(number, sizeof number, "%zu.", i + 1);
+        gm_sheet_text(sheet, 0, row, number, GM_SECONDARY, false);
+        row += gm_sheet_wrapped(sheet, 4, row, 2, step->title, GM_INK);
+    }
+    gm_sheet_wrapped(sheet, 0, row + 1, 3,
+                     "enter begins it. A step may ask for a prediction before it shows.", GM_SECONDARY);
+}
+
+/* The last row: what was typed, or that one can, and the keys. */
+static void draw_keys(const struct gm_sheet *sheet, const struct gm_start *start)
+{
+    enum { MOST = 6 };
+    struct gm_hint hints[MOST];
+    size_t count = 0;
+    char text[GM_TYPED + 16];
+    int column = 1;
+    if (start->typed[0]) {
+        snprintf(text, sizeof text, "search: %s_", start->typed);
+        column += gm_sheet_text(sheet, 1, 0, text, GM_INK, true) + 2;
+    } else {
+        column += gm_sheet_text(sheet, 1, 0, "Type to search.", GM_SECONDARY, false) + 2;
+    }
+    hints[count++] = (struct gm_hint){"enter", "open", '\n'};
+    hints[count++] = (struct gm_hint){"↑↓", "choose", 0};
+    if (start->scenes > 0 && start->scenes < start->count) {
+        hints[count++] = (struct gm_hint){"tab", start->choice < start->scenes ? "tours" : "scenes", '\t'};
+    }
+    hints[count++] =
+        start->typed[0] ? (struct gm_hint){"esc", "all", 27} : (struct gm_hint){"q", "quit", 'q'};
+    hints[count] = (struct gm_hint){NULL, NULL, 0};
+    gm_hints_draw(sheet, column, hints);
+}
+
 void gm_screen_draw_start(struct gm_screen *screen, const struct gm_face *face, const struct gm_start *start,
                           const struct gm_shot *shot, bool fresh, const char *said)
 {
     const struct gm_sheet whole = gm_screen_clear(screen, face);
     int below = gm_screen_status_rows(&screen->cells), rows = whole.height - below, at = 0;
-    char text[GM_TYPED + 16];
     if (fresh) {
         screen->fresh = false;
     }
@@ -121,21 +180,19 @@ void gm_screen_draw_start(struct gm_screen *screen, const struct gm_face *face, 
     const struct gm_sheet left = gm_sheet_part(&whole, 1, at, list, rows - at);
     draw_list(&left, start, titles);
     if (look && start->choice < start->count) {
+        const struct gm_start_entry *chosen = &start->found[start->choice];
         const struct gm_sheet right = gm_sheet_part(&whole, list + 3, at, whole.width - list - 4, rows - at);
-        draw_look(screen, &right, start->found[start->choice], shot, said);
+        if (chosen->tour) {
+            draw_tour(&right, chosen->tour);
+        } else {
+            draw_look(screen, &right, chosen->scene, shot, said);
+        }
     }
     if (below == 2) {
         gm_screen_rule(&whole, 0);
     }
     if (below > 0) {
         const struct gm_sheet last = gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1);
-        int column = 1;
-        if (start->typed[0]) {
-            snprintf(text, sizeof text, "search: %s_", start->typed);
-            column += gm_sheet_text(&last, 1, 0, text, GM_INK, true) + 2;
-        } else if (whole.width >= 80) {
-            column += gm_sheet_text(&last, 1, 0, "Type to search the scenes.", GM_SECONDARY, false) + 2;
-        }
-        gm_hints_draw(&last, column, start->typed[0] ? search_hints : start_hints);
+        draw_keys(&last, start);
     }
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The last row: what there is to say, to answer or to watch at the left, keys at the right. */
+#include <curses.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 #include "app/explorer/screen.h"
 #include "app/explorer/side_parts.h"
 
-enum { MOST_HINTS = 40 };
+enum { MOST_HINTS = 40, FIRST_HINT = 14 };
 
 int gm_hints_draw(const struct gm_sheet *sheet, int from, const struct gm_hint *hints)
 {
@@ -64,16 +65,25 @@ static const struct gm_hint chooser_hints[] = {{"enter", "take it", '\n'},
                                                {"?", "formula", '?'},
                                                {"esc", "back", 27},
                                                {NULL, NULL, 0}};
+/* While a parameter is explained. */
+static const struct gm_hint parameter_hints[] = {
+    {"enter", "type", '\n'},         {"- +", "finely", 0}, {"← →", "change", 0}, {"↑ ↓", "choose", 0},
+    {"⌫", "default", KEY_BACKSPACE}, {"?", "help", '?'},   {NULL, NULL, 0}};
 static const struct gm_hint prompt_hints[] = {{"enter", "do", '\n'}, {"esc", "back", 27}, {NULL, NULL, 0}};
 static const struct gm_hint ahead_hints[] = {{"any key", "stop", ' '}, {NULL, NULL, 0}};
 
+/* Slower than this, in steps per second, a step can be seen by itself. */
+static const double slow_motion = 20;
+
 void gm_speed_text(const struct gm_shot *shot, char *text, size_t size)
 {
-    char movie[24] = "";
+    char movie[24] = "", pace[32] = "";
     if (shot->recorded >= 0) {
         snprintf(movie, sizeof movie, "● %d:%04.1f  ", (int)(shot->recorded / 60), fmod(shot->recorded, 60));
+    } else if (!shot->paused && shot->pace < slow_motion) {
+        snprintf(pace, sizeof pace, "%.2g steps/s  ", shot->pace);
     }
-    snprintf(text, size, "%s%s %s%g×%s", movie,
+    snprintf(text, size, "%s%s%s %s%g×%s", movie, pace,
              shot->paused      ? "‖"
              : shot->backwards ? "◂"
                                : "▸",
@@ -83,21 +93,23 @@ void gm_speed_text(const struct gm_shot *shot, char *text, size_t size)
                             : "");
 }
 
-/* What a parameter is, its range, and whether a change starts the run again. */
-static void explain(const struct gm_shot_parameter *parameter, char *text, size_t size)
+/* What a parameter is, its range, and whether a change starts the run again; with its value where no panel
+   shows it. */
+static void explain(const struct gm_shot_parameter *parameter, bool valued, char *text, size_t size)
 {
     const struct gm_parameter *row = parameter->row;
     char low[32], high[32];
     gm_side_number(row->lowest, low, sizeof low);
     gm_side_number(row->highest, high, sizeof high);
     bool ranged = row->type == GM_REAL || row->type == GM_INTEGER;
-    snprintf(text, size, "%s: %s%s%s%s%s; %s", row->key, row->help, ranged ? ", " : "", ranged ? low : "",
+    snprintf(text, size, "%s%s%s: %s%s%s%s%s; %s", row->key, valued ? " = " : "",
+             valued ? parameter->value : "", row->help, ranged ? ", " : "", ranged ? low : "",
              ranged ? " to " : "", ranged ? high : "",
              row->live && !parameter->of_scheme ? "acts at once" : "starts again");
 }
 
 /* What stands at the left. */
-static void say(const struct gm_face *face, const struct gm_shot *shot, char *text, size_t size)
+static void say(const struct gm_face *face, const struct gm_shot *shot, bool side, char *text, size_t size)
 {
     const char *lane = shot->lanes[shot->selected].scheme->title;
     const struct gm_shot_parameter *parameter =
@@ -115,11 +127,26 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, char *te
     } else if (shot->message[0] && shot->message_number != face->read) {
         snprintf(text, size, "%s", shot->message);
     } else if (face->explaining && parameter) {
-        explain(parameter, text, size);
+        explain(parameter, !side, text, size);
     } else {
         /* a tour says itself what to watch */
         snprintf(text, size, "%s", shot->scene->watch && !face->guide ? shot->scene->watch : "");
     }
+}
+
+/* What does not fit beside the hints, and answers the user, has rows of its own above the last one, as many
+   as it takes. */
+static void draw_above(const struct gm_sheet *whole, const char *text)
+{
+    struct gm_sheet nothing = gm_sheet_part(whole, 1, 0, whole->width - 2, 0);
+    const int wanted = gm_sheet_wrapped(&nothing, 0, 0, whole->height, text, GM_INK),
+              most = whole->height / 3, rows = wanted < most ? wanted : most;
+    for (int row = 0; row < rows; row++) {
+        for (int column = 0; column < whole->width; column++) {
+            gm_sheet_glyph(whole, column, whole->height - 1 - rows + row, ' ', GM_INK, false);
+        }
+    }
+    gm_sheet_wrapped(whole, 1, whole->height - 1 - rows, rows, text, GM_INK);
 }
 
 void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, int side)
@@ -133,22 +160,26 @@ void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, in
         gm_speed_text(shot, text, sizeof text);
         column += gm_sheet_text(&sheet, column, 0, text, GM_INK, true) + 2;
     }
-    say(face, shot, text, sizeof text);
+    say(face, shot, side > 0, text, sizeof text);
     key_hints(shot, keys);
     bool asks = face->prompt != GM_PROMPT_NONE;
     bool news = asks || shot->running_ahead || (shot->message[0] && shot->message_number != face->read);
     const struct gm_hint *hints = shot->running_ahead                   ? ahead_hints
                                   : face->choosing != GM_CHOOSE_NOTHING ? chooser_hints
                                   : asks                                ? prompt_hints
+                                  : face->explaining && !news           ? parameter_hints
                                                                         : keys;
-    /* the first hint, help, is always there if it fits at all */
-    int from = column + gm_sheet_width(&sheet, text) + 3, most = sheet.width - 10;
+    const bool answers = news || face->choosing != GM_CHOOSE_NOTHING || face->explaining;
+    if (answers && gm_screen_status_rows(whole->cells) == 2 &&
+        column + gm_sheet_width(&sheet, text) + FIRST_HINT > sheet.width) {
+        draw_above(whole, text);
+        text[0] = '\0';
+    }
+    /* the first hint is always there if it fits at all */
+    int from = column + gm_sheet_width(&sheet, text) + 3, most = sheet.width - FIRST_HINT;
     int begin = gm_hints_draw(&sheet, from < most ? from : most > column ? most : column, hints);
     if (begin > column) {
         const struct gm_sheet left = gm_sheet_part(&sheet, 0, 0, begin - 2, 1);
-        gm_sheet_text(&left, column, 0, text, news ? GM_INK : GM_SECONDARY, news);
-        if (column + gm_sheet_width(&sheet, text) > left.width) {
-            gm_sheet_text(&left, left.width - 1, 0, "…", GM_SECONDARY, false);
-        }
+        gm_sheet_cut(&left, column, 0, text, news ? GM_INK : GM_SECONDARY, news);
     }
 }

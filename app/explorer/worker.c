@@ -46,12 +46,15 @@ static void take_shot(struct gm_worker *worker)
     shot->paused = worker->paused;
     shot->behind = worker->behind;
     shot->speed = gm_worker_speed_of(worker->speed);
+    shot->pace = shot->speed / fabs(worker->session.lanes[worker->selected]->run->dt);
     snprintf(shot->message, sizeof shot->message, "%s", worker->message);
     shot->message_number = worker->message_number;
     shot->recorded = worker->recorder ? gm_recorder_length(worker->recorder) : -1;
     if (shot->command_number != worker->command_number) {
-        free(shot->command);
-        shot->command = worker->command ? strdup(worker->command) : NULL;
+        for (size_t i = 0; i < GM_COMMANDS; i++) {
+            free(shot->commands[i]);
+            shot->commands[i] = worker->commands[i] ? strdup(worker->commands[i]) : NULL;
+        }
         shot->command_number = worker->command_number;
     }
     pthread_mutex_lock(&worker->lock);
@@ -107,8 +110,9 @@ static void release(struct gm_worker *worker)
 {
     pthread_cond_destroy(&worker->news);
     pthread_mutex_destroy(&worker->lock);
-    gm_worker_stop_recording(worker);
-    free(worker->command);
+    for (size_t i = 0; i < GM_COMMANDS; i++) {
+        free(worker->commands[i]);
+    }
     gm_session_close(&worker->session);
     gm_shot_close(&worker->shots[0]);
     gm_shot_close(&worker->shots[1]);
@@ -257,8 +261,9 @@ bool gm_worker_failed(struct gm_worker *worker, char *message)
     return failed;
 }
 
-void gm_worker_close(struct gm_worker *worker)
+void gm_worker_close(struct gm_worker *worker, char *parting)
 {
+    parting[0] = '\0';
     if (!worker) {
         return;
     }
@@ -267,12 +272,19 @@ void gm_worker_close(struct gm_worker *worker)
     pthread_cond_signal(&worker->news);
     pthread_mutex_unlock(&worker->lock);
     pthread_join(worker->thread, NULL);
+    gm_worker_stop_recording(worker, parting);
     release(worker);
 }
 
-void gm_worker_abandon(struct gm_worker *worker)
+void gm_worker_abandon(struct gm_worker *worker, char *parting)
 {
+    parting[0] = '\0';
     pthread_mutex_lock(&worker->lock);
+    if (worker->recorded) {
+        pthread_mutex_unlock(&worker->lock);
+        gm_worker_close(worker, parting);
+        return;
+    }
     pthread_detach(worker->thread);
     worker->leave = worker->orphan = true;
     pthread_cond_signal(&worker->news);
@@ -282,6 +294,7 @@ void gm_worker_abandon(struct gm_worker *worker)
 void gm_worker_order(struct gm_worker *worker, struct gm_order order)
 {
     pthread_mutex_lock(&worker->lock);
+    worker->recorded = worker->recorded || order.kind == GM_ORDER_RECORD;
     if (worker->count < GM_WORKER_QUEUE) {
         worker->queue[(worker->first + worker->count++) % GM_WORKER_QUEUE] = order;
     }

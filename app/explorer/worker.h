@@ -30,10 +30,11 @@ enum gm_order_kind {
     GM_ORDER_ADD,
     GM_ORDER_REMOVE,
     GM_ORDER_OVERLAY,
-    GM_ORDER_TELL, /* the command line that redoes the view, with the next shot */
+    GM_ORDER_TELL, /* the command lines of the view, with the next shot */
     /* these may come together with a restart that is due */
     GM_ORDER_SPEED,    /* amount: up or down by one */
     GM_ORDER_MOVE,     /* a parameter to its next value; amount: up or down */
+    GM_ORDER_NUDGE,    /* the same, to a value near by */
     GM_ORDER_STANDARD, /* a parameter to its default */
     GM_ORDER_TYPE,     /* a parameter to `text` */
     GM_ORDER_SLIDE,    /* a parameter to the part `value` of its range */
@@ -59,7 +60,8 @@ struct gm_worker;
    `first` is obeyed before the first step; NULL: nothing is. NULL with a sentence (GM_MESSAGE bytes). */
 struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme theme, int wake,
                                  const struct gm_order *first, char *message);
-void gm_worker_close(struct gm_worker *worker);
+/* Finishes a movie that is being made; `parting` (GM_MESSAGE bytes) tells of it, or is empty. */
+void gm_worker_close(struct gm_worker *worker, char *parting);
 
 /* The same for a scene by its name, with its first `schemes` schemes, that the thread opens itself: this
    never waits. A preview stops at the scene's own end. */
@@ -67,8 +69,9 @@ struct gm_worker *gm_worker_open_scene(const struct gm_scene *scene, size_t sche
                                        enum gm_theme theme, int wake, char *message);
 /* Whether opening failed; then with a sentence. */
 bool gm_worker_failed(struct gm_worker *worker, char *message);
-/* Lets the thread end by itself, whenever that will be; the worker is gone. */
-void gm_worker_abandon(struct gm_worker *worker);
+/* Lets the thread end by itself, whenever that will be, unless it may be making a movie: that is finished
+   first, and told of as by gm_worker_close. The worker is gone. */
+void gm_worker_abandon(struct gm_worker *worker, char *parting);
 
 void gm_worker_order(struct gm_worker *worker, struct gm_order order);
 

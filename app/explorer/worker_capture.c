@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is kept of a session: pictures, a movie, the command line that redoes it. */
+/* What is kept of a session: pictures, a movie, the command lines that redo it. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "app/explorer/session_parts.h"
 #include "app/explorer/worker_parts.h"
 #include "app/still.h"
 
@@ -41,28 +43,28 @@ void gm_worker_save(struct gm_worker *worker, enum gm_theme theme)
 
 /* ---- the movie ---- */
 
-void gm_worker_stop_recording(struct gm_worker *worker)
+bool gm_worker_stop_recording(struct gm_worker *worker, char *sentence)
 {
-    char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
+    char path[128], message[GM_MESSAGE] = "";
     if (!worker->recorder) {
-        return;
+        return false;
     }
     snprintf(path, sizeof path, "%s", gm_recorder_path(worker->recorder));
     double length = gm_recorder_length(worker->recorder);
     if (gm_recorder_close(worker->recorder, message)) {
-        snprintf(sentence, sizeof sentence, "Saved %.100s, a movie of %.1f s.", path, length);
+        snprintf(sentence, GM_MESSAGE, "Saved %.100s, a movie of %.1f s.", path, length);
     } else {
-        snprintf(sentence, sizeof sentence, "No movie: %.400s", message);
+        snprintf(sentence, GM_MESSAGE, "No movie: %.400s", message);
     }
     worker->recorder = NULL;
-    gm_worker_say(worker, sentence);
+    return true;
 }
 
 void gm_worker_record(struct gm_worker *worker, enum gm_theme theme)
 {
     char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
-    if (worker->recorder) {
-        gm_worker_stop_recording(worker);
+    if (gm_worker_stop_recording(worker, sentence)) {
+        gm_worker_say(worker, sentence);
         return;
     }
     free_name(worker, ".mp4", path, sizeof path);
@@ -90,7 +92,7 @@ void gm_worker_take_frame(struct gm_worker *worker)
     }
 }
 
-/* ---- the command line ---- */
+/* ---- the command lines ---- */
 
 /* The words of the arguments but those that say when it ends. */
 static void put_arguments(FILE *stream, char *arguments)
@@ -116,16 +118,16 @@ static void put_end(FILE *stream, const struct gm_session *session)
     fprintf(stream, " steps=%ld", steps);
 }
 
-void gm_worker_tell(struct gm_worker *worker, enum gm_theme theme)
+static char *tell_picture(const struct gm_session *session, enum gm_theme theme)
 {
-    const struct gm_request *log = &worker->session.log;
+    const struct gm_request *log = &session->log;
     char *text = NULL, *arguments = gm_request_format(log);
     size_t size = 0;
     FILE *stream = arguments ? open_memstream(&text, &size) : NULL;
     if (stream) {
         fputs("geomint render", stream);
         put_arguments(stream, arguments);
-        put_end(stream, &worker->session);
+        put_end(stream, session);
         for (size_t i = 0; i < log->change_count; i++) {
             const struct gm_change *change = &log->changes[i];
             fprintf(stream, "%s%zu:%ld:%s", i == 0 ? " --changes " : ",", change->lane, change->step,
@@ -135,7 +137,46 @@ void gm_worker_tell(struct gm_worker *worker, enum gm_theme theme)
         fclose(stream);
     }
     free(arguments);
-    free(worker->command);
-    worker->command = text;
+    return text;
+}
+
+/* The lanes with the schemes and parameters that they have now: what was changed in flight is as if it had
+   been typed. */
+static char *tell_explorer(const struct gm_session *session)
+{
+    struct gm_lane_spec lanes[GM_MOST_LANES];
+    struct gm_request present = session->log;
+    bool good = true;
+    present.lanes = lanes;
+    present.arguments = session->log.change_count > 0 ? NULL : session->log.arguments;
+    for (size_t i = 0; i < session->count; i++) {
+        const struct gm_settings *settings = gm_session_owner(session, i, true);
+        lanes[i] = (struct gm_lane_spec){
+            .shown = session->lanes[i]->shown, .settings = *settings, .scheme = session->lanes[i]->scheme};
+        lanes[i].parameters = gm_session_copy_parameters(session->scene, gm_session_owner(session, i, false));
+        struct gm_timing *timing = lanes[i].parameters;
+        good = good && timing;
+        if (timing) {
+            timing->dt = fabs(timing->dt); /* a start is forwards */
+        }
+    }
+    char *text = NULL, *arguments = good ? gm_request_format(&present) : NULL;
+    if (arguments && asprintf(&text, "geomint %s", arguments) < 0) {
+        text = NULL;
+    }
+    free(arguments);
+    for (size_t i = 0; i < session->count; i++) {
+        free(lanes[i].parameters);
+    }
+    return text;
+}
+
+void gm_worker_tell(struct gm_worker *worker, enum gm_theme theme)
+{
+    for (size_t i = 0; i < GM_COMMANDS; i++) {
+        free(worker->commands[i]);
+    }
+    worker->commands[GM_COMMAND_PICTURE] = tell_picture(&worker->session, theme);
+    worker->commands[GM_COMMAND_EXPLORER] = tell_explorer(&worker->session);
     worker->command_number++;
 }

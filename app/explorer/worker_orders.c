@@ -18,7 +18,7 @@ static void move_parameter(struct gm_worker *worker, const struct gm_order *orde
         if (!gm_slider_at(row, order->value, text)) {
             return;
         }
-    } else if (!gm_slider_next(row, owner, order->amount, text)) {
+    } else if (!gm_slider_next(row, owner, order->amount, order->kind == GM_ORDER_NUDGE, text)) {
         snprintf(message, sizeof message, "%s is at the end of its range.", row->key);
         gm_worker_say(worker, message);
         return;
@@ -216,6 +216,7 @@ void gm_worker_obey(struct gm_worker *worker, const struct gm_order *order)
         ok = start_from(worker, order->x, order->y, message);
         break;
     case GM_ORDER_MOVE:
+    case GM_ORDER_NUDGE:
     case GM_ORDER_STANDARD:
     case GM_ORDER_TYPE:
     case GM_ORDER_SLIDE:

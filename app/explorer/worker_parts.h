@@ -21,7 +21,7 @@ enum { GM_WORKER_QUEUE = 256 };
 /* A change that starts everything again is made at most this often, in seconds. */
 #define GM_WORKER_RESTART_PAUSE (1.0 / 30)
 
-enum { GM_WORKER_SLOWEST = -12, GM_WORKER_FASTEST = 15 }; /* numbers of speeds */
+enum { GM_WORKER_SLOWEST = -21, GM_WORKER_FASTEST = 15 }; /* numbers of speeds */
 
 struct gm_worker {
     pthread_t thread;
@@ -36,7 +36,8 @@ struct gm_worker {
     bool wanted; /* a shot */
     bool ready;  /* shots[filled] is finished and not yet taken */
     bool leave, orphan, failed;
-    int filled; /* the shot that the thread fills; the screen has the other one */
+    bool recorded; /* a movie was asked for, at some time */
+    int filled;    /* the shot that the thread fills; the screen has the other one */
     struct gm_shot shots[2];
 
     /* the thread's own */
@@ -59,7 +60,7 @@ struct gm_worker {
     unsigned long message_number;
     struct gm_recorder *recorder; /* NULL: no movie is made */
     bool unrecorded;              /* something changed since its last frame */
-    char *command;                /* that redoes the view at the time it was asked for; NULL: it was not */
+    char *commands[GM_COMMANDS];  /* of the view at the time they were asked for; NULL: they were not */
     unsigned long command_number; /* changes with every one */
 };
 
@@ -84,10 +85,11 @@ void gm_worker_keep_agenda(struct gm_worker *worker);
 void gm_worker_watch_frozen(struct gm_worker *worker);
 
 /* Saves the picture, begins or ends the movie, ends it, takes a frame of it if one is due, tells the command
-   line that redoes the view. */
+   lines of the view. */
 void gm_worker_save(struct gm_worker *worker, enum gm_theme theme);
 void gm_worker_record(struct gm_worker *worker, enum gm_theme theme);
-void gm_worker_stop_recording(struct gm_worker *worker);
+/* True with a sentence if there was a movie. */
+bool gm_worker_stop_recording(struct gm_worker *worker, char *sentence);
 void gm_worker_take_frame(struct gm_worker *worker);
 void gm_worker_tell(struct gm_worker *worker, enum gm_theme theme);
 

@@ -18,10 +18,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_fft_complex.h>
-
 #include "core/differences.h"
 #include "core/families/families.h"
+#include "core/fourier.h"
 #include "core/multisymplectic.h"
 
 enum { STAGES = 2, BLOCK = STAGES * STAGES };
@@ -52,8 +51,7 @@ struct work {
     const struct tableau *tableau; /* the same in space and time */
     double dt;                     /* what the branches were made for */
     struct branch *branches;       /* [mode * r], modes 0 .. points/2 */
-    gsl_fft_complex_wavetable *table;
-    gsl_fft_complex_workspace *space;
+    struct gm_fourier *fourier;
     double *u, *v, *next_u, *next_v;     /* [stage * points + cell] */
     double *stages, *force;              /* [(time stage * r + stage) * points + cell] */
     double complex *hat_u, *hat_v, *hat; /* transforms of u, v, and of force or u'' */
@@ -63,12 +61,7 @@ struct work {
 static void workspace_close(void *workspace)
 {
     struct work *work = workspace;
-    if (work->table) {
-        gsl_fft_complex_wavetable_free(work->table);
-    }
-    if (work->space) {
-        gsl_fft_complex_workspace_free(work->space);
-    }
+    gm_fourier_close(work->fourier);
     free(work->branches);
     free(work->memory);
     free(work);
@@ -88,9 +81,8 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     work->tableau = tableau;
     work->memory = calloc(2 * complexes + (4 * r + 2 * q) * points, sizeof(double));
     work->branches = calloc(modes * r, sizeof *work->branches);
-    work->table = gsl_fft_complex_wavetable_alloc(points);
-    work->space = gsl_fft_complex_workspace_alloc(points);
-    if (!work->memory || !work->branches || !work->table || !work->space) {
+    work->fourier = gm_fourier_open(points);
+    if (!work->memory || !work->branches || !work->fourier) {
         workspace_close(work);
         return NULL;
     }
@@ -111,13 +103,13 @@ static void forward(struct work *work, const double *values, double complex *hat
     for (size_t i = 0; i < work->points; i++) {
         hat[i] = values[i];
     }
-    gsl_fft_complex_forward((double *)hat, 1, work->points, work->table, work->space);
+    gm_fourier_forward(work->fourier, hat);
 }
 
 /* The transform is left as the values. */
 static void backward(struct work *work, double complex *hat, double *values)
 {
-    gsl_fft_complex_inverse((double *)hat, 1, work->points, work->table, work->space);
+    gm_fourier_inverse(work->fourier, hat);
     for (size_t i = 0; i < work->points; i++) {
         values[i] = creal(hat[i]);
     }

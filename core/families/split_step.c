@@ -7,14 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_fft_complex.h>
-
 #include "core/families/families.h"
+#include "core/fourier.h"
 
 struct work {
     size_t points;
-    gsl_fft_complex_wavetable *table;
-    gsl_fft_complex_workspace *space;
+    struct gm_fourier *fourier;
     double *psi;   /* pairs of real and imaginary part */
     double *turns; /* exp(-i k^2 dt), pairs */
 };
@@ -22,12 +20,7 @@ struct work {
 static void workspace_close(void *workspace)
 {
     struct work *work = workspace;
-    if (work->table) {
-        gsl_fft_complex_wavetable_free(work->table);
-    }
-    if (work->space) {
-        gsl_fft_complex_workspace_free(work->space);
-    }
+    gm_fourier_close(work->fourier);
     free(work->psi);
     free(work);
 }
@@ -42,9 +35,8 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     work->points = problem->line.points;
     work->psi = calloc(4 * work->points, sizeof *work->psi);
     work->turns = work->psi + 2 * work->points;
-    work->table = gsl_fft_complex_wavetable_alloc(work->points);
-    work->space = gsl_fft_complex_workspace_alloc(work->points);
-    if (!work->psi || !work->table || !work->space) {
+    work->fourier = gm_fourier_open(work->points);
+    if (!work->psi || !work->fourier) {
         workspace_close(work);
         return NULL;
     }
@@ -92,11 +84,11 @@ static struct gm_progress advance(const struct gm_task *task)
     }
     for (long step = 0; step < task->steps; step++) {
         nonlinear_half(psi, points, task->dt / 2);
-        gsl_fft_complex_forward(psi, 1, points, work->table, work->space);
+        gm_fourier_forward(work->fourier, (double complex *)(void *)psi);
         for (size_t i = 0; i < points; i++) {
             turn(psi + 2 * i, work->turns[2 * i], work->turns[2 * i + 1]);
         }
-        gsl_fft_complex_inverse(psi, 1, points, work->table, work->space);
+        gm_fourier_inverse(work->fourier, (double complex *)(void *)psi);
         nonlinear_half(psi, points, task->dt / 2);
         progress.evaluations++;
         if (!within(psi, 2 * points, task->limit)) {

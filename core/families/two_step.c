@@ -40,6 +40,7 @@ void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme 
 void gm_two_step_close(void *workspace)
 {
     struct gm_two_step_work *work = workspace;
+    gm_ring_newton_close(&work->newton);
     free(work->memory);
     free(work);
 }

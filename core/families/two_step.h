@@ -2,8 +2,7 @@
 #ifndef GM_FAMILIES_TWO_STEP_H
 #define GM_FAMILIES_TWO_STEP_H
 
-#include "core/ring.h"
-#include "core/scheme.h"
+#include "core/ring_newton.h"
 
 /* Levels have two more points than the grid, at both ends: level[-1] and level[points]. */
 struct gm_two_step_work {
@@ -13,6 +12,7 @@ struct gm_two_step_work {
     double *right, *guess, *cells; /* of implicit schemes */
     double *change;                /* from the past to the present level, of schemes that keep it */
     struct gm_ring ring;
+    struct gm_ring_newton newton; /* opened by schemes that use it */
     double *memory;
 };
 

@@ -36,12 +36,15 @@ static struct tangent tangent_at(double *memory, size_t points)
                             memory + 5 * points};
 }
 
-static void tangent_start(const struct tangent *tangent, size_t points, double waves, double phase)
+static void tangent_start(const struct tangent *tangent, bool centred, size_t points, double waves,
+                          double phase)
 {
     gm_tangent_start(tangent->past, points, waves, phase);
     gm_tangent_start(tangent->now, points, waves, 2 * phase - M_PI / 2);
-    gm_tangent_start(tangent->v_past, points, waves, 3 * phase);
-    gm_tangent_start(tangent->v_now, points, waves, 5 * phase);
+    if (centred) {
+        gm_tangent_start(tangent->v_past, points, waves, 3 * phase);
+        gm_tangent_start(tangent->v_now, points, waves, 5 * phase);
+    }
 }
 
 struct base {
@@ -112,33 +115,28 @@ static double nine_points(const struct base *base, const struct tangent *a, size
     return in_time / (4 * dt * dt) - in_space / (4 * dx * dx) + force / 16;
 }
 
-/* Iterated with the circulant part. */
+/* The next level is the solution of a linear system. */
 static bool linearised_box(const struct base *base, const struct tangent *a)
 {
-    enum { MOST = 200 };
     const size_t points = base->problem->line.points;
     const double dx = base->problem->line.dx;
     const double in_time = 1 / (4 * base->dt * base->dt), in_space = 1 / (4 * dx * dx);
-    const struct gm_ring solver = gm_ring_make(points, 2 * (in_time + in_space), in_time - in_space);
-    double *residual = malloc(points * sizeof *residual), last = INFINITY;
-    bool good = false;
+    struct gm_ring_band band;
+    if (!gm_ring_band_open(&band, points, 1, 1)) {
+        return false;
+    }
+    memset(a->next, 0, points * sizeof *a->next);
+    double *right = a->v_next; /* no scheme of cells keeps u_t */
     for (size_t i = 0; i < points; i++) {
-        a->next[i] = 2 * a->now[i] - a->past[i];
+        const double before = base->later[left_of(i, points)] / 16, after = base->later[i] / 16;
+        right[i] = -nine_points(base, a, i);
+        gm_ring_band_add(&band, i, 0, -1, 0, in_time - in_space + before);
+        gm_ring_band_add(&band, i, 0, 0, 0, 2 * (in_time + in_space) + before + after);
+        gm_ring_band_add(&band, i, 0, 1, 0, in_time - in_space + after);
     }
-    for (int k = 0; residual && k < MOST && !good; k++) {
-        double largest = 0;
-        for (size_t i = 0; i < points; i++) {
-            residual[i] = nine_points(base, a, i);
-        }
-        gm_ring_solve(&solver, residual);
-        for (size_t i = 0; i < points; i++) {
-            a->next[i] -= residual[i];
-            largest = fmax(largest, fabs(residual[i]));
-        }
-        good = largest >= last && largest < 1e-11;
-        last = largest;
-    }
-    free(residual);
+    const bool good = gm_ring_band_solve(&band, right);
+    memcpy(a->next, right, points * sizeof *right);
+    gm_ring_band_close(&band);
     return good;
 }
 
@@ -204,39 +202,37 @@ static bool by_own_steps(const struct base *base, const struct tangent *a)
     return good;
 }
 
-/* All components at the nodes of the three levels. */
-static void complete_nodes(const struct base *base, bool centred, const struct tangent *a, double *levels[3])
+struct nodes {
+    const struct gm_line *line;
+    double dt;
+    bool centred;
+    const struct tangent *tangent;
+};
+
+static void complete_node(const void *tangent, size_t node, double *levels)
 {
-    const size_t points = base->problem->line.points;
-    const double dx = base->problem->line.dx;
+    const struct nodes *nodes = tangent;
+    const struct tangent *a = nodes->tangent;
     const double *u[3] = {a->past, a->now, a->next}, *v[3] = {a->v_past, a->v_now, a->v_next};
+    const size_t points = nodes->line->points;
     for (size_t n = 0; n < 3; n++) {
-        for (size_t i = 0; i < points; i++) {
-            double *s = levels[n] + i * DIMENSION;
-            const double left = u[n][left_of(i, points)], right = u[n][right_of(i, points)];
-            s[U] = u[n][i];
-            /* that of the first level occurs in no flux */
-            s[V] = centred ? v[n][i] : n ? (u[n][i] - u[n - 1][i]) / base->dt : 0;
-            s[W] = centred ? (right - left) / (2 * dx) : (u[n][i] - left) / dx;
-        }
+        double *s = levels + n * DIMENSION;
+        const double left = u[n][left_of(node, points)], right = u[n][right_of(node, points)];
+        s[U] = u[n][node];
+        /* that of the first level occurs in no flux */
+        s[V] = nodes->centred ? v[n][node] : n ? (u[n][node] - u[n - 1][node]) / nodes->dt : 0;
+        s[W] =
+            nodes->centred ? (right - left) / (2 * nodes->line->dx) : (u[n][node] - left) / nodes->line->dx;
     }
 }
 
 static double law_of_nodes(const struct base *base, bool centred, const struct tangent *a,
                            const struct tangent *b)
 {
-    const size_t points = base->problem->line.points, size = points * DIMENSION;
-    double *memory = malloc(6 * size * sizeof *memory), law = NAN;
-    if (memory) {
-        double *of_a[3] = {memory, memory + size, memory + 2 * size};
-        double *of_b[3] = {memory + 3 * size, memory + 4 * size, memory + 5 * size};
-        complete_nodes(base, centred, a, of_a);
-        complete_nodes(base, centred, b, of_b);
-        law = gm_nodes_law(base->problem->field, centred, points, base->problem->line.dx, base->dt,
-                           (const double *const *)of_a, (const double *const *)of_b);
-    }
-    free(memory);
-    return law;
+    const struct gm_line *line = &base->problem->line;
+    const struct nodes of_a = {line, base->dt, centred, a}, of_b = {line, base->dt, centred, b};
+    return gm_nodes_law(base->problem->field, centred, line->points, line->dx, base->dt, complete_node, &of_a,
+                        &of_b);
 }
 
 /* W at the sides of the cells between two levels. */
@@ -351,10 +347,12 @@ double gm_wave_form(const struct gm_problem *problem, const struct gm_scheme *sc
     base.earlier = arrays + 2 * ARRAYS * points;
     base.later = base.earlier + points;
     base.work = scheme->family->workspace_open(problem, scheme);
-    tangent_start(&a, points, 2, 0.3);
-    tangent_start(&b, points, 3, 0.7);
-    cell_curvatures(problem, base.levels.past, base.levels.now, base.earlier);
-    cell_curvatures(problem, base.levels.now, base.levels.next, base.later);
+    tangent_start(&a, law == GM_LAW_CENTRED, points, 2, 0.3);
+    tangent_start(&b, law == GM_LAW_CENTRED, points, 3, 0.7);
+    if (law == GM_LAW_CELLS) {
+        cell_curvatures(problem, base.levels.past, base.levels.now, base.earlier);
+        cell_curvatures(problem, base.levels.now, base.levels.next, base.later);
+    }
     if (base.work && advance_tangent(&base, law, by_differences, &a) &&
         advance_tangent(&base, law, by_differences, &b)) {
         residual = law == GM_LAW_CELLS ? law_of_cells(&base, &a, &b)
