@@ -26,9 +26,10 @@ SIZES = [(80, 24), (160, 45), (100, 30), (40, 10), (61, 12), (20, 5), (9, 3), (1
 CURSOR = [b'\x1b[A', b'\x1b[B', b'\x1bOC', b'\x1bOD', b'\x1b[H', b'\x1b[F', b'\x1b[5~', b'\x1b[6~', b'\x1b[3~']
 # every key that does something, those that begin a study or a movie less often
 COMMON = list(b' .,[]sfcxoivt=\t\r\x1b?lbrB>y/0123456789e-*piGan\x7f\x0c')
-RARE = [b'w', b'm', b'R', b'p', b'\x1a', b'\x1b', b'\x00', b'\xc3', b'\xff\xfe', b'\xe2\x96', b'\x1b[', b'\x1b[<', b'\x1b]11;',
-        b'\x1bP1$r', b'\x1b_G', b'\x1b[<0;99999999999;1M', b'\x1b[<0;-1;0M', b'\x1b[?1;2;3;4;5;6;7;8;9;1;1;1;1;1;1;1;1c',
-        b'\x1b]11;rgb:zz/1/2\x07', b'\x1b[200~', b'\x1b[0n' * 70, b'\x1b[6;0;0t', b'\x1b[6;999999999;7t', b'9' * 300]
+RARE = [b'w', b'm', b'R', b'p', b'\x1a', b'\x1b', b'\x00', b'\xc3', b'\xff\xfe', b'\xe2\x96', b'\x1b[', b'\x1b[<',
+        b'\x1b]11;', b'\x1bP1$r', b'\x1b_G', b'\x1b[<0;99999999999;1M', b'\x1b[<0;-1;0M',
+        b'\x1b[?1;2;3;4;5;6;7;8;9;1;1;1;1;1;1;1;1c', b'\x1b]11;rgb:zz/1/2\x07', b'\x1b[200~', b'\x1b[0n' * 70,
+        b'\x1b[6;0;0t', b'\x1b[6;999999999;7t', b'9' * 300]
 
 
 class Session:

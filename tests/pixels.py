@@ -292,7 +292,8 @@ leave(alone)
 
 # what the terminal answers about its colours; the environment counts more
 for answers, how, colours in (({'background': 'ffff/ffff/dddd'}, {'COLORTERM': ''}, ['256', 'light']),
-                              ({'background': '1e/1e/22', 'true_colour': True}, {'COLORTERM': ''}, ['truecolor', 'dark']),
+                              ({'background': '1e/1e/22', 'true_colour': True}, {'COLORTERM': ''},
+                               ['truecolor', 'dark']),
                               ({'background': 'ffff/ffff/dddd'}, {'COLORFGBG': '15;0'}, ['truecolor', 'dark']),
                               ({'background': 'fff/fff/ddd'}, {'COLORFGBG': 'default;default'}, ['truecolor', 'light']),
                               ({'background': 'white'}, {}, ['truecolor', 'dark'])):

@@ -74,10 +74,12 @@ def decode_sixel(body):
 
 class Terminal:
     def __init__(self, command, columns=160, rows=45, cell=(10, 20), kind='sixel', sizes='system', delay=0,
-                 typed=b'', limits=None, environment=None, synchronised=True, rate=None, background=None, true_colour=False):
+                 typed=b'', limits=None, environment=None, synchronised=True,
+                 rate=None, background=None, true_colour=False):
         """kind: sixel, kitty or plain. sizes: who knows the size of a cell, 'system', 'terminal' or 'nobody'.
         delay: of every answer, in seconds. typed: keys that are there when the program begins. rate: bytes a second
-        that it reads, at the end of a line that takes any number. background: what it answers, as rgb:. true_colour: it keeps colours of 24 bits."""
+        that it reads, at the end of a line that takes any number. background: what it answers, as rgb:.
+        true_colour: it keeps colours of 24 bits."""
         self.columns, self.rows, self.cell, self.kind, self.sizes = columns, rows, cell, kind, sizes
         self.delay, self.limits, self.synchronised = delay, limits, synchronised
         self.rate, self.background, self.true_colour = rate, background, true_colour
