@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 from terminal_emulator import Terminal, read_png
 
@@ -259,6 +260,60 @@ slow.run(4)
 frames = len(slow.frames) - frames
 check(3 <= frames <= 22, f'{frames} frames in 4 s at .4 s a round trip')
 leave(slow)
+
+# a slow line that takes all there is: little is on its way, so keys are answered
+narrow = Terminal([geomint, 'disc', 'dt=0.02'], kind='plain', rate=4000)
+check(narrow.run(30, lambda: narrow.shows('SCHEMES')), 'no screen at 4 kB/s')
+narrow.run(10)
+queued, begun = len(narrow.queue), time.monotonic()
+narrow.keys(' ')
+check(narrow.run(30, lambda: narrow.shows('paused')), 'it does not pause at 4 kB/s')
+waited = time.monotonic() - begun
+print(f'4 kB/s: {queued} bytes are on their way, a key is answered after {waited:.1f} s')
+check(queued < 40000 and waited < 20, f'at 4 kB/s {queued} bytes are on their way, a key takes {waited:.1f} s')
+narrow.rate = None
+leave(narrow)
+
+# Ctrl-Z gives the shell a clean screen, and fg takes it back; where no shell could wake it, it passes
+shell = Terminal(['/bin/bash', '--norc', '--noprofile', '-i'], kind='kitty')
+shell.keys(f'{shlex.quote(geomint)} {" ".join(SCENE)}\n')
+check(shell.run(20, lambda: shell.shows('SCHEMES') and shell.tiles), 'no screen in a shell')
+for _ in range(2):
+    shell.keys('\x1a')
+    check(shell.run(10, lambda: shell.shows(SCENE[1])), 'Ctrl-Z does not stop it')  # the shell tells what it stopped
+    check(not shell.tiles and not shell.shows('PARAMETERS'), 'stopped, it leaves its screen behind')
+    shell.keys('fg\n')
+    check(shell.run(10, lambda: shell.shows('SCHEMES') and shell.tiles), 'fg does not bring it back')
+shell.keys('q')
+check(shell.run(5, lambda: not shell.shows('SCHEMES') and not shell.tiles), 'it leaves its screen behind')
+shell.keys('exit\n')
+shell.run(5, lambda: shell.status is not None)
+shell.close()
+alone = Terminal([geomint, *SCENE], kind='plain')
+check(alone.run(10, lambda: alone.shows('SCHEMES')), 'no screen')
+alone.keys('\x1a')
+alone.run(1)
+leave(alone)
+
+# what the terminal answers about its colours; the environment counts more
+for answers, how, colours in (({'background': 'ffff/ffff/dddd'}, {'COLORTERM': ''}, ['256', 'light']),
+                              ({'background': '1e/1e/22', 'true_colour': True}, {'COLORTERM': ''},
+                               ['truecolor', 'dark']),
+                              ({'background': 'ffff/ffff/dddd'}, {'COLORFGBG': '15;0'}, ['truecolor', 'dark']),
+                              ({'background': 'fff/fff/ddd'}, {'COLORFGBG': 'default;default'}, ['truecolor', 'light']),
+                              ({'background': 'white'}, {}, ['truecolor', 'dark'])):
+    asked = Terminal([geomint, 'terminal'], kind='plain', environment=how, **answers)
+    asked.run(10, lambda: asked.status is not None)
+    for line in range(asked.rows):
+        words = asked.line(line).split()
+        if words[:1] == ['colours']:
+            check(words[1] == colours[0], f'{answers}, {how}: {words}')
+        if words[:1] == ['theme']:
+            check(words[1] == colours[1], f'{answers}, {how}: {words}')
+            colours = None
+            break
+    check(colours is None, f'{answers}, {how}: no theme is told')
+    asked.close()
 
 print('pixels:', 'all passed' if not failures else f'{failures} failures')
 sys.exit(failures > 0)

@@ -322,31 +322,58 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
     }
     if (writer->asks && writer->asked - writer->answered < GM_WRITER_FLYING) {
         put_text(writer, GM_ASK_READY);
-        writer->flying[writer->asked++ % GM_WRITER_FLYING] = writer->length;
         writer->asked_at = milliseconds();
+        writer->flying[writer->asked % GM_WRITER_FLYING] = writer->length;
+        writer->sent_at[writer->asked++ % GM_WRITER_FLYING] = writer->asked_at;
     }
 }
 
-/* So many bytes may be on their way: some frames of cells, or one picture. */
-enum { ON_THE_WAY = 32768, LOST = 3000 };
+/* At most so many bytes may be on their way: some frames of cells, or one picture. A queue of more than LAG
+   milliseconds is too long; an answer that is LOST later than even a slow line explains is not waited for. */
+enum { ON_THE_WAY = 32768, LEAST_ON_THE_WAY = 1024, LAG = 200, LOST = 3000 };
+
+/* Additive increase and multiplicative decrease, as for the window of TCP. */
+static void adapt(struct gm_writer *writer, int64_t now)
+{
+    const int64_t passed = now - writer->sent_at[(writer->answered - 1) % GM_WRITER_FLYING];
+    if (passed < writer->trip) {
+        writer->trip = (int)passed;
+    }
+    if (passed > writer->trip + LAG) {
+        writer->bound = writer->bound / 2 > LEAST_ON_THE_WAY ? writer->bound / 2 : LEAST_ON_THE_WAY;
+    } else if (writer->bound < ON_THE_WAY) {
+        writer->bound += LEAST_ON_THE_WAY;
+    }
+}
+
+static size_t flying(const struct gm_writer *writer)
+{
+    size_t bytes = 0;
+    for (unsigned long i = writer->answered; i < writer->asked; i++) {
+        bytes += writer->flying[i % GM_WRITER_FLYING];
+    }
+    return bytes;
+}
 
 bool gm_writer_takes(struct gm_writer *writer, unsigned long ready)
 {
-    size_t flying = 0;
-    if (ready > writer->asked) { /* answers to questions that were given up */
+    const int64_t now = milliseconds();
+    if (ready > writer->asked) { /* answers to questions of before */
         ready = writer->asked;
+    }
+    if (ready > writer->heard) {
+        writer->heard = ready;
+        writer->asks = true; /* it does answer, however late */
+        writer->asked_at = now;
     }
     if (ready > writer->answered) {
         writer->answered = ready;
-        writer->asked_at = milliseconds();
-    } else if (writer->answered < writer->asked && milliseconds() - writer->asked_at >= LOST) {
-        writer->asks = false; /* it answers no more */
+        adapt(writer, now);
+    } else if (gm_writer_patience(writer) == 0) {
+        writer->asks = false;
         writer->answered = writer->asked;
     }
-    for (unsigned long i = writer->answered; i < writer->asked; i++) {
-        flying += writer->flying[i % GM_WRITER_FLYING];
-    }
-    return gm_writer_idle(writer) && flying < ON_THE_WAY;
+    return gm_writer_idle(writer) && flying(writer) < writer->bound;
 }
 
 int gm_writer_patience(const struct gm_writer *writer)
@@ -354,7 +381,8 @@ int gm_writer_patience(const struct gm_writer *writer)
     if (writer->answered == writer->asked) {
         return -1;
     }
-    int64_t left = writer->asked_at + LOST - milliseconds();
+    /* the line may take a kilobyte a second */
+    const int64_t left = writer->asked_at + LOST + (int64_t)flying(writer) - milliseconds();
     return left > 0 ? (int)left : 0;
 }
 
@@ -415,7 +443,9 @@ bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal
     *writer = (struct gm_writer){.fd = -1,
                                  .colours = terminal->colours,
                                  .theme = terminal->theme,
-                                 .asks = terminal->answers.attributes};
+                                 .asks = terminal->answers.attributes,
+                                 .trip = terminal->asked,
+                                 .bound = ON_THE_WAY};
     writer->row = -1;
     writer->foreground = writer->background = -1;
     writer->place = capability("cup");

@@ -30,9 +30,13 @@ struct gm_writer {
     bool failed; /* memory is short or the terminal is gone */
     /* screens that the terminal was asked about: how many, and the sizes of those it has not yet answered */
     bool asks;
-    unsigned long asked, answered;
+    unsigned long asked, answered; /* or given up */
+    unsigned long heard;           /* answers that did come */
     size_t flying[GM_WRITER_FLYING];
-    int64_t asked_at; /* in milliseconds: the last one, or the last answer */
+    int64_t sent_at[GM_WRITER_FLYING]; /* and when, in milliseconds */
+    int64_t asked_at;                  /* the last one, or the last answer */
+    int trip;                          /* milliseconds that an answer takes at the least */
+    size_t bound;                      /* so many bytes may be on their way */
     /* the state of the terminal */
     int column, row;
     long foreground, background; /* -1: unknown */
@@ -48,7 +52,9 @@ void gm_writer_close(struct gm_writer *writer);
 bool gm_writer_idle(const struct gm_writer *writer);
 /* Whether another screen may be drawn: everything was sent, and not too much of it is still on its way. A
    terminal at the end of a long line is asked after each screen whether it has read it, because otherwise
-   seconds of frames would pile up in the line, and keys be answered behind them. `ready` counts its answers.
+   seconds of frames would pile up in the line, and keys be answered behind them. Where answers come much
+   later than the way there and back takes, less is sent, down to one screen at a time. `ready` counts the
+   answers.
  */
 bool gm_writer_takes(struct gm_writer *writer, unsigned long ready);
 /* How long to wait for such an answer before it is given up, in milliseconds; -1: none is awaited. */
