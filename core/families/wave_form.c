@@ -242,14 +242,24 @@ static double law_of_nodes(const struct base *base, bool centred, const struct t
                         &of_b);
 }
 
-/* W at the sides of the cells between two levels. */
-static void side_slopes(const struct gm_line *line, const double *before, const double *after, double *w)
+/* W at the sides of the cells between two levels. On an even number of points A_x W = D_x A_t u leaves its
+   alternating part free; the acceleration, which like A_t V = D_t A_x u has none, determines it. */
+static void side_slopes(const struct gm_line *line, const double *before, const double *after,
+                        const double *curvature, double *w)
 {
-    for (size_t i = 0; i < line->points; i++) {
-        const size_t r = right_of(i, line->points);
+    const size_t points = line->points;
+    double alternating = 0;
+    for (size_t i = 0; i < points; i++) {
+        const size_t r = right_of(i, points);
+        const double force = curvature[i] * (before[i] + before[r] + after[i] + after[r]) / 4;
         w[i] = (before[r] + after[r] - before[i] - after[i]) / (2 * line->dx);
+        alternating += i % 2 ? -force : force;
     }
-    gm_ring_unaverage(w, line->points);
+    gm_ring_unaverage(w, points);
+    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
+        const double part = line->dx / 2 * alternating / (double)points;
+        w[i] -= i % 2 ? -part : part;
+    }
 }
 
 /* D_t V in cell i */
@@ -269,8 +279,8 @@ static bool complete_cells(const struct base *base, const struct tangent *a, str
         return false;
     }
     double *w_later = w + points;
-    side_slopes(line, a->past, a->now, w);
-    side_slopes(line, a->now, a->next, w_later);
+    side_slopes(line, a->past, a->now, base->earlier, w);
+    side_slopes(line, a->now, a->next, base->later, w_later);
     for (size_t i = 0; i < points; i++) {
         const size_t r = right_of(i, points);
         double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
