@@ -5,9 +5,10 @@
    lambda = 0, 398 at 0.5) and at the shifted shock (156), the invariant one at the front (73 and 2.5) and at
    the shifted shock (2.3). There both grow at the front (h/nu = 4) until the step's equations have no
    solution near the last level, or the moving frame does not exist (1 + k D0 u < 0). A Newton iteration that
-   is stopped after 30 rounds and believed gives 156, with equations that are off by 44; the others are what
-   such runs come to by chance: a change of the start in the 15th digit makes them anything from 2 to 10^4.
-   Here both are shown, and the runs end with a status. */
+   is stopped after 30 rounds and believed gives 156, with equations that are off by 44. The others are what a
+   run comes to by chance: a change of the start in the 15th digit makes them anything from 2 to 10^5; of the
+   last, 2.3, no run at all can be solved to its end. Here this is shown; the program's runs end with a
+   status. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -290,13 +291,16 @@ static void six_numbers_by_chance(void **unused)
                 errors[count++] = error;
             }
         }
+        if (trial.shock) {
+            assert_int_equal(count, 0); /* none is solved to its end */
+            continue;
+        }
         qsort(errors, count, sizeof *errors, by_size);
         print_message(
-            "%s %s, lambda = %g: %g was wanted; %zu runs from starts 1e-15 apart: %.3g, %.3g, %.3g, "
-            "%.3g, %.3g (least, tenth, median, nine tenths, most)\n",
-            rows[i].invariant ? "invariant" : "printed", trial.shock ? "shifted shock" : "front",
-            trial.lambda, rows[i].wanted, count, errors[0], errors[count / 10], errors[count / 2],
-            errors[count * 9 / 10], errors[count - 1]);
+            "%s, lambda = %g: %g was wanted; %zu runs from starts 1e-15 apart: %.3g, %.3g, %.3g, %.3g, "
+            "%.3g (least, tenth, median, nine tenths, most)\n",
+            rows[i].invariant ? "invariant" : "printed", trial.lambda, rows[i].wanted, count, errors[0],
+            errors[count / 10], errors[count / 2], errors[count * 9 / 10], errors[count - 1]);
         assert_true(count > RUNS / 4);
         assert_true(errors[count * 9 / 10] > 2 * errors[count / 10]);
         assert_true(errors[0] < 2 * rows[i].wanted && errors[count - 1] > rows[i].wanted);
