@@ -80,7 +80,7 @@ ls -A | grep killed.mp4. && fail 'a resumed movie leaves files behind'
 # shards
 "$geomint" render $waves --out one || fail 'one render'
 if command -v parallel >/dev/null; then
-    seq 3 | parallel -j 2 "$geomint" render $waves --out many --shard '{}/3' 2>err || fail "shards: $(cat err)"
+    seq 3 | parallel -q -j 2 "$geomint" render $waves --out many --shard '{}/3' 2>err || fail "shards: $(cat err)"
 else
     for i in 1 2 3; do
         "$geomint" render $waves --out many --shard $i/3 || fail "shard $i"
