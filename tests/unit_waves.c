@@ -344,7 +344,19 @@ static void the_form_is_kept_or_not(void **unused)
         gm_sine_gordon_levels(&problem, 0, 0.1, y);
         expect_law(&problem, of_waves[s].name, 0.1, y, of_waves[s].kept);
     }
-    /* an odd number of points, or v, the mean of which over a side is the slope of u, need not exist */
+    /* on an even number of points the alternating parts of slopes follow from the forces */
+    struct gm_problem even = wave_problem(POINTS - 1, 20, 0);
+    even.parameters = &breather;
+    gm_sine_gordon_levels(&even, 0, 0.1, y);
+    expect_law(&even, "box", 0.1, y, true);
+    even = kdv_problem(60);
+    gm_kdv_levels(&even, 0.05, y);
+    expect_law(&even, "box", 0.05, y, true);
+    even = nls_problem(60);
+    for (size_t i = 0; i < 60; i++) {
+        gm_nls_exact(&bright, &even.line, gm_line_node(&even.line, i), 0, &y[i], &y[60 + i]);
+    }
+    expect_law(&even, "box", 0.02, y, true);
     const struct gm_problem kdv = kdv_problem(POINTS), nls = nls_problem(POINTS);
     gm_kdv_levels(&kdv, 0.05, y);
     expect_law(&kdv, "box", 0.05, y, true);

@@ -49,8 +49,8 @@ enum { PHI, U, V, W, DIMENSION };
 
 /* phi from D_x phi = A_x u, 0 at the first node of every level: its constant in x is free, and w goes with
    it. v from D_x u = A_x v / mu, w from D_t A_x u/2 + D_x w = 0 and the mean over the ring of the last
-   equation, -D_t phi/2 - D_x v = -A_x w + eta m u, which else is the scheme. (To take w from the latter would
-   invert A_x twice and rounding with it.) */
+   equation, -D_t phi/2 - D_x v = -A_x w + eta m u, which else is the scheme; its alternating part is that of
+   v on an even number of points. (To take w from the latter would invert A_x twice and rounding with it.) */
 static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
                      const double *next, struct gm_faces *faces)
 {
@@ -73,11 +73,18 @@ static void complete(const struct gm_problem *problem, double dt, const double *
             phi_next += dx * upper[U];
         }
     }
-    double *slope = faces->scratch;
+    double *slope = faces->scratch, alternating = 0;
     for (size_t i = 0; i < points; i++) {
+        const double u = (faces->lower[i * DIMENSION + U] + faces->upper[i * DIMENSION + U]) / 2;
+        const double force = problem->kdv->eta * base[i] * u / (double)points;
+        alternating += i % 2 ? -force : force;
         slope[i] = problem->kdv->mu * (sides[(i + 1) * DIMENSION + U] - sides[i * DIMENSION + U]) / dx;
     }
     gm_ring_unaverage(slope, points);
+    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
+        const double free = dx / 2 * alternating;
+        slope[i] += i % 2 ? -free : free;
+    }
     for (size_t i = 0; i <= points; i++) {
         sides[i * DIMENSION + V] = slope[i < points ? i : 0];
     }

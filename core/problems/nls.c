@@ -51,12 +51,26 @@ static void linearised(const struct gm_problem *problem, const double *base, con
 
 enum { P, Q, V, W, DIMENSION };
 
-/* A_x v = D_x p and A_x w = D_x q at the sides; the other two equations are the scheme. */
+/* A_x v = D_x p and A_x w = D_x q at the sides; the other two equations are the scheme, but that on an even
+   number of points their alternating parts, of -D_x v and -D_x w and the force, are that of v and w. */
 static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
                      const double *next, struct gm_faces *faces)
 {
-    (void)dt, (void)base;
+    (void)dt;
     const size_t points = problem->line.points;
+    double alternating[2] = {0};
+    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
+        const size_t r = i + 1 < points ? i + 1 : 0;
+        const double at[2] = {base[i], base[points + i]};
+        const double mean[2] = {(now[i] + now[r] + next[i] + next[r]) / 4,
+                                (now[points + i] + now[points + r] + next[points + i] + next[points + r]) /
+                                    4};
+        double force[2];
+        linearised(problem, at, mean, force, 1);
+        for (size_t part = 0; part < 2; part++) {
+            alternating[part] += (i % 2 ? -force[part] : force[part]) / (double)points;
+        }
+    }
     for (size_t part = 0; part < 2; part++) {
         const double *f = now + part * points, *g = next + part * points;
         double *slope = faces->scratch;
@@ -70,7 +84,8 @@ static void complete(const struct gm_problem *problem, double dt, const double *
         for (size_t i = 0; i <= points; i++) {
             const size_t at = i < points ? i : 0;
             faces->sides[i * DIMENSION + P + part] = (f[at] + g[at]) / 2;
-            faces->sides[i * DIMENSION + V + part] = slope[at];
+            const double free = problem->line.dx / 2 * alternating[part];
+            faces->sides[i * DIMENSION + V + part] = slope[at] + (at % 2 ? -free : free);
         }
     }
 }
