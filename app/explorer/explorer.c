@@ -98,6 +98,15 @@ static void read_command(struct gm_explorer *explorer)
     gm_explorer_copy(explorer);
 }
 
+/* At a fixed pace, whatever taking and drawing a shot costs, but for a pause in which others get their turn.
+ */
+static int64_t next_time(int64_t last, int period)
+{
+    enum { LEAST_PAUSE = 10 };
+    int64_t now = gm_explorer_milliseconds();
+    return last + period > now + LEAST_PAUSE ? last + period : now + LEAST_PAUSE;
+}
+
 static void read_news(struct gm_explorer *explorer)
 {
     uint64_t count;
@@ -121,7 +130,7 @@ static void read_news(struct gm_explorer *explorer)
         read_command(explorer);
         explorer->asked = false;
         explorer->next_shot =
-            gm_explorer_milliseconds() + (explorer->at_start ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
+            next_time(explorer->next_shot, explorer->at_start ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
         explorer->dirty = true;
         explorer->fresh = explorer->fresh || shot->drawn;
         if (shot->drawn) {
