@@ -110,14 +110,18 @@ static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const
     return !setting || set_parameter(setting, &spec->settings, text, message);
 }
 
-/* "Δt = 0.1" for a key and its value; "" for a scheme, whose title says more. */
-static void name_of(const struct gm_word *list, size_t index, char *name, size_t size)
+/* Adds "Δt = 0.1" for a key and its value, or a scheme's title, to what a name says already. */
+static void add_name(const struct gm_word *list, size_t index, const struct gm_scheme *scheme, char *name,
+                     size_t size)
 {
+    const size_t length = strlen(name);
+    const char *comma = length ? ", " : "";
     if (strcmp(list->key, "scheme") == 0) {
-        snprintf(name, size, "%s", "");
-        return;
+        snprintf(name + length, size - length, "%s%s", comma, scheme->title);
+    } else {
+        snprintf(name + length, size - length, "%s%s = %s", comma,
+                 strcmp(list->key, "dt") == 0 ? "Δt" : list->key, list->values[index]);
     }
-    snprintf(name, size, "%s = %s", strcmp(list->key, "dt") == 0 ? "Δt" : list->key, list->values[index]);
 }
 
 void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay)
@@ -134,33 +138,31 @@ void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_schem
     }
 }
 
-/* The first list of several values gives the panels, the others the colours. */
+/* The first list of several values gives the panels, the others the colours; zipped, a lane has a panel named
+   after all of them. */
 static void show(const struct gm_words *words, size_t lane, struct gm_lane_spec *spec)
 {
     struct gm_shown *shown = &spec->shown;
     *shown = (struct gm_shown){.panel = lane, .colour = lane};
-    const struct gm_word *first = NULL;
+    bool panels = false, colours = false; /* named already */
     for (size_t i = 0; i < words->count; i++) {
         const struct gm_word *list = &words->list[i];
         if (list->count == 1) {
             continue;
         }
         const size_t index = gm_words_choice(words, i, lane);
-        if (!first) {
-            first = list;
-            name_of(list, index, shown->panel_name, sizeof shown->panel_name);
-            if (!words->zip) {
-                shown->panel = index;
-            }
-        } else if (!words->zip) {
-            shown->colour =
-                shown->colour == lane && !shown->colour_name[0] ? index : shown->colour * list->count + index;
-            if (strcmp(list->key, "scheme") == 0) {
-                snprintf(shown->colour_name, sizeof shown->colour_name, "%s", spec->scheme->title);
-            } else {
-                name_of(list, index, shown->colour_name, sizeof shown->colour_name);
-            }
+        if (!panels || words->zip) {
+            panels = true;
+            add_name(list, index, spec->scheme, shown->panel_name, sizeof shown->panel_name);
+            shown->panel = words->zip ? lane : index;
+        } else {
+            shown->colour = colours ? shown->colour * list->count + index : index;
+            colours = true;
+            add_name(list, index, spec->scheme, shown->colour_name, sizeof shown->colour_name);
         }
+    }
+    if (strcmp(shown->panel_name, spec->scheme->title) == 0) {
+        shown->panel_name[0] = '\0'; /* which is what "" stands for */
     }
 }
 

@@ -169,22 +169,29 @@ static double title_start(const struct gm_fill *fill, double width)
     return fmax(fill->title_left, fmin(fill->box.x, fill->title_left + fill->title_width - width));
 }
 
-/* Keys side by side, each behind a piece of its line; those that do not fit are left out. */
+/* Keys side by side, each behind a piece of its line. What one leaves of its share of the width serves the
+   following ones; a name that needs more than that is shortened. */
 static void label_keys(struct gm_label_list *list, const struct gm_panel *panel, double x, double y,
                        double width)
 {
     static const char *const samples[GM_DASH_COUNT] = {"───", "╌╌", "···", "─·", "╴╴╴", "─··"};
-    const double right = x + width, gap = 1.2 * list->metrics->line[GM_TEXT_LABEL];
-    for (const struct gm_key *key = panel->first_key; key != NULL && x < right; key = key->next) {
+    const double right = x + width;
+    size_t left = 0;
+    double all = 0.0, gap = 1.2 * list->metrics->line[GM_TEXT_LABEL];
+    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
         const char *text = gm_picture_text(list->picture, "%s %s", samples[key->style.dash], key->name);
-        const double needed = gm_labels_width(list, GM_TEXT_LABEL, text);
-        if (x + needed > right) {
-            return;
-        }
+        all += gm_labels_width(list, GM_TEXT_LABEL, text) + (left++ > 0 ? gap : 0.0);
+    }
+    gap = all > width ? 0.5 * gap : gap;
+    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next, left--) {
+        const double share = all > width ? (right - x - gap * (double)(left - 1)) / (double)left : right - x;
+        const char *text = gm_labels_shorten(
+            list, GM_TEXT_LABEL, gm_picture_text(list->picture, "%s %s", samples[key->style.dash], key->name),
+            share);
         gm_labels_add(
             list,
             (struct gm_label){.text = text, .size = GM_TEXT_LABEL, .role = key->style.role, .x = x, .y = y});
-        x += needed + gap;
+        x += gm_labels_width(list, GM_TEXT_LABEL, text) + gap;
     }
 }
 

@@ -217,15 +217,13 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                 panel->axes = true;
                 panel->title_role = role;
                 panel->note = gm_lane_failure(picture, lane);
+                gm_name_lanes(picture, panel, lanes, count, p);
                 panel->equal = flow;
                 panel->x = (struct gm_axis){.label = "x", .scale = GM_PI, .low = -M_PI, .high = M_PI};
                 panel->y = (struct gm_axis){.label = "y", .scale = GM_PI, .low = 0, .high = 2 * M_PI};
                 if (!flow) {
                     trail_range(lanes, count, &panel->x, &panel->y);
                 }
-            } else {
-                panel->title_role = GM_INK;
-                panel->note = "";
             }
             if (flow) {
                 const struct gm_entries *section = &lane->entries[SECTION];

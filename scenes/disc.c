@@ -389,10 +389,8 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
                 panel->note = failure[0]
                                   ? failure
                                   : gm_picture_text(picture, "area × %.3f", area(&view) / area(&before));
+                gm_name_lanes(picture, panel, lanes, count, p);
                 draw_orbit(picture, panel, lanes[i]->parameters);
-            } else {
-                panel->title_role = GM_INK;
-                panel->note = "";
             }
             draw_lane(picture, panel, lanes[i]);
         }

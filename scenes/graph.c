@@ -72,6 +72,12 @@ const char *gm_lane_title(const struct gm_lane *lane)
     return lane->shown.panel_name[0] ? lane->shown.panel_name : lane->scheme->title;
 }
 
+/* What tells a lane from the others of its panel. */
+static const char *lane_name(const struct gm_lane *lane)
+{
+    return lane->shown.colour_name[0] ? lane->shown.colour_name : gm_lane_title(lane);
+}
+
 const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *lane)
 {
     if (lane->run->status == GM_OK) {
@@ -79,6 +85,26 @@ const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *la
     }
     return gm_picture_text(picture, "%s at t = %s", gm_status_name(lane->run->status),
                            gm_time_text(picture, lane->run->t, lane->run->dt));
+}
+
+void gm_name_lanes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *const *lanes,
+                   size_t count, size_t p)
+{
+    size_t sharing = 0;
+    for (size_t i = 0; i < count; i++) {
+        sharing += lanes[i]->shown.panel == p;
+    }
+    for (size_t i = 0; i < count && sharing > 1; i++) {
+        if (lanes[i]->shown.panel != p) {
+            continue;
+        }
+        panel->title_role = GM_INK;
+        panel->note = "";
+        const char *failure = gm_lane_failure(picture, lanes[i]);
+        gm_panel_key(
+            picture, panel, gm_lane_style(lanes[i], 1, 2.4),
+            gm_picture_text(picture, "%s%s%s", lane_name(lanes[i]), failure[0] ? ", " : "", failure));
+    }
 }
 
 struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double width)
@@ -321,9 +347,7 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
         style.dash = only >= 0 && is_alone(lanes, count, i) ? GM_SOLID : style.dash;
         gm_mark_line(picture, panel, style, points, made, false);
         if (named) {
-            const char *name =
-                lanes[i]->shown.colour_name[0] ? lanes[i]->shown.colour_name : gm_lane_title(lanes[i]);
-            gm_panel_key(picture, panel, style, name);
+            gm_panel_key(picture, panel, style, lane_name(lanes[i]));
         }
     }
 }

@@ -15,6 +15,11 @@ const char *gm_time_text(struct gm_picture *picture, double t, double dt);
 /* A time step, to four digits or as a fraction of pi. */
 const char *gm_step_text(struct gm_picture *picture, double dt);
 
+/* Where several lanes share panel `p`: names each under its title, in its own colour and dash, in place of
+   the note on one of them. */
+void gm_name_lanes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *const *lanes,
+                   size_t count, size_t p);
+
 /* The name of a lane's panel, and what its note ends with: how it stands if it has failed, else "". */
 const char *gm_lane_title(const struct gm_lane *lane);
 const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *lane);

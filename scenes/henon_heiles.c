@@ -203,10 +203,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                 panel->equal = true;
                 panel->title_role = role;
                 panel->note = gm_lane_failure(picture, lane);
+                gm_name_lanes(picture, panel, lanes, count, p);
                 draw_border(picture, panel, ((const struct henon_heiles *)lane->parameters)->energy);
-            } else {
-                panel->title_role = GM_INK;
-                panel->note = "";
             }
             const struct gm_entries *section = &lane->entries[0];
             gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.75, .width = 2.2},

@@ -226,12 +226,10 @@ static void draw_orbits(struct gm_picture *picture, const struct gm_lane *const 
                 panel->equal = true;
                 panel->title_role = role;
                 panel->note = note_of(picture, lane);
+                gm_name_lanes(picture, panel, lanes, count, p);
                 const double sun[] = {0, 0};
                 gm_mark_points(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 9}, sun,
                                1);
-            } else {
-                panel->title_role = GM_INK;
-                panel->note = "";
             }
             if (kepler->perturbation == 0) {
                 draw_exact(picture, panel, kepler->eccentricity);

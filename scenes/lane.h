@@ -21,8 +21,8 @@ struct gm_entries { /* the record of one track */
 /* How a lane is shown: lanes of one panel share its axes, each in its own colour. */
 struct gm_shown {
     size_t panel, colour;
-    char panel_name[48];  /* "": the scheme's title */
-    char colour_name[48]; /* "" where the panel's name says all */
+    char panel_name[96];  /* "": the scheme's title */
+    char colour_name[96]; /* "" where the panel's name says all */
 };
 
 struct gm_lane {

@@ -185,6 +185,7 @@ static void draw_position(struct gm_picture *picture, const struct gm_lane *cons
                 panel->note = failure[0]  ? failure
                               : again > 0 ? gm_picture_text(picture, "%.0f restarts", again)
                                           : "";
+                gm_name_lanes(picture, panel, lanes, count, p);
                 if (own->system == HARMONIC) {
                     double exact[2 * EXACT];
                     for (size_t k = 0; k < EXACT; k++) {
@@ -195,8 +196,6 @@ static void draw_position(struct gm_picture *picture, const struct gm_lane *cons
                     gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, exact, EXACT,
                                  false);
                 }
-            } else {
-                panel->title_role = GM_INK;
             }
             const struct gm_entries *entries = &lane->entries[0];
             gm_mark_line(picture, panel, (struct gm_style){role, 0.8, 1.6, gm_lane_dash(lane->shown.colour)},

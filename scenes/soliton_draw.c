@@ -103,10 +103,8 @@ static void draw_fields(struct gm_picture *picture, const struct gm_lane *const 
                 field_axes(panel, view.parameters, &mesh);
                 panel->title_role = gm_lane_role(lanes[i]->shown.colour);
                 panel->note = note_of(picture, lanes[i]);
+                gm_name_lanes(picture, panel, lanes, count, p);
                 draw_exact(picture, panel, &view);
-            } else {
-                panel->title_role = GM_INK;
-                panel->note = "";
             }
             draw_field(picture, panel, lanes[i]);
         }
@@ -152,6 +150,9 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
                     (struct gm_axis){.label = "X", .scale = GM_LINEAR, .low = 0, .high = soliton->own.length};
                 panel->y = (struct gm_axis){.label = "t", .scale = GM_LINEAR, .low = 0, .high = 0};
                 panel->note = named ? note_of(picture, lanes[i]) : "";
+                if (named) {
+                    gm_name_lanes(picture, panel, lanes, count, p);
+                }
             }
             const double *times = lanes[i]->entries[0].times;
             panel->y.low = fmin(panel->y.low, fmin(times[0], lanes[i]->run->t));

@@ -321,6 +321,7 @@ static void draw_pendulum(struct gm_picture *picture, const struct gm_lane *cons
                 panel->title_role = role;
                 const char *failure = gm_lane_failure(picture, lane);
                 panel->note = failure[0] ? failure : ratio_text(picture, lane);
+                gm_name_lanes(picture, panel, lanes, count, p);
             }
             const double *state = gm_run_state(lane->run);
             const double spring[] = {0, 0, state[0], state[1]};

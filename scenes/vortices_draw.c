@@ -149,9 +149,7 @@ static void draw_plane(struct gm_picture *picture, const struct gm_lane *const *
                 panel->equal = true;
                 panel->title_role = gm_lane_role(lane->shown.colour);
                 panel->note = note_of(picture, lane, reach);
-            } else {
-                panel->title_role = GM_INK;
-                panel->note = "";
+                gm_name_lanes(picture, panel, lanes, count, p);
             }
             if (lane->problem.passive > 0) {
                 draw_tracers(picture, panel, lane, reach);
