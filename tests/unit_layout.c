@@ -293,6 +293,40 @@ static void a_bar_that_all_share_stands_beside_them(void **state)
     assert_true(width[1] > width[0] + 20.0);
 }
 
+/* Lanes that share a panel are all told there, however little room there is. */
+static void every_key_is_told(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"Verlet", "variational, rectangle rule",
+                                        "Δt = 0.1, blow-up at t = 2.5"};
+    for (double width = 480; width <= 1920; width *= 2) {
+        struct gm_metrics metrics = metrics_of(width, 0.5625 * width);
+        struct gm_picture *picture = picture_of(2, 1, true, false);
+        for (struct gm_panel *panel = picture->first; panel; panel = panel->next) {
+            panel->note = panel->place == GM_PLACE_STATE ? "" : panel->note;
+            for (size_t k = 0; k < 3 && panel->place == GM_PLACE_STATE; k++) {
+                const struct gm_style style = {(enum gm_role)(GM_LANE + k), 1, 2, (enum gm_dash)k};
+                gm_panel_key(picture, panel, style, names[k]);
+            }
+        }
+        check_layout(picture, &metrics);
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        size_t told[3] = {0};
+        for (size_t i = 0; i < layout->label_count; i++) {
+            for (size_t k = 0; k < 3; k++) {
+                /* at least the line's sample and a beginning of the name */
+                told[k] += layout->labels[i].role == (enum gm_role)(GM_LANE + k) &&
+                           measure(&metrics, GM_TEXT_LABEL, layout->labels[i].text) >
+                               measure(&metrics, GM_TEXT_LABEL, "─── Ve");
+            }
+        }
+        for (size_t k = 0; k < 3; k++) {
+            assert_int_equal(told[k], 2);
+        }
+        gm_picture_close(picture);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -302,6 +336,7 @@ int main(void)
         cmocka_unit_test(states_or_graphs_alone_take_the_width),
         cmocka_unit_test(coordinates_follow_the_axes),
         cmocka_unit_test(three_states_stand_in_a_row),
+        cmocka_unit_test(every_key_is_told),
         cmocka_unit_test(a_bar_that_all_share_stands_beside_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
