@@ -283,7 +283,7 @@ static void draw_over_frames(struct gm_picture *picture, const struct gm_lane *c
             made++;
         }
     }
-    part_names(curves, made, log(high), 0.085 * log(high / low));
+    part_names(curves, made, log(high), 0.13 * log(high / low));
     for (size_t i = 0; i < made; i++) {
         gm_mark_text(picture, panel, (struct gm_style){.role = curves[i].role, .alpha = 1, .width = 1},
                      curves[i].end[0] + 0.03 * (panel->x.high - panel->x.low), exp(curves[i].at),
@@ -329,6 +329,7 @@ void gm_burgers_draw(const struct gm_lane *const *lanes, size_t count, struct gm
         picture, "ν = %g,  Δx = %g,  Courant number %.4g,  exact solution in grey, start in red",
         scene->burgers.viscosity, scene->dx, lanes[0]->run->dt / scene->dx);
     picture->state_columns = scene->burgers.test == GM_BURGERS_FRONT && panels > 4 ? 3 : 0;
+    picture->graphs_below = panels <= 3;
     gm_draw_clock(picture, lanes, count);
     for (size_t p = 0; p < panels; p++) {
         draw_panel(picture, lanes, count, p, points);
