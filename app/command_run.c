@@ -76,13 +76,9 @@ static void print_text(const struct outcome *outcome)
 {
     const struct gm_lane *lane = outcome->drive.lane;
     const struct gm_run *run = lane->run;
-    const char *separator = lane->shown.colour_name[0] && lane->shown.panel_name[0] ? ", " : "";
-    printf("%s  %s%s%s%s\n", lane->scene->name, lane->scheme->name,
-           lane->shown.panel_name[0] || lane->shown.colour_name[0] ? "  " : "", lane->shown.panel_name,
-           separator);
-    if (lane->shown.colour_name[0]) {
-        printf("  %s\n", lane->shown.colour_name);
-    }
+    const struct gm_shown *shown = &lane->shown;
+    printf("%s  %s%s%s%s%s\n", lane->scene->name, lane->scheme->name, shown->panel_name[0] ? "  " : "",
+           shown->panel_name, shown->colour_name[0] ? "  " : "", shown->colour_name);
     int width = 0; /* of the names */
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         const int length = (int)strlen(lane->scene->observables[i].key) + (outcome->maxima ? 4 : 0);

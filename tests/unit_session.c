@@ -254,12 +254,34 @@ static void sliders_tell_places(void **unused)
     assert_true(fabs(gm_slider_position(&rows[3], &numbers) - 0.2475) < 0.001);
 }
 
+/* Of a name that tells several things of a lane, a change replaces the one that it changes. */
+static void names_follow_changes(void **unused)
+{
+    (void)unused;
+    char *words[] = {"kepler", "scheme=rk4,verlet", "dt=0.05,0.1", "eccentricity=0.2,0.3", "zip=yes"};
+    struct gm_request request;
+    struct gm_session session;
+    bool restart = false;
+    assert_true(gm_request_parse(&request, 5, words, 1, message));
+    assert_true(gm_session_open(&session, &request, message));
+    gm_request_close(&request);
+    const struct gm_shown *shown = &session.lanes[1]->shown;
+    assert_string_equal(session.lanes[0]->shown.panel_name, "RK4, Δt = 0.05, eccentricity = 0.2");
+    const struct gm_parameter *dt = gm_scene_parameter(session.log.scene, "dt");
+    assert_true(gm_session_set(&session, 1, dt, false, "0.025", &restart, message));
+    assert_string_equal(shown->panel_name, "Verlet, Δt = 0.025, eccentricity = 0.3");
+    assert_true(gm_session_switch(&session, 1, gm_scheme_find("rk4sym"), message));
+    assert_string_equal(session.lanes[1]->shown.panel_name, "RK4sym, Δt = 0.025, eccentricity = 0.3");
+    gm_session_close(&session);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(past_is_visited),     cmocka_unit_test(forks_share_the_past),
-        cmocka_unit_test(time_runs_both_ways), cmocka_unit_test(lanes_are_overlaid),
-        cmocka_unit_test(sliders_move_finely), cmocka_unit_test(sliders_tell_places),
+        cmocka_unit_test(past_is_visited),      cmocka_unit_test(forks_share_the_past),
+        cmocka_unit_test(time_runs_both_ways),  cmocka_unit_test(lanes_are_overlaid),
+        cmocka_unit_test(names_follow_changes), cmocka_unit_test(sliders_move_finely),
+        cmocka_unit_test(sliders_tell_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

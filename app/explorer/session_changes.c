@@ -88,15 +88,37 @@ bool gm_session_change(struct gm_session *session, size_t i, const char *text, c
     return true;
 }
 
+/* Of a name "RK4, Δt = 0.1": the part that begins so, and ends with it or, for a parameter, before the next
+   comma; NULL if it has none. */
+static const char *part_of(const char *name, const char *front, bool parameter, size_t *length)
+{
+    const size_t known = strlen(front);
+    for (const char *part = name; part; part = strstr(part, ", ")) {
+        part += part == name ? 0 : 2;
+        *length = known;
+        if (strncmp(part, front, known) == 0) {
+            *length += parameter ? strcspn(part + known, ",") : 0;
+            if (part[*length] == '\0' || part[*length] == ',') {
+                return part;
+            }
+        }
+    }
+    return NULL;
+}
+
 /* Names that tell lanes apart by what has just been changed. */
 static void rename_lane(struct gm_session *session, size_t i, const char *before, const char *after,
-                        size_t length)
+                        bool parameter)
 {
     struct gm_shown *shown = &session->lanes[i]->shown;
     char *names[] = {shown->panel_name, shown->colour_name};
     for (size_t k = 0; k < 2; k++) {
-        if (names[k][0] && strncmp(names[k], before, length) == 0) {
-            snprintf(names[k], sizeof shown->panel_name, "%.47s", after);
+        char was[sizeof shown->panel_name];
+        size_t length = 0;
+        snprintf(was, sizeof was, "%s", names[k]);
+        const char *part = part_of(was, before, parameter, &length);
+        if (part) {
+            snprintf(names[k], sizeof was, "%.*s%s%s", (int)(part - was), was, after, part + length);
         }
     }
     session->log.lanes[i].shown = *shown;
@@ -105,9 +127,9 @@ static void rename_lane(struct gm_session *session, size_t i, const char *before
 static void rename_by_parameter(struct gm_session *session, size_t i, const char *key, const char *text)
 {
     char before[64], after[GM_MESSAGE];
-    snprintf(before, sizeof before, "%.50s =", strcmp(key, "dt") == 0 ? "Δt" : key);
-    snprintf(after, sizeof after, "%s %s", before, text);
-    rename_lane(session, i, before, after, strlen(before));
+    snprintf(before, sizeof before, "%.50s = ", strcmp(key, "dt") == 0 ? "Δt" : key);
+    snprintf(after, sizeof after, "%s%s", before, text);
+    rename_lane(session, i, before, after, true);
 }
 
 bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_parameter *row, bool of_scheme,
@@ -149,6 +171,6 @@ bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_
     if (!gm_session_change(session, lane, change, message)) {
         return false;
     }
-    rename_lane(session, lane, before, scheme->title, strlen(before) + 1);
+    rename_lane(session, lane, before, scheme->title, false);
     return true;
 }

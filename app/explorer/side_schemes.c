@@ -71,16 +71,22 @@ static void scheme_title(const struct gm_sheet *sheet, int column, int row, cons
     gm_sheet_cut(&left, column, row, text, role, bold);
 }
 
+/* A name without the scheme's title that it begins with, which stands before it. */
+static const char *beyond_title(const char *name, const char *title)
+{
+    const size_t length = strlen(title);
+    if (strncmp(name, title, length) != 0 || (name[length] != '\0' && name[length] != ',')) {
+        return name;
+    }
+    return name[length] ? name + length + 2 : "";
+}
+
 /* What tells the lane from others of its scheme. */
 static void lane_difference(const struct gm_shot_lane *lane, bool overlaid, char *text, size_t size)
 {
-    const char *panel = overlaid ? "" : lane->shown.panel_name, *colour = lane->shown.colour_name;
-    if (strcmp(panel, lane->scheme->title) == 0) {
-        panel = "";
-    }
-    if (strcmp(colour, lane->scheme->title) == 0) {
-        colour = "";
-    }
+    const char *title = lane->scheme->title;
+    const char *panel = overlaid ? "" : beyond_title(lane->shown.panel_name, title);
+    const char *colour = beyond_title(lane->shown.colour_name, title);
     snprintf(text, size, "%s%s%s%s", panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
 }
 
@@ -89,7 +95,7 @@ static void lane_title(const struct gm_sheet *sheet, int row, const struct gm_sh
                        unsigned columns, bool bold)
 {
     enum { LEAST_TITLE = 5 };
-    char difference[128], text[192];
+    char difference[2 * sizeof lane->shown.panel_name], text[2 * sizeof difference];
     const int column = title_column(sheet), room = title_width(sheet, columns) - column;
     lane_difference(lane, overlaid, difference, sizeof difference);
     const int tail = gm_sheet_width(sheet, difference), title = gm_sheet_width(sheet, lane->scheme->title);
