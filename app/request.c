@@ -124,17 +124,23 @@ static void add_name(const struct gm_word *list, size_t index, const struct gm_s
     }
 }
 
+static const char all_lanes[] = "all lanes";
+
 void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay)
 {
-    char name[sizeof shown->panel_name];
-    const char *own = shown->colour_name[0] ? shown->colour_name : shown->panel_name;
-    snprintf(name, sizeof name, "%s", strcmp(own, scheme->title) == 0 ? "" : own);
+    const char *panel = strcmp(shown->panel_name, all_lanes) == 0 ? "" : shown->panel_name;
+    const char *colour = shown->colour_name;
+    const bool untitled = !panel[0] && strncmp(colour, scheme->title, strlen(scheme->title)) != 0;
+    char name[2 * sizeof shown->panel_name + sizeof ", "];
+    snprintf(name, sizeof name, "%s%s%s", untitled ? scheme->title : panel,
+             (untitled || panel[0]) && colour[0] ? ", " : "", colour);
     *shown = (struct gm_shown){.panel = overlay ? 0 : lane, .colour = lane};
+    memcpy(overlay ? shown->colour_name : shown->panel_name, name,
+           strnlen(name, sizeof shown->panel_name - 1)); /* the rest is zero */
     if (overlay) {
-        snprintf(shown->panel_name, sizeof shown->panel_name, "all lanes");
-        snprintf(shown->colour_name, sizeof shown->colour_name, "%s", name[0] ? name : scheme->title);
-    } else {
-        memcpy(shown->panel_name, name, sizeof name);
+        snprintf(shown->panel_name, sizeof shown->panel_name, "%s", all_lanes);
+    } else if (strcmp(shown->panel_name, scheme->title) == 0) {
+        shown->panel_name[0] = '\0';
     }
 }
 

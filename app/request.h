@@ -58,7 +58,8 @@ char *gm_request_format(const struct gm_request *request);
 /* The changes as text, one "lane step key=value" a line, and back. */
 char *gm_changes_format(const struct gm_request *request);
 bool gm_changes_parse(struct gm_request *request, const char *text);
-/* A colour for lane number `lane`, and a panel of its own or one for all; the lane keeps its name. */
+
+/* A colour for lane number `lane`, and a panel of its own or one for all; what names say stays. */
 void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay);
 
 /* Appends one; false when memory is short. */

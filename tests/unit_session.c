@@ -140,6 +140,12 @@ static void time_runs_both_ways(void **unused)
 static void lanes_are_overlaid(void **unused)
 {
     (void)unused;
+    /* of a product of lists each says all that tells it apart */
+    char *product[] = {"kepler", "scheme=rk4,verlet", "dt=0.05,0.1", "overlay=yes"};
+    struct gm_request request;
+    assert_true(gm_request_parse(&request, 4, product, 1, message));
+    assert_string_equal(request.lanes[3].shown.colour_name, "Verlet, Δt = 0.1");
+    gm_request_close(&request);
     struct gm_session session;
     open_session(&session);
     assert_true(gm_session_overlay(&session, message));
@@ -271,6 +277,11 @@ static void names_follow_changes(void **unused)
     assert_true(gm_session_set(&session, 1, dt, false, "0.025", &restart, message));
     assert_string_equal(shown->panel_name, "Verlet, Δt = 0.025, eccentricity = 0.3");
     assert_true(gm_session_switch(&session, 1, gm_scheme_find("rk4sym"), message));
+    assert_string_equal(session.lanes[1]->shown.panel_name, "RK4sym, Δt = 0.025, eccentricity = 0.3");
+    /* in one panel and back again */
+    assert_true(gm_session_overlay(&session, message));
+    assert_string_equal(session.lanes[1]->shown.colour_name, "RK4sym, Δt = 0.025, eccentricity = 0.3");
+    assert_true(gm_session_overlay(&session, message));
     assert_string_equal(session.lanes[1]->shown.panel_name, "RK4sym, Δt = 0.025, eccentricity = 0.3");
     gm_session_close(&session);
 }
