@@ -15,33 +15,12 @@
 #include "core/problems/problems.h"
 #include "core/problems/sine_gordon.h"
 #include "core/run.h"
+#include "tests/dispersive_solitons.h"
 
 enum { POINTS = 201 };
 
 static const struct gm_settings no_settings;
 
-static const struct gm_kdv soliton = {
-    .initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1, .position = -5};
-static const struct gm_nls bright = {
-    .initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1, .position = -5};
-
-static struct gm_problem kdv_problem(size_t points)
-{
-    struct gm_problem problem = gm_problem_kdv;
-    problem.kdv = &soliton;
-    problem.line = (struct gm_line){points, 40.0 / (double)points, -20, 0};
-    problem.n = gm_wave_size(points);
-    return problem;
-}
-
-static struct gm_problem nls_problem(size_t points)
-{
-    struct gm_problem problem = gm_problem_nls;
-    problem.nls = &bright;
-    problem.line = (struct gm_line){points, 40.0 / (double)points, -20, 0};
-    problem.n = 2 * points;
-    return problem;
-}
 /* The schemes of nodes against M D_t s + K D_x s - grad S of the facet, with all its variables: after a step
    every equation holds at every node. */
 static void nodes_solve_the_whole_system(void **unused)

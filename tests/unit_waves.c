@@ -16,6 +16,7 @@
 #include "core/problems/sine_gordon.h"
 #include "core/run.h"
 #include "core/wave_laws.h"
+#include "tests/dispersive_solitons.h"
 #include "tests/reference_waves.h"
 
 enum { CASES = sizeof reference_waves / sizeof reference_waves[0] };
@@ -260,29 +261,6 @@ static void the_box_solves_the_whole_system(void **unused)
         fail_msg("the box leaves %.2e, its energy law %.2e", worst, worst_law);
     }
     gm_run_close(run);
-}
-
-static const struct gm_kdv soliton = {
-    .initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1, .position = -5};
-static const struct gm_nls bright = {
-    .initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1, .position = -5};
-
-static struct gm_problem kdv_problem(size_t points)
-{
-    struct gm_problem problem = gm_problem_kdv;
-    problem.kdv = &soliton;
-    problem.line = (struct gm_line){points, 40.0 / (double)points, -20, 0};
-    problem.n = gm_wave_size(points);
-    return problem;
-}
-
-static struct gm_problem nls_problem(size_t points)
-{
-    struct gm_problem problem = gm_problem_nls;
-    problem.nls = &bright;
-    problem.line = (struct gm_line){points, 40.0 / (double)points, -20, 0};
-    problem.n = 2 * points;
-    return problem;
 }
 
 /* A scheme with a little friction, which no law survives. */
