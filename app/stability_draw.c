@@ -95,7 +95,8 @@ void gm_stability_draw(const struct gm_stability_table *table, struct gm_picture
                                         gm_step_text(picture, timing->until));
     char letters[128];
     gm_stability_letters(table, letters, sizeof letters);
-    picture->caption = gm_picture_text(picture, "Without a letter: bounded.  %s%s", letters, letters[0] ? "." : "");
+    picture->caption =
+        gm_picture_text(picture, "Without a letter: bounded.  %s%s", letters, letters[0] ? "." : "");
     picture->clock = "";
     for (size_t i = 0; i < table->count; i++) {
         draw_map(table, &table->maps[i], picture);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "app/explorer/display.h"
 
+#include <errno.h>
 #include <poll.h>
 #include <string.h>
 #include <time.h>
@@ -158,12 +159,11 @@ static int64_t milliseconds(void)
     return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
 }
 
-void gm_display_rest(struct gm_display *display)
+/* Sends what is queued and waits for what the terminal was asked, for a while. */
+static void drain(struct gm_display *display)
 {
     enum { PATIENCE = 1000 };
     struct gm_writer *writer = &display->writer;
-    gm_display_finish(display);
-    remove_picture(display);
     int64_t until = milliseconds() + PATIENCE;
     for (int64_t left = PATIENCE; left > 0; left = until - milliseconds()) {
         bool good = gm_writer_send(writer);
@@ -175,9 +175,24 @@ void gm_display_rest(struct gm_display *display)
             {.fd = STDIN_FILENO, .events = POLLIN},
             {.fd = gm_writer_idle(writer) ? -1 : writer->fd, .events = POLLOUT},
         };
-        if (poll(watched, 2, (int)left) < 0 || watched[0].revents & ~POLLIN) {
-            return; /* a signal, or the terminal is gone */
+        if (poll(watched, 2, (int)left) < 0) {
+            if (errno != EINTR) {
+                return;
+            }
+        } else if (watched[0].revents & ~POLLIN) {
+            return; /* the terminal is gone */
+        } else {
+            gm_console_key();
         }
-        gm_console_key();
     }
+}
+
+void gm_display_rest(struct gm_display *display)
+{
+    gm_display_finish(display);
+    drain(display);
+    gm_writer_cut(&display->writer);
+    remove_picture(display);
+    drain(display);
+    gm_writer_cut(&display->writer);
 }

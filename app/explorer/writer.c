@@ -427,6 +427,15 @@ bool gm_writer_send(struct gm_writer *writer)
     return !writer->failed;
 }
 
+void gm_writer_cut(struct gm_writer *writer)
+{
+    if (!gm_writer_idle(writer)) {
+        writer->sent = writer->length = 0;
+        writer->known = false;
+        put_text(writer, "\033\\");
+    }
+}
+
 void gm_writer_forget(struct gm_writer *writer)
 {
     writer->known = false;

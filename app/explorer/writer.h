@@ -76,6 +76,8 @@ void gm_writer_copy(struct gm_writer *writer, const char *text);
 void gm_writer_tell(struct gm_writer *writer, const char *text);
 /* Sends what the terminal takes now. False when it is gone. */
 bool gm_writer_send(struct gm_writer *writer);
+/* Drops what is not sent yet, for which there is no time left; a sequence that is cut by that is ended. */
+void gm_writer_cut(struct gm_writer *writer);
 /* The terminal may show anything: the next screen is written in full. */
 void gm_writer_forget(struct gm_writer *writer);
 

@@ -208,10 +208,10 @@ double gm_dispersive_nodes_form(const struct gm_problem *problem, const struct g
     };
     if (arrays && base.work) {
         struct tangent tangents[2] = {{.base = &base}, {.base = &base}};
-        for (size_t k = 0; k < 6; k++) {
-            for (size_t t = 0; t < 2; t++) {
-                double **level = k < 3 ? &tangents[t].first[k] : &tangents[t].second[k - 3];
-                *level = arrays + (2 + 2 * k + t) * points;
+        for (size_t t = 0; t < 2; t++) {
+            for (size_t k = 0; k < 3; k++) {
+                tangents[t].first[k] = arrays + (2 + 2 * k + t) * points;
+                tangents[t].second[k] = arrays + (8 + 2 * k + t) * points;
             }
         }
         double *past = arrays, *now = arrays + points;
