@@ -251,6 +251,7 @@ bool gm_console_open(int wake, struct gm_terminal *terminal, char *message)
     }
     set_escdelay(25);
     cbreak();
+    noqiflush(); /* a signal's key would throw away half of a sequence that is on its way */
     noecho();
     nonl();
     curs_set(0);
