@@ -166,6 +166,7 @@ bool gm_ring_band_open(struct gm_ring_band *band, size_t count, size_t parts, si
     band->right = malloc(count * parts * sizeof *band->right);
     if (!band->right || !gm_banded_open(&band->folded, count * parts, (2 * reach + 1) * parts - 1)) {
         free(band->right);
+        *band = (struct gm_ring_band){0};
         return false;
     }
     return true;

@@ -12,6 +12,7 @@ bool gm_ring_newton_open(struct gm_ring_newton *newton, size_t count, size_t par
     *newton = (struct gm_ring_newton){.n = n, .trial = malloc(3 * n * sizeof(double))};
     if (!newton->trial || !gm_ring_band_open(&newton->band, count, parts, reach)) {
         free(newton->trial);
+        *newton = (struct gm_ring_newton){0};
         return false;
     }
     newton->residual = newton->trial + n;
