@@ -86,24 +86,27 @@ static bool is_varied(const struct gm_work_table *table, const char *word)
     return false;
 }
 
+static void tell_setting(struct gm_work_table *table, const char *word)
+{
+    const size_t used = strlen(table->settings);
+    if (!is_varied(table, word)) {
+        snprintf(table->settings + used, sizeof table->settings - used, "%s%s", used ? " " : "", word);
+    }
+}
+
 /* Tells the words of the plan and of the user. */
 static void tell_settings(struct gm_work_table *table, const struct gm_options *options)
 {
     const struct gm_work *work = table->request.scene->work;
     char arguments[512], *rest = NULL;
-    size_t used = 0;
     snprintf(arguments, sizeof arguments, "%s", work ? work->arguments : "");
     for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
-        if (!gm_options_have(options, word) && !is_varied(table, word) && used < sizeof table->settings) {
-            used += (size_t)snprintf(table->settings + used, sizeof table->settings - used, "%s%s",
-                                     used ? " " : "", word);
+        if (!gm_options_have(options, word)) {
+            tell_setting(table, word);
         }
     }
-    for (int i = 1; i < options->word_count && used < sizeof table->settings; i++) {
-        if (!is_varied(table, options->words[i])) {
-            used += (size_t)snprintf(table->settings + used, sizeof table->settings - used, "%s%s",
-                                     used ? " " : "", options->words[i]);
-        }
+    for (int i = 1; i < options->word_count; i++) {
+        tell_setting(table, options->words[i]);
     }
 }
 

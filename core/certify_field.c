@@ -241,8 +241,7 @@ static double order_in_time(struct subject *subject, const double *y)
     double *end = calloc(3 * points, sizeof *end), apart[2] = {0};
     bool good = end != NULL;
     for (size_t k = 0; good && k < 3; k++) {
-        const struct subject finer = {subject->problem, subject->scheme, ldexp(subject->dt, -(int)k), NULL};
-        struct subject part = finer;
+        struct subject part = {subject->problem, subject->scheme, ldexp(subject->dt, -(int)k), NULL};
         good = open_run(&part, 0, y);
         if (good) {
             good = gm_run_advance(part.run, lround(1 / part.dt)) == GM_OK;

@@ -2,6 +2,7 @@
 #ifndef GM_CORE_FIELD_H
 #define GM_CORE_FIELD_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -23,6 +24,17 @@ struct gm_line {
 static inline double gm_line_node(const struct gm_line *line, size_t i)
 {
     return ((double)i + line->first / line->dx) * line->dx;
+}
+
+/* Whether none of the values is beyond the limit of a task, or no number. */
+static inline bool gm_field_within(const double *values, size_t count, double limit)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!(fabs(values[i]) <= limit)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 struct gm_field {

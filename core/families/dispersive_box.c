@@ -211,9 +211,7 @@ static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_p
                                 const struct gm_ring_roots *ring, double dt, const double *base,
                                 struct gm_progress *progress)
 {
-    enum {
-        MOST = 40
-    }; /* which cost about what Newton's method does: 25 for a real field, 80 for a complex */
+    enum { MOST = 40 }; /* Newton's method costs about 25 of them for a real field, 80 for a complex one */
     const struct gm_dispersive *equation = problem->dispersive;
     const size_t points = work->points, count = 2 * points;
     const int p = equation->power;
@@ -255,16 +253,6 @@ static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_p
     memset(next, 0, count * sizeof *next);
     memcpy(next, guess, size);
     return status;
-}
-
-static bool within(const double *f, size_t count, double limit)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (!(fabs(f[i]) <= limit)) {
-            return false;
-        }
-    }
-    return true;
 }
 
 /* The circulant part of the scheme. */
@@ -315,7 +303,7 @@ struct gm_progress gm_dispersive_advance(const struct gm_task *task)
             /* what rounding leaves of an imaginary part */
             memset(next + points, 0, size);
         }
-        if (progress.status == GM_OK && !within(next, 2 * points, task->limit)) {
+        if (progress.status == GM_OK && !gm_field_within(next, 2 * points, task->limit)) {
             progress.status = GM_BLOW_UP;
         }
         if (progress.status != GM_OK) {

@@ -91,9 +91,10 @@ static bool advance_kdv(const struct base *base, bool by_differences, double pha
     gm_tangent_start(u[0], points, waves, phase);
     gm_tangent_start(u[1], points, waves, 2 * phase - M_PI / 2);
     if (by_differences) {
-        double *from = malloc(4 * size), *direction = from + 2 * points;
+        double *from = malloc(4 * size);
         good = from != NULL;
         if (good) {
+            double *direction = from + 2 * points;
             memcpy(from, base->now, size);
             memcpy(from + points, base->past, size);
             memcpy(direction, u[1], size);

@@ -105,16 +105,6 @@ static enum gm_status start(const struct gm_task *task)
     return GM_OK;
 }
 
-static bool within(const double *u, size_t count, double limit)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (!(fabs(u[i]) <= limit)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 static struct gm_progress advance(const struct gm_task *task)
 {
     struct gm_gauss_work *work = task->workspace;
@@ -127,7 +117,7 @@ static struct gm_progress advance(const struct gm_task *task)
         memcpy(work->u, work->next_u, size);
         memcpy(work->v, work->next_v, size);
         progress.status = gm_gauss_step(work, task->problem, task->dt, NULL, &progress);
-        if (progress.status == GM_OK && !within(work->next_u, count, task->limit)) {
+        if (progress.status == GM_OK && !gm_field_within(work->next_u, count, task->limit)) {
             progress.status = GM_BLOW_UP;
         }
         if (progress.status != GM_OK) {

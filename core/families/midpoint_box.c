@@ -107,16 +107,6 @@ static void rotate(double *level[3])
     level[2] = past;
 }
 
-static bool within(const double *u, size_t points, double limit)
-{
-    for (size_t i = 0; i < points; i++) {
-        if (!(fabs(u[i]) <= limit)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 static struct gm_progress advance(const struct gm_task *task)
 {
     struct work *work = task->workspace;
@@ -138,7 +128,7 @@ static struct gm_progress advance(const struct gm_task *task)
             first_level(work, task->problem, task->dt);
             progress.evaluations += 2;
         }
-        if (!within(work->u[2], points, task->limit)) {
+        if (!gm_field_within(work->u[2], points, task->limit)) {
             progress.status = GM_BLOW_UP;
             return progress;
         }

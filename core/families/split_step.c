@@ -58,16 +58,6 @@ static void nonlinear_half(double *psi, size_t points, double half)
     }
 }
 
-static bool within(const double *psi, size_t count, double limit)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (!(fabs(psi[i]) <= limit)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 static struct gm_progress advance(const struct gm_task *task)
 {
     struct work *work = task->workspace;
@@ -91,7 +81,7 @@ static struct gm_progress advance(const struct gm_task *task)
         gm_fourier_inverse(work->fourier, (double complex *)(void *)psi);
         nonlinear_half(psi, points, task->dt / 2);
         progress.evaluations++;
-        if (!within(psi, 2 * points, task->limit)) {
+        if (!gm_field_within(psi, 2 * points, task->limit)) {
             progress.status = GM_BLOW_UP;
             return progress;
         }
