@@ -69,9 +69,9 @@ try "geomint tour gal" galilei
 ' bash "$completion" || fail 'bash'
 
 if command -v fish >/dev/null; then
-    got=$(fish --no-config -c "source $completion/geomint.fish; complete -C 'geomint run disc system=pen'" | cut -f 1)
+    got=$(fish --no-config -c "source '$completion/geomint.fish'; complete -C 'geomint run disc system=pen'" | cut -f 1)
     [ "$got" = 'system=pendulum' ] || fail "fish: $got"
-    got=$(fish --no-config -c "source $completion/geomint.fish; complete -C 'geomint tour gal'" | cut -f 1)
+    got=$(fish --no-config -c "source '$completion/geomint.fish'; complete -C 'geomint tour gal'" | cut -f 1)
     [ "$got" = galilei ] || fail "fish: $got"
 fi
 if command -v zsh >/dev/null; then
