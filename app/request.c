@@ -269,10 +269,6 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
                 return false;
             }
         }
-        show(words, k, spec);
-        if (request->overlay) {
-            gm_show_in_order(&spec->shown, k, spec->scheme, true);
-        }
         if (scene->settle && !scene->settle(spec->parameters, keys, words->count, message)) {
             return false;
         }
@@ -291,6 +287,10 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
         if (!fits) {
             return refuse(message, "scheme %s does not fit scene %s; geomint list %s names those that do",
                           spec->scheme->name, scene->name, scene->name);
+        }
+        show(words, k, spec); /* rows of one name may have different titles */
+        if (request->overlay) {
+            gm_show_in_order(&spec->shown, k, spec->scheme, true);
         }
     }
     if (gm_words_chosen(words, "equal")) {

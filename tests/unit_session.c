@@ -146,6 +146,11 @@ static void lanes_are_overlaid(void **unused)
     assert_true(gm_request_parse(&request, 4, product, 1, message));
     assert_string_equal(request.lanes[3].shown.colour_name, "Verlet, Δt = 0.1");
     gm_request_close(&request);
+    /* with the title of the row that fits the scene, where one name has several */
+    char *frames[] = {"burgers", "lambda=0,1", "scheme=ftcs,crank-nicolson"};
+    assert_true(gm_request_parse(&request, 3, frames, 1, message));
+    assert_string_equal(request.lanes[1].shown.colour_name, request.lanes[1].scheme->title);
+    gm_request_close(&request);
     struct gm_session session;
     open_session(&session);
     assert_true(gm_session_overlay(&session, message));
