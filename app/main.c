@@ -4,13 +4,25 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "app/commands.h"
-#include "app/drive.h"
-#include "app/nearest.h"
+#include "app/commands/commands.h"
+#include "app/request/drive.h"
+#include "app/request/nearest.h"
+#include "core/memory.h"
 
-static const char *command_name(size_t i, const void *data)
+/* What may stand first: a command or a scene. */
+static const char *first_word(size_t i, const void *data)
 {
-    return (void)data, gm_commands[i].name;
+    (void)data;
+    return i < gm_command_count ? gm_commands[i].name : gm_scene_at(i - gm_command_count)->name;
+}
+
+/* Whether a word is one of a few, as --help, -h and help are. */
+static bool is_one_of(const char *word, const char *const *words)
+{
+    while (*words && strcmp(*words, word) != 0) {
+        words++;
+    }
+    return *words != NULL;
 }
 
 static void help_command(const struct gm_command_row *command)
@@ -28,15 +40,16 @@ static int help(void)
         help_command(&gm_commands[i]);
     }
     printf(
-        "  geomint --version | --help, geomint COMMAND --help\n\n"
+        "  geomint --version (-V) | --help (-h), geomint COMMAND --help (-h)\n\n"
         "key=value sets a parameter (geomint list SCENE names them), scheme=a,b,c the schemes; every key takes\n"
         "a list, and lanes are the product of the lists (zip=yes pairs them, overlay=yes puts all\n"
         "into one panel). Numbers are typed as 1e-3, pi/60.\n"
-        "Exit: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim, 130 interrupted.\n");
+        "Exit: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim,\n"
+        "      5 not enough memory, 130 interrupted.\n");
     return gm_finish(GM_EXIT_OK);
 }
 
-int main(int argc, char *argv[])
+static int run(int argc, char *argv[])
 {
     setlocale(LC_CTYPE, "");
     /* a broken pipe and a full disk are answered where they are written to */
@@ -45,15 +58,15 @@ int main(int argc, char *argv[])
     const struct gm_command_row *command = &gm_commands[0];
     int first = 1;
     if (argc > 1) {
-        if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
+        if (is_one_of(argv[1], (const char *const[]){"--help", "-h", "help", NULL})) {
             return help();
         }
-        if (strcmp(argv[1], "--version") == 0) {
+        if (is_one_of(argv[1], (const char *const[]){"--version", "-V", "version", NULL})) {
             return gm_version();
         }
         command = gm_command_find(argv[1]);
         if (!command) {
-            const char *near = gm_nearest(argv[1], gm_command_count, command_name, NULL);
+            const char *near = gm_nearest(argv[1], gm_command_count + gm_scene_count(), first_word, NULL);
             gm_complain("there is no command or scene \"%.60s\"%s%s", argv[1],
                         near ? "; did you mean " : "; see geomint --help", near ? near : "");
             return GM_EXIT_USAGE;
@@ -65,7 +78,7 @@ int main(int argc, char *argv[])
         return gm_command_complete(argc - first, argv + first);
     }
     for (int i = first; i < argc; i++) {
-        if (strcmp(argv[i], "--help") == 0) {
+        if (is_one_of(argv[i], (const char *const[]){"--help", "-h", NULL})) {
             help_command(command);
             return gm_finish(GM_EXIT_OK);
         }
@@ -80,4 +93,16 @@ int main(int argc, char *argv[])
     }
     gm_options_close(&options);
     return status;
+}
+
+int main(int argc, char *argv[])
+{
+    const int status = run(argc, argv);
+    /* whoever was refused memory may have made something else of it: a mistake in what was asked for, or less
+       than was asked for */
+    if (!gm_memory_was_short() || status == GM_EXIT_INTERRUPTED || status == GM_EXIT_PIPE) {
+        return status;
+    }
+    gm_complain("there was not enough memory for all that was asked for");
+    return GM_EXIT_MEMORY;
 }

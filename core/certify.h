@@ -2,14 +2,14 @@
 #ifndef GM_CORE_CERTIFY_H
 #define GM_CORE_CERTIFY_H
 
-#include "core/scheme.h"
+#include "core/kind.h"
 
 /* Measures what a scheme's row claims. Order is a log-log slope on non-linear problems, against a solution of
    GSL's Prince-Dormand stepper at its tightest tolerance (for a scheme that chooses its order, whose row says
    0, the slope of log error against the logarithm of its tolerance); properties are defects of single steps
    or short runs. Every claim is measured wherever it can be; what is not claimed is told, not judged. */
 
-struct gm_measure {
+struct gm_verdict {
     bool claimed;
     bool measured;       /* there was a certification problem that the scheme fits */
     bool holds;          /* measured, and within the tolerance on every problem */
@@ -23,10 +23,17 @@ struct gm_certificate {
     double order; /* measured, the lowest over the problems */
     bool order_holds;
     const char *order_problem;
-    struct gm_measure claims[GM_CLAIM_COUNT]; /* by bit number */
+    struct gm_verdict claims[GM_CLAIM_COUNT]; /* by bit number */
     bool holds;                               /* the order and every claim */
 };
 
 struct gm_certificate gm_certify(const struct gm_scheme *scheme);
+
+/* For the wings, whose hook measures (struct gm_kind) and says whether the order holds. */
+
+/* Takes a defect in; of several the worst is kept. */
+void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
+                         const char *problem);
+struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum gm_claim claim);
 
 #endif

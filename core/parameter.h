@@ -13,7 +13,7 @@ enum gm_type {
     GM_INTEGER, /* stored as long */
     GM_CHOICE,  /* stored as int, an index into choices */
     GM_BOOLEAN, /* stored as int, 0 or 1; written no, yes */
-    GM_TEXT,    /* stored as char[GM_TEXT_SIZE]; one word without comma */
+    GM_TEXT,    /* stored as char[GM_TEXT_SIZE]; no comma, no control character */
 };
 
 enum { GM_TEXT_SIZE = 256 };
@@ -23,13 +23,15 @@ struct gm_parameter {
     const char *unit; /* "" if it has none */
     const char *help;
     enum gm_type type;
-    size_t offset;              /* of the value in the owner's struct */
-    const char *standard;       /* the default, as it would be typed ("pi/12") */
-    double lowest, highest;     /* inclusive range of a real or an integer */
-    bool logarithmic;           /* a slider moves by factors */
-    bool live;                  /* a change acts on the present state; otherwise the run starts again */
-    const char *const *choices; /* NULL-terminated, for GM_CHOICE */
-    bool automatic;             /* a real that may also be "auto": NaN, until its owner settles it */
+    size_t offset;          /* of the value in the owner's struct */
+    const char *standard;   /* the default, as it would be typed ("pi/12") */
+    double lowest, highest; /* inclusive range of a real or an integer */
+    bool logarithmic;       /* a slider moves by factors */
+    bool live;              /* a change acts on the present state; otherwise the run starts again */
+    /* NULL-terminated, for GM_CHOICE; of a GM_TEXT the usual words, where there are such, else NULL */
+    const char *const *choices;
+    bool file;      /* a text that is the path of a file */
+    bool automatic; /* a real that may also be "auto": NaN, until its owner settles it */
 };
 
 enum gm_parse {

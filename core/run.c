@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "core/run.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/kernel/loops.h"
+#include "core/kind.h"
+#include "core/memory.h"
 
 /* The block: the struct, then two halves, each the state, its carry (compensated) and the scheme's memory. A
    step reads one half and writes the other, so the last good step is always whole. */
@@ -87,7 +89,11 @@ static void start(struct gm_run *run)
 {
     if (run->scheme->family->start && run->status == GM_OK) {
         const struct gm_task task = task_of(run, run->current, run->current, 0);
+        const unsigned long refusals = gm_memory_refusals();
         run->status = run->scheme->family->start(&task);
+        if (gm_memory_refusals() != refusals) {
+            run->status = GM_OUT_OF_MEMORY;
+        }
     }
 }
 
@@ -97,6 +103,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     struct gm_run head = {
         .problem = problem, .scheme = scheme, .settings = *settings, .t0 = t0, .dt = dt, .t = t0};
     head.half_size = half_size(&head);
+    const unsigned long refusals = gm_memory_refusals();
     struct gm_run *run = aligned_alloc(ALIGNMENT, head_size() + 2 * head.half_size);
     if (!run) {
         return NULL;
@@ -104,6 +111,7 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     if (scheme->family->workspace_open && gm_scheme_loop(scheme, problem) == scheme->family->loop) {
         head.workspace = scheme->family->workspace_open(problem, scheme);
         if (!head.workspace) {
+            gm_memory_refused(); /* by a library, if by nobody else */
             free(run);
             return NULL;
         }
@@ -117,6 +125,10 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     memset(half(run, 0), 0, 2 * run->half_size);
     memcpy(half(run, 0), y0, state_count(run) * sizeof(double));
     start(run);
+    if (gm_memory_refusals() != refusals) {
+        gm_run_close(run);
+        return NULL;
+    }
     return run;
 }
 
@@ -141,7 +153,12 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
     struct gm_task task = task_of(run, run->current, 1 - run->current, steps);
     const struct gm_family *family = run->scheme->family;
     gm_loop *loop = gm_scheme_loop(run->scheme, run->problem);
+    const unsigned long refusals = gm_memory_refusals();
     struct gm_progress progress = loop(&task);
+    if (gm_memory_refusals() != refusals) {
+        /* whatever the steps came to for want of memory, in factors or in a solution, is not theirs */
+        return run->status = GM_OUT_OF_MEMORY;
+    }
     if (progress.done < steps) {
         /* loops that do not tell the failed step's iterations apart have counted them among the others */
         const struct gm_progress attempt = progress;
@@ -176,6 +193,13 @@ void gm_run_set_step(struct gm_run *run, double dt)
     start(run);
 }
 
+void gm_run_set_state(struct gm_run *run, const double *y)
+{
+    memcpy(half(run, run->current), y, state_count(run) * sizeof(double));
+    memset(half(run, run->current) + state_count(run), 0, carry_count(run) * sizeof(double));
+    gm_run_set_step(run, run->dt);
+}
+
 struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *scheme)
 {
     struct gm_run *next =
@@ -202,18 +226,52 @@ void gm_run_save(const struct gm_run *run, void *snapshot)
     memcpy((char *)snapshot + head_size(), half(run, run->current), run->half_size);
 }
 
-void gm_run_load(struct gm_run *run, const void *snapshot)
+static bool is_finite(const double *values, size_t count)
 {
-    /* what it points to may belong to another run, or to a process that is gone */
-    const struct gm_problem *problem = run->problem;
-    const struct gm_scheme *scheme = run->scheme;
-    void *workspace = run->workspace;
-    memcpy(run, snapshot, sizeof *run);
-    run->problem = problem;
-    run->scheme = scheme;
-    run->workspace = workspace;
-    memcpy(half(run, run->current), (const char *)snapshot + head_size(), run->half_size);
-    if (workspace && run->scheme->family->workspace_reset) {
-        run->scheme->family->workspace_reset(workspace);
+    bool finite = true;
+    for (size_t i = 0; i < count; i++) {
+        finite &= isfinite(values[i]) != 0;
     }
+    return finite;
+}
+
+/* Whether the head of a snapshot can be that of a run that began like this one. */
+static bool is_possible(const struct gm_run *run, const struct gm_run *then)
+{
+    const struct gm_settings *own = &run->settings, *other = &then->settings;
+    const bool same = own->compensated == other->compensated && own->binding == other->binding &&
+                      own->tau0 == other->tau0 && own->tolerance == other->tolerance;
+    return same && then->half_size == run->half_size && (then->current == 0 || then->current == 1) &&
+           then->n >= 0 && then->steps >= then->n && then->steps <= LONG_MAX / 4 &&
+           strcmp(gm_status_name(then->status), gm_status_name((enum gm_status) - 1)) != 0 &&
+           isfinite(then->t0) && isfinite(then->dt) && then->dt != 0 && isfinite(then->t) &&
+           then->limit > 0 &&
+           (run->scheme->family->own_time || then->t == then->t0 + (double)then->n * then->dt);
+}
+
+bool gm_run_load(struct gm_run *run, const void *snapshot)
+{
+    struct gm_run then;
+    memcpy(&then, snapshot, sizeof then);
+    if (!is_possible(run, &then)) {
+        return false;
+    }
+    /* what it points to may belong to another run, or to a process that is gone */
+    then.problem = run->problem;
+    then.scheme = run->scheme;
+    then.workspace = run->workspace;
+    /* into the half that is not in use, until it is known to be a state; tracers may be lost */
+    const size_t active = (run->problem->n - 2 * run->problem->passive) * run->problem->m;
+    double *state = half(run, 1 - run->current), *carry = state + state_count(run);
+    memcpy(state, (const char *)snapshot + head_size(), run->half_size);
+    if (!is_finite(state, active) || (carry_count(run) > 0 && !is_finite(carry, active)) ||
+        !is_finite(carry + carry_count(run), memory_count(run))) {
+        return false;
+    }
+    then.current = 1 - run->current;
+    *run = then;
+    if (run->workspace && run->scheme->family->workspace_reset) {
+        run->scheme->family->workspace_reset(run->workspace);
+    }
+    return true;
 }

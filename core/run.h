@@ -39,19 +39,25 @@ const double *gm_run_memory(const struct gm_run *run);
 double gm_run_per_member(const struct gm_run *run, unsigned long count);
 
 /* Makes up to `steps` steps. After a failure the run stays at its last good step, run->status says why,
-   and further calls do nothing. Never allocates. */
+   and further calls do nothing. GM_OUT_OF_MEMORY leaves the state where it was before the call. */
 enum gm_status gm_run_advance(struct gm_run *run, long steps);
 
 /* Starts a new segment at the present time with another step (its sign may change). */
 void gm_run_set_step(struct gm_run *run, double dt);
 
+/* Starts a new segment at the present time in the state y (n * m, copied); the scheme remembers what it
+   remembers when the step is changed. */
+void gm_run_set_state(struct gm_run *run, const double *y);
+
 /* Continues from the present state with another scheme that fits: a new run with the old one's time,
    step and counts. NULL when memory is short; the old run is untouched. */
 struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *scheme);
 
-/* Snapshots: bytes needed, save, and load into a run of the same problem and scheme. */
+/* Snapshots: bytes needed, save, and load into a run of the same problem, scheme and settings. A snapshot may
+   come from a file: load returns false, and leaves the run alone, if it is not of such a run or if a run
+   cannot be as it says. */
 size_t gm_run_snapshot_size(const struct gm_run *run);
 void gm_run_save(const struct gm_run *run, void *snapshot);
-void gm_run_load(struct gm_run *run, const void *snapshot);
+bool gm_run_load(struct gm_run *run, const void *snapshot);
 
 #endif

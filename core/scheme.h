@@ -8,7 +8,7 @@
 /* What a scheme says of itself; certify and the tests hold every row to it. */
 enum gm_claim {
     GM_SYMPLECTIC = 1u << 0,
-    GM_SYMMETRIC = 1u << 1,       /* step(-dt) undoes step(dt) */
+    GM_SYMMETRIC = 1u << 1,       /* step(-dt) undoes step(dt), with what the scheme remembers */
     GM_REVERSIBLE = 1u << 2,      /* under p -> -p */
     GM_KEEPS_ENERGY = 1u << 3,    /* of every Hamiltonian */
     GM_KEEPS_QUADRATIC = 1u << 4, /* every quadratic invariant */
@@ -19,7 +19,8 @@ enum gm_claim {
     GM_DIVERGENCE_FREE = 1u << 9,  /* d1 d0 psi = 0: no mass is made */
     GM_KEEPS_CONSTANTS = 1u << 10, /* a constant scalar stays constant */
     GM_CLOSES_BUDGET = 1u << 11,   /* the scalar changes by what crosses the boundary */
-    GM_CLAIM_COUNT = 12,
+    GM_KEEPS_BILINEAR = 1u << 12,  /* every invariant q' A p, as angular momentum is one */
+    GM_CLAIM_COUNT = 13,
 };
 
 /* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */
@@ -37,6 +38,11 @@ extern const struct gm_parameter gm_settings_parameters[];
 extern const size_t gm_settings_parameter_count;
 /* NULL if there is none of that key */
 const struct gm_parameter *gm_setting_find(const char *key);
+/* Rows for families, NULL-terminated. */
+extern const struct gm_parameter *const gm_settings_of_sums[];             /* compensated */
+extern const struct gm_parameter *const gm_settings_of_tao[];              /* binding */
+extern const struct gm_parameter *const gm_settings_of_variational_time[]; /* tau0 */
+extern const struct gm_parameter *const gm_settings_of_gsl[];              /* tolerance */
 
 /* A scheme is a row of data. A number at the end of a name is the order. */
 struct gm_scheme {
@@ -48,19 +54,22 @@ struct gm_scheme {
     const struct gm_family *family;
     const void *coefficients; /* the family knows their type */
     int order;                /* 0: it chooses its order itself */
-    unsigned needs;           /* facets, GM_NEEDS_*; all of them */
+    unsigned needs;           /* facets of its kind of problem, GM_NEEDS_*; all of them */
     unsigned claims;          /* GM_SYMPLECTIC | ... */
 };
 
 struct gm_family {
-    enum gm_family_id id;
+    const struct gm_kind *kind; /* of the problems that it advances */
     const char *title;
     const struct gm_scheme *schemes;
     size_t count;
     const struct gm_parameter *const *parameters; /* rows of gm_settings_parameters, NULL-terminated */
+    int over_kernels; /* which of the loops over a problem's kernels is its, as its kind numbers them; 0: none
+                       */
 
     /* All that follows is for families that are not loops over a problem's kernels. */
-    gm_loop *loop; /* advances any problem that has the facets, where problem->loops has none; NULL: none */
+    gm_loop
+        *loop; /* advances any problem that has the facets, where its kind has no other loop; NULL: none */
     bool carries_passive; /* loop knows what to do with a passive block */
     /* Doubles of memory that a scheme carries from step to step, in the run's block. */
     size_t (*memory)(const struct gm_problem *problem, const struct gm_scheme *scheme);
@@ -84,17 +93,7 @@ struct gm_family {
     bool not_resumable; /* the workspace holds a library's stepper, which no snapshot can take along */
 };
 
-size_t gm_scheme_count(void);
-const struct gm_scheme *gm_scheme_at(size_t index);
-/* NULL if there is no scheme of that name */
-const struct gm_scheme *gm_scheme_find(const char *name);
-/* The row of that name that fits the problem, where one name has rows for several facets; a row that does not
-   fit if there is none that does; NULL if there is no scheme of that name. */
-const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem);
-/* The loop that advances this problem by this scheme: that over the problem's kernels, else the family's;
-   NULL if there is neither. The family's workspace is opened for its own loop only. */
-gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem);
-/* whether the problem has what the scheme needs */
-bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem);
+/* Whether a scheme brings this parameter, a row of gm_settings_parameters. */
+bool gm_scheme_takes(const struct gm_scheme *scheme, const struct gm_parameter *row);
 
 #endif

@@ -14,6 +14,8 @@ const char *gm_status_name(enum gm_status status)
         return "mesh-crossing";
     case GM_STEP_COLLAPSE:
         return "step-collapse";
+    case GM_OUT_OF_MEMORY:
+        return "out-of-memory";
     }
     return "unknown";
 }

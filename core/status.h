@@ -9,6 +9,7 @@ enum gm_status {
     GM_NO_CONVERGENCE, /* an implicit equation was not solved to round-off */
     GM_MESH_CROSSING,  /* a moving mesh would have tangled */
     GM_STEP_COLLAPSE,  /* a scheme that chooses its step found none */
+    GM_OUT_OF_MEMORY,  /* the system gave no memory: nothing is wrong with the numbers so far */
 };
 
 /* The name of a status as the command line prints it ("blow-up"). */

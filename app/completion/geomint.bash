@@ -4,7 +4,9 @@
 _geomint() {
     local line=${COMP_LINE:0:COMP_POINT} candidate
     local -a words
-    read -ra words <<<"$line"
+    # with its backslashes understood: a blank behind one belongs to the word
+    # shellcheck disable=SC2162
+    read -a words <<<"$line"
     [[ $line == *[[:blank:]] ]] && words+=("")
     local current=${words[-1]} front=
     # readline replaces only what stands behind the last =

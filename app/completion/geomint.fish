@@ -8,7 +8,12 @@ function __geomint_complete
     if test (count $candidates) -gt 0
         printf '%s\n' $candidates
     else
-        __fish_complete_path "$current"
+        # of key=FILE and --option=FILE what stands behind =
+        set -l front (string match -r '^[^=]*=' -- "$current")
+        set -l stem (string unescape -- (string replace -r '^[^=]*=' '' -- "$current"))
+        for path in (__fish_complete_path "$stem")
+            printf '%s\n' "$front$path"
+        end
     end
 end
 

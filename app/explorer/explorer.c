@@ -13,8 +13,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "app/explorer/console.h"
-#include "app/explorer/explorer_parts.h"
+#include "app/explorer/events.h"
+#include "app/explorer/terminal/console.h"
+#include "app/request/drive.h"
 
 enum { FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
 
@@ -68,6 +69,9 @@ static void suspend(struct gm_explorer *explorer)
 {
     gm_display_rest(&explorer->display);
     gm_console_stop();
+    if (gm_console_leaving()) {
+        gm_explorer_leave(explorer, GM_EXIT_INTERRUPTED);
+    }
     gm_explorer_resize(explorer);
 }
 
@@ -193,7 +197,7 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     struct gm_explorer explorer = {.wake = -1, .look_due = -1, .measure = {.fd = -1}};
     if (!gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
         !gm_terminal_serves(&explorer.terminal, explorer.message)) {
-        fprintf(stderr, "geomint: %s\n", explorer.message);
+        gm_complain("%s", explorer.message);
         return GM_EXIT_USAGE;
     }
     explorer.face = (struct gm_face){.blocks = explorer.terminal.graphics.blocks,
@@ -231,14 +235,14 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     gm_studies_close(&explorer.studies);
     gm_screen_close(&explorer.screen);
     gm_tours_close(explorer.tours, explorer.tour_count);
+    fputs(explorer.partings ? explorer.partings : "", stderr);
+    free(explorer.partings);
+    gm_console_release();
     if (explorer.wake >= 0) {
         close(explorer.wake);
     }
-    fputs(explorer.partings ? explorer.partings : "", stderr);
-    free(explorer.partings);
     if (!ok || explorer.status == GM_EXIT_USAGE) {
-        fprintf(stderr, "geomint: %s\n",
-                explorer.message[0] ? explorer.message : "There is not enough memory.");
+        gm_complain("%s", explorer.message[0] ? explorer.message : "There is not enough memory.");
         return GM_EXIT_USAGE;
     }
     if (number != 0 && number != SIGINT) {

@@ -2,9 +2,9 @@
 #ifndef GM_APP_EXPLORER_EXPLORER_H
 #define GM_APP_EXPLORER_EXPLORER_H
 
-#include "app/explorer/terminal.h"
-#include "app/options.h"
-#include "app/tour.h"
+#include "app/commands/options.h"
+#include "app/explorer/terminal/terminal.h"
+#include "app/tours/tour.h"
 
 /* The interactive explorer. A request without a scene (or NULL) begins with the list of scenes. Returns an
    exit status; a signal that asks to leave ends the process as that signal does, the terminal restored. */

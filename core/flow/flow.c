@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/flow/cholesky.h"
 #include "core/flow/unknowns.h"
+#include "core/linear/cholesky.h"
 
 size_t gm_flow_size(const struct gm_flow *flow)
 {

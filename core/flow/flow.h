@@ -3,7 +3,7 @@
 #define GM_CORE_FLOW_FLOW_H
 
 #include "core/flow/complex.h"
-#include "core/problem.h"
+#include "core/kind.h"
 
 /* An incompressible flow on a simplicial complex and a scalar that it carries, in the discrete exterior
    calculus of Mohamed, Hirani & Samtaney (2016). Velocity u = (d psi/dy, -d psi/dx).
@@ -61,6 +61,14 @@ enum gm_flow_block {
 
 /* Numbers of a tracer: its place, its triangle, and its age in steps. */
 enum { GM_TRACER_X, GM_TRACER_Y, GM_TRACER_TRIANGLE, GM_TRACER_AGE, GM_TRACER_NUMBERS };
+
+extern const struct gm_kind gm_kind_flow;
+
+/* The flow of a problem: its parameters. */
+static inline const struct gm_flow *gm_flow_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
 
 size_t gm_flow_size(const struct gm_flow *flow);
 const double *gm_flow_block(const struct gm_flow *flow, const double *y, enum gm_flow_block block);

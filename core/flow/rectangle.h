@@ -4,7 +4,8 @@
 
 #include "core/flow/complex.h"
 
-/* An acute triangulation of a rectangle, or of a torus. */
+/* An acute triangulation of a rectangle, or of a torus. The vertices on the walls have exactly the
+   coordinates 0, width and height, whatever the numbers of edges and strips. */
 struct gm_rectangle {
     double width, height;
     long edges;      /* N: on each of the two walls that the strips run along */

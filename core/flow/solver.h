@@ -2,9 +2,9 @@
 #ifndef GM_CORE_FLOW_SOLVER_H
 #define GM_CORE_FLOW_SOLVER_H
 
-#include "core/flow/gmres.h"
 #include "core/flow/transport.h"
 #include "core/flow/unknowns.h"
+#include "core/linear/gmres.h"
 
 /* What steps of a flow need besides the state: index sets, matrices, factors, scratch. All derived from the
    flow and the time step. */

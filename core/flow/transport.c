@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/flow/cholesky.h"
+#include "core/linear/cholesky.h"
 
 bool gm_transport_open(struct gm_transport *transport, const struct gm_complex *complex)
 {

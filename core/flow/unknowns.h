@@ -2,8 +2,8 @@
 #ifndef GM_CORE_FLOW_UNKNOWNS_H
 #define GM_CORE_FLOW_UNKNOWNS_H
 
-#include "core/flow/cholesky.h"
 #include "core/flow/flow.h"
+#include "core/linear/cholesky.h"
 
 /* Which vertices have an unknown psi. On a closed surface psi is determined up to a constant: vertex 0 is
    pinned and the mean is taken off afterwards. */

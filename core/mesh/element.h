@@ -2,7 +2,7 @@
 #ifndef GM_CORE_MESH_ELEMENT_H
 #define GM_CORE_MESH_ELEMENT_H
 
-#include "core/moving_mesh.h"
+#include "core/mesh/moving_mesh.h"
 
 /* The element Lagrangian and the mesh constraint with their derivatives, for all elements of one stage.
 
@@ -10,7 +10,7 @@
    middle m = (y0 + y1) / 2. With u, V the velocities of y, X at the ends l   = (d Kuu - r KuV + (r^2 / d)
    KVV) / 6 - r^2 / (2 d) - d w(m, r), Kuu = u0^2 + u0 u1 + u1^2,  KuV = 2 u0 V0 + u0 V1 + u1 V0 + 2 u1 V1,
    KVV = V0^2 + V0 V1 + V1^2 (Tyranowski & Desbrun 2019, eq. 44), w the mean of the potential; and of the
-   constraint ell as core/moving_mesh.h has it. Multipliers enter
+   constraint ell as core/mesh/moving_mesh.h has it. Multipliers enter
    element by element: sum_k lambda_k (ell_k - ell_{k-1}) = sum_e (lambda_e - lambda_{e+1}) ell_e with
    lambda_0 = lambda_{N+1} = 0. */
 

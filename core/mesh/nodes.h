@@ -2,7 +2,7 @@
 #ifndef GM_CORE_MESH_NODES_H
 #define GM_CORE_MESH_NODES_H
 
-#include "core/mesh/banded.h"
+#include "core/linear/banded.h"
 #include "core/mesh/element.h"
 
 /* Linear and small non-linear systems on the nodes, and rows assembled from elements. Node k = 1 ... N has

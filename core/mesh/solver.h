@@ -2,7 +2,7 @@
 #ifndef GM_CORE_MESH_SOLVER_H
 #define GM_CORE_MESH_SOLVER_H
 
-#include "core/mesh/banded.h"
+#include "core/linear/banded.h"
 #include "core/problem.h"
 
 /* The non-linear equations of one step, shared by the families on meshes: `per_node` unknowns at every node,

@@ -10,8 +10,9 @@
 #include <string.h>
 #include <time.h>
 
-#include "core/problems/soliton.h"
+#include "core/mesh/soliton.h"
 #include "core/run.h"
+#include "core/schemes.h"
 
 static double now(void)
 {
@@ -40,7 +41,7 @@ static double measure(const char *name, long points, long steps, int runs)
     struct gm_mesh mesh;
     double times[MOST];
     gm_soliton_problem(&soliton, &problem);
-    problem.moving_mesh->describe(&problem, &mesh);
+    gm_moving_mesh_of(&problem)->describe(&problem, &mesh);
     double *state = malloc(problem.n * sizeof *state);
     if (!state || !scheme ||
         !gm_mesh_start(&mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &soliton, state)) {
@@ -81,7 +82,7 @@ static void keep_energy(const char *name, int density, double alpha, double dt)
     struct gm_mesh mesh;
     double state[100];
     gm_soliton_problem(&soliton, &problem);
-    problem.moving_mesh->describe(&problem, &mesh);
+    gm_moving_mesh_of(&problem)->describe(&problem, &mesh);
     struct gm_run *run = NULL;
     if (!scheme || !gm_mesh_start(&mesh, GM_MESH_MOVING, gm_soliton_profile, &soliton, state) ||
         !(run = gm_run_open(&problem, scheme, &settings, 0, dt, state))) {

@@ -11,9 +11,10 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include "core/kernel/loops.h"
-#include "core/problems/problems.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/problems/problems.h"
 #include "core/run.h"
+#include "core/schemes.h"
 #include "tests/bench/ode_by_hand.h"
 
 enum { ROUNDS = 15, MEMBERS = 10000 };
@@ -129,7 +130,7 @@ static int jacobian(double t, const double y[], double *dfdy, double dfdt[], voi
 {
     (void)t;
     const struct gm_problem *problem = parameters;
-    problem->loops[GM_ISA_BASELINE]->jacobian(problem, y, dfdy);
+    gm_ode_of(problem)->loops[GM_ISA_BASELINE]->jacobian(problem, y, dfdy);
     memset(dfdt, 0, problem->n * sizeof *dfdt);
     return GSL_SUCCESS;
 }

@@ -1,0 +1,427 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint figures: published figures made again by as many processes as there are processors, on one page
+   with what the documents say and whether it holds. */
+#include <errno.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "app/commands/commands.h"
+#include "app/figures/page.h"
+#include "app/output/folder.h"
+#include "app/output/json.h"
+#include "app/request/drive.h"
+
+enum { MOST_WORKERS = 64, QUICK_WIDTH = 640, QUICK_HEIGHT = 360 };
+
+struct worker {
+    pid_t process; /* 0: idle */
+    size_t job;
+};
+
+struct series {
+    const struct gm_options *options;
+    struct gm_figure_job *jobs;
+    struct gm_outcome *outcomes; /* shared with the workers */
+    size_t count, next, made, printed;
+    struct worker workers[MOST_WORKERS];
+    size_t worker_count;
+    double started, page_written;
+    bool progress;
+};
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* A figure's own name, or the beginning of it up to a hyphen: "tyranowski", "razafindralandy-34". */
+static bool named(const char *name, const char *word)
+{
+    const size_t length = strlen(word);
+    return strncmp(name, word, length) == 0 && (name[length] == '\0' || name[length] == '-');
+}
+
+static bool wanted(const struct gm_options *options, const char *name)
+{
+    for (int i = 0; i < options->word_count; i++) {
+        if (named(name, options->words[i])) {
+            return true;
+        }
+    }
+    return options->word_count == 0;
+}
+
+/* In the order of the documents, and of the numbers in them. */
+static int by_name(const void *one, const void *other)
+{
+    return strverscmp(((const struct gm_figure_job *)one)->figure->name,
+                      ((const struct gm_figure_job *)other)->figure->name);
+}
+
+static size_t all_figures(void)
+{
+    size_t count = 0;
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        count += gm_scene_at(s)->figure_count;
+    }
+    return count;
+}
+
+static bool words_are_known(const struct gm_options *options)
+{
+    for (int i = 0; i < options->word_count; i++) {
+        bool known = false;
+        for (size_t s = 0; s < gm_scene_count(); s++) {
+            for (size_t f = 0; f < gm_scene_at(s)->figure_count; f++) {
+                known |= named(gm_scene_at(s)->figures[f].name, options->words[i]);
+            }
+        }
+        if (!known) {
+            gm_complain("there is no figure \"%.60s\"; geomint list figures names them", options->words[i]);
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool open_series(struct series *series, const struct gm_options *options)
+{
+    const size_t most = all_figures();
+    *series = (struct series){.options = options, .jobs = calloc(most, sizeof *series->jobs)};
+    void *shared = mmap(NULL, most * sizeof *series->outcomes, PROT_READ | PROT_WRITE,
+                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    series->outcomes = shared == MAP_FAILED ? NULL : shared;
+    if (!series->jobs || !series->outcomes) {
+        gm_complain("not enough memory");
+        return false;
+    }
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        const struct gm_scene *scene = gm_scene_at(s);
+        for (size_t f = 0; f < scene->figure_count; f++) {
+            if (wanted(options, scene->figures[f].name)) {
+                gm_figure_plan(&series->jobs[series->count++], scene, &scene->figures[f], options->quick);
+            }
+        }
+    }
+    qsort(series->jobs, series->count, sizeof *series->jobs, by_name);
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    series->worker_count = processors < 1 ? 1 : processors > MOST_WORKERS ? MOST_WORKERS : (size_t)processors;
+    series->progress = isatty(STDERR_FILENO);
+    series->started = series->page_written = now();
+    return true;
+}
+
+static void close_series(struct series *series)
+{
+    if (series->outcomes) {
+        munmap(series->outcomes, all_figures() * sizeof *series->outcomes);
+    }
+    free(series->jobs);
+}
+
+static void show_progress(const struct series *series)
+{
+    enum { WIDTH = 24 };
+    if (!series->progress) {
+        return;
+    }
+    char bar[WIDTH + 1];
+    const double elapsed = now() - series->started;
+    for (size_t i = 0; i < WIDTH; i++) {
+        bar[i] = i * series->count < series->made * WIDTH ? '#' : '.';
+    }
+    bar[WIDTH] = '\0';
+    fprintf(stderr, "\r%s %zu/%zu figures, %.0f s", bar, series->made, series->count, elapsed);
+    if (series->made > 0) {
+        fprintf(stderr, ", about %.0f s left",
+                elapsed / (double)series->made * (double)(series->count - series->made));
+    }
+    fputs("\033[K", stderr);
+}
+
+static void print_lanes(const struct gm_figure_job *job, const struct gm_outcome *outcome)
+{
+    printf("  %-44s %10s", "", "t");
+    for (size_t i = 0; i < job->scene->observable_count; i++) {
+        printf(" %14s", job->scene->observables[i].key);
+    }
+    printf("\n");
+    for (size_t i = 0; i < outcome->lane_count; i++) {
+        printf("  %-44s %10.4g", outcome->lanes[i].label, outcome->lanes[i].t);
+        for (size_t k = 0; k < job->scene->observable_count; k++) {
+            printf(" %14.6g", outcome->lanes[i].observables[k]);
+        }
+        printf("%s%s\n", outcome->lanes[i].failure[0] ? "  " : "", outcome->lanes[i].failure);
+    }
+}
+
+static void print_json(const struct gm_figure_job *job, const struct gm_outcome *outcome)
+{
+    printf("{");
+    gm_json_pair("figure", job->figure->name);
+    printf(",");
+    gm_json_pair("scene", job->scene->name);
+    printf(",");
+    gm_json_pair("arguments", job->arguments);
+    printf(",");
+    gm_json_pair("statement", job->figure->statement);
+    printf(",\"made\":%s,", outcome->progress == GM_MADE ? "true" : "false");
+    gm_json_pair("message", outcome->progress == GM_NOT_MADE ? outcome->message : "");
+    printf(",");
+    gm_json_number_pair("seconds", outcome->seconds);
+    printf(",\"statements\":[");
+    for (size_t i = 0; i < outcome->verdict_count; i++) {
+        const struct gm_statement *statement = &job->published->statements[i];
+        printf("%s{", i ? "," : "");
+        gm_json_pair("says", statement->says);
+        printf(",");
+        gm_json_pair("verdict", gm_verdict_word(job, outcome, i));
+        printf(",\"found\":[");
+        gm_json_number(outcome->verdicts[i].low);
+        printf(",");
+        gm_json_number(outcome->verdicts[i].high);
+        printf("],\"expected\":[");
+        gm_json_number(statement->low);
+        printf(",");
+        gm_json_number(statement->high);
+        printf("]}");
+    }
+    printf("],\"lanes\":[");
+    for (size_t i = 0; outcome->progress == GM_MADE && i < outcome->lane_count; i++) {
+        printf("%s{", i ? "," : "");
+        gm_json_pair("lane", outcome->lanes[i].label);
+        printf(",");
+        gm_json_number_pair("t", outcome->lanes[i].t);
+        printf(",");
+        gm_json_pair("message", outcome->lanes[i].failure);
+        printf(",\"observables\":{");
+        for (size_t k = 0; k < job->scene->observable_count; k++) {
+            printf("%s", k ? "," : "");
+            gm_json_number_pair(job->scene->observables[k].key, outcome->lanes[i].observables[k]);
+        }
+        printf("}}");
+    }
+    printf("]}\n");
+}
+
+static void print_text(const struct gm_figure_job *job, const struct gm_outcome *outcome)
+{
+    printf("%s: %s\n  geomint render %s %s\n", job->figure->name, job->figure->statement, job->scene->name,
+           job->arguments);
+    if (outcome->progress == GM_NOT_MADE) {
+        printf("  not made: %s\n", outcome->message);
+    }
+    for (size_t i = 0; i < outcome->verdict_count; i++) {
+        char expected[64], found[64];
+        const struct gm_statement *statement = &job->published->statements[i];
+        gm_statement_expectation(statement, expected, sizeof expected);
+        gm_verdict_number(outcome->verdicts[i].low, outcome->verdicts[i].high, found, sizeof found);
+        printf("  %-14s %s: %s (%s)\n", gm_verdict_word(job, outcome, i), statement->says, found, expected);
+    }
+    if (outcome->progress == GM_MADE) {
+        print_lanes(job, outcome);
+    }
+}
+
+static void print_outcome(const struct series *series, size_t i)
+{
+    if (series->options->json) {
+        print_json(&series->jobs[i], &series->outcomes[i]);
+    } else {
+        print_text(&series->jobs[i], &series->outcomes[i]);
+    }
+}
+
+/* Prints what is finished, in order. */
+static void print_finished(struct series *series)
+{
+    while (series->printed < series->count && series->outcomes[series->printed].progress >= GM_MADE) {
+        if (series->progress) {
+            fputs("\r\033[K", stderr);
+        }
+        print_outcome(series, series->printed);
+        fflush(stdout);
+        series->printed++;
+    }
+}
+
+static void write_page(struct series *series, int *status)
+{
+    char message[GM_MESSAGE];
+    series->page_written = now();
+    if (!gm_figures_page_write(series->options, series->jobs, series->outcomes, series->count, message)) {
+        gm_complain("%s", message);
+        *status = GM_EXIT_FILE;
+    }
+}
+
+/* What became of a worker that has ended: a worker that was killed or crashed tells nothing itself. */
+static void take_end(struct series *series, size_t job, int end)
+{
+    struct gm_outcome *outcome = &series->outcomes[job];
+    series->made++;
+    if (WIFSIGNALED(end) || outcome->progress == GM_RUNNING) {
+        outcome->status = WIFSIGNALED(end) ? GM_EXIT_USAGE : WEXITSTATUS(end);
+        if (WIFSIGNALED(end)) {
+            snprintf(outcome->message, sizeof outcome->message, "it was ended by signal %d (%s)",
+                     WTERMSIG(end), strsignal(WTERMSIG(end)));
+        } else {
+            snprintf(outcome->message, sizeof outcome->message, "it ended early");
+        }
+        outcome->progress = GM_NOT_MADE;
+        outcome->verdict_count = 0;
+    }
+    if (outcome->progress == GM_NOT_MADE && !gm_interrupted) {
+        if (series->progress) {
+            fputs("\r\033[K", stderr);
+        }
+        gm_complain("%s was not made: %s", series->jobs[job].figure->name, outcome->message);
+    }
+}
+
+static void start(struct series *series, struct worker *worker)
+{
+    const size_t job = series->next++;
+    struct gm_outcome *outcome = &series->outcomes[job];
+    outcome->progress = GM_RUNNING;
+    fflush(NULL);
+    const pid_t parent = getpid(), process = fork();
+    if (process == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGTERM);
+        if (getppid() == parent) {
+            gm_figure_make(&series->jobs[job], series->options, outcome);
+        }
+        _exit(0);
+    }
+    if (process < 0) {
+        outcome->progress = GM_NOT_MADE;
+        outcome->status = GM_EXIT_FILE;
+        snprintf(outcome->message, sizeof outcome->message, "no process could be started: %s",
+                 strerror(errno));
+        take_end(series, job, 0);
+        return;
+    }
+    *worker = (struct worker){process, job};
+}
+
+/* Waits until a worker ends, hands interruptions on. False when all are idle. */
+static bool wait_for_one(struct series *series)
+{
+    bool any = false;
+    for (size_t i = 0; i < series->worker_count; i++) {
+        any |= series->workers[i].process != 0;
+    }
+    for (bool told = false; any;) {
+        for (size_t i = 0; i < series->worker_count && gm_interrupted && !told; i++) {
+            if (series->workers[i].process) {
+                kill(series->workers[i].process, SIGTERM);
+            }
+        }
+        told |= gm_interrupted;
+        int end = 0;
+        const pid_t process = waitpid(-1, &end, WNOHANG);
+        for (size_t i = 0; i < series->worker_count; i++) {
+            if (process > 0 && series->workers[i].process == process) {
+                series->workers[i].process = 0;
+                take_end(series, series->workers[i].job, end);
+                return true;
+            }
+        }
+        if (process < 0 && errno != EINTR) {
+            return false;
+        }
+        if (process == 0) {
+            nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+        }
+    }
+    return any;
+}
+
+static void run(struct series *series, int *status)
+{
+    const double page_seconds = 10;
+    do {
+        for (size_t i = 0; i < series->worker_count && !gm_interrupted; i++) {
+            while (!series->workers[i].process && series->next < series->count) {
+                start(series, &series->workers[i]);
+            }
+        }
+        print_finished(series);
+        show_progress(series);
+        if (now() - series->page_written > page_seconds) {
+            write_page(series, status);
+        }
+    } while (wait_for_one(series));
+    if (series->progress) {
+        fputs("\r\033[K", stderr);
+    }
+}
+
+static void print_sum(const struct series *series)
+{
+    size_t made = 0, hold = 0, fail = 0;
+    for (size_t i = 0; i < series->count; i++) {
+        made += series->outcomes[i].progress == GM_MADE;
+        for (size_t k = 0; k < series->outcomes[i].verdict_count && !series->jobs[i].shortened; k++) {
+            hold += series->outcomes[i].verdicts[k].holds;
+            fail += !series->outcomes[i].verdicts[k].holds;
+        }
+    }
+    gm_say("%zu of %zu figures made; %zu statements hold, %zu do not; %s/figures.html", made, series->count,
+           hold, fail, series->options->out ? series->options->out : ".");
+}
+
+int gm_command_figures(const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    struct series series;
+    struct gm_options each = *options;
+    if (!words_are_known(options)) {
+        return GM_EXIT_USAGE;
+    }
+    if (options->quick && !options->sized) {
+        each.width = QUICK_WIDTH;
+        each.height = QUICK_HEIGHT;
+    }
+    if (!gm_folder_make(options->out, message)) {
+        gm_complain("%s", message);
+        return GM_EXIT_FILE;
+    }
+    gm_catch_interrupts();
+    int status = GM_EXIT_OK;
+    if (open_series(&series, &each)) {
+        run(&series, &status);
+        /* finished ones behind one that was interrupted */
+        for (size_t i = series.printed; i < series.count; i++) {
+            if (series.outcomes[i].progress == GM_MADE) {
+                print_outcome(&series, i);
+            }
+        }
+        write_page(&series, &status);
+        if (!options->json) {
+            print_sum(&series);
+        }
+        if (status != GM_EXIT_FILE) {
+            gm_complain("wrote %s/figures.html and its pictures", options->out ? options->out : ".");
+        }
+        for (size_t i = 0; i < series.count; i++) {
+            if (series.outcomes[i].progress == GM_NOT_MADE && series.outcomes[i].status > status) {
+                status = series.outcomes[i].status;
+            }
+        }
+    } else {
+        status = GM_EXIT_FILE;
+    }
+    close_series(&series);
+    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+}

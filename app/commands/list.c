@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint list: scenes, schemes, figures, and what one scene takes. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/commands/commands.h"
+#include "app/commands/reference/catalogue.h"
+#include "app/output/json.h"
+#include "app/output/wrapped.h"
+#include "app/request/drive.h"
+#include "core/memory.h"
+#include "core/schemes.h"
+
+static void list_scenes(const struct gm_options *options)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        if (options->json) {
+            printf("{");
+            gm_json_pair("scene", scene->name);
+            printf(",");
+            gm_json_pair("title", scene->title);
+            printf(",");
+            gm_json_pair("blurb", scene->blurb);
+            printf(",");
+            gm_json_pair("watch", scene->watch);
+            printf(",");
+            gm_json_pair("time_unit", scene->time);
+            printf("}\n");
+            continue;
+        }
+        gm_print_wrapped(scene->title, printf("%-16s ", scene->name), 17);
+        if (options->longer) {
+            gm_print_wrapped(scene->blurb, printf("  "), 2);
+            gm_print_wrapped(scene->watch, printf("  "), 2);
+        }
+    }
+}
+
+static void print_formula(const char *text)
+{
+    while (*text) {
+        const int length = (int)strcspn(text, "\n");
+        printf("  %.*s\n", length, text);
+        text += length + (text[length] == '\n');
+    }
+}
+
+/* `kinds`: rows of one name say which kind of problem each is for. */
+static void list_scheme(const struct gm_scheme *scheme, const struct gm_options *options, bool kinds)
+{
+    char letters[GM_CLAIM_COUNT + 1], text[160];
+    gm_catalogue_letters(scheme, letters);
+    if (!options->json) {
+        const bool several = options->longer || (kinds && gm_catalogue_shares_name(scheme));
+        snprintf(text, sizeof text, "%s%s%s", scheme->title, several ? ", for " : "",
+                 several ? gm_scheme_problems(scheme) : "");
+        gm_print_wrapped(text, printf("%-30s %d  %-8s ", scheme->name, scheme->order, letters), 43);
+        if (options->longer) {
+            print_formula(scheme->formula);
+            printf("  %s; %s\n", scheme->family->title, scheme->reference);
+        }
+        return;
+    }
+    printf("{");
+    gm_json_pair("scheme", scheme->name);
+    printf(",");
+    gm_json_pair("title", scheme->title);
+    printf(",\"order\":%d,", scheme->order);
+    gm_json_pair("family", scheme->family->title);
+    printf(",");
+    gm_json_pair("for", gm_scheme_problems(scheme));
+    printf(",\"claims\":[");
+    const char *comma = "";
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        if (scheme->claims >> bit & 1) {
+            printf("%s\"%s\"", comma, gm_claim_word(bit));
+            comma = ",";
+        }
+    }
+    printf("],");
+    gm_json_pair("formula", scheme->formula);
+    printf(",");
+    gm_json_pair("reference", scheme->reference);
+    printf("}\n");
+}
+
+/* What the letters of claims mean, of all that these schemes have. */
+static void print_legend(const struct gm_scheme *const *schemes, size_t count)
+{
+    char text[512] = "claims:";
+    unsigned claims = 0;
+    for (size_t i = 0; i < count; i++) {
+        claims |= schemes[i]->claims;
+    }
+    const char *comma = " ";
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        const size_t used = strlen(text);
+        if (claims >> bit & 1) {
+            snprintf(text + used, sizeof text - used, "%s%s %s", comma, gm_claim_letter(bit),
+                     gm_claim_word(bit));
+            comma = ", ";
+        }
+    }
+    printf("\n");
+    gm_print_wrapped(claims ? text : "claims: none", 0, 8);
+}
+
+static void list_schemes(const struct gm_options *options)
+{
+    const struct gm_scheme *schemes[GM_CATALOGUE_SCHEMES];
+    size_t count = 0;
+    for (; count < gm_scheme_count() && count < GM_CATALOGUE_SCHEMES; count++) {
+        schemes[count] = gm_scheme_at(count);
+        list_scheme(schemes[count], options, true);
+    }
+    if (!options->json) {
+        print_legend(schemes, count);
+    }
+}
+
+static void list_figures(const struct gm_options *options)
+{
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        const struct gm_scene *scene = gm_scene_at(s);
+        for (size_t f = 0; f < scene->figure_count; f++) {
+            const struct gm_figure *figure = &scene->figures[f];
+            if (options->json) {
+                printf("{");
+                gm_json_pair("figure", figure->name);
+                printf(",");
+                gm_json_pair("scene", scene->name);
+                printf(",");
+                gm_json_pair("arguments", figure->arguments);
+                printf(",");
+                gm_json_pair("statement", figure->statement);
+                printf("}\n");
+            } else {
+                gm_print_wrapped(figure->statement, printf("%-22s ", figure->name), 23);
+                if (options->longer) {
+                    printf("  geomint render %s %s\n", scene->name, figure->arguments);
+                }
+            }
+        }
+    }
+}
+
+/* The widths of the columns of parameters' keys and defaults. */
+enum { KEY = 14, DEFAULT = 12 };
+
+static void print_parameter(const struct gm_parameter *row)
+{
+    char range[256], text[512];
+    gm_catalogue_range(row, range, sizeof range);
+    snprintf(text, sizeof text, "%s%s%s [%s]", row->help, row->unit[0] ? ", in " : "", row->unit, range);
+    gm_print_wrapped(text, printf("  %-*s %-*s ", KEY, row->key, DEFAULT, row->standard), KEY + DEFAULT + 4);
+}
+
+static void print_parameter_json(const struct gm_parameter *row)
+{
+    char range[256];
+    printf("{");
+    gm_json_pair("key", row->key);
+    printf(",");
+    gm_json_pair("default", row->standard);
+    printf(",");
+    gm_json_pair("range", gm_catalogue_range(row, range, sizeof range));
+    printf(",\"live\":%s,", row->live ? "true" : "false");
+    gm_json_pair("help", row->help);
+    printf("}");
+}
+
+/* What a command takes where nothing is said but the scene: "scheme=rk4,verlet"; malloc'ed, NULL with a
+   sentence. */
+static char *default_lanes(const struct gm_scene *scene, size_t schemes, char *message)
+{
+    char *words[] = {strdup(scene->name)}, *text = NULL;
+    struct gm_request request;
+    if (!words[0]) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+    } else if (gm_request_parse(&request, 1, words, schemes, message)) {
+        text = strdup(request.arguments + strlen(scene->name) + 1);
+        gm_request_close(&request);
+    }
+    free(words[0]);
+    return text;
+}
+
+/* All that is known of a scene. */
+struct entry {
+    const struct gm_scene *scene;
+    const struct gm_scheme *schemes[GM_CATALOGUE_SCHEMES]; /* those that fit */
+    size_t scheme_count;
+    const struct gm_parameter **rows; /* those of the scene, and those that a fitting scheme brings */
+    size_t row_count;
+    char *run, *render; /* their lanes */
+};
+
+static bool open_entry(struct entry *entry, const struct gm_scene *scene, char *message)
+{
+    *entry = (struct entry){.scene = scene};
+    entry->rows = calloc(scene->parameter_count + gm_settings_parameter_count, sizeof *entry->rows);
+    entry->run = default_lanes(scene, GM_RUN_SCHEMES, message);
+    entry->render = entry->run ? default_lanes(scene, GM_RENDER_SCHEMES, message) : NULL;
+    if (!entry->rows) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        return false;
+    }
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        entry->rows[entry->row_count++] = &scene->parameters[i];
+    }
+    entry->scheme_count = gm_catalogue_fitting(scene, entry->schemes);
+    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
+        if (gm_catalogue_takes(entry->schemes, entry->scheme_count, &gm_settings_parameters[i])) {
+            entry->rows[entry->row_count++] = &gm_settings_parameters[i];
+        }
+    }
+    /* half a list would be taken for a whole one */
+    if (entry->render && gm_memory_was_short()) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        return false;
+    }
+    return entry->render != NULL;
+}
+
+static void close_entry(struct entry *entry)
+{
+    free(entry->rows);
+    free(entry->run);
+    free(entry->render);
+}
+
+static void print_entry(const struct entry *entry, const struct gm_options *options)
+{
+    const struct gm_scene *scene = entry->scene;
+    gm_print_wrapped(scene->title, 0, 0);
+    gm_print_wrapped(scene->blurb, 0, 0);
+    gm_print_wrapped(scene->watch, 0, 0);
+    char unit[GM_SENTENCE];
+    snprintf(unit, sizeof unit, "The unit of time is %s.", scene->time);
+    gm_print_wrapped(unit, 0, 0);
+    printf("\n%-*s %-*s meaning [range]\n", KEY + 2, "parameter", DEFAULT, "default");
+    for (size_t i = 0; i < entry->row_count; i++) {
+        print_parameter(entry->rows[i]);
+    }
+    printf("\nobservables\n");
+    for (size_t i = 0; i < scene->observable_count; i++) {
+        const struct gm_observable *observable = &scene->observables[i];
+        char title[GM_SENTENCE];
+        gm_print_wrapped(gm_observable_title(observable, title, sizeof title),
+                         printf("  %-*s ", KEY + 8, observable->key), KEY + 11);
+    }
+    printf("\nlanes, where nothing more is said\n");
+    gm_print_wrapped(entry->run, printf("  run     "), 10);
+    gm_print_wrapped(entry->render, printf("  render  "), 10);
+    printf("\nschemes that fit               order claims\n");
+    for (size_t i = 0; i < entry->scheme_count; i++) {
+        list_scheme(entry->schemes[i], options, false);
+    }
+    print_legend(entry->schemes, entry->scheme_count);
+}
+
+static void print_entry_json(const struct entry *entry)
+{
+    const struct gm_scene *scene = entry->scene;
+    printf("{");
+    gm_json_pair("scene", scene->name);
+    printf(",");
+    gm_json_pair("title", scene->title);
+    printf(",");
+    gm_json_pair("watch", scene->watch);
+    printf(",");
+    gm_json_pair("time_unit", scene->time);
+    printf(",");
+    gm_json_pair("run", entry->run);
+    printf(",");
+    gm_json_pair("render", entry->render);
+    printf(",\"parameters\":[");
+    for (size_t i = 0; i < entry->row_count; i++) {
+        printf("%s", i ? "," : "");
+        print_parameter_json(entry->rows[i]);
+    }
+    printf("],\"observables\":[");
+    for (size_t i = 0; i < scene->observable_count; i++) {
+        printf("%s\"%s\"", i ? "," : "", scene->observables[i].key);
+    }
+    printf("],\"schemes\":[");
+    for (size_t i = 0; i < entry->scheme_count; i++) {
+        printf("%s\"%s\"", i ? "," : "", entry->schemes[i]->name);
+    }
+    printf("]}\n");
+}
+
+static bool list_scene(const struct gm_scene *scene, const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    struct entry entry;
+    const bool good = open_entry(&entry, scene, message);
+    if (!good) {
+        gm_complain("%s", message);
+    } else if (options->json) {
+        print_entry_json(&entry);
+    } else {
+        print_entry(&entry, options);
+    }
+    close_entry(&entry);
+    return good;
+}
+
+static int list_markdown(const char *what)
+{
+    if (strcmp(what, "scenes") == 0) {
+        gm_catalogue_scenes_markdown();
+    } else if (strcmp(what, "schemes") == 0) {
+        gm_catalogue_schemes_markdown();
+    } else {
+        gm_complain("--markdown lists scenes or schemes");
+        return GM_EXIT_USAGE;
+    }
+    return gm_finish(GM_EXIT_OK);
+}
+
+int gm_command_list(const struct gm_options *options)
+{
+    if (options->word_count > 1) {
+        gm_complain("list takes one name: scenes, schemes, figures or a scene");
+        return GM_EXIT_USAGE;
+    }
+    const char *what = options->word_count ? options->words[0] : "scenes";
+    if (options->markdown) {
+        return list_markdown(what);
+    }
+    if (strcmp(what, "scenes") == 0) {
+        list_scenes(options);
+    } else if (strcmp(what, "schemes") == 0) {
+        list_schemes(options);
+    } else if (strcmp(what, "figures") == 0) {
+        list_figures(options);
+    } else if (gm_scene_find(what)) {
+        if (!list_scene(gm_scene_find(what), options)) {
+            return GM_EXIT_USAGE;
+        }
+    } else {
+        gm_complain("list knows scenes, schemes, figures and the names of scenes, not \"%.60s\"", what);
+        return GM_EXIT_USAGE;
+    }
+    return gm_finish(GM_EXIT_OK);
+}

@@ -1,0 +1,316 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/commands/options.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/request/nearest.h"
+#include "render/files/sink.h"
+
+enum kind { FLAG, TEXT, MOVIE, WHOLE, TIME, RATE, FPS, SIZE, THEME, SHARD };
+
+struct row {
+    const char *name;
+    enum kind kind;
+    unsigned commands;
+    size_t offset;
+    const char *value, *help;
+};
+
+#define AT(member) offsetof(struct gm_options, member)
+#define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_TOUR)
+#define EXPLORES (GM_TUI | GM_TERMINAL | GM_TOUR)
+
+static const struct row rows[] = {
+    {"--json", FLAG, GM_RUN | GM_LIST | GM_CERTIFY | GM_STABILITY | GM_WORK_PRECISION | GM_FIGURES, AT(json),
+     "", "one JSON object a line"},
+    {"--long", FLAG, GM_LIST, AT(longer), "", "with formulas and references"},
+    {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
+    {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
+    {"--max", FLAG, GM_RUN, AT(maximum), "", "with NAME_max, of all steps the value of largest magnitude"},
+    {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},
+    {"--profile", TEXT, GM_RUN, AT(profile), "FILE", "write profiles of the final state to FILE"},
+    {"--every", WHOLE, GM_RUN | GM_RENDER, AT(every), "K",
+     "run: a row of the history, render: a frame, every K steps"},
+    {"--frames", WHOLE, GM_RENDER, AT(frames), "N", "N frames, evenly spaced in model time"},
+    {"--fps", FPS, GM_RENDER | GM_TOUR, AT(fps), "F", "frames a second of the movie (30)"},
+    {"--rate", RATE, GM_RENDER, AT(rate), "R", "model time a second of the movie"},
+    {"--from", TIME, GM_RENDER, AT(from), "T", "first frame at model time T"},
+    {"--at", TIME, GM_RENDER, AT(at), "T", "one picture at model time T"},
+    {"--size", SIZE, PAINTS, AT(width), "WxH", "pixels (1280x720)"},
+    {"--theme", THEME, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(theme), "light|dark",
+     "colours for paper or for a screen"},
+    {"--changes", TEXT, GM_RENDER, AT(changes), "LIST", "LANE:STEP:KEY=VALUE,...: changes in flight (key y)"},
+    {"--graphics", TEXT, EXPLORES, AT(graphics), "KIND", "kitty, sixel, braille, quadrants, half or ascii"},
+    {"--colours", TEXT, EXPLORES, AT(colours), "HOWMANY", "truecolor, 256, 16 or none"},
+    {"--theme", TEXT, EXPLORES, AT(look), "THEME", "light, dark or, in a terminal, mono"},
+    {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
+    {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
+    {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},
+    {"--strict", FLAG, GM_RUN | GM_RENDER, AT(strict), "",
+     "exit 2 if a lane ends in a numerical failure (run: or with a warning)"},
+    {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
+    {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
+     "the linear stability region of a scheme, no scene"},
+    {"--list", FLAG, GM_TOUR, AT(listing), "", "what there is; with a tour, its steps"},
+    {"--quick", FLAG, GM_FIGURES, AT(quick), "", "smaller pictures; long runs are coarser and not judged"},
+};
+enum { ROWS = sizeof rows / sizeof rows[0] };
+
+static bool refuse(char *message, const char *name, const char *value, const char *what)
+{
+    snprintf(message, GM_MESSAGE, "%s %.60s: %s", name, value, what);
+    return false;
+}
+
+static bool store(struct gm_options *options, const struct row *row, const char *value, char *message)
+{
+    char *place = (char *)options + row->offset;
+    double number = NAN;
+    switch (row->kind) {
+    case FLAG:
+        memcpy(place, &(int){1}, sizeof(int));
+        return true;
+    case TEXT:
+        if (!*value) {
+            return refuse(message, row->name, value, "is empty");
+        }
+        memcpy(place, &value, sizeof value);
+        return true;
+    case MOVIE:
+        if (!gm_sink_is_movie(value)) {
+            return refuse(message, row->name, value, "is no .mp4, .webm or .gif file");
+        }
+        memcpy(place, &value, sizeof value);
+        return true;
+    case WHOLE: {
+        if (!gm_number_parse(value, &number) || !(number >= 1 && number <= 1e9) || number != floor(number)) {
+            return refuse(message, row->name, value, "is not a whole number from 1 to 1e9");
+        }
+        long whole = (long)number;
+        memcpy(place, &whole, sizeof whole);
+        return true;
+    }
+    case TIME:
+        if (!gm_number_parse(value, &number) || !isfinite(number)) {
+            return refuse(message, row->name, value, "is not a number");
+        }
+        memcpy(place, &number, sizeof number);
+        return true;
+    case RATE:
+        if (!gm_number_parse(value, &number) || !isfinite(number) || !(number > 0)) {
+            return refuse(message, row->name, value, "is not a number above 0");
+        }
+        memcpy(place, &number, sizeof number);
+        return true;
+    case FPS:
+        if (!gm_number_parse(value, &number) || !(number >= 0.01 && number <= 1000)) {
+            return refuse(message, row->name, value, "is not a number from 0.01 to 1000");
+        }
+        memcpy(place, &number, sizeof number);
+        return true;
+    case SIZE: {
+        int width = 0, height = 0, used = 0;
+        if (sscanf(value, "%5dx%5d%n", &width, &height, &used) != 2 || value[used] || width < 64 ||
+            height < 64 || width > 16384 || height > 16384) {
+            return refuse(message, row->name, value, "is not WIDTHxHEIGHT, each from 64 to 16384");
+        }
+        options->width = width;
+        options->height = height;
+        options->sized = true;
+        return true;
+    }
+    case SHARD: {
+        long shard = 0, shards = 0;
+        int used = 0;
+        if (sscanf(value, "%6ld/%6ld%n", &shard, &shards, &used) != 2 || value[used] || shard < 1 ||
+            shard > shards) {
+            return refuse(message, row->name, value, "is not I/N, with I from 1 to N");
+        }
+        options->shard = shard;
+        options->shards = shards;
+        return true;
+    }
+    case THEME:
+        options->theme = strcmp(value, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
+        return strcmp(value, "dark") == 0 || strcmp(value, "light") == 0 ||
+               refuse(message, row->name, value, "is none of: light, dark");
+    }
+    return false;
+}
+
+/* The row of this command, or else one of the same name that others have. */
+static const struct row *find(const char *word, size_t length, enum gm_command command)
+{
+    const struct row *found = NULL;
+    for (size_t i = 0; i < ROWS; i++) {
+        if (strlen(rows[i].name) == length && strncmp(rows[i].name, word, length) == 0 &&
+            (!found || rows[i].commands & command)) {
+            found = &rows[i];
+        }
+    }
+    return found;
+}
+
+/* The name without its dashes; "" where this command does not take it. */
+static const char *name_at(size_t i, const void *data)
+{
+    const enum gm_command *command = data;
+    return rows[i].commands & *command ? rows[i].name + strlen("--") : "";
+}
+
+/* Says that there is no such option, and which one was probably meant, or all that the command has. */
+static void refuse_option(char *message, const char *word, enum gm_command command)
+{
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word);
+    const bool elsewhere = find(word, strcspn(word, "="), command);
+    const char *near = elsewhere ? NULL : gm_nearest(name + strlen("--"), ROWS, name_at, &command);
+    size_t used = (size_t)snprintf(message, GM_MESSAGE, "%s option %.60s%s%s",
+                                   elsewhere ? "this command has no" : "there is no", name,
+                                   near ? "; did you mean --" : "", near ? near : "");
+    const char *between = elsewhere ? "; it has " : "; there are ";
+    for (size_t i = 0; i < ROWS && !near && used < GM_MESSAGE; i++) {
+        if (rows[i].commands & command) {
+            used += (size_t)snprintf(message + used, GM_MESSAGE - used, "%s%s", between, rows[i].name);
+            between = ", ";
+        }
+    }
+}
+
+static bool is_given(const bool given[ROWS], const char *name)
+{
+    for (size_t i = 0; i < ROWS; i++) {
+        if (given[i] && strcmp(rows[i].name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether the options that were given agree. */
+static bool check_pairs(const struct gm_options *options, const bool given[ROWS], char *message)
+{
+    static const struct {
+        const char *one, *other, *why;
+    } pairs[] = {
+        {"--at", "--frames", "the first makes one picture"},
+        {"--at", "--every", "the first makes one picture"},
+        {"--at", "--rate", "the first makes one picture"},
+        {"--at", "--fps", "the first makes one picture"},
+        {"--at", "--from", "the first makes one picture"},
+        {"--at", "--movie", "the first makes one picture"},
+        {"--frames", "--every", "each says how many frames there are"},
+        {"--frames", "--rate", "each says how many frames there are"},
+        {"--every", "--rate", "each says how many frames there are"},
+        {"--json", "--markdown", "they are two formats"},
+        {"--list", "--movie", "the first only tells of the tour"},
+        {"--list", "--out", "the first only tells of the tour"},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        if (is_given(given, pairs[i].one) && is_given(given, pairs[i].other)) {
+            snprintf(message, GM_MESSAGE, "%s and %s contradict each other: %s", pairs[i].one, pairs[i].other,
+                     pairs[i].why);
+            return false;
+        }
+    }
+    if (options->csv && options->profile && strcmp(options->csv, "-") != 0 &&
+        strcmp(options->csv, options->profile) == 0) {
+        snprintf(message, GM_MESSAGE, "--csv and --profile are to write to one file, %.300s", options->csv);
+        return false;
+    }
+    return true;
+}
+
+bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
+                      char *message)
+{
+    *options = (struct gm_options){.fps = NAN,
+                                   .rate = NAN,
+                                   .from = NAN,
+                                   .at = NAN,
+                                   .width = 1280,
+                                   .height = 720,
+                                   .theme = GM_THEME_LIGHT};
+    options->words = calloc((size_t)argc + 1, sizeof *options->words);
+    if (!options->words) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        return false;
+    }
+    bool given[ROWS] = {false};
+    for (int i = first; i < argc; i++) {
+        const char *word = argv[i];
+        if (strncmp(word, "--", 2) != 0) {
+            options->words[options->word_count++] = argv[i];
+            continue;
+        }
+        const char *equals = strchr(word, '=');
+        const struct row *row = find(word, equals ? (size_t)(equals - word) : strlen(word), command);
+        if (!row || !(row->commands & command)) {
+            refuse_option(message, word, command);
+            return false;
+        }
+        const char *value = "";
+        if (row->kind == FLAG && equals) {
+            snprintf(message, GM_MESSAGE, "%s takes no value", row->name);
+            return false;
+        }
+        if (row->kind != FLAG) {
+            value = equals ? equals + 1 : i + 1 < argc ? argv[++i] : NULL;
+            if (!value) {
+                snprintf(message, GM_MESSAGE, "%s needs a value: %s", row->name, row->value);
+                return false;
+            }
+        }
+        if (given[row - rows]) {
+            snprintf(message, GM_MESSAGE, "%s is given twice", row->name);
+            return false;
+        }
+        given[row - rows] = true;
+        if (!store(options, row, value, message)) {
+            return false;
+        }
+    }
+    return check_pairs(options, given, message);
+}
+
+bool gm_options_have(const struct gm_options *options, const char *word)
+{
+    const size_t length = strcspn(word, "=") + 1;
+    for (int i = 0; i < options->word_count; i++) {
+        if (strncmp(options->words[i], word, length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void gm_options_close(struct gm_options *options)
+{
+    free(options->words);
+    options->words = NULL;
+}
+
+size_t gm_option_count(void)
+{
+    return ROWS;
+}
+
+struct gm_option gm_option_at(size_t index)
+{
+    const struct row *row = &rows[index];
+    return (struct gm_option){row->name, row->value, row->help, row->commands};
+}
+
+void gm_options_help(enum gm_command command)
+{
+    for (size_t i = 0; i < ROWS; i++) {
+        if (rows[i].commands & command) {
+            char left[40];
+            snprintf(left, sizeof left, "%s %s", rows[i].name, rows[i].value);
+            printf("      %-20s %s\n", left, rows[i].help);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_COMMANDS_OPTIONS_H
+#define GM_APP_COMMANDS_OPTIONS_H
+
+#include "app/request/request.h"
+#include "render/layout/theme.h"
+
+/* The commands, as bits: an option says which of them take it. */
+enum gm_command {
+    GM_TUI = 1 << 0,
+    GM_LIST = 1 << 1,
+    GM_RUN = 1 << 2,
+    GM_RENDER = 1 << 3,
+    GM_FIGURES = 1 << 4,
+    GM_CERTIFY = 1 << 5,
+    GM_AGAIN = 1 << 6,
+    GM_TERMINAL = 1 << 7,
+    GM_WORK_PRECISION = 1 << 8,
+    GM_STABILITY = 1 << 9,
+    GM_TOUR = 1 << 10,
+    GM_MANUAL = 1 << 29,
+    GM_COMPLETE = 1 << 30,
+};
+
+/* The --options of a command line; what is not given is 0, NULL or as said. */
+struct gm_options {
+    int json, state, maximum, strict, longer, quick, markdown, listing;
+    const char *csv, *profile, *out, *movie, *measure, *region, *changes;
+    const char *name; /* of a chart's files, by `again` alone; NULL: the command's own */
+    long every, frames;
+    long shard, shards;                    /* 0, 0: not given */
+    double fps, rate;                      /* NAN: not given */
+    double from, at;                       /* NAN: not given */
+    int width, height;                     /* 1280 x 720 */
+    bool sized;                            /* these were given */
+    enum gm_theme theme;                   /* light */
+    const char *graphics, *colours, *look; /* what to believe of the terminal */
+    char **words;                          /* what is left: scene, key=value, names */
+    int word_count;
+};
+
+/* Reads argv[first..]; words point into argv, options->words is malloc'ed. False with a sentence. */
+bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
+                      char *message);
+void gm_options_close(struct gm_options *options);
+
+/* Whether the words set the key that `word` sets: "dt=" or "dt=0.1". */
+bool gm_options_have(const struct gm_options *options, const char *word);
+
+/* What is known of an option. */
+struct gm_option {
+    const char *name;  /* "--size" */
+    const char *value; /* "WxH"; "" if it takes none */
+    const char *help;
+    unsigned commands; /* those that take it */
+};
+size_t gm_option_count(void);
+struct gm_option gm_option_at(size_t index);
+
+/* Writes the options of a command for --help. */
+void gm_options_help(enum gm_command command);
+
+#endif

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_COMMANDS_REFERENCE_CATALOGUE_H
+#define GM_APP_COMMANDS_REFERENCE_CATALOGUE_H
+
+#include "scenes/frame/lane.h"
+
+/* What the tables say, in words: for `list`, the manual and completion. */
+
+enum { GM_CATALOGUE_SCHEMES = 256 };
+
+/* The schemes that fit a scene at its defaults; returns how many, at most GM_CATALOGUE_SCHEMES. */
+size_t gm_catalogue_fitting(const struct gm_scene *scene, const struct gm_scheme **schemes);
+
+/* Whether at least one of these schemes brings this parameter, a row of gm_settings_parameters. */
+bool gm_catalogue_takes(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row);
+
+/* Whether there are further schemes of its name, for other kinds. */
+bool gm_catalogue_shares_name(const struct gm_scheme *scheme);
+
+/* What a parameter may be: "0 to 1", "light, dark", "a word". Returns text. */
+char *gm_catalogue_range(const struct gm_parameter *row, char *text, size_t size);
+
+/* The letters of a scheme's claims, "S=R"; needs GM_CLAIM_COUNT + 1 bytes. */
+void gm_catalogue_letters(const struct gm_scheme *scheme, char *letters);
+
+/* Schemes and scenes as the documentation has them, in Markdown, on standard output. */
+void gm_catalogue_schemes_markdown(void);
+void gm_catalogue_scenes_markdown(void);
+
+#endif

@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint complete WORD ...: what the last word may become, a line each, with a tab and a few words on it.
+   The completions of the shells ask this, so that they know what the tables know. */
+#include <stdio.h>
+#include <string.h>
+
+#include "app/commands/commands.h"
+#include "app/commands/reference/catalogue.h"
+#include "app/request/drive.h"
+#include "app/request/words.h"
+#include "app/tours/tour.h"
+#include "core/schemes.h"
+
+/* The word that is being typed: what stays of it, and what the candidates have to begin with. */
+struct stem {
+    char front[256];
+    const char *begin;
+};
+
+static void offer(const struct stem *stem, const char *candidate, const char *help)
+{
+    if (strncmp(candidate, stem->begin, strlen(stem->begin)) == 0) {
+        printf("%s%s\t%s\n", stem->front, candidate, help);
+    }
+}
+
+static struct stem whole(const char *word)
+{
+    return (struct stem){.begin = word};
+}
+
+/* What stands behind the last of these characters is the stem, the rest its front. */
+static struct stem behind_last(const char *word, const char *breaks)
+{
+    struct stem stem = {.begin = word};
+    for (const char *at = word; *at; at++) {
+        if (strchr(breaks, *at)) {
+            stem.begin = at + 1;
+        }
+    }
+    snprintf(stem.front, sizeof stem.front, "%.*s", (int)(stem.begin - word), word);
+    return stem;
+}
+
+static void offer_scenes(const struct stem *stem)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        offer(stem, gm_scene_at(i)->name, gm_scene_at(i)->title);
+    }
+}
+
+static void offer_schemes(const struct stem *stem, const struct gm_scene *scene)
+{
+    const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
+    const size_t count = scene ? gm_catalogue_fitting(scene, fitting) : gm_scheme_count();
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_scheme *scheme = scene ? fitting[i] : gm_scheme_at(i);
+        offer(stem, scheme->name, scheme->title);
+    }
+}
+
+static void offer_figures(const struct stem *stem)
+{
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        for (size_t f = 0; f < gm_scene_at(s)->figure_count; f++) {
+            offer(stem, gm_scene_at(s)->figures[f].name, gm_scene_at(s)->figures[f].statement);
+        }
+    }
+}
+
+static void offer_tours(const struct stem *stem)
+{
+    char message[GM_MESSAGE];
+    size_t count = 0;
+    struct gm_tour *tours = gm_tours_read(&count, message);
+    for (size_t i = 0; i < count; i++) {
+        offer(stem, tours[i].name, tours[i].title);
+    }
+    gm_tours_close(tours, count);
+}
+
+static void offer_observables(const struct stem *stem, const struct gm_scene *scene)
+{
+    for (size_t i = 0; scene && i < scene->observable_count; i++) {
+        char title[GM_SENTENCE];
+        offer(stem, scene->observables[i].key,
+              gm_observable_title(&scene->observables[i], title, sizeof title));
+    }
+}
+
+/* The values that an option's help names: "truecolor, 256, 16 or none". */
+static void offer_named(const struct stem *stem, const char *names)
+{
+    char copy[128], *rest = NULL;
+    snprintf(copy, sizeof copy, "%s", names);
+    for (char *name = strtok_r(copy, ", ", &rest); name; name = strtok_r(NULL, ", ", &rest)) {
+        if (strcmp(name, "or") != 0) {
+            offer(stem, name, "");
+        }
+    }
+}
+
+/* The values of an option; of files and numbers nothing is known. */
+static void offer_values(const struct gm_option *option, const struct stem *stem,
+                         const struct gm_scene *scene)
+{
+    if (strcmp(option->name, "--measure") == 0) {
+        offer_observables(stem, scene);
+    } else if (strcmp(option->name, "--region") == 0) {
+        offer_schemes(stem, NULL);
+    } else if (strcmp(option->name, "--theme") == 0) {
+        offer(stem, "light", "for paper");
+        offer(stem, "dark", "for a screen");
+        if (option->commands & GM_TUI) {
+            offer(stem, "mono", "without colours");
+        }
+    } else if (strcmp(option->name, "--graphics") == 0 || strcmp(option->name, "--colours") == 0) {
+        offer_named(stem, option->help);
+    }
+}
+
+static void offer_key(const struct stem *stem, const char *key, const char *help)
+{
+    char text[80];
+    snprintf(text, sizeof text, "%s=", key);
+    offer(stem, text, help);
+}
+
+static void offer_keys(const struct stem *stem, const struct gm_scene *scene)
+{
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        offer_key(stem, scene->parameters[i].key, scene->parameters[i].help);
+    }
+    for (size_t i = 0; i < gm_common_key_count; i++) {
+        offer_key(stem, gm_common_keys[i].name, gm_common_keys[i].help);
+    }
+    const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
+    const size_t count = gm_catalogue_fitting(scene, fitting);
+    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
+        const struct gm_parameter *row = &gm_settings_parameters[i];
+        if (!gm_scene_parameter(scene, row->key) && gm_catalogue_takes(fitting, count, row)) {
+            offer_key(stem, row->key, row->help);
+        }
+    }
+}
+
+/* key=value, where the value may be a list. */
+static void offer_assignment(const char *word, const struct gm_scene *scene)
+{
+    const struct stem stem = behind_last(word, "=,");
+    char key[64];
+    snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
+    const struct gm_common_key *common = gm_common_key_find(key);
+    const struct gm_parameter *own = gm_scene_parameter(scene, key), *row = own ? own : gm_setting_find(key);
+    if (strcmp(key, "scheme") == 0) {
+        offer_schemes(&stem, scene);
+    } else if (common) {
+        for (size_t i = 0; common->choices[i]; i++) {
+            offer(&stem, common->choices[i], common->help);
+        }
+    } else if (row && row->type == GM_BOOLEAN) {
+        offer(&stem, "no", "");
+        offer(&stem, "yes", "");
+    } else if (row && row->choices) {
+        for (size_t i = 0; row->choices[i]; i++) {
+            offer(&stem, row->choices[i], row->help);
+        }
+    } else if (row && stem.begin[0] == '\0' && !row->file) { /* the shells know the files */
+        char range[128];
+        snprintf(range, sizeof range, "the default; ");
+        gm_catalogue_range(row, range + strlen(range), sizeof range - strlen(range));
+        offer(&stem, row->standard, range);
+    }
+}
+
+static const struct gm_option *option_of(const struct gm_command_row *command, const char *word,
+                                         struct gm_option *option)
+{
+    const size_t length = strcspn(word, "=");
+    for (size_t i = 0; i < gm_option_count(); i++) {
+        *option = gm_option_at(i);
+        if ((option->commands & command->bit) && strlen(option->name) == length &&
+            strncmp(option->name, word, length) == 0) {
+            return option;
+        }
+    }
+    return NULL;
+}
+
+static void offer_options(const struct gm_command_row *command, const char *word,
+                          const struct gm_scene *scene)
+{
+    struct gm_option option;
+    if (strchr(word, '=')) {
+        const struct stem value = behind_last(word, "=");
+        if (option_of(command, word, &option)) {
+            offer_values(&option, &value, scene);
+        }
+        return;
+    }
+    const struct stem stem = whole(word);
+    for (size_t i = 0; i < gm_option_count(); i++) {
+        option = gm_option_at(i);
+        if (option.commands & command->bit) {
+            offer(&stem, option.name, option.help);
+        }
+    }
+}
+
+/* What a command takes that is no option. */
+static void offer_words(const struct gm_command_row *command, const char *word, const struct gm_scene *scene)
+{
+    const struct stem stem = whole(word);
+    switch (command->bit) {
+    case GM_LIST:
+        offer(&stem, "scenes", "");
+        offer(&stem, "schemes", "");
+        offer(&stem, "figures", "");
+        offer_scenes(&stem);
+        return;
+    case GM_FIGURES:
+        offer_figures(&stem);
+        return;
+    case GM_CERTIFY:
+        offer(&stem, "all", "every scheme");
+        offer_schemes(&stem, NULL);
+        return;
+    case GM_TOUR:
+        offer_tours(&stem);
+        return;
+    case GM_TUI:
+    case GM_RUN:
+    case GM_RENDER:
+    case GM_WORK_PRECISION:
+    case GM_STABILITY:
+        if (!scene) {
+            offer_scenes(&stem);
+        } else if (strchr(word, '=')) {
+            offer_assignment(word, scene);
+        } else {
+            offer_keys(&stem, scene);
+        }
+        return;
+    default:
+        return;
+    }
+}
+
+static void offer_commands(const char *word)
+{
+    const struct stem stem = whole(word);
+    for (size_t i = 0; i < gm_command_count; i++) {
+        offer(&stem, gm_commands[i].name, gm_commands[i].help);
+    }
+    offer_scenes(&stem);
+    offer(&stem, "--help", "commands and options");
+    offer(&stem, "--version", "version and libraries");
+}
+
+int gm_command_complete(int count, char *const words[])
+{
+    const char *last = count > 0 ? words[count - 1] : "";
+    if (count <= 1) {
+        offer_commands(last);
+        return gm_finish(GM_EXIT_OK);
+    }
+    const struct gm_command_row *command = gm_command_find(words[0]);
+    const struct gm_scene *scene = NULL;
+    for (int i = 0; i < count - 1 && !scene; i++) {
+        scene = gm_scene_find(words[i]);
+    }
+    struct gm_option option;
+    if (!command) {
+        return gm_finish(GM_EXIT_OK);
+    }
+    if (count > 2 && option_of(command, words[count - 2], &option) && option.value[0] &&
+        !strchr(words[count - 2], '=')) {
+        const struct stem stem = whole(last);
+        offer_values(&option, &stem, scene);
+    } else if (last[0] == '-') {
+        offer_options(command, last, scene);
+    } else {
+        offer_words(command, last, scene);
+    }
+    return gm_finish(GM_EXIT_OK);
+}

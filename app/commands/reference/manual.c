@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint manual: the page geomint(1), in the macros of man(7). */
+#include <stdio.h>
+#include <string.h>
+
+#include "app/commands/commands.h"
+#include "app/commands/reference/catalogue.h"
+#include "app/request/drive.h"
+#include "app/request/words.h"
+#include "core/schemes.h"
+
+/* Text as troff wants it: no request at the start of a line, hyphens that can be copied. */
+static void put(const char *text)
+{
+    if (*text == '.' || *text == '\'') {
+        printf("\\&");
+    }
+    for (; *text; text++) {
+        switch (*text) {
+        case '\\':
+            printf("\\e");
+            break;
+        case '-':
+            printf("\\-");
+            break;
+        default:
+            putchar(*text);
+        }
+    }
+}
+
+/* A tagged paragraph: a term in bold and what follows it in italics. */
+static void put_term(const char *term, const char *rest)
+{
+    printf(".TP\n\\fB");
+    put(term);
+    printf("\\fR");
+    if (*rest) {
+        printf(" \\fI");
+        put(rest);
+        printf("\\fR");
+    }
+    putchar('\n');
+}
+
+static void put_line(const char *text)
+{
+    put(text);
+    putchar('\n');
+}
+
+static void put_commands(void)
+{
+    printf(".SH COMMANDS\n");
+    for (size_t i = 0; i < gm_command_count; i++) {
+        put_term(gm_commands[i].name, gm_commands[i].synopsis);
+        put_line(gm_commands[i].help);
+        size_t options = 0;
+        for (size_t k = 0; k < gm_option_count(); k++) {
+            const struct gm_option option = gm_option_at(k);
+            if (option.commands & gm_commands[i].bit) {
+                printf("%s", options++ ? "" : ".RS\n");
+                put_term(option.name, option.value);
+                put_line(option.help);
+            }
+        }
+        printf("%s", options ? ".RE\n" : "");
+    }
+    put_term("--help, -h", "");
+    put_line("commands and options; behind a command, its own");
+    put_term("--version, -V", "");
+    put_line("version and libraries");
+}
+
+static void put_parameter(const struct gm_parameter *row)
+{
+    char range[256];
+    char text[160];
+    snprintf(text, sizeof text, "%s=%s", row->key, row->standard);
+    put_term(text, "");
+    put(row->help);
+    printf(" (");
+    put(gm_catalogue_range(row, range, sizeof range));
+    printf(")%s", row->unit[0] ? ", in " : "");
+    put_line(row->unit);
+}
+
+static void put_scenes(void)
+{
+    printf(".SH SCENES\nEach with its parameters at their defaults, and what they may be.\n");
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        printf(".SS ");
+        put_line(scene->name);
+        put(scene->title);
+        printf(". ");
+        put_line(scene->blurb);
+        printf(".PP\nObservables:");
+        for (size_t k = 0; k < scene->observable_count; k++) {
+            printf(k ? ", " : " ");
+            put(scene->observables[k].key);
+        }
+        printf(".\n");
+        for (size_t k = 0; k < scene->parameter_count; k++) {
+            put_parameter(&scene->parameters[k]);
+        }
+    }
+}
+
+static void put_schemes(void)
+{
+    printf(".SH SCHEMES\nWith order and claims:");
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        printf("%s %s ", bit ? "," : "", gm_claim_letter(bit));
+        put(gm_claim_word(bit));
+    }
+    printf(".\n");
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        char letters[GM_CLAIM_COUNT + 1];
+        gm_catalogue_letters(scheme, letters);
+        put_term(scheme->name, "");
+        put(scheme->title);
+        if (scheme->order > 0) {
+            printf(", order %d", scheme->order);
+        }
+        printf("%s", letters[0] ? ", " : "");
+        put_line(letters);
+    }
+}
+
+static void put_words(void)
+{
+    printf(
+        ".SH PARAMETERS\n"
+        "Every parameter is a word key=value, and every key takes a list: lanes are the product of the lists, the "
+        "first of them gives the panels, the second the colours. Numbers are typed as 1e\\-3, pi/60, 2*pi. An "
+        "unknown key or a value out of range is refused with the nearest valid one.\n");
+    for (size_t i = 0; i < gm_common_key_count; i++) {
+        char name[40];
+        snprintf(name, sizeof name, "%s=", gm_common_keys[i].name);
+        put_term(name, gm_common_keys[i].value);
+        put_line(gm_common_keys[i].help);
+    }
+    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
+        put_parameter(&gm_settings_parameters[i]);
+    }
+}
+
+static void put_surroundings(void)
+{
+    static const char *const exits[][2] = {
+        {"0", "done"},
+        {"1", "wrong usage"},
+        {"2",
+         "a lane of run (of render with --strict) ended in a numerical failure; its numbers are printed"},
+        {"3", "a file could not be read or written"},
+        {"4", "a claim of certify is broken"},
+        {"5", "not enough memory; the status of such a lane is out-of-memory"},
+        {"130", "interrupted; what is finished stays"},
+        {"141", "a broken pipe"},
+    };
+    static const char *const environment[][2] = {
+        {"GEOMINT_GL", "osmesa or egl: which OpenGL paints without a screen"},
+        {"GEOMINT_COLOURS", "truecolor, 256, 16 or none, whatever the terminal says"},
+        {"GEOMINT_GRAPHICS",
+         "kitty, sixel, braille, quadrants, half or ascii: what pictures in the terminal are made of"},
+        {"GEOMINT_THEME", "light, dark or mono, in the terminal"},
+        {"GEOMINT_TOURS", "a folder with tours, in place of the installed ones"},
+        {"NO_COLOR", "if it is not empty, the explorer uses no colour"},
+    };
+    printf(".SH EXIT STATUS\n");
+    for (size_t i = 0; i < sizeof exits / sizeof exits[0]; i++) {
+        put_term(exits[i][0], "");
+        put_line(exits[i][1]);
+    }
+    printf(".SH ENVIRONMENT\n");
+    for (size_t i = 0; i < sizeof environment / sizeof environment[0]; i++) {
+        put_term(environment[i][0], "");
+        put_line(environment[i][1]);
+    }
+}
+
+static void put_examples(void)
+{
+    static const char *const examples[][2] = {
+        {"geomint run disc scheme=explicit-euler dt=0.02 until=5", "numbers of one run"},
+        {"geomint render kepler scheme=rk4,verlet --movie kepler.mp4", "a movie of two schemes side by side"},
+        {"geomint work-precision kepler --out diagrams", "error against cost, of every scheme that fits"},
+        {"geomint figures tyranowski-11 --out published", "a published figure with its numbers"},
+    };
+    printf(".SH EXAMPLES\n");
+    for (size_t i = 0; i < sizeof examples / sizeof examples[0]; i++) {
+        put_term(examples[i][0], "");
+        put_line(examples[i][1]);
+    }
+    printf(".SH SEE ALSO\n.BR ffmpeg (1),\n.BR gmsh (1)\n");
+}
+
+int gm_command_manual(const struct gm_options *options)
+{
+    if (options->word_count > 0) {
+        gm_complain("manual takes no arguments");
+        return GM_EXIT_USAGE;
+    }
+    printf(".TH GEOMINT 1 \"\" \"geomint %s\" \"User commands\"\n.SH NAME\ngeomint \\- see what a geometric "
+           "integrator keeps and what an ordinary one destroys\n.SH SYNOPSIS\n",
+           GM_VERSION);
+    for (size_t i = 0; i < gm_command_count; i++) {
+        printf("%s.B geomint%s", i ? ".br\n" : "", i ? " " : "");
+        put_line(i ? gm_commands[i].name : "");
+        if (gm_commands[i].synopsis[0]) {
+            printf(".I ");
+            put_line(gm_commands[i].synopsis);
+        }
+    }
+    printf(
+        ".SH DESCRIPTION\nShows and measures geometric integrators: live in a terminal, or as pictures and movies "
+        "made on a machine without a screen. Every scheme comes with its error, its cost and its stability, "
+        "measured.\n");
+    put_commands();
+    put_words();
+    put_surroundings();
+    put_examples();
+    put_scenes();
+    put_schemes();
+    return gm_finish(GM_EXIT_OK);
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/commands/reference/catalogue.h"
+#include "core/schemes.h"
+
+/* A cell of a table: a bar would end it. */
+static void put_cell(const char *text)
+{
+    for (; *text; text++) {
+        if (*text == '|') {
+            putchar('\\');
+        }
+        putchar(*text);
+    }
+}
+
+static void put_claims(const struct gm_scheme *scheme)
+{
+    const char *comma = "";
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        if (scheme->claims >> bit & 1) {
+            printf("%s%s", comma, gm_claim_word(bit));
+            comma = ", ";
+        }
+    }
+    if (!scheme->claims) {
+        printf("none");
+    }
+}
+
+/* fits[scene * scheme_count + scheme] */
+static void put_scheme(size_t index, const bool *fits)
+{
+    const struct gm_scheme *scheme = gm_scheme_at(index);
+    printf("### %s: `%s`\n\n", scheme->title, scheme->name);
+    if (scheme->alias) {
+        printf("Also called `%s`. ", scheme->alias);
+    }
+    if (scheme->order > 0) {
+        printf("Order %d. ", scheme->order);
+    }
+    printf("Claims: ");
+    put_claims(scheme);
+    printf(".\n\n```text\n%s\n```\n\n%s.\n\n", scheme->formula, scheme->reference);
+    const char *comma = "Fits ";
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        if (fits[s * gm_scheme_count() + index]) {
+            printf("%s[%s](scenes.md#%s)", comma, gm_scene_at(s)->name, gm_scene_at(s)->name);
+            comma = ", ";
+        }
+    }
+    printf("%s", strcmp(comma, ", ") == 0 ? ".\n\n" : "Fits no scene at its defaults.\n\n");
+}
+
+static bool *make_fits(void)
+{
+    const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
+    bool *fits = calloc(gm_scene_count() * gm_scheme_count(), sizeof *fits);
+    for (size_t s = 0; fits && s < gm_scene_count(); s++) {
+        const size_t count = gm_catalogue_fitting(gm_scene_at(s), fitting);
+        for (size_t i = 0; i < gm_scheme_count(); i++) {
+            for (size_t k = 0; k < count; k++) {
+                fits[s * gm_scheme_count() + i] |= fitting[k] == gm_scheme_at(i);
+            }
+        }
+    }
+    return fits;
+}
+
+void gm_catalogue_schemes_markdown(void)
+{
+    bool *fits = make_fits();
+    if (!fits) {
+        return;
+    }
+    printf("# Schemes\n\nWritten by `geomint list schemes --markdown`. What a scheme claims is measured by "
+           "`geomint certify NAME`; a number at the end of a name is the order.\n\n");
+    const struct gm_family *family = NULL;
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        if (gm_scheme_at(i)->family != family) {
+            family = gm_scheme_at(i)->family;
+            printf("## %s\n\n", family->title);
+        }
+        put_scheme(i, fits);
+    }
+    free(fits);
+}
+
+static void put_parameter(const struct gm_parameter *row)
+{
+    char range[256];
+    printf("| `%s` | ", row->key);
+    put_cell(row->standard);
+    printf(" | ");
+    put_cell(gm_catalogue_range(row, range, sizeof range));
+    printf(" | ");
+    put_cell(row->help);
+    if (row->unit[0]) {
+        printf(", in ");
+        put_cell(row->unit);
+    }
+    printf("%s |\n", row->live ? "; live" : "");
+}
+
+static void put_scene(const struct gm_scene *scene)
+{
+    const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
+    const size_t count = gm_catalogue_fitting(scene, fitting);
+    printf("## %s\n\n**%s.** %s %s The unit of time is %s.\n\n", scene->name, scene->title, scene->blurb,
+           scene->watch, scene->time);
+    printf("| parameter | default | range | meaning |\n|---|---|---|---|\n");
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        put_parameter(&scene->parameters[i]);
+    }
+    printf("\n| observable | meaning |\n|---|---|\n");
+    for (size_t i = 0; i < scene->observable_count; i++) {
+        printf("| `%s` | ", scene->observables[i].key);
+        char title[GM_SENTENCE];
+        put_cell(gm_observable_title(&scene->observables[i], title, sizeof title));
+        if (scene->observables[i].unit[0]) {
+            printf(", in ");
+            put_cell(scene->observables[i].unit);
+        }
+        printf(" |\n");
+    }
+    printf("\nSchemes at the defaults:");
+    for (size_t i = 0; i < count; i++) {
+        printf("%s `%s`", i ? "," : "", fitting[i]->name);
+    }
+    printf(".\n\n");
+    for (size_t i = 0; i < scene->figure_count; i++) {
+        printf("%s`%s`", i ? ", " : "Published figures: ", scene->figures[i].name);
+    }
+    printf("%s", scene->figure_count ? ".\n\n" : "");
+}
+
+void gm_catalogue_scenes_markdown(void)
+{
+    printf(
+        "# Scenes\n\nWritten by `geomint list scenes --markdown`. A live parameter acts on the present state when "
+        "it is changed in the explorer; a change of any other starts the run again.\n\n");
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        put_scene(gm_scene_at(i));
+    }
+    printf(
+        "## Parameters that schemes bring\n\n| parameter | default | range | meaning |\n|---|---|---|---|\n");
+    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
+        put_parameter(&gm_settings_parameters[i]);
+    }
+}

@@ -1,0 +1,504 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint render: pictures, frames and movies. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "app/commands/commands.h"
+#include "app/output/checkpoint.h"
+#include "app/output/folder.h"
+#include "app/request/drive.h"
+#include "core/memory.h"
+#include "render/files/sink.h"
+#include "render/gl/canvas.h"
+
+/* A render of many frames leaves them as pictures from the first one on, a movie's beside the movie until
+   that is complete, and a checkpoint of its lanes now and then. So a killed one goes on by the same command:
+   frames that are there are looked at and kept, the state comes from the checkpoint or, if there is none that
+   helps, from the start without painting. Both give the same bits as a render that nobody disturbed. */
+
+struct work {
+    struct gm_request *request;
+    const struct gm_options *options;
+    struct gm_drive *drives;
+    struct gm_lane **lanes;
+    struct gm_canvas *canvas;
+    struct gm_picture *picture;
+    struct gm_schedule schedule;
+    struct gm_provenance provenance;
+    /* of a sequence */
+    struct gm_frames frames;
+    char *folder;                     /* of the frames */
+    char *checkpoint;                 /* its path; NULL: the lanes cannot be continued from a snapshot */
+    long done;                        /* frames that are there */
+    struct gm_sink *pictures, *movie; /* NULL: not wanted */
+};
+
+static const struct gm_lane *const *lanes_of(const struct work *work)
+{
+    return (const struct gm_lane *const *)work->lanes;
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void show_progress(const struct work *work, long made, double started)
+{
+    const long count = work->schedule.ours;
+    const double rate = (double)made / fmax(seconds_now() - started, 1e-9);
+    enum { WIDTH = 30 };
+    const int filled = (int)((double)WIDTH * (double)work->done / (double)count);
+    char bar[WIDTH + 1];
+    for (int i = 0; i < WIDTH; i++) {
+        bar[i] = i < filled ? '#' : '.';
+    }
+    bar[WIDTH] = '\0';
+    fprintf(stderr, "\r%s %ld/%ld frames, %.1f a second, %.0f s left  ", bar, work->done, count, rate,
+            (double)(count - work->done) / fmax(rate, 1e-9));
+}
+
+/* Drives the lanes to the time of a frame. */
+static bool drive_to(struct work *work, long frame, char *message)
+{
+    for (size_t i = 0; i < work->request->count; i++) {
+        const long steps = work->request->lanes[i].steps;
+        struct gm_drive *drive = &work->drives[i];
+        long due = 0, before = -1;
+        /* where the scheme chooses its step, one after the other until the time is reached */
+        do {
+            before = drive->lane->run->steps;
+            due = gm_drive_step_at(drive, gm_schedule_time(&work->schedule, frame));
+            if (!gm_drive_to(drive, due < steps ? due : steps, true, message)) {
+                return false;
+            }
+        } while (drive->lane->scheme->family->own_time && drive->lane->run->steps > before);
+    }
+    return true;
+}
+
+/* A line for each lane that has failed; malloc'ed, NULL when memory is short. */
+static char *failures_of(const struct work *work)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    for (size_t i = 0; i < work->request->count; i++) {
+        char sentence[GM_MESSAGE];
+        gm_failure_sentence(work->lanes[i], sentence, sizeof sentence);
+        if (sentence[0]) {
+            fprintf(stream, "%s: %s: %s\n", work->lanes[i]->scheme->name,
+                    gm_status_name(work->lanes[i]->run->status), sentence);
+        }
+    }
+    fclose(stream);
+    return text;
+}
+
+/* Hands a painted frame to the pictures, with what it tells of itself. */
+static bool put_picture(struct work *work, unsigned char *rgb, long frame)
+{
+    struct gm_png_text texts[3];
+    char *steps = gm_provenance_steps(lanes_of(work), work->request->count);
+    char *failures = failures_of(work);
+    char *place = work->schedule.still ? NULL : gm_frames_text(&work->frames, frame);
+    const bool good = steps && failures && (place || work->schedule.still);
+    size_t count = 0;
+    if (good) {
+        texts[count++] = (struct gm_png_text){GM_KEY_STEPS, steps};
+        if (failures[0]) {
+            texts[count++] = (struct gm_png_text){GM_KEY_FAILURES, failures};
+        }
+        if (place) {
+            texts[count++] = (struct gm_png_text){GM_KEY_FRAME, place};
+        }
+        gm_sink_put(work->pictures, rgb, frame, texts, count);
+    }
+    free(steps);
+    free(failures);
+    free(place);
+    return good;
+}
+
+static bool paint_frame(struct work *work, long frame, char *message)
+{
+    if (!drive_to(work, frame, message)) {
+        return false;
+    }
+    if (gm_interrupted) {
+        return true;
+    }
+    unsigned char *rgb = gm_sink_frame(work->pictures);
+    unsigned char *copy = work->movie && rgb ? gm_sink_frame(work->movie) : NULL;
+    if (!rgb || (work->movie && !copy)) {
+        return false; /* the sink tells why when it is closed */
+    }
+    gm_picture_clear(work->picture);
+    work->request->scene->draw(lanes_of(work), work->request->count, work->picture);
+    if (!gm_canvas_paint(work->canvas, work->picture, rgb) || gm_memory_was_short()) {
+        snprintf(message, GM_MESSAGE, "not enough memory to paint");
+        return false;
+    }
+    if (copy) {
+        memcpy(copy, rgb, 3 * (size_t)work->options->width * (size_t)work->options->height);
+        gm_sink_put(work->movie, copy, frame, NULL, 0);
+    }
+    if (!put_picture(work, rgb, frame)) {
+        snprintf(message, GM_MESSAGE, "not enough memory for a frame's texts");
+        return false;
+    }
+    return true;
+}
+
+/* A frame that is there already goes into the movie as it is. */
+static bool reuse_frame(struct work *work, long frame, char *message)
+{
+    if (!work->movie) {
+        return true;
+    }
+    unsigned char *rgb = gm_sink_frame(work->movie);
+    if (!rgb) {
+        return false; /* the sink tells why when it is closed */
+    }
+    char *path = gm_frames_path(&work->frames, frame);
+    const bool good = path && gm_png_read(path, work->options->width, work->options->height, rgb, message);
+    if (good) {
+        gm_sink_put(work->movie, rgb, frame, NULL, 0);
+    }
+    free(path);
+    return good;
+}
+
+static void close_lanes(struct work *work)
+{
+    for (size_t i = 0; work->lanes && i < work->request->count; i++) {
+        gm_lane_close(work->lanes[i]);
+        work->lanes[i] = NULL;
+    }
+}
+
+static bool open_lanes(struct work *work, char *message)
+{
+    for (size_t i = 0; i < work->request->count; i++) {
+        struct gm_lane *lane = gm_request_open_lane(work->request, i, message);
+        if (!lane) {
+            return false;
+        }
+        work->drives[i] = (struct gm_drive){.lane = lane, .request = work->request, .index = i};
+        work->lanes[i] = lane;
+    }
+    return true;
+}
+
+/* The state behind the last frame before the first that is missing, where a checkpoint has one. */
+static bool resume(struct work *work, char *message)
+{
+    const long first = gm_frames_first_missing(&work->frames);
+    long frame = -1;
+    bool spoilt = false;
+    if (first < 0 || !work->checkpoint) {
+        return true;
+    }
+    const bool read = gm_checkpoint_read(work->checkpoint, &work->frames, &frame, work->lanes,
+                                         work->request->count, &spoilt);
+    if (read && frame < first) {
+        return true;
+    }
+    if (read || spoilt) {
+        /* a frame before it is missing: all begins at the start again */
+        close_lanes(work);
+        return open_lanes(work, message);
+    }
+    return true;
+}
+
+/* The lanes as they are behind a frame, when all frames up to there are written. */
+static bool keep_state(struct work *work, long frame, char *message)
+{
+    return !gm_sink_flush(work->pictures) ||
+           gm_checkpoint_write(work->checkpoint, &work->frames, frame, lanes_of(work), work->request->count,
+                               message);
+}
+
+static bool make_frames(struct work *work, char *message)
+{
+    enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; of the time they take themselves */
+    const double started = seconds_now();
+    const bool progress = isatty(STDERR_FILENO);
+    const long last = work->movie ? work->schedule.count - 1 : gm_frames_last_missing(&work->frames);
+    double due = started + INTERVAL;
+    long made = 0, painted = -1;
+    work->done = work->frames.found;
+    for (long frame = 0; frame <= last && !gm_interrupted; frame++) {
+        if (!gm_schedule_is_ours(&work->schedule, frame)) {
+            continue;
+        }
+        if (work->frames.there[frame]) {
+            if (!reuse_frame(work, frame, message)) {
+                return false;
+            }
+            continue;
+        }
+        if (!paint_frame(work, frame, message)) {
+            return false;
+        }
+        if (!gm_interrupted) {
+            made++;
+            work->done++;
+            painted = frame;
+        }
+        const double now = seconds_now();
+        if (work->checkpoint && painted >= 0 && (now > due || (gm_interrupted && made > 0))) {
+            if (!keep_state(work, painted, message)) {
+                return false;
+            }
+            const double after = seconds_now();
+            due = after + fmax(INTERVAL, SHARE * (after - now));
+        }
+        if (progress) {
+            show_progress(work, made, started);
+        }
+    }
+    if (progress) {
+        fputc('\n', stderr);
+    }
+    return true;
+}
+
+/* Where the frames go: --out, or beside the movie until it is complete. */
+static char *folder_of(const struct gm_options *options)
+{
+    char *text = NULL;
+    if (options->movie && !options->out) {
+        return asprintf(&text, "%s.frames", options->movie) < 0 ? NULL : text;
+    }
+    return strdup(options->out ? options->out : ".");
+}
+
+static bool open_sinks(struct work *work, const char *name, char *message)
+{
+    const struct gm_options *options = work->options;
+    const struct gm_sink_settings settings = {
+        .width = options->width,
+        .height = options->height,
+        .fps = isnan(options->fps) ? 30 : options->fps,
+        .texts = work->provenance.texts,
+        .text_count = work->provenance.count,
+        .interruptions = &gm_interrupted,
+    };
+    /* first what can be known to fail */
+    if (options->movie && (!gm_folder_make_for(options->movie, message) ||
+                           !(work->movie = gm_sink_open_movie(options->movie, &settings, message)))) {
+        return false;
+    }
+    work->folder = folder_of(options);
+    if (!work->folder ||
+        !gm_frames_open(&work->frames, &work->schedule, work->folder, name, &work->provenance, message)) {
+        return false;
+    }
+    if (!work->schedule.still && gm_checkpoint_fits(work->request)) {
+        work->checkpoint = gm_checkpoint_path(&work->frames);
+    }
+    work->pictures = gm_sink_open_png(work->frames.pattern, &settings, message);
+    return work->pictures != NULL;
+}
+
+/* What the last frame of ours tells of lanes that failed, wherever it was painted. malloc'ed. */
+static char *last_failures(const struct work *work)
+{
+    const long last = gm_schedule_last(&work->schedule);
+    if (last < 0 || !work->frames.there[last]) {
+        return failures_of(work);
+    }
+    char message[GM_MESSAGE];
+    char *path = gm_frames_path(&work->frames, last);
+    char *text = path ? gm_png_read_text(path, GM_KEY_FAILURES, message) : NULL;
+    free(path);
+    return text ? text : strdup("");
+}
+
+/* What the last frame's lanes have to be told of, where it was painted now. */
+static void tell_warnings(const struct work *work)
+{
+    const long last = gm_schedule_last(&work->schedule);
+    for (size_t i = 0; (last < 0 || !work->frames.there[last]) && i < work->request->count; i++) {
+        char sentence[GM_SENTENCE];
+        gm_lane_warning(work->lanes[i], sentence, sizeof sentence);
+        if (sentence[0]) {
+            gm_complain("%s: warning: %s", work->lanes[i]->scheme->name, sentence);
+        }
+    }
+}
+
+/* The exit status of frames that are all written. */
+static int tell_end(const struct work *work)
+{
+    char *failures = last_failures(work), *rest = NULL;
+    const bool failed = failures && failures[0];
+    for (char *line = failures ? strtok_r(failures, "\n", &rest) : NULL; line;
+         line = strtok_r(NULL, "\n", &rest)) {
+        gm_complain("%s", line);
+    }
+    free(failures);
+    tell_warnings(work);
+    return work->options->strict && failed ? GM_EXIT_NUMERICAL : GM_EXIT_OK;
+}
+
+/* Says what was written; frames that were there already are told of before. */
+static void tell_written(const struct work *work)
+{
+    const struct gm_options *options = work->options;
+    const struct gm_frames *frames = &work->frames;
+    const long made = work->done - frames->found;
+    if (options->movie) {
+        gm_complain("wrote %s", options->movie);
+    }
+    if (work->schedule.still) {
+        gm_complain("wrote %s/%s.png", frames->folder, frames->name);
+    } else if (made > 0 && (options->out || !options->movie)) {
+        gm_complain("wrote %ld frames, %s/%s-*.png", made, frames->folder, frames->name);
+    }
+}
+
+static int close_sinks(struct work *work, bool good, char *message)
+{
+    /* an interrupted movie is finished with the frames it has; only an error gives it up, but no picture */
+    const bool written = !work->pictures || gm_sink_close(work->pictures, true, message);
+    const bool moving = !work->movie || gm_sink_close(work->movie, good && written, message);
+    work->pictures = work->movie = NULL;
+    return written && moving;
+}
+
+static int paint_all(struct work *work, const char *name)
+{
+    char message[GM_MESSAGE] = "";
+    const struct gm_options *options = work->options;
+    work->canvas = gm_canvas_open(options->width, options->height, options->theme, message);
+    bool good = work->canvas != NULL;
+    if (good && !gm_provenance_make(&work->provenance, work->request, options->width, options->height,
+                                    options->theme, gm_canvas_backend(work->canvas))) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        good = false;
+    }
+    good = good && open_sinks(work, name, message);
+    if (good && work->frames.found > 0) {
+        gm_complain("%ld of %ld frames are there already", work->frames.found, work->schedule.ours);
+    }
+    good = good && resume(work, message) && make_frames(work, message);
+    const bool closed = close_sinks(work, good, message);
+    if (!closed || !good) {
+        gm_complain("%s", message);
+        if (!gm_interrupted) {
+            return GM_EXIT_FILE;
+        }
+    }
+    if (gm_interrupted) {
+        if (!work->schedule.still) {
+            gm_complain("stopped at %ld of %ld frames; the same command goes on from there", work->done,
+                        work->schedule.ours);
+        }
+        return GM_EXIT_INTERRUPTED;
+    }
+    const int status = tell_end(work);
+    tell_written(work);
+    if (work->checkpoint) {
+        unlink(work->checkpoint);
+    }
+    if (options->movie && !options->out) {
+        gm_frames_remove(&work->frames);
+    }
+    return status;
+}
+
+static void close_work(struct work *work)
+{
+    close_lanes(work);
+    free(work->drives);
+    free(work->lanes);
+    free(work->folder);
+    free(work->checkpoint);
+    gm_frames_close(&work->frames);
+    gm_provenance_close(&work->provenance);
+    gm_picture_close(work->picture);
+    gm_canvas_close(work->canvas);
+}
+
+int gm_render(struct gm_request *request, const struct gm_options *options, const char *name)
+{
+    char message[GM_MESSAGE] = "not enough memory";
+    struct work work = {
+        .request = request,
+        .options = options,
+        .drives = calloc(request->count, sizeof *work.drives),
+        .lanes = calloc(request->count, sizeof *work.lanes),
+        .picture = gm_picture_open(),
+    };
+    int status = GM_EXIT_USAGE;
+    if (!work.drives || !work.lanes || !work.picture ||
+        !gm_schedule_make(&work.schedule, request, options, message) || !open_lanes(&work, message)) {
+        gm_complain("%s", message);
+    } else {
+        status = paint_all(&work, name);
+    }
+    close_work(&work);
+    return status;
+}
+
+/* "LANE:STEP:KEY=VALUE,...", as the explorer writes them; closes the request and returns false with a
+   sentence if they are not understood. */
+static bool take_changes(struct gm_request *request, const char *list, char *message)
+{
+    char *text = list ? strdup(list) : NULL;
+    int colons = 0;
+    for (char *at = text; at && *at; at++) {
+        if (*at == ',') {
+            *at = '\n';
+            colons = 0;
+        } else if (*at == ':' && colons < 2) {
+            *at = ' ';
+            colons++;
+        }
+    }
+    bool good = !list || (text && gm_changes_parse(request, text));
+    free(text);
+    if (!good) {
+        snprintf(message, GM_MESSAGE,
+                 "--changes %.60s: is not LANE:STEP:KEY=VALUE,... of lanes that there are", list);
+    }
+    for (size_t i = 0; good && i < request->change_count; i++) {
+        char sentence[GM_MESSAGE];
+        if (!gm_change_check(request, &request->changes[i], sentence)) {
+            snprintf(message, GM_MESSAGE, "--changes %.60s: %.400s", list, sentence);
+            good = false;
+        }
+    }
+    if (!good) {
+        gm_request_close(request);
+    }
+    return good;
+}
+
+int gm_command_render(const struct gm_options *options)
+{
+    char message[GM_MESSAGE], name[128];
+    struct gm_request request;
+    if (!gm_request_parse(&request, options->word_count, options->words, GM_RENDER_SCHEMES, message) ||
+        !take_changes(&request, options->changes, message)) {
+        gm_complain("%s", message);
+        return gm_request_refusal(&request);
+    }
+    gm_catch_interrupts();
+    snprintf(name, sizeof name, "%s-render", request.scene->name);
+    const int status = gm_render(&request, options, name);
+    gm_request_close(&request);
+    return gm_finish(status);
+}

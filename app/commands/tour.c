@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint tour: lists tours, opens one in the explorer, or renders it without a screen. */
+#include <stdio.h>
+#include <string.h>
+
+#include "app/commands/commands.h"
+#include "app/explorer/explorer.h"
+#include "app/request/drive.h"
+#include "app/tours/movie.h"
+#include "app/tours/tour.h"
+
+static int list_tours(void)
+{
+    char message[GM_MESSAGE];
+    size_t count = 0;
+    struct gm_tour *tours = gm_tours_read(&count, message);
+    for (size_t i = 0; i < count; i++) {
+        gm_say("%-16s %s (%zu steps)", tours[i].name, tours[i].title, tours[i].count);
+        printf("%-16s %s\n", "", tours[i].about ? tours[i].about : "");
+    }
+    gm_tours_close(tours, count);
+    if (message[0]) {
+        gm_complain("%s", message);
+    }
+    return gm_finish(message[0] ? GM_EXIT_FILE : GM_EXIT_OK);
+}
+
+static void print_text(const char *word, const char *text)
+{
+    if (text) {
+        printf("   %-7s %s\n", word, text);
+    }
+}
+
+/* What a teacher wants to read beforehand. */
+static int list_steps(const struct gm_tour *tour)
+{
+    printf("%s\n%s\n", tour->title, tour->about ? tour->about : "");
+    for (size_t i = 0; i < tour->count; i++) {
+        const struct gm_tour_step *step = &tour->steps[i];
+        printf("\n%zu. %s\n", i + 1, step->title);
+        print_text("", step->say);
+        print_text("ask", step->ask);
+        print_text("answer", step->answer);
+        print_text("watch", step->watch);
+        print_text("try", step->attempt);
+        if (step->show) {
+            printf("   %-7s geomint %s\n", "shows", step->show);
+        }
+    }
+    return gm_finish(GM_EXIT_OK);
+}
+
+/* A movie has light or dark paper. */
+static int make_movie(const struct gm_tour *tour, const struct gm_options *options)
+{
+    struct gm_options painted = *options;
+    const bool dark = options->look && strcmp(options->look, "dark") == 0;
+    if (options->look && !dark && strcmp(options->look, "light") != 0) {
+        gm_complain("--theme %.60s: is none of: light, dark", options->look);
+        return GM_EXIT_USAGE;
+    }
+    painted.theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
+    gm_catch_interrupts();
+    return gm_finish(gm_tour_render(tour, &painted));
+}
+
+int gm_command_tour(const struct gm_options *options)
+{
+    char message[GM_MESSAGE], path[8192];
+    struct gm_tour tour;
+    bool file = false;
+    if (options->word_count > 1) {
+        gm_complain("tour takes one name; one of several words stands in quotation marks");
+        return GM_EXIT_USAGE;
+    }
+    if (options->word_count == 0 && (options->movie || options->out)) {
+        gm_complain("which tour? geomint tour lists them");
+        return GM_EXIT_USAGE;
+    }
+    if (options->word_count == 0) {
+        return list_tours();
+    }
+    if (!gm_tour_find(options->words[0], path, sizeof path, message)) {
+        gm_complain("%s", message);
+        return GM_EXIT_USAGE;
+    }
+    if (!gm_tour_read(&tour, path, &file, message)) {
+        gm_complain("%s", message);
+        return file ? GM_EXIT_FILE : GM_EXIT_USAGE;
+    }
+    int status = GM_EXIT_OK;
+    if (options->listing) {
+        status = list_steps(&tour);
+    } else if (options->movie || options->out) {
+        status = make_movie(&tour, options);
+    } else {
+        const struct gm_overrides overrides = gm_overrides_of(options);
+        status = gm_explorer_tour(&tour, &overrides);
+    }
+    gm_tour_close(&tour);
+    return status;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint tui, the explorer, and geomint terminal, what it found out. */
+#include "app/commands/commands.h"
+#include "app/explorer/explorer.h"
+#include "app/explorer/terminal/terminal.h"
+#include "app/request/drive.h"
+
+struct gm_overrides gm_overrides_of(const struct gm_options *options)
+{
+    return (struct gm_overrides){
+        .colours = options->colours, .graphics = options->graphics, .theme = options->look};
+}
+
+int gm_command_terminal(const struct gm_options *options)
+{
+    if (options->word_count > 0) {
+        gm_complain("terminal takes no arguments");
+        return GM_EXIT_USAGE;
+    }
+    const struct gm_overrides overrides = gm_overrides_of(options);
+    return gm_finish(gm_terminal_report(&overrides));
+}
+
+int gm_command_tui(const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    struct gm_request request = {0};
+    if (options->word_count > 0 &&
+        !gm_request_parse(&request, options->word_count, options->words, 3, message)) {
+        gm_complain("%s", message);
+        return gm_request_refusal(&request);
+    }
+    const struct gm_overrides overrides = gm_overrides_of(options);
+    const int status = gm_explorer(options->word_count > 0 ? &request : NULL, &overrides);
+    gm_request_close(&request);
+    return status;
+}

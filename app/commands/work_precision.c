@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint work-precision: error against run time and evaluations. */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/commands/commands.h"
+#include "app/output/chart.h"
+#include "app/output/json.h"
+#include "app/request/drive.h"
+#include "app/studies/work.h"
+#include "core/memory.h"
+
+static void print_cell(double value)
+{
+    if (isfinite(value)) {
+        printf(" %11.3g", value);
+    } else {
+        printf(" %11s", "-");
+    }
+}
+
+static void print_table(const struct gm_work_table *table)
+{
+    const struct gm_timing *timing = table->request.lanes[0].parameters;
+    char sentence[512];
+    printf("%s, %s at t = %.6g", table->request.scene->name, table->measure, timing->until);
+    printf(table->reference[0] ? " against %s\n" : "\n", table->reference);
+    const enum gm_work_cost second = gm_work_second_cost(table);
+    char heading[64];
+    snprintf(heading, sizeof heading, "%s for an error of",
+             table->resolution ? table->resolution->key : "evaluations");
+    printf("%-26s %35s %35s %9s\n%-26s", "", "milliseconds for an error of", heading, "least", "scheme");
+    for (int cost = 0; cost < 2; cost++) {
+        for (size_t i = 0; i < 3; i++) {
+            printf(" %11.0e", table->errors[i]);
+        }
+    }
+    printf(" %9s\n", "error");
+    for (size_t i = 0; i < table->line_count; i++) {
+        const struct gm_work_line *line = &table->lines[i];
+        double least = INFINITY;
+        printf("%-26s", line->scheme->name);
+        for (size_t k = 0; k < 3; k++) {
+            print_cell(1e3 * gm_work_price(line, table->errors[k], GM_COST_SECONDS));
+        }
+        for (size_t k = 0; k < 3; k++) {
+            const double price = gm_work_price(line, table->errors[k], second);
+            print_cell(second == GM_COST_RESOLUTION ? gm_work_resolution(table, price) : price);
+        }
+        for (size_t k = 0; k < line->count; k++) {
+            least = fmin(least, line->points[k].error);
+        }
+        if (isfinite(least)) {
+            printf(" %9.1e\n", least);
+        } else {
+            printf(" %9s\n", line->count > 0 ? gm_status_name(line->points[line->count - 1].status) : "-");
+        }
+    }
+    printf("%s\n", gm_work_sentence(table, sentence, sizeof sentence));
+}
+
+static void print_json_point(const struct gm_work_table *table, const struct gm_work_point *point)
+{
+    printf("{");
+    if (table->resolution) {
+        gm_json_number_pair(table->resolution->key, gm_work_resolution(table, point->resolution));
+        printf(",");
+    }
+    gm_json_number_pair("dt", point->dt);
+    printf(",\"steps\":%ld,", point->steps);
+    gm_json_number_pair("t", point->t);
+    printf(",\"status\":\"%s\",", gm_status_name(point->status));
+    gm_json_number_pair("error", point->error);
+    printf(",");
+    gm_json_number_pair("seconds", point->seconds);
+    printf(",\"evaluations\":%.0f,\"solves\":%.0f}", point->evaluations, point->solves);
+}
+
+static void print_json(const struct gm_work_table *table)
+{
+    const struct gm_timing *timing = table->request.lanes[0].parameters;
+    const enum gm_work_cost second = gm_work_second_cost(table);
+    for (size_t i = 0; i < table->line_count; i++) {
+        const struct gm_work_line *line = &table->lines[i];
+        printf("{");
+        gm_json_pair("scene", table->request.scene->name);
+        printf(",");
+        gm_json_pair("scheme", line->scheme->name);
+        printf(",\"order\":%d,", line->scheme->order);
+        gm_json_pair("measure", table->measure);
+        printf(",");
+        gm_json_pair("against", table->reference);
+        printf(",");
+        gm_json_number_pair("until", timing->until);
+        printf(",\"points\":[");
+        for (size_t k = 0; k < line->count; k++) {
+            printf("%s", k ? "," : "");
+            print_json_point(table, &line->points[k]);
+        }
+        printf("],\"prices\":[");
+        for (size_t k = 0; k < 3; k++) {
+            const double error = table->errors[k], price = gm_work_price(line, error, second);
+            printf("%s{", k ? "," : "");
+            gm_json_number_pair("error", error);
+            printf(",");
+            gm_json_number_pair("seconds", gm_work_price(line, error, GM_COST_SECONDS));
+            printf(",");
+            gm_json_number_pair(table->resolution ? table->resolution->key : "evaluations",
+                                second == GM_COST_RESOLUTION ? gm_work_resolution(table, price) : price);
+            printf("}");
+        }
+        printf("]}\n");
+    }
+}
+
+static void draw(const void *table, struct gm_picture *picture)
+{
+    gm_work_draw(table, picture);
+}
+
+int gm_command_work_precision(const struct gm_options *options)
+{
+    char message[GM_MESSAGE];
+    struct gm_work_table table;
+    if (!gm_work_open(&table, options, message)) {
+        gm_complain("%s", message);
+        return gm_request_refusal(&table.request);
+    }
+    gm_catch_interrupts();
+    int status = GM_EXIT_OK;
+    const bool measured = gm_work_measure(&table, &gm_terminal_listener, message);
+    gm_terminal_listener_clear();
+    if (!measured && !gm_interrupted) {
+        gm_complain("%s", message);
+        status = GM_EXIT_NUMERICAL;
+    }
+    if (gm_memory_was_short()) {
+        gm_complain("not enough memory to measure the schemes");
+        status = GM_EXIT_MEMORY;
+    } else if (table.line_count > 0) {
+        char name[128];
+        if (options->json) {
+            print_json(&table);
+        } else {
+            print_table(&table);
+        }
+        snprintf(name, sizeof name, "%s-work-precision", table.request.scene->name);
+        struct gm_chart chart;
+        if (!gm_chart_open(&chart, options, "work-precision", name, message) ||
+            !gm_chart_paint(&chart, &table, draw, message)) {
+            gm_complain("%s", message);
+            status = GM_EXIT_FILE;
+        } else if (!gm_work_write(&table, chart.csv)) {
+            gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
+            status = GM_EXIT_FILE;
+        } else {
+            gm_chart_tell(&chart);
+        }
+    }
+    gm_work_close(&table);
+    return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
+}

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the mouse clicks, drags and turns. */
+#include "app/explorer/events.h"
+
+#include <curses.h>
+
+/* The part of a hit's width that a column stands for, 0 to 1. */
+static double part_of(const struct gm_hit *hit, int column)
+{
+    double part = hit->width > 1 ? (double)(column - hit->column) / (hit->width - 1) : 0;
+    return part < 0 ? 0 : part > 1 ? 1 : part;
+}
+
+/* Sliders follow the button while it is down. */
+static void drag(struct gm_explorer *explorer, int column)
+{
+    const struct gm_shot *shot = explorer->shot;
+    struct gm_order order = {.value = part_of(&explorer->held, column)};
+    if (!shot) {
+        return;
+    }
+    if (explorer->held.kind == GM_HIT_PAST) {
+        order.kind = GM_ORDER_VISIT;
+        order.value *= shot->reach;
+    } else if (explorer->held.kind == GM_HIT_SLIDER && explorer->held.index < shot->parameter_count) {
+        order.kind = GM_ORDER_SLIDE;
+        order.row = shot->parameters[explorer->held.index].row;
+        order.of_scheme = shot->parameters[explorer->held.index].of_scheme;
+    } else {
+        return;
+    }
+    gm_worker_order(explorer->worker, order);
+}
+
+static void click_scheme(struct gm_explorer *explorer, const struct gm_scheme *scheme)
+{
+    bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
+    explorer->face.choosing = GM_CHOOSE_NOTHING;
+    gm_worker_order(explorer->worker,
+                    (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
+}
+
+/* A choice has no slider: a click takes the next one. */
+static void click_parameter(struct gm_explorer *explorer, size_t index)
+{
+    const struct gm_shot_parameter *parameter = &explorer->shot->parameters[index];
+    bool again = explorer->face.parameter == index;
+    explorer->face.parameter = index;
+    explorer->face.explaining = true;
+    if (again && parameter->position < 0) {
+        gm_worker_order(explorer->worker, (struct gm_order){.kind = GM_ORDER_MOVE,
+                                                            .amount = 1,
+                                                            .row = parameter->row,
+                                                            .of_scheme = parameter->of_scheme});
+    }
+}
+
+static void click_picture(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_order order = {.kind = GM_ORDER_POINT};
+    const struct gm_screen *screen = &explorer->screen;
+    if (!explorer->shot->scene->point) {
+        return;
+    }
+    struct gm_picture *picture = explorer->shot->picture;
+    const struct gm_panel *panel =
+        screen->pixels.columns > 0
+            ? gm_display_locate(&explorer->display, picture, event->column, event->row, &order.x, &order.y)
+            : gm_cells_locate(&screen->picture, picture, screen->blocks,
+                              event->column - screen->picture_column, event->row - screen->picture_row,
+                              &order.x, &order.y);
+    if (panel) {
+        gm_worker_order(explorer->worker, order);
+    }
+}
+
+static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
+    explorer->holding = hit != NULL;
+    if (!hit) {
+        return;
+    }
+    explorer->held = *hit;
+    if (hit->kind == GM_HIT_KEY) {
+        gm_explorer_press(explorer, (int)hit->index);
+        return;
+    }
+    if (hit->kind == GM_HIT_SCENE) {
+        if (explorer->start.choice == hit->index) {
+            gm_explorer_enter(explorer);
+        } else {
+            explorer->start.choice = hit->index;
+            gm_explorer_look_soon(explorer);
+        }
+        return;
+    }
+    if (explorer->at_start || !explorer->shot) {
+        return;
+    }
+    explorer->face.read = explorer->shot->message_number;
+    switch (hit->kind) {
+    case GM_HIT_LANE:
+        gm_worker_order(explorer->worker,
+                        (struct gm_order){.kind = GM_ORDER_SELECT, .value = (double)hit->index});
+        break;
+    case GM_HIT_SCHEME:
+        click_scheme(explorer, hit->scheme);
+        break;
+    case GM_HIT_SLIDER:
+        explorer->face.parameter = hit->index;
+        explorer->face.explaining = true;
+        drag(explorer, event->column);
+        break;
+    case GM_HIT_PARAMETER:
+        click_parameter(explorer, hit->index);
+        break;
+    case GM_HIT_PAST:
+        drag(explorer, event->column);
+        break;
+    case GM_HIT_PICTURE:
+        click_picture(explorer, event);
+        break;
+    case GM_HIT_KEY:
+    case GM_HIT_SCENE:
+        break;
+    }
+}
+
+void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    bool lists = explorer->at_start || explorer->face.page != GM_PAGE_SCENE ||
+                 explorer->face.choosing != GM_CHOOSE_NOTHING;
+    explorer->dirty = true;
+    switch (event->kind) {
+    case GM_MOUSE_PRESS:
+        click(explorer, event);
+        break;
+    case GM_MOUSE_DRAG:
+        if (explorer->holding && !explorer->at_start) {
+            drag(explorer, event->column);
+        }
+        break;
+    case GM_MOUSE_RELEASE:
+        explorer->holding = false;
+        break;
+    case GM_MOUSE_UP:
+        gm_explorer_press(explorer, lists ? KEY_UP : ']');
+        break;
+    case GM_MOUSE_DOWN:
+        gm_explorer_press(explorer, lists ? KEY_DOWN : '[');
+        break;
+    }
+}

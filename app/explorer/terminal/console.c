@@ -1,0 +1,451 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/explorer/terminal/console.h"
+
+#include <curses.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <termios.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "app/explorer/view/mouse.h"
+#include "app/request/drive.h"
+#include "app/request/request.h"
+
+static SCREEN *screen;
+static WINDOW *keys; /* a pad: reading a key from it does not make ncurses draw */
+static int wake_fd = -1;
+/* ncurses reads the keys from a pipe: what it must not see is taken out before. */
+static FILE *input;
+static int feed_fd = -1;
+static struct gm_answers *answers;
+static struct timespec heard; /* when the last byte came */
+static struct termios before; /* as the shell had it */
+static char parting[256];     /* what restores the terminal, for handlers that may call hardly anything */
+static size_t parting_size;
+static volatile sig_atomic_t active, leaving, resized, stopping, lost;
+static pthread_t owner; /* of the terminal */
+static bool reports_mouse;
+
+/* ---- signals ---- */
+
+static void announce(void)
+{
+    int error = errno;
+    const uint64_t one = 1;
+    if (write(wake_fd, &one, sizeof one) < 0) {
+        /* the count is full: it is awake already */
+    }
+    errno = error;
+}
+
+static struct sigaction handled_before[NSIG];
+static bool handled;
+
+enum { ROOM = 1000, HOLD = 3000 }; /* milliseconds for a terminal, or its thread, that is busy */
+
+static void give_back_at_once(void)
+{
+    if (active) {
+        /* a terminal that takes nothing would hold it up */
+        if (poll(&(struct pollfd){.fd = STDOUT_FILENO, .events = POLLOUT}, 1, ROOM) > 0 &&
+            write(STDOUT_FILENO, parting, parting_size) < 0) {
+            /* nothing can be done about it */
+        }
+        tcsetattr(STDIN_FILENO, TCSANOW, &before);
+        active = 0;
+    }
+}
+
+/* The process is lost; the shell behind it must not be. The thread that has the terminal gives it back, so
+   that it writes nothing after that; the one with the fault dies of it. */
+static void on_crash(int number)
+{
+    if (pthread_equal(pthread_self(), owner)) {
+        give_back_at_once();
+        while (lost) {
+            pause();
+        }
+    } else {
+        lost = 1;
+        pthread_kill(owner, number);
+        for (int waited = 0; active && waited < HOLD; waited++) {
+            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+        }
+        give_back_at_once(); /* if that one cannot */
+    }
+    sigaction(number, &handled_before[number], NULL);
+    raise(number);
+}
+
+/* The first leaves. A terminal's end says so several times, itself and through the shell: that is no reason
+   to give up what is being finished, but whoever asks for the third time is not held up by anything. */
+static void on_leave(int number)
+{
+    const bool asks = number == SIGINT || number == SIGTERM || number == SIGQUIT;
+    if (asks && gm_interrupted > 1) {
+        give_back_at_once();
+        signal(number, SIG_DFL);
+        raise(number);
+        return;
+    }
+    gm_interrupted = gm_interrupted + asks;
+    leaving = leaving ? leaving : number;
+    announce();
+}
+
+static void on_resize(int number)
+{
+    (void)number;
+    resized = 1;
+    announce();
+}
+
+static void on_stop(int number)
+{
+    (void)number;
+    stopping = 1;
+    announce();
+}
+
+/* What the handler of a signal is; NULL: it is left as it is. */
+static void (*handler_of(int number))(int)
+{
+    switch (number) {
+    case SIGINT:
+    case SIGTERM:
+    case SIGQUIT:
+    case SIGHUP:
+    case SIGUSR1:
+    case SIGUSR2:
+    case SIGALRM:
+    case SIGVTALRM:
+    case SIGPROF:
+    case SIGXCPU:
+    case SIGIO:
+    case SIGPWR:
+    case SIGSTKFLT:
+        return on_leave;
+    case SIGSEGV:
+    case SIGABRT:
+    case SIGBUS:
+    case SIGFPE:
+    case SIGILL:
+    case SIGTRAP:
+    case SIGSYS:
+        return on_crash;
+    /* the next two are set before ncurses looks, so that it leaves them to us: its own handlers would draw */
+    case SIGWINCH:
+        return on_resize;
+    case SIGTSTP:
+        return on_stop;
+    case SIGPIPE:
+        return SIG_IGN;
+    default:
+        return number >= SIGRTMIN && number <= SIGRTMAX ? on_leave : NULL;
+    }
+}
+
+static void handle(int number, void (*handler)(int), struct sigaction *old)
+{
+    /* restarted, as stdio loses what it was about to write; poll returns all the same */
+    struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, old);
+}
+
+static void handle_all(void)
+{
+    handled = true;
+    for (int number = 1; number < NSIG; number++) {
+        if (handler_of(number)) {
+            handle(number, handler_of(number), &handled_before[number]);
+        }
+    }
+}
+
+static void unhandle_all(void)
+{
+    for (int number = 1; handled && number < NSIG; number++) {
+        if (handler_of(number)) {
+            sigaction(number, &handled_before[number], NULL);
+        }
+    }
+}
+
+/* ---- the terminal ---- */
+
+static void add_parting(const char *text)
+{
+    if (!text || text == (char *)-1) {
+        return;
+    }
+    /* without padding, which means nothing to today's terminals */
+    while (*text && parting_size < sizeof parting) {
+        const char *end = text[0] == '$' && text[1] == '<' ? strchr(text, '>') : NULL;
+        if (end) {
+            text = end + 1;
+        } else {
+            parting[parting_size++] = *text++;
+        }
+    }
+}
+
+static void prepare_parting(bool modern)
+{
+    parting_size = 0;
+    if (modern) { /* first of all: what is half written, an image perhaps, would take the rest in */
+        add_parting("\030\033\\\033[?2026l");
+    }
+    if (reports_mouse) {
+        add_parting(GM_MOUSE_OFF);
+    }
+    add_parting(tigetstr("sgr0"));
+    add_parting(tigetstr("rmkx"));
+    add_parting(tigetstr("cnorm"));
+    add_parting(tigetstr("clear"));
+    add_parting(tigetstr("rmcup"));
+}
+
+static void say_mouse(const char *mode)
+{
+    if (reports_mouse) {
+        fputs(mode, stdout);
+        fflush(stdout);
+    }
+}
+
+static void take_over(void)
+{
+    active = 1;
+    /* Draws one blank screen: this is where ncurses switches to the alternate one. It never draws again. */
+    clearok(stdscr, TRUE);
+    refresh();
+    say_mouse(GM_MOUSE_ON);
+}
+
+static void give_back(void)
+{
+    say_mouse(GM_MOUSE_OFF);
+    /* ncurses did not draw, so it does not know which colours and attributes are on */
+    const char *plain = tigetstr("sgr0");
+    if (plain && plain != (char *)-1) {
+        putp(plain);
+    }
+    /* Also where there is another screen to go back to: GNU screen says so and mostly has none. */
+    clearok(stdscr, TRUE);
+    refresh();
+    endwin();
+    active = 0;
+}
+
+static bool open_input(const struct gm_terminal *terminal)
+{
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) {
+        return false;
+    }
+    feed_fd = ends[1];
+    input = fdopen(ends[0], "r");
+    if (!input) {
+        close(ends[0]);
+    }
+    return input && write(feed_fd, terminal->typed, terminal->typed_size) == (ssize_t)terminal->typed_size;
+}
+
+static void close_input(void)
+{
+    if (input) {
+        fclose(input);
+    }
+    if (feed_fd >= 0) {
+        close(feed_fd);
+    }
+    input = NULL;
+    feed_fd = -1;
+}
+
+/* keypad() makes terminals send other sequences for these than before; what was typed ahead are the ordinary
+ * ones.
+ */
+static void define_ordinary_arrows(void)
+{
+    define_key("\033[A", KEY_UP);
+    define_key("\033[B", KEY_DOWN);
+    define_key("\033[C", KEY_RIGHT);
+    define_key("\033[D", KEY_LEFT);
+}
+
+static bool open_screen(int wake, struct gm_terminal *terminal, char *message)
+{
+    wake_fd = wake;
+    owner = pthread_self();
+    answers = &terminal->answers;
+    leaving = resized = stopping = 0;
+    if (tcgetattr(STDIN_FILENO, &before) != 0) {
+        snprintf(message, GM_MESSAGE, "The terminal does not say how it is set: %s.", strerror(errno));
+        return false;
+    }
+    if (!open_input(terminal)) {
+        close_input();
+        snprintf(message, GM_MESSAGE, "There is no room for the keys: %s.", strerror(errno));
+        return false;
+    }
+    handle_all();
+    screen = newterm(NULL, stdout, input);
+    if (!screen) {
+        unhandle_all();
+        close_input();
+        snprintf(message, GM_MESSAGE, "ncurses cannot use the terminal \"%.40s\".", getenv("TERM"));
+        return false;
+    }
+    active = 1;
+    set_escdelay(25);
+    cbreak();
+    noqiflush(); /* a signal's key would throw away half of a sequence that is on its way */
+    noecho();
+    nonl();
+    curs_set(0);
+    keys = newpad(1, 1);
+    if (!keys) {
+        gm_console_close();
+        gm_console_release();
+        snprintf(message, GM_MESSAGE, "There is not enough memory.");
+        return false;
+    }
+    keypad(keys, TRUE);
+    define_ordinary_arrows();
+    nodelay(keys, TRUE);
+    reports_mouse = tigetnum("colors") >= 8; /* terminals of old would show the letters */
+    define_key(GM_MOUSE_FRONT, GM_KEY_MOUSE);
+    prepare_parting(tigetnum("colors") >= 256);
+    take_over();
+    static bool registered;
+    if (!registered) {
+        registered = atexit(gm_console_close) == 0;
+    }
+    return true;
+}
+
+bool gm_console_open(int wake, struct gm_terminal *terminal, char *message)
+{
+    /* a signal waits until it is known how to give the terminal back */
+    sigset_t all, unblocked;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &unblocked);
+    const bool good = open_screen(wake, terminal, message);
+    sigprocmask(SIG_SETMASK, &unblocked, NULL);
+    return good;
+}
+
+void gm_console_close(void)
+{
+    if (!screen) {
+        return;
+    }
+    if (active) { /* not if it was stopped, and asked to end by somebody who has the terminal now */
+        give_back();
+    }
+    if (keys) {
+        delwin(keys);
+    }
+    delscreen(screen);
+    close_input();
+    keys = NULL;
+    screen = NULL;
+}
+
+void gm_console_release(void)
+{
+    unhandle_all();
+    handled = false;
+}
+
+/* A terminal sends what belongs together at once; only the way from it may cut it. */
+enum { BELONGS_TOGETHER = 50 };
+
+int gm_console_patience(void)
+{
+    if (answers->count == 0) {
+        return -1;
+    }
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    long passed = (now.tv_sec - heard.tv_sec) * 1000 + (now.tv_nsec - heard.tv_nsec) / 1000000;
+    return passed < BELONGS_TOGETHER ? (int)(BELONGS_TOGETHER - passed) : 0;
+}
+
+/* Passes keys on to ncurses. */
+static void feed(void)
+{
+    char bytes[1024], typed[sizeof bytes + GM_ANSWER_LONGEST];
+    size_t size = 0;
+    if (poll(&(struct pollfd){.fd = STDIN_FILENO, .events = POLLIN}, 1, 0) > 0) {
+        ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
+        if (count > 0) {
+            clock_gettime(CLOCK_MONOTONIC, &heard);
+            size = gm_answers_sort(answers, bytes, (size_t)count, typed);
+        }
+    } else if (gm_console_patience() == 0) {
+        size = gm_answers_release(answers, typed);
+    }
+    if (size > 0 && write(feed_fd, typed, size) < 0) {
+        beep(); /* more keys than anyone types: they are lost */
+    }
+}
+
+int gm_console_key(void)
+{
+    feed();
+    int key = wgetch(keys);
+    return key == ERR ? -1 : key;
+}
+
+int gm_console_leaving(void)
+{
+    return leaving;
+}
+
+bool gm_console_resized(void)
+{
+    bool was = resized;
+    resized = 0;
+    if (was) {
+        int columns, rows;
+        gm_terminal_size(&columns, &rows);
+        resizeterm(rows, columns);
+    }
+    return was;
+}
+
+bool gm_console_stopping(void)
+{
+    bool was = stopping;
+    stopping = 0;
+    return was;
+}
+
+void gm_console_stop(void)
+{
+    struct sigaction ours;
+    give_back();
+    /* Not SIGSTOP: where no shell could wake it again, as in a terminal of its own, the system lets this
+     * pass. */
+    handle(SIGTSTP, SIG_DFL, &ours);
+    raise(SIGTSTP);
+    sigaction(SIGTSTP, &ours, NULL);
+    if (leaving) {
+        return;
+    }
+    reset_prog_mode();
+    curs_set(0);
+    take_over();
+    resized = 1;
+}

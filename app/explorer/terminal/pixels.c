@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/explorer/terminal/pixels.h"
+
+#include <pthread.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "render/files/thread.h"
+#include "render/gl/canvas.h"
+#include "render/message.h"
+
+struct gm_pixels {
+    pthread_t thread;
+    int wake;
+
+    /* shared, under the lock */
+    pthread_mutex_t lock;
+    pthread_cond_t news;
+    bool begun, ready, leave;
+
+    bool busy; /* the caller's */
+
+    /* the caller's and the thread's in turn */
+    struct gm_picture *picture;
+    struct gm_pixels_job job;
+    const char *bytes;
+    size_t size;
+    char message[GM_MESSAGE];
+
+    /* the thread's */
+    struct gm_pixels_job made_for; /* what the following are for */
+    struct gm_canvas *canvas;
+    struct gm_inline *image;
+    unsigned char *rgb;
+};
+
+static void forget(struct gm_pixels *pixels)
+{
+    gm_canvas_close(pixels->canvas);
+    gm_inline_close(pixels->image);
+    free(pixels->rgb);
+    pixels->canvas = NULL;
+    pixels->image = NULL;
+    pixels->rgb = NULL;
+}
+
+static bool same_place(const struct gm_pixels_job *a, const struct gm_pixels_job *b)
+{
+    return a->kind == b->kind && a->theme == b->theme && memcmp(&a->place, &b->place, sizeof a->place) == 0;
+}
+
+/* Makes sure of a canvas of the right size. */
+static bool prepare(struct gm_pixels *pixels)
+{
+    const struct gm_pixels_job *job = &pixels->job;
+    int width, height;
+    if (pixels->canvas && same_place(job, &pixels->made_for)) {
+        return true;
+    }
+    forget(pixels);
+    pixels->made_for = *job;
+    gm_inline_size(&job->place, job->kind, &width, &height);
+    pixels->canvas = gm_canvas_open(width, height, job->theme, pixels->message);
+    if (!pixels->canvas) {
+        return false;
+    }
+    pixels->image = gm_inline_open(job->kind, &job->place, job->most_width, job->most_height);
+    pixels->rgb = malloc((size_t)width * (size_t)height * 3);
+    return pixels->image && pixels->rgb;
+}
+
+static void paint(struct gm_pixels *pixels)
+{
+    snprintf(pixels->message, sizeof pixels->message, "There is not enough memory for a picture.");
+    pixels->bytes = NULL;
+    pixels->size = 0;
+    if (!prepare(pixels) || !gm_canvas_paint(pixels->canvas, pixels->picture, pixels->rgb) ||
+        !gm_inline_encode(pixels->image, pixels->rgb, pixels->job.whole, &pixels->bytes, &pixels->size)) {
+        pixels->bytes = NULL;
+        forget(pixels);
+    } else if (!pixels->bytes) {
+        pixels->bytes = ""; /* nothing changed */
+    }
+}
+
+static void *work(void *self)
+{
+    struct gm_pixels *pixels = self;
+    pthread_mutex_lock(&pixels->lock);
+    while (!pixels->leave) {
+        if (!pixels->begun) {
+            pthread_cond_wait(&pixels->news, &pixels->lock);
+            continue;
+        }
+        pixels->begun = false;
+        pthread_mutex_unlock(&pixels->lock);
+        paint(pixels);
+        pthread_mutex_lock(&pixels->lock);
+        pixels->ready = true;
+        const uint64_t one = 1;
+        if (write(pixels->wake, &one, sizeof one) < 0) {
+            /* the count is full: it is awake already */
+        }
+    }
+    pthread_mutex_unlock(&pixels->lock);
+    forget(pixels); /* here, because the context is this thread's */
+    return NULL;
+}
+
+struct gm_pixels *gm_pixels_open(int wake, char *message)
+{
+    struct gm_pixels *pixels = calloc(1, sizeof *pixels);
+    if (!pixels) {
+        snprintf(message, GM_MESSAGE, "There is not enough memory.");
+        return NULL;
+    }
+    pixels->wake = wake;
+    pthread_mutex_init(&pixels->lock, NULL);
+    pthread_cond_init(&pixels->news, NULL);
+    const int error = gm_thread_start(&pixels->thread, work, pixels);
+    if (error != 0) {
+        snprintf(message, GM_MESSAGE, "No thread could be started: %s.", strerror(error));
+        free(pixels);
+        return NULL;
+    }
+    return pixels;
+}
+
+void gm_pixels_close(struct gm_pixels *pixels)
+{
+    if (!pixels) {
+        return;
+    }
+    pthread_mutex_lock(&pixels->lock);
+    pixels->leave = true;
+    pthread_cond_signal(&pixels->news);
+    pthread_mutex_unlock(&pixels->lock);
+    pthread_join(pixels->thread, NULL);
+    pthread_cond_destroy(&pixels->news);
+    pthread_mutex_destroy(&pixels->lock);
+    free(pixels);
+}
+
+void gm_pixels_paint(struct gm_pixels *pixels, struct gm_picture *picture, const struct gm_pixels_job *job)
+{
+    pixels->picture = picture;
+    pixels->job = *job;
+    pixels->busy = true;
+    pthread_mutex_lock(&pixels->lock);
+    pixels->begun = true;
+    pthread_cond_signal(&pixels->news);
+    pthread_mutex_unlock(&pixels->lock);
+}
+
+bool gm_pixels_busy(const struct gm_pixels *pixels)
+{
+    return pixels->busy;
+}
+
+bool gm_pixels_take(struct gm_pixels *pixels, const char **bytes, size_t *size, char *message)
+{
+    pthread_mutex_lock(&pixels->lock);
+    bool ready = pixels->ready;
+    pixels->ready = false;
+    pthread_mutex_unlock(&pixels->lock);
+    if (ready) {
+        pixels->busy = false;
+        *bytes = pixels->bytes;
+        *size = pixels->size;
+        snprintf(message, GM_MESSAGE, "%s", pixels->message);
+    }
+    return ready;
+}
+
+const struct gm_panel *gm_pixels_locate(struct gm_pixels *pixels, struct gm_picture *picture, double across,
+                                        double down, double *x, double *y)
+{
+    return pixels->canvas ? gm_canvas_locate(pixels->canvas, picture, across, down, x, y) : NULL;
+}

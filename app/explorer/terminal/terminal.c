@@ -1,0 +1,457 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/explorer/terminal/terminal.h"
+
+#include <curses.h>
+#include <langinfo.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/ioctl.h>
+#include <term.h>
+#include <unistd.h>
+
+#include "app/request/drive.h"
+
+#undef columns /* term.h defines these short names as macros */
+#undef lines
+
+static const char *const colours_names[] = {"none", "16", "256", "truecolor", NULL};
+static const char *const graphics_names[] = {"kitty", "sixel", "braille", "quadrants", "half", "ascii", NULL};
+static const char *const theme_names[] = {"light", "dark", "mono", NULL};
+enum { LIGHT, DARK, MONO };
+
+/* From the finest way to the coarsest, as in graphics_names. */
+static const struct gm_graphics ladder[] = {
+    {GM_INLINE_KITTY, GM_BRAILLE},  {GM_INLINE_SIXEL, GM_BRAILLE},    {GM_INLINE_NONE, GM_BRAILLE},
+    {GM_INLINE_NONE, GM_QUADRANTS}, {GM_INLINE_NONE, GM_HALF_BLOCKS}, {GM_INLINE_NONE, GM_ASCII},
+};
+enum { RUNGS = sizeof ladder / sizeof *ladder, FIRST_BLOCKS = 2 };
+
+/* Longer than a round trip to the other side of the world; a terminal that answers is not waited for. */
+enum { PATIENCE = 1000 };
+
+static int rung_of(struct gm_graphics graphics)
+{
+    for (int i = 0; i < RUNGS; i++) {
+        /* with pixels the blocks are those of the text */
+        if (ladder[i].pixels == graphics.pixels && (graphics.pixels || ladder[i].blocks == graphics.blocks)) {
+            return i;
+        }
+    }
+    return RUNGS - 1;
+}
+
+const char *gm_graphics_name(struct gm_graphics graphics)
+{
+    return graphics_names[rung_of(graphics)];
+}
+
+/* The ladder's step as this terminal can take it: beside pixels text is ASCII where letters are. */
+static struct gm_graphics step_on(const struct gm_terminal *terminal, int rung)
+{
+    struct gm_graphics graphics = ladder[rung];
+    if (!terminal->can_blocks[graphics.blocks] && graphics.pixels) {
+        graphics.blocks = terminal->can_blocks[GM_HALF_BLOCKS] ? GM_HALF_BLOCKS : GM_ASCII;
+    }
+    return graphics;
+}
+
+static bool can(const struct gm_terminal *terminal, int rung)
+{
+    return ladder[rung].pixels ? terminal->can_pixels[ladder[rung].pixels]
+                               : terminal->can_blocks[ladder[rung].blocks];
+}
+
+struct gm_graphics gm_graphics_next(const struct gm_terminal *terminal, struct gm_graphics graphics)
+{
+    int from = rung_of(graphics), rung = from;
+    do {
+        rung = (rung + 1) % RUNGS;
+    } while (rung != from && !can(terminal, rung));
+    return step_on(terminal, rung);
+}
+
+static const char *environment(const char *name)
+{
+    const char *value = getenv(name);
+    return value ? value : "";
+}
+
+/* What the user demands, by an option or else by the environment. */
+struct demand {
+    const char *name, *value; /* value: "" if nothing is demanded */
+    int number;               /* among the names */
+};
+
+/* False with a sentence if it has none of the names. */
+static bool find_demand(struct demand *demand, const char *option, const char *given, const char *variable,
+                        const char *const *names, char *message)
+{
+    *demand = (struct demand){given ? option : variable, given ? given : environment(variable), -1};
+    if (!*demand->value) {
+        return true;
+    }
+    int count = 0;
+    for (; names[count]; count++) {
+        if (strcasecmp(demand->value, names[count]) == 0) {
+            demand->number = count;
+            return true;
+        }
+    }
+    int at = snprintf(message, GM_MESSAGE, "%s is \"%.40s\", but it must be ", demand->name, demand->value);
+    for (int i = 0; i < count; i++) {
+        at += snprintf(message + at, (size_t)(GM_MESSAGE - at), "%s%s",
+                       i == 0          ? ""
+                       : i + 1 < count ? ", "
+                                       : " or ",
+                       names[i]);
+    }
+    snprintf(message + at, (size_t)(GM_MESSAGE - at), ".");
+    return false;
+}
+
+static void because(char *why, const struct demand *demand)
+{
+    snprintf(why, GM_REASON, "%s%s%.60s", demand->name, demand->name[0] == '-' ? " " : "=", demand->value);
+}
+
+void gm_terminal_size(int *columns, int *rows)
+{
+    struct winsize size = {0};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) {
+        size.ws_col = (unsigned short)strtoul(environment("COLUMNS"), NULL, 10);
+        size.ws_row = (unsigned short)strtoul(environment("LINES"), NULL, 10);
+    }
+    *columns = size.ws_col ? size.ws_col : 80;
+    *rows = size.ws_row ? size.ws_row : 24;
+}
+
+static void look_at_terminfo(struct gm_terminal *terminal)
+{
+    int error;
+    terminal->terminfo_colours = -1;
+    if (!*terminal->name || setupterm(terminal->name, STDOUT_FILENO, &error) != OK) {
+        return;
+    }
+    terminal->terminfo_colours = tigetnum("colors");
+    const char *address = tigetstr("cup");
+    terminal->known = address && address != (char *)-1;
+    del_curterm(cur_term);
+}
+
+/* ---- asking the terminal ---- */
+
+void gm_terminal_cell(int *width, int *height)
+{
+    struct winsize size = {0};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col && size.ws_row &&
+        size.ws_xpixel >= size.ws_col && size.ws_ypixel >= size.ws_row) {
+        *width = size.ws_xpixel / size.ws_col;
+        *height = size.ws_ypixel / size.ws_row;
+    }
+}
+
+static bool begins(const char *text, const char *with)
+{
+    return strncmp(text, with, strlen(with)) == 0;
+}
+
+static void ask(struct gm_terminal *terminal)
+{
+    terminal->asked = -1;
+    if (!terminal->input || !terminal->output || !terminal->known) {
+        snprintf(terminal->kitty_why, GM_REASON, "not asked");
+        snprintf(terminal->sixel_why, GM_REASON, "not asked");
+        return;
+    }
+    bool tmux = *environment("TMUX") || begins(terminal->name, "tmux");
+    bool multiplexer = tmux || begins(terminal->name, "screen");
+    bool old = begins(terminal->name, "linux") || begins(terminal->name, "vt");
+    /* screen would pass some questions on as text */
+    enum gm_ask which = tmux ? GM_ASK_GROUND : multiplexer || old ? GM_ASK_PLAIN : GM_ASK_ALL;
+    terminal->asked =
+        gm_answers_ask(&terminal->answers, which, PATIENCE, terminal->typed, &terminal->typed_size);
+    const struct gm_answers *answers = &terminal->answers;
+    snprintf(terminal->kitty_why, GM_REASON, "%s",
+             answers->kitty ? "the terminal answered so"
+             : multiplexer  ? "not asked: tmux and screen pass no such images on"
+             : old          ? "not asked: such a terminal would show the question"
+                            : "the terminal did not say so when it was asked");
+    snprintf(terminal->sixel_why, GM_REASON, "%s",
+             answers->sixel        ? "among its device attributes"
+             : answers->attributes ? "not among its device attributes"
+                                   : "the terminal did not answer");
+}
+
+static void find_cell(struct gm_terminal *terminal)
+{
+    const struct gm_answers *answers = &terminal->answers;
+    snprintf(terminal->cell_why, GM_REASON, "the system knows it");
+    gm_terminal_cell(&terminal->cell_width, &terminal->cell_height);
+    if (terminal->cell_width == 0 && answers->cell_width > 0 && answers->cell_height > 0) {
+        terminal->cell_width = answers->cell_width;
+        terminal->cell_height = answers->cell_height;
+        snprintf(terminal->cell_why, GM_REASON, "the terminal answered so");
+    } else if (terminal->cell_width == 0 && answers->text_width >= terminal->columns &&
+               answers->text_height >= terminal->rows) {
+        terminal->cell_width = answers->text_width / terminal->columns;
+        terminal->cell_height = answers->text_height / terminal->rows;
+        snprintf(terminal->cell_why, GM_REASON, "the terminal told the size of its text area");
+    } else if (terminal->cell_width == 0) {
+        snprintf(terminal->cell_why, GM_REASON, "neither the system nor the terminal tells");
+    }
+    if (terminal->cell_width > 200 || terminal->cell_height > 400) { /* no letter is so large */
+        terminal->cell_width = terminal->cell_height = 0;
+        snprintf(terminal->cell_why, GM_REASON, "what was told cannot be");
+    }
+}
+
+/* ---- what follows from it ---- */
+
+static void decide_colours(struct gm_terminal *terminal, const struct demand *demand, bool mono)
+{
+    const char *said = environment("COLORTERM");
+    bool says_true = strcasecmp(said, "truecolor") == 0 || strcasecmp(said, "24bit") == 0;
+    int has = terminal->terminfo_colours;
+    if (mono) {
+        terminal->colours = GM_COLOURS_NONE;
+        snprintf(terminal->colours_why, GM_REASON, "the theme is monochrome");
+    } else if (demand->number >= 0) {
+        terminal->colours = (enum gm_colours)demand->number;
+        because(terminal->colours_why, demand);
+    } else if (*environment("NO_COLOR")) {
+        terminal->colours = GM_COLOURS_NONE;
+        snprintf(terminal->colours_why, GM_REASON, "NO_COLOR is set");
+    } else if (has < 8) {
+        /* COLORTERM is inherited through ssh and su; a TERM that was set to a terminal without colours knows
+           better. */
+        terminal->colours = GM_COLOURS_NONE;
+        snprintf(terminal->colours_why, GM_REASON, "terminfo knows no colours of TERM=%s%s", terminal->name,
+                 says_true ? ", whatever COLORTERM says" : "");
+    } else if (says_true) {
+        terminal->colours = GM_COLOURS_TRUE;
+        snprintf(terminal->colours_why, GM_REASON, "COLORTERM=%.60s", said);
+    } else if (terminal->answers.true_colour) {
+        terminal->colours = GM_COLOURS_TRUE;
+        snprintf(terminal->colours_why, GM_REASON, "the terminal kept a colour of 24 bits when it was asked");
+    } else {
+        terminal->colours = has >= 1 << 24 ? GM_COLOURS_TRUE : has >= 256 ? GM_COLOURS_256 : GM_COLOURS_16;
+        snprintf(terminal->colours_why, GM_REASON, "terminfo gives TERM=%s %d colours%s", terminal->name, has,
+                 *said ? "" : ", and COLORTERM is not set");
+    }
+}
+
+static void find_graphics(struct gm_terminal *terminal)
+{
+    const struct gm_answers *answers = &terminal->answers;
+    terminal->can_blocks[GM_ASCII] = true;
+    terminal->can_blocks[GM_QUADRANTS] = terminal->can_blocks[GM_HALF_BLOCKS] = terminal->utf8;
+    terminal->can_blocks[GM_BRAILLE] = terminal->utf8 && strcmp(terminal->name, "linux") != 0;
+    const char *hindrance = terminal->colours == GM_COLOURS_NONE ? "but there are to be no colours"
+                            : terminal->cell_width == 0          ? "but the size of a cell is unknown"
+                                                                 : NULL;
+    if (answers->kitty && hindrance) {
+        snprintf(terminal->kitty_why, GM_REASON, "the terminal answered so, %s", hindrance);
+    }
+    terminal->can_pixels[GM_INLINE_KITTY] = answers->kitty && !hindrance;
+    if (answers->registers > 0 && answers->registers < 256 && !hindrance) {
+        hindrance = "but of fewer than 256 colours";
+    }
+    if (answers->sixel && hindrance) {
+        snprintf(terminal->sixel_why, GM_REASON, "among its device attributes, %s", hindrance);
+    }
+    terminal->can_pixels[GM_INLINE_SIXEL] = answers->sixel && !hindrance;
+}
+
+static void decide_graphics(struct gm_terminal *terminal, const struct demand *demand)
+{
+    find_graphics(terminal);
+    int rung = 0;
+    while (!can(terminal, rung)) {
+        rung++;
+    }
+    if (demand->number >= 0) {
+        rung = demand->number;
+        because(terminal->graphics_why, demand);
+        if (ladder[rung].pixels && terminal->cell_width == 0) {
+            terminal->cell_width = 10; /* those of the VT340, which emulations of it keep to */
+            terminal->cell_height = 20;
+            snprintf(terminal->cell_why, GM_REASON, "assumed, as nobody tells");
+        }
+        terminal->can_pixels[ladder[rung].pixels] = true;
+        terminal->can_blocks[ladder[rung].blocks] |= !ladder[rung].pixels;
+    } else if (rung < FIRST_BLOCKS) {
+        snprintf(terminal->graphics_why, GM_REASON, "%s",
+                 rung == 0 ? terminal->kitty_why : terminal->sixel_why);
+    } else if (!terminal->utf8) {
+        snprintf(terminal->graphics_why, GM_REASON,
+                 "no pixels, and the locale's letters are %.40s, not UTF-8", terminal->codeset);
+    } else if (ladder[rung].blocks != GM_BRAILLE) {
+        snprintf(terminal->graphics_why, GM_REASON, "the Linux console's font has no braille");
+    } else {
+        snprintf(terminal->graphics_why, GM_REASON, "no pixels, and the locale's letters are UTF-8");
+    }
+    terminal->graphics = step_on(terminal, rung);
+}
+
+static void decide_theme(struct gm_terminal *terminal, const struct demand *demand)
+{
+    const struct gm_answers *answers = &terminal->answers;
+    /* "default" may stand there too, and tells nothing */
+    const char *said = environment("COLORFGBG"), *ground = strrchr(said, ';');
+    bool numbered = ground && ground[1] >= '0' && ground[1] <= '9';
+    if (demand->number >= 0) {
+        terminal->theme = demand->number == LIGHT ? GM_THEME_LIGHT : GM_THEME_DARK;
+        because(terminal->theme_why, demand);
+    } else if (numbered) {
+        int colour = atoi(ground + 1);
+        terminal->theme = colour == 7 || colour >= 9 ? GM_THEME_LIGHT : GM_THEME_DARK;
+        snprintf(terminal->theme_why, GM_REASON, "COLORFGBG=%.40s", said);
+    } else if (answers->ground_told) {
+        terminal->theme = answers->ground > 0.5 ? GM_THEME_LIGHT : GM_THEME_DARK;
+        snprintf(terminal->theme_why, GM_REASON, "the terminal answered that its background is %s",
+                 answers->ground > 0.5 ? "light" : "dark");
+    } else {
+        terminal->theme = GM_THEME_DARK;
+        snprintf(terminal->theme_why, GM_REASON, "nothing says otherwise");
+    }
+}
+
+bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides *overrides, char *message)
+{
+    *terminal = (struct gm_terminal){
+        .name = environment("TERM"), .input = isatty(STDIN_FILENO), .output = isatty(STDOUT_FILENO)};
+    /* Only the letters: numbers are read and written with a point everywhere. */
+    setlocale(LC_CTYPE, "");
+    terminal->codeset = nl_langinfo(CODESET);
+    terminal->utf8 = strcasecmp(terminal->codeset, "UTF-8") == 0;
+    look_at_terminfo(terminal);
+    gm_terminal_size(&terminal->columns, &terminal->rows);
+    struct winsize size = {0};
+    bool asked = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    snprintf(terminal->size_why, GM_REASON, "%s",
+             asked                     ? "the terminal was asked"
+             : *environment("COLUMNS") ? "COLUMNS and LINES"
+                                       : "assumed, as there is no terminal to ask");
+    struct demand theme, colours, graphics;
+    if (!find_demand(&theme, "--theme", overrides->theme, "GEOMINT_THEME", theme_names, message) ||
+        !find_demand(&colours, "--colours", overrides->colours, "GEOMINT_COLOURS", colours_names, message) ||
+        !find_demand(&graphics, "--graphics", overrides->graphics, "GEOMINT_GRAPHICS", graphics_names,
+                     message)) {
+        return false;
+    }
+    ask(terminal);
+    decide_theme(terminal, &theme);
+    decide_colours(terminal, &colours, theme.number == MONO);
+    find_cell(terminal);
+    decide_graphics(terminal, &graphics);
+    return true;
+}
+
+bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)
+{
+    if (!terminal->input || !terminal->output) {
+        snprintf(
+            message, GM_MESSAGE,
+            "The explorer needs a terminal, but standard %s is none; `geomint render` makes pictures without.",
+            terminal->input ? "output" : "input");
+    } else if (!*terminal->name) {
+        snprintf(message, GM_MESSAGE,
+                 "The explorer cannot start because TERM is not set; try TERM=xterm-256color geomint.");
+    } else if (!terminal->known) {
+        snprintf(message, GM_MESSAGE,
+                 "The explorer cannot start because TERM is \"%.40s\", %s; try TERM=xterm-256color geomint.",
+                 terminal->name,
+                 strcmp(terminal->name, "dumb") == 0 || terminal->terminfo_colours != -1
+                     ? "which cannot place the cursor"
+                     : "which terminfo does not know or which cannot place the cursor");
+    } else {
+        return true;
+    }
+    return false;
+}
+
+static void line(const char *what, const char *value, const char *why)
+{
+    printf("  %-12s %-16s %s\n", what, *value ? value : "not set", why);
+}
+
+static void report_answers(const struct gm_terminal *terminal)
+{
+    const struct gm_answers *answers = &terminal->answers;
+    char text[64], limit[GM_REASON] = "";
+    if (terminal->asked < 0) {
+        line("asked", "no", "there is no terminal to ask");
+        return;
+    }
+    snprintf(text, sizeof text, "%d ms", terminal->asked);
+    line("asked", text, answers->attributes ? "until it had answered" : "it did not answer");
+    line("kitty", answers->kitty ? "yes" : "no", terminal->kitty_why);
+    line("sixel", answers->sixel ? "yes" : "no", terminal->sixel_why);
+    if (answers->registers > 0 || answers->most_width > 0) {
+        if (answers->most_width > 0) {
+            snprintf(limit, sizeof limit, "and up to %d x %d pixels at once", answers->most_width,
+                     answers->most_height);
+        }
+        snprintf(text, sizeof text, "%d colours", answers->registers);
+        line("", answers->registers > 0 ? text : "any colours", limit);
+    }
+    line("synchronised", answers->synchronised ? "yes" : "no",
+         "whether frames are shown at once (mode 2026)");
+}
+
+static const char *theme_name(const struct gm_terminal *terminal)
+{
+    return theme_names[terminal->theme == GM_THEME_LIGHT ? LIGHT : DARK];
+}
+
+static void report_ladder(const struct gm_terminal *terminal)
+{
+    char text[GM_REASON] = "";
+    size_t at = 0;
+    for (int i = 0; i < RUNGS; i++) {
+        if (can(terminal, i)) {
+            at += (size_t)snprintf(text + at, sizeof text - at, "%s%s", at ? ", " : "", graphics_names[i]);
+        }
+    }
+    printf("  %-12s %s\n", "key b", text);
+}
+
+int gm_terminal_report(const struct gm_overrides *overrides)
+{
+    struct gm_terminal terminal;
+    char message[GM_MESSAGE], text[64];
+    if (!gm_terminal_detect(&terminal, overrides, message)) {
+        gm_complain("%s", message);
+        return GM_EXIT_USAGE;
+    }
+    printf("Found\n");
+    line("TERM", terminal.name, terminal.known ? "terminfo knows it" : "no entry in terminfo that serves");
+    line("COLORTERM", environment("COLORTERM"), "");
+    snprintf(text, sizeof text, "%d", terminal.terminfo_colours < 0 ? 0 : terminal.terminfo_colours);
+    line("terminfo", text, "colours");
+    line("locale", terminal.codeset, terminal.utf8 ? "Unicode" : "no Unicode");
+    line("tmux", *environment("TMUX") ? "yes" : "no",
+         *environment("TMUX") ? "its own terminal settings decide what arrives outside" : "");
+    line("input", terminal.input ? "terminal" : "no terminal", "");
+    line("output", terminal.output ? "terminal" : "no terminal", "");
+    report_answers(&terminal);
+    printf("Therefore\n");
+    snprintf(text, sizeof text, "%d x %d", terminal.columns, terminal.rows);
+    line("size", text, terminal.size_why);
+    snprintf(text, sizeof text, "%d x %d", terminal.cell_width, terminal.cell_height);
+    line("cell", terminal.cell_width > 0 ? text : "unknown", terminal.cell_why);
+    line("colours", colours_names[terminal.colours], terminal.colours_why);
+    line("graphics", gm_graphics_name(terminal.graphics), terminal.graphics_why);
+    report_ladder(&terminal);
+    line("theme", theme_name(&terminal), terminal.theme_why);
+    if (!gm_terminal_serves(&terminal, message)) {
+        printf("  %s\n", message);
+    }
+    printf(
+        "Override with --graphics kitty|sixel|braille|quadrants|half|ascii, --colours truecolor|256|16|none,\n"
+        "--theme light|dark|mono, or with GEOMINT_GRAPHICS, GEOMINT_COLOURS, GEOMINT_THEME.\n");
+    return GM_EXIT_OK;
+}

@@ -1,0 +1,506 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/explorer/terminal/writer.h"
+
+#include <curses.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "app/explorer/terminal/palette.h"
+#include "render/files/base64.h"
+
+/* ---- the line of bytes ---- */
+
+static void put(struct gm_writer *writer, const char *bytes, size_t size)
+{
+    if (writer->length + size > writer->capacity) {
+        size_t capacity = 2 * (writer->length + size) + 4096;
+        char *more = realloc(writer->out, capacity);
+        if (!more) {
+            writer->failed = true;
+            return;
+        }
+        writer->out = more;
+        writer->capacity = capacity;
+    }
+    memcpy(writer->out + writer->length, bytes, size);
+    writer->length += size;
+}
+
+static void put_text(struct gm_writer *writer, const char *text)
+{
+    put(writer, text, strlen(text));
+}
+
+__attribute__((format(printf, 2, 3))) static void put_format(struct gm_writer *writer, const char *format,
+                                                             ...)
+{
+    char text[64];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    put_text(writer, text);
+}
+
+static void put_glyph(struct gm_writer *writer, uint32_t code)
+{
+    char bytes[4];
+    size_t size = 0;
+    if (code < 0x80) {
+        bytes[size++] = (char)code;
+    } else if (code < 0x800) {
+        bytes[size++] = (char)(0xC0 | code >> 6);
+        bytes[size++] = (char)(0x80 | (code & 0x3F));
+    } else if (code < 0x10000) {
+        bytes[size++] = (char)(0xE0 | code >> 12);
+        bytes[size++] = (char)(0x80 | (code >> 6 & 0x3F));
+        bytes[size++] = (char)(0x80 | (code & 0x3F));
+    } else {
+        bytes[size++] = (char)(0xF0 | code >> 18);
+        bytes[size++] = (char)(0x80 | (code >> 12 & 0x3F));
+        bytes[size++] = (char)(0x80 | (code >> 6 & 0x3F));
+        bytes[size++] = (char)(0x80 | (code & 0x3F));
+    }
+    put(writer, bytes, size);
+}
+
+/* A capability without its padding $<5>: it would make us wait for terminals of old. */
+static void put_capability(struct gm_writer *writer, const char *capability)
+{
+    if (!capability) {
+        return;
+    }
+    while (*capability) {
+        const char *end = capability[0] == '$' && capability[1] == '<' ? strchr(capability, '>') : NULL;
+        if (end) {
+            capability = end + 1;
+            continue;
+        }
+        put(writer, capability++, 1);
+    }
+}
+
+/* ---- colours ---- */
+
+static long colour_number(struct gm_writer *writer, struct gm_rgb colour, enum gm_role role, bool ground)
+{
+    switch (writer->colours) {
+    case GM_COLOURS_TRUE:
+        return (long)colour.r << 16 | colour.g << 8 | colour.b;
+    case GM_COLOURS_256: {
+        size_t key = (size_t)(colour.r >> 3) << 10 | (size_t)(colour.g >> 3) << 5 | (size_t)(colour.b >> 3);
+        if (writer->nearest[key] < 0) {
+            writer->nearest[key] = (int16_t)gm_palette_256(colour);
+        }
+        return writer->nearest[key];
+    }
+    case GM_COLOURS_16:
+        return ground ? gm_palette_ground(writer->theme, colour) : gm_palette_16(writer->theme, colour, role);
+    case GM_COLOURS_NONE:
+        break;
+    }
+    return 0;
+}
+
+static void put_colour(struct gm_writer *writer, long number, bool ground)
+{
+    if (writer->colours == GM_COLOURS_TRUE) {
+        put_format(writer, "\033[%d;2;%ld;%ld;%ldm", ground ? 48 : 38, number >> 16 & 255, number >> 8 & 255,
+                   number & 255);
+    } else if (writer->colours == GM_COLOURS_256) {
+        put_format(writer, "\033[%d;5;%ldm", ground ? 48 : 38, number);
+    } else if (!writer->bright && writer->set_foreground) {
+        put_capability(writer,
+                       tiparm(ground ? writer->set_background : writer->set_foreground, (int)(number & 7)));
+    } else if (writer->set_foreground) {
+        put_capability(writer, tiparm(ground ? writer->set_background : writer->set_foreground, (int)number));
+    } else {
+        put_format(writer, "\033[%ldm", (number < 8 ? 30 + number : 82 + number) + (ground ? 10 : 0));
+    }
+}
+
+/* Letters, colours and attributes as this terminal has them. */
+struct look {
+    uint32_t glyph;
+    long foreground, background;
+    bool bold, reverse;
+};
+
+enum { BLUE = 4, DARK_GREY = 8 };
+
+static struct look look_of(struct gm_writer *writer, const struct gm_cell *cell)
+{
+    struct look look = {.glyph = cell->glyph ? cell->glyph : ' ', .bold = cell->bold};
+    if (writer->colours == GM_COLOURS_NONE) {
+        /* ink or paper is all there is: two inks in one cell are a full block, an inked ground is reversed */
+        bool ink = gm_palette_is_ink(writer->theme, cell->foreground);
+        bool ground = gm_palette_is_ink(writer->theme, cell->background);
+        bool block = cell->glyph >= 0x2580 && cell->glyph <= 0x259F;
+        if (ground && ink && block) {
+            look.glyph = 0x2588;
+        } else if (ground) {
+            look.reverse = true;
+        }
+        return look;
+    }
+    look.foreground = colour_number(writer, cell->foreground, cell->role, false);
+    look.background = colour_number(writer, cell->background, GM_PAPER, true);
+    if (writer->colours == GM_COLOURS_16 && !writer->bright) {
+        if (look.foreground == DARK_GREY) { /* bold black is black on many terminals */
+            look.foreground = BLUE;
+        }
+        look.bold = look.bold || look.foreground >= 8;
+        look.foreground &= 7;
+        look.background &= 7;
+    }
+    if (look.glyph == ' ') { /* only the ground is seen */
+        look.foreground = writer->foreground >= 0 ? writer->foreground : look.foreground;
+    }
+    return look;
+}
+
+static void take_look(struct gm_writer *writer, const struct look *look)
+{
+    bool blank = look->glyph == ' ' && !look->reverse;
+    bool bold = blank ? writer->bold : look->bold;
+    if (writer->foreground < 0 || (writer->bold && !bold) || (writer->reverse && !look->reverse)) {
+        put_capability(writer, writer->plain ? writer->plain : "\033[0m");
+        writer->bold = writer->reverse = false;
+        writer->foreground = writer->background = -1;
+    }
+    if (bold && !writer->bold) {
+        put_capability(writer, writer->strong);
+    }
+    if (look->reverse && !writer->reverse) {
+        put_capability(writer, writer->reversed);
+    }
+    if (writer->colours != GM_COLOURS_NONE) {
+        if (look->foreground != writer->foreground) {
+            put_colour(writer, look->foreground, false);
+        }
+        if (look->background != writer->background) {
+            put_colour(writer, look->background, true);
+        }
+    }
+    writer->foreground = look->foreground;
+    writer->background = look->background;
+    writer->bold = bold;
+    writer->reverse = look->reverse;
+}
+
+/* ---- screens ---- */
+
+static int64_t milliseconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
+
+static bool same_cell(const struct gm_cell *a, const struct gm_cell *b)
+{
+    bool ground = a->background.r == b->background.r && a->background.g == b->background.g &&
+                  a->background.b == b->background.b;
+    if (a->glyph != b->glyph || !ground) {
+        return false;
+    }
+    if (a->glyph == ' ') {
+        return true;
+    }
+    return a->foreground.r == b->foreground.r && a->foreground.g == b->foreground.g &&
+           a->foreground.b == b->foreground.b && a->bold == b->bold && a->role == b->role;
+}
+
+static void move_to(struct gm_writer *writer, int column, int row)
+{
+    if (writer->row == row && writer->column == column) {
+        return;
+    }
+    put_capability(writer, tiparm(writer->place, row, column));
+    writer->row = row;
+    writer->column = column;
+}
+
+static void put_cell(struct gm_writer *writer, const struct gm_cells *cells, int column, int row)
+{
+    struct look look = look_of(writer, &cells->cells[(size_t)row * (size_t)cells->columns + (size_t)column]);
+    take_look(writer, &look);
+    put_glyph(writer, look.glyph);
+    writer->column++;
+    if (writer->column >= cells->columns) {
+        writer->row = -1; /* at the right edge terminals differ in where the cursor is */
+    }
+}
+
+static bool resize(struct gm_writer *writer, const struct gm_cells *cells)
+{
+    if (writer->shown.cells && writer->shown.columns == cells->columns && writer->shown.rows == cells->rows) {
+        return true;
+    }
+    struct gm_cell *more =
+        realloc(writer->shown.cells, sizeof *more * (size_t)cells->columns * (size_t)cells->rows);
+    if (!more) {
+        writer->failed = true;
+        return false;
+    }
+    writer->shown = (struct gm_cells){.columns = cells->columns, .rows = cells->rows, .cells = more};
+    writer->known = false;
+    return true;
+}
+
+enum { CHEAPER = 4 }; /* so many cells written again cost less than addressing the cursor */
+
+/* Whether the cells from where the cursor is to the column may be written again: it is cheaper, and no
+   picture is there. */
+static bool may_write_on(const struct gm_writer *writer, const struct gm_cells *cells, int column, int row)
+{
+    if (writer->row != row || column <= writer->column || column - writer->column > CHEAPER) {
+        return false;
+    }
+    const struct gm_cell *line = &cells->cells[(size_t)row * (size_t)cells->columns];
+    for (int i = writer->column; i < column; i++) {
+        if (!line[i].glyph) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
+                    const struct gm_writer_image *image)
+{
+    if (!resize(writer, cells)) {
+        return;
+    }
+    /* Synchronised output: a terminal that knows it shows the frame at once, others ignore it. */
+    bool together = writer->colours >= GM_COLOURS_256 || image;
+    if (together) {
+        put_text(writer, "\033[?2026h");
+    }
+    size_t begun = writer->length;
+    if (!writer->known) {
+        writer->row = writer->foreground = -1;
+    }
+    for (int row = 0; row < cells->rows; row++) {
+        for (int column = 0; column < cells->columns; column++) {
+            size_t at = (size_t)row * (size_t)cells->columns + (size_t)column;
+            if (writer->known && same_cell(&cells->cells[at], &writer->shown.cells[at])) {
+                continue;
+            }
+            if (!writer->corner && row + 1 == cells->rows && column + 1 == cells->columns) {
+                continue;
+            }
+            if (may_write_on(writer, cells, column, row)) {
+                while (writer->column < column) {
+                    put_cell(writer, cells, writer->column, row);
+                }
+            }
+            move_to(writer, column, row);
+            put_cell(writer, cells, column, row);
+        }
+    }
+    memcpy(writer->shown.cells, cells->cells,
+           sizeof *cells->cells * (size_t)cells->columns * (size_t)cells->rows);
+    writer->known = true;
+    if (image && image->size > 0) {
+        put(writer, image->bytes, image->size);
+        writer->row = -1; /* the cursor may be anywhere */
+    }
+    if (writer->length == begun) {
+        writer->length = writer->sent = 0;
+        return;
+    }
+    if (together) {
+        put_text(writer, "\033[?2026l");
+    }
+    if (writer->asks && writer->asked - writer->answered < GM_WRITER_FLYING) {
+        put_text(writer, GM_ASK_READY);
+        writer->asked_at = milliseconds();
+        writer->flying[writer->asked % GM_WRITER_FLYING] = writer->length;
+        writer->sent_at[writer->asked++ % GM_WRITER_FLYING] = writer->asked_at;
+    }
+}
+
+/* At most so many bytes may be on their way: some frames of cells, or one picture. A queue of more than LAG
+   milliseconds is too long; an answer that is LOST later than even a slow line explains is not waited for. */
+enum { ON_THE_WAY = 32768, LEAST_ON_THE_WAY = 1024, LAG = 200, LOST = 3000 };
+
+/* Additive increase and multiplicative decrease, as for the window of TCP. */
+static void adapt(struct gm_writer *writer, int64_t now)
+{
+    const int64_t passed = now - writer->sent_at[(writer->answered - 1) % GM_WRITER_FLYING];
+    if (passed < writer->trip) {
+        writer->trip = (int)passed;
+    }
+    if (passed > writer->trip + LAG) {
+        writer->bound = writer->bound / 2 > LEAST_ON_THE_WAY ? writer->bound / 2 : LEAST_ON_THE_WAY;
+    } else if (writer->bound < ON_THE_WAY) {
+        writer->bound += LEAST_ON_THE_WAY;
+    }
+}
+
+static size_t flying(const struct gm_writer *writer)
+{
+    size_t bytes = 0;
+    for (unsigned long i = writer->answered; i < writer->asked; i++) {
+        bytes += writer->flying[i % GM_WRITER_FLYING];
+    }
+    return bytes;
+}
+
+bool gm_writer_takes(struct gm_writer *writer, unsigned long ready)
+{
+    const int64_t now = milliseconds();
+    if (ready > writer->asked) { /* answers to questions of before */
+        ready = writer->asked;
+    }
+    if (ready > writer->heard) {
+        writer->heard = ready;
+        writer->asks = true; /* it does answer, however late */
+        writer->asked_at = now;
+    }
+    if (ready > writer->answered) {
+        writer->answered = ready;
+        adapt(writer, now);
+    } else if (gm_writer_patience(writer) == 0) {
+        writer->asks = false;
+        writer->answered = writer->asked;
+    }
+    return gm_writer_idle(writer) && flying(writer) < writer->bound;
+}
+
+int gm_writer_patience(const struct gm_writer *writer)
+{
+    if (writer->answered == writer->asked) {
+        return -1;
+    }
+    /* the line may take a kilobyte a second */
+    const int64_t left = writer->asked_at + LOST + (int64_t)flying(writer) - milliseconds();
+    return left > 0 ? (int)left : 0;
+}
+
+void gm_writer_copy(struct gm_writer *writer, const char *text)
+{
+    size_t size = gm_base64_size(strlen(text));
+    char *coded = malloc(size);
+    if (coded) {
+        gm_base64((const unsigned char *)text, strlen(text), coded);
+        put_text(writer, "\033]52;c;");
+        put(writer, coded, size);
+        put_text(writer, "\a");
+    }
+    free(coded);
+}
+
+void gm_writer_tell(struct gm_writer *writer, const char *text)
+{
+    put_text(writer, text);
+}
+
+bool gm_writer_idle(const struct gm_writer *writer)
+{
+    return writer->sent == writer->length;
+}
+
+bool gm_writer_send(struct gm_writer *writer)
+{
+    while (writer->sent < writer->length) {
+        ssize_t done = write(writer->fd, writer->out + writer->sent, writer->length - writer->sent);
+        if (done > 0) {
+            writer->sent += (size_t)done;
+        } else if (done < 0 && errno == EINTR) {
+            continue;
+        } else if (done < 0 && errno == EAGAIN) {
+            return true;
+        } else {
+            return false;
+        }
+    }
+    writer->sent = writer->length = 0;
+    return !writer->failed;
+}
+
+void gm_writer_cut(struct gm_writer *writer)
+{
+    if (!gm_writer_idle(writer)) {
+        writer->sent = writer->length = 0;
+        writer->known = false;
+        put_text(writer, "\033\\");
+    }
+}
+
+void gm_writer_forget(struct gm_writer *writer)
+{
+    writer->known = false;
+}
+
+static const char *capability(const char *name)
+{
+    const char *text = tigetstr(name);
+    return text == (char *)-1 ? NULL : text;
+}
+
+bool gm_writer_open(struct gm_writer *writer, const struct gm_terminal *terminal)
+{
+    *writer = (struct gm_writer){.fd = -1,
+                                 .colours = terminal->colours,
+                                 .theme = terminal->theme,
+                                 .asks = terminal->answers.attributes,
+                                 .trip = terminal->asked,
+                                 .bound = ON_THE_WAY};
+    writer->row = -1;
+    writer->foreground = writer->background = -1;
+    writer->place = capability("cup");
+    writer->plain = capability("sgr0");
+    writer->strong = capability("bold");
+    writer->reversed = capability("rev");
+    writer->set_foreground = capability("setaf");
+    writer->set_background = capability("setab");
+    if (!writer->set_background) {
+        writer->set_foreground = NULL;
+    }
+    writer->bright = tigetnum("colors") >= 16 || !writer->set_foreground;
+    writer->corner = tigetflag("am") <= 0 || tigetflag("xenl") > 0;
+    /* The terminal opened a second time can be made not to wait without changing that for the shell. */
+    const char *name = ttyname(STDOUT_FILENO);
+    if (name) {
+        writer->fd = open(name, O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    }
+    writer->own_fd = writer->fd >= 0;
+    if (!writer->own_fd) {
+        writer->fd = STDOUT_FILENO;
+    }
+    if (writer->colours == GM_COLOURS_256) {
+        size_t size = (size_t)1 << 15;
+        writer->nearest = malloc(size * sizeof *writer->nearest);
+        if (!writer->nearest) {
+            gm_writer_close(writer);
+            return false;
+        }
+        for (size_t i = 0; i < size; i++) {
+            writer->nearest[i] = -1;
+        }
+    }
+    return true;
+}
+
+void gm_writer_close(struct gm_writer *writer)
+{
+    for (int tries = 0; tries < 10 && !gm_writer_idle(writer) && gm_writer_send(writer); tries++) {
+        poll(&(struct pollfd){.fd = writer->fd, .events = POLLOUT}, 1, 50);
+    }
+    if (writer->own_fd) {
+        close(writer->fd);
+    }
+    free(writer->out);
+    free(writer->shown.cells);
+    free(writer->nearest);
+    *writer = (struct gm_writer){.fd = -1};
+}

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/explorer/view/guide.h"
+
+#include <stdio.h>
+
+enum { MOST_ROWS = 100, LEAST_HEIGHT = 8 };
+
+struct gm_guide gm_guide_open(const struct gm_tour *tour)
+{
+    return (struct gm_guide){.tour = tour, .answered = !tour->steps[0].ask};
+}
+
+static enum gm_guide_result go(struct gm_guide *guide, size_t step)
+{
+    if (step >= guide->tour->count) {
+        return GM_GUIDE_END;
+    }
+    guide->step = step;
+    guide->answered = !guide->tour->steps[step].ask;
+    return GM_GUIDE_OPEN;
+}
+
+enum gm_guide_result gm_guide_press(struct gm_guide *guide, int key)
+{
+    switch (key) {
+    case 'n':
+        if (!guide->answered) {
+            guide->answered = true;
+            return GM_GUIDE_RUN;
+        }
+        return go(guide, guide->step + 1);
+    case 'N':
+        return go(guide, guide->step - 1); /* before the first one there is none: the number wraps around */
+    default:
+        return go(guide, guide->step);
+    }
+}
+
+/* ---- what is told ---- */
+
+/* A word such as "Watch:" in front of a text. */
+static int draw_marked(const struct gm_sheet *sheet, int row, const char *mark, const char *text)
+{
+    if (!text) {
+        return 0;
+    }
+    gm_sheet_text(sheet, 0, row, mark, GM_INK, true);
+    return gm_sheet_wrapped(sheet, gm_sheet_width(sheet, mark) + 1, row, MOST_ROWS, text, GM_INK);
+}
+
+/* Draws the paragraphs below row 0; returns the row after them. */
+static int draw_texts(const struct gm_sheet *sheet, const struct gm_guide *guide)
+{
+    const struct gm_tour_step *step = &guide->tour->steps[guide->step];
+    const char *first = step->ask && guide->answered ? step->answer : step->say;
+    int row = 1;
+    row += gm_sheet_wrapped(sheet, 0, row, MOST_ROWS, first, GM_INK);
+    if (!guide->answered) {
+        return row + draw_marked(sheet, row, "Predict:", step->ask);
+    }
+    row += draw_marked(sheet, row, "Watch:", step->watch);
+    row += draw_marked(sheet, row, "Try:", step->attempt);
+    return row;
+}
+
+/* At most two fifths of the screen, so that there is still something to see. */
+int gm_guide_rows(const struct gm_sheet *screen, const struct gm_guide *guide)
+{
+    const struct gm_sheet nothing = gm_sheet_part(screen, 0, 0, screen->width - 2, 0);
+    const int wanted = draw_texts(&nothing, guide), most = screen->height * 2 / 5;
+    return screen->height < LEAST_HEIGHT ? 0 : wanted < most ? wanted : most;
+}
+
+/* The keys of the tour at the right of the rule; returns where they begin. */
+static int draw_keys(const struct gm_sheet *sheet, const struct gm_guide *guide)
+{
+    struct gm_hint hints[4];
+    size_t count = 0;
+    if (!guide->answered || guide->step + 1 < guide->tour->count) {
+        hints[count++] = (struct gm_hint){"n", guide->answered ? "next" : "answer", 'n'};
+    }
+    if (guide->step > 0) {
+        hints[count++] = (struct gm_hint){"N", "back", 'N'};
+    }
+    hints[count++] = (struct gm_hint){"a", "again", 'a'};
+    hints[count] = (struct gm_hint){NULL, NULL, 0};
+    int width = 0;
+    for (size_t i = 0; i < count; i++) {
+        width += gm_sheet_width(sheet, hints[i].word) + 5;
+    }
+    for (int i = sheet->width - width; i < sheet->width; i++) {
+        gm_sheet_glyph(sheet, i, 0, ' ', GM_GRID, false);
+    }
+    return gm_hints_draw(sheet, 1, hints);
+}
+
+void gm_guide_draw(const struct gm_sheet *sheet, const struct gm_guide *guide)
+{
+    const struct gm_tour *tour = guide->tour;
+    char text[256];
+    if (sheet->height < 1) {
+        return;
+    }
+    for (int i = 0; i < sheet->width; i++) {
+        gm_sheet_glyph(sheet, i, 0, 0x2500, GM_GRID, false);
+    }
+    const int begin = draw_keys(sheet, guide);
+    snprintf(text, sizeof text, " %.80s %zu/%zu: %.120s ", tour->title, guide->step + 1, tour->count,
+             tour->steps[guide->step].title);
+    const struct gm_sheet head = gm_sheet_part(sheet, 0, 0, begin > 1 ? begin - 1 : 0, 1);
+    gm_sheet_text(&head, 1, 0, text, GM_INK, true);
+    const struct gm_sheet body = gm_sheet_part(sheet, 1, 0, sheet->width - 2, sheet->height);
+    if (draw_texts(&body, guide) > sheet->height) {
+        gm_sheet_text(&body, body.width - 1, body.height - 1, "…", GM_INK, true);
+    }
+}

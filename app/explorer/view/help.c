@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pages that explain: the scene, the keys, the letters of the claims, a scheme. */
+#include <stdio.h>
+#include <string.h>
+
+#include "app/explorer/view/keys.h"
+#include "app/explorer/view/screen.h"
+
+/* A column of the page that grows downwards, scrolled by the sheet's face. */
+struct page {
+    struct gm_sheet sheet;
+    int row, scroll;
+};
+
+static void put(struct page *page, int column, const char *text, enum gm_role role, bool bold)
+{
+    gm_sheet_text(&page->sheet, column, page->row - page->scroll, text, role, bold);
+}
+
+/* Breaks a text at its blanks; lines after the first begin at `column` too. */
+static void put_wrapped(struct page *page, int column, const char *text, enum gm_role role)
+{
+    page->row += gm_sheet_wrapped(&page->sheet, column, page->row - page->scroll, 100, text, role);
+}
+
+static void put_heading(struct page *page, const char *text)
+{
+    if (page->row > 0) {
+        page->row++;
+    }
+    put(page, 0, text, GM_SECONDARY, true);
+    page->row++;
+}
+
+static void put_scene(struct page *page, const struct gm_scene *scene)
+{
+    put(page, 0, scene->title, GM_INK, true);
+    page->row++;
+    put_wrapped(page, 0, scene->blurb ? scene->blurb : "", GM_INK);
+    put_wrapped(page, 0, scene->watch ? scene->watch : "", GM_SECONDARY);
+}
+
+enum { KEY_COLUMNS = 11 };
+
+static void put_key(struct page *page, const char *label, const char *text)
+{
+    put(page, 0, label, GM_INK, true);
+    put_wrapped(page, KEY_COLUMNS, text, GM_INK);
+}
+
+static void put_key_rows(struct page *page)
+{
+    for (size_t i = 0; i < gm_key_row_count; i++) {
+        if (gm_key_rows[i].text) {
+            put_key(page, gm_key_rows[i].label, gm_key_rows[i].text);
+        }
+    }
+}
+
+static void put_keys(struct page *page, const struct gm_scene *scene)
+{
+    put_heading(page, "KEYS");
+    put_key_rows(page);
+    put_heading(page, "MOUSE");
+    put_wrapped(
+        page, 0,
+        "Never needed. Click a lane, a scheme, a parameter or a word of the last line; drag a slider, or the "
+        "line under the picture through the past; the wheel changes the speed.",
+        GM_INK);
+    if (scene->point) {
+        put_wrapped(page, 0, "In the picture of this scene a click is a new start.", GM_INK);
+    }
+}
+
+static void put_claims(struct page *page)
+{
+    put_heading(page, "CLAIMS");
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        put(page, 0, gm_claim_letter(bit), GM_INK, true);
+        put_wrapped(page, 8, gm_claim_word(bit), GM_INK);
+    }
+    put_wrapped(page, 0, "`geomint certify` measures every one of them.", GM_SECONDARY);
+}
+
+/* Lines as they are. */
+static void put_lines(struct page *page, int column, const char *text, enum gm_role role)
+{
+    for (const char *at = text; at && *at;) {
+        char line[256];
+        size_t length = strcspn(at, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, at);
+        put(page, column, line, role, false);
+        page->row++;
+        at += length + (at[length] == '\n');
+    }
+}
+
+static void put_scheme(struct page *page, const struct gm_scheme *scheme, enum gm_role role)
+{
+    char text[32];
+    put(page, 0, scheme->title, role, true);
+    snprintf(text, sizeof text, scheme->order > 0 ? "order %d" : "chooses its order", scheme->order);
+    put(page, gm_sheet_width(&page->sheet, scheme->title) + 2, text, GM_SECONDARY, false);
+    page->row++;
+    put_lines(page, 2, scheme->formula, GM_INK);
+    put_wrapped(page, 0, scheme->reference ? scheme->reference : "", GM_SECONDARY);
+}
+
+static void put_measured(struct page *page)
+{
+    const char *measured = page->sheet.face->measured;
+    put_heading(page, "AS MEASURED");
+    if (measured) {
+        put_lines(page, 0, measured, GM_INK);
+    } else {
+        put(page, 0, "measuring …", GM_SECONDARY, false);
+        page->row++;
+    }
+}
+
+static int draw_scheme(const struct gm_sheet *sheet, int scroll)
+{
+    struct page page = {.sheet = *sheet, .scroll = scroll};
+    put_scheme(&page, sheet->face->explained, GM_INK);
+    put_measured(&page);
+    return page.row;
+}
+
+enum { TWO_COLUMNS = 110, COLUMN_GAP = 4 };
+
+static int draw_help(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
+{
+    bool two = sheet->width >= TWO_COLUMNS;
+    struct page left = {.sheet = *sheet, .scroll = scroll};
+    if (two) {
+        left.sheet.width = (sheet->width - COLUMN_GAP) / 2;
+    }
+    struct page right = left;
+    if (two) {
+        right.sheet.column += left.sheet.width + COLUMN_GAP;
+    }
+    put_scene(&left, shot->scene);
+    put_keys(&left, shot->scene);
+    if (!two) {
+        right.row = left.row;
+    }
+    const struct gm_shot_lane *lane = &shot->lanes[shot->selected];
+    put_claims(&right);
+    put_heading(&right, "THE SELECTED SCHEME");
+    put_scheme(&right, lane->scheme, gm_lane_role(lane->shown.colour));
+    put_measured(&right);
+    return left.row > right.row ? left.row : right.row;
+}
+
+static int draw_commands(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
+{
+    static const char *const headings[GM_COMMANDS] = {
+        [GM_COMMAND_PICTURE] = "THIS VIEW AS A PICTURE",
+        [GM_COMMAND_EXPLORER] = "THE EXPLORER, FROM THE START",
+    };
+    struct page page = {.sheet = *sheet, .scroll = scroll};
+    for (size_t i = 0; i < GM_COMMANDS; i++) {
+        put_heading(&page, headings[i]);
+        put(&page, 0, i == sheet->face->command ? "▸" : " ", GM_INK, true);
+        put_wrapped(&page, 2, shot->commands[i] ? shot->commands[i] : "There is not enough memory.", GM_INK);
+    }
+    page.row++;
+    put_wrapped(&page, 0, "▸ was copied too, if the terminal lets programs do that.", GM_SECONDARY);
+    return page.row;
+}
+
+static int draw_start_help(const struct gm_sheet *sheet, int scroll)
+{
+    static const char *const rows[][2] = {
+        {"letters", "search names, titles and what is told of scenes and tours; ⌫ takes one back"},
+        {"↑ ↓", "choose; Home, End: the first, the last"},
+        {"tab", "from the scenes to the tours and back"},
+        {"enter", "open what is chosen; what was open goes on where it was left"},
+        {"esc", "search for nothing: all scenes and tours"},
+        {"?", "this page"},
+        {"q", "quit, while nothing is typed"},
+    };
+    struct page page = {.sheet = *sheet, .scroll = scroll};
+    put(&page, 0, "The list of scenes and tours", GM_INK, true);
+    page.row++;
+    put_wrapped(
+        &page, 0,
+        "A scene is a problem, and schemes to compare on it; a live look at the chosen one is beside the "
+        "list. A tour leads through scenes, step by step.",
+        GM_INK);
+    put_heading(&page, "KEYS HERE");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        put_key(&page, rows[i][0], rows[i][1]);
+    }
+    put_heading(&page, "KEYS IN A SCENE");
+    put_key_rows(&page);
+    return page.row;
+}
+
+static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *shot)
+{
+    if (sheet->face->page == GM_PAGE_START) {
+        return draw_start_help(sheet, scroll);
+    }
+    if (sheet->face->page == GM_PAGE_COMMAND) {
+        return draw_commands(sheet, scroll, shot);
+    }
+    return sheet->face->page == GM_PAGE_SCHEME ? draw_scheme(sheet, scroll) : draw_help(sheet, scroll, shot);
+}
+
+void gm_page_draw(const struct gm_sheet *sheet, struct gm_face *face, const struct gm_shot *shot)
+{
+    /* Measured first on no rows at all, so that scrolling stops at the last line. */
+    struct gm_sheet nothing = *sheet;
+    nothing.height = 0;
+    int most = draw(&nothing, 0, shot) - sheet->height;
+    if (face->scroll > most) {
+        face->scroll = most;
+    }
+    if (face->scroll < 0) {
+        face->scroll = 0;
+    }
+    draw(sheet, face->scroll, shot);
+}

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/explorer/view/measure.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+static void end(struct gm_measure *measure)
+{
+    if (measure->fd >= 0) {
+        close(measure->fd);
+    }
+    if (measure->child > 0) {
+        kill(measure->child, SIGKILL);
+        while (waitpid(measure->child, NULL, 0) < 0 && errno == EINTR) {
+        }
+    }
+    measure->fd = -1;
+    measure->child = 0;
+}
+
+/* This program once more, its output in our pipe; the terminal is not its own. */
+static bool start(struct gm_measure *measure, int out)
+{
+    posix_spawn_file_actions_t files;
+    char *words[] = {"geomint", "certify", (char *)measure->scheme->name, NULL};
+    if (posix_spawn_file_actions_init(&files) != 0) {
+        return false;
+    }
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    int error = posix_spawn(&measure->child, "/proc/self/exe", &files, NULL, words, environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (error != 0) {
+        measure->child = 0;
+    }
+    return error == 0;
+}
+
+void gm_measure_ask(struct gm_measure *measure, const struct gm_scheme *scheme)
+{
+    if (measure->scheme == scheme) {
+        return;
+    }
+    gm_measure_close(measure);
+    measure->scheme = scheme;
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) {
+        return;
+    }
+    fcntl(ends[1], F_SETFL, 0); /* the child may wait for us */
+    measure->fd = ends[0];
+    if (!start(measure, ends[1])) {
+        end(measure);
+    }
+    close(ends[1]);
+}
+
+bool gm_measure_read(struct gm_measure *measure)
+{
+    char part[4096];
+    for (;;) {
+        ssize_t size = read(measure->fd, part, sizeof part);
+        if (size < 0 && (errno == EAGAIN || errno == EINTR)) {
+            return false;
+        }
+        if (size <= 0) {
+            end(measure);
+            return true;
+        }
+        char *more = realloc(measure->text, measure->length + (size_t)size + 1);
+        if (!more) {
+            end(measure);
+            return true;
+        }
+        measure->text = more;
+        memcpy(more + measure->length, part, (size_t)size);
+        measure->length += (size_t)size;
+        more[measure->length] = '\0';
+    }
+}
+
+const char *gm_measure_text(const struct gm_measure *measure)
+{
+    if (measure->fd >= 0) {
+        return NULL;
+    }
+    return measure->text ? measure->text : "could not be measured";
+}
+
+void gm_measure_close(struct gm_measure *measure)
+{
+    end(measure);
+    free(measure->text);
+    *measure = (struct gm_measure){.fd = -1};
+}

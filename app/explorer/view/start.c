@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The start: the scenes with a live look at the chosen one, and the tours. */
+#include <ctype.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "app/explorer/view/screen.h"
+
+/* How a word stands in a text, the best first. */
+enum { EXACT, PREFIX, WORD_START, ANYWHERE, NOWHERE };
+
+static bool begins_with(const char *text, const char *word, size_t length)
+{
+    size_t i = 0;
+    while (i < length && tolower((unsigned char)text[i]) == tolower((unsigned char)word[i])) {
+        i++;
+    }
+    return i == length;
+}
+
+static int place_in(const char *text, const char *word, size_t length)
+{
+    int best = NOWHERE;
+    for (const char *at = text; *at && best > WORD_START; at++) {
+        if (begins_with(at, word, length)) {
+            const bool start = at == text || !isalnum((unsigned char)at[-1]);
+            best = at == text ? (at[length] ? PREFIX : EXACT) : start ? WORD_START : ANYWHERE;
+        }
+    }
+    return best;
+}
+
+int gm_search_rank(const char *typed, const char *const *texts)
+{
+    int worst = 0;
+    while (*typed) {
+        const size_t length = strcspn(typed, " ");
+        int best = length == 0 ? 0 : INT_MAX;
+        for (int i = 0; length > 0 && texts[i]; i++) {
+            const int place = place_in(texts[i], typed, length);
+            /* of equal places the one in the first text, which is the name, counts most */
+            const int rank = place == NOWHERE ? INT_MAX : place * GM_SEARCH_TEXTS + i;
+            best = rank < best ? rank : best;
+        }
+        worst = best > worst ? best : worst;
+        typed += length + (typed[length] == ' ');
+    }
+    return worst == INT_MAX ? -1 : worst;
+}
+
+size_t gm_search_place(int *ranks, size_t first, size_t count, int rank)
+{
+    size_t at = count;
+    for (; at > first && ranks[at - 1] > rank; at--) {
+        ranks[at] = ranks[at - 1];
+    }
+    ranks[at] = rank;
+    return at;
+}
+
+enum {
+    NAME_COLUMNS = 17,
+    TITLE_COLUMNS = 38,
+    LOOK_FROM_COLUMNS = 64,
+    LOOK_FROM_ROWS = 14,
+    TITLES_FROM = 120
+};
+
+static void draw_entry(const struct gm_sheet *sheet, int row, const struct gm_start_entry *entry,
+                       size_t index, bool chosen, bool titles)
+{
+    gm_sheet_text(sheet, 0, row, chosen ? "▸" : " ", GM_LANE, true);
+    gm_sheet_text(sheet, 2, row, entry->tour ? entry->tour->name : entry->scene->name,
+                  chosen ? GM_LANE : GM_INK, chosen);
+    if (titles) {
+        gm_sheet_text(sheet, NAME_COLUMNS + 1, row, entry->tour ? entry->tour->title : entry->scene->title,
+                      GM_SECONDARY, chosen);
+    }
+    gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_SCENE, .index = index});
+}
+
+/* The scenes, and below a heading the tours. */
+static void draw_list(const struct gm_sheet *sheet, const struct gm_start *start, bool titles)
+{
+    const int scenes = (int)start->scenes, count = (int)start->count, choice = (int)start->choice;
+    if (count == 0) {
+        gm_sheet_text(sheet, 2, 0, "nothing found", GM_SECONDARY, false);
+        return;
+    }
+    const bool tours = count > scenes;
+    const int gap = tours && scenes > 0 && count + 2 <= sheet->height, heading = scenes + gap,
+              behind = gap + tours, lines = count + behind;
+    const int chosen = choice < scenes ? choice : choice + behind;
+    /* the chosen one in the middle, where the list is longer than the sheet */
+    int first = chosen - sheet->height / 2;
+    first = first > lines - sheet->height ? lines - sheet->height : first;
+    first = first < 0 ? 0 : first;
+    for (int i = 0; i < count; i++) {
+        const int row = (i < scenes ? i : i + behind) - first;
+        if (row >= 0 && row < sheet->height) {
+            draw_entry(sheet, row, &start->found[i], (size_t)i, i == choice, titles);
+        }
+    }
+    if (tours && heading >= first) {
+        gm_sheet_text(sheet, 2, heading - first, "TOURS", GM_SECONDARY, true);
+    }
+    if (first > 0) {
+        gm_sheet_text(sheet, sheet->width - 1, 0, "↑", GM_SECONDARY, true);
+    }
+    if (first + sheet->height < lines) {
+        gm_sheet_text(sheet, sheet->width - 1, sheet->height - 1, "↓", GM_SECONDARY, true);
+    }
+}
+
+static int wrapped_rows(const struct gm_sheet *sheet, const char *text)
+{
+    struct gm_sheet nothing = *sheet;
+    nothing.height = 0;
+    return gm_sheet_wrapped(&nothing, 0, 0, 100, text, GM_INK);
+}
+
+/* The chosen scene: what it is, a live look, and what to watch. */
+static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet, const struct gm_scene *scene,
+                      const struct gm_shot *shot, const char *said)
+{
+    int row = 0, rows = sheet->height;
+    const char *watch = scene->watch ? scene->watch : "", *blurb = scene->blurb ? scene->blurb : "";
+    gm_sheet_text(sheet, 0, row++, scene->title, GM_INK, true);
+    if (rows >= 30) {
+        row += gm_sheet_wrapped(sheet, 0, row, 4, blurb, GM_SECONDARY) + 1;
+    }
+    int below = wrapped_rows(sheet, watch), picture = rows - row - below - (rows >= 30);
+    if (said[0]) {
+        gm_sheet_wrapped(sheet, 0, row + 1, picture, said, GM_INITIAL);
+    } else if (shot && picture >= 4) {
+        gm_screen_picture(screen, sheet->face, shot, sheet->column, sheet->row + row, sheet->width, picture);
+    } else if (picture >= 1) {
+        gm_sheet_text(sheet, sheet->width / 2 - 1, row + picture / 2, "…", GM_SECONDARY, false);
+    }
+    gm_sheet_wrapped(sheet, 0, rows - below, below, watch, GM_INK);
+}
+
+/* The chosen tour: what it is about, and its steps. */
+static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
+{
+    int row = 0;
+    gm_sheet_text(sheet, 0, row++, tour->title, GM_INK, true);
+    row += gm_sheet_wrapped(sheet, 0, row, 4, tour->about ? tour->about : "", GM_SECONDARY) + 1;
+    for (size_t i = 0; i < tour->count; i++) {
+        const struct gm_tour_step *step = &tour->steps[i];
+        char number[24];
+        snprintf(number, sizeof number, "%zu.", i + 1);
+        gm_sheet_text(sheet, 0, row, number, GM_SECONDARY, false);
+        row += gm_sheet_wrapped(sheet, 4, row, 2, step->title, GM_INK);
+    }
+    gm_sheet_wrapped(sheet, 0, row + 1, 3,
+                     "enter begins it. A step may ask for a prediction before it shows.", GM_SECONDARY);
+}
+
+/* The last row: what was typed, or that one can, and the keys. */
+static void draw_keys(const struct gm_sheet *sheet, const struct gm_start *start)
+{
+    enum { MOST = 7 };
+    struct gm_hint hints[MOST];
+    size_t count = 0;
+    char text[GM_TYPED + 16];
+    int column = 1;
+    if (start->typed[0]) {
+        snprintf(text, sizeof text, "search: %s_", start->typed);
+        column += gm_sheet_text(sheet, 1, 0, text, GM_INK, true) + 2;
+    } else {
+        column += gm_sheet_text(sheet, 1, 0, "Type to search.", GM_SECONDARY, false) + 2;
+    }
+    hints[count++] = (struct gm_hint){"enter", "open", '\n'};
+    hints[count++] = (struct gm_hint){"↑↓", "choose", 0};
+    if (start->scenes > 0 && start->scenes < start->count) {
+        hints[count++] = (struct gm_hint){"tab", start->choice < start->scenes ? "tours" : "scenes", '\t'};
+    }
+    hints[count++] =
+        start->typed[0] ? (struct gm_hint){"esc", "all", 27} : (struct gm_hint){"q", "quit", 'q'};
+    hints[count++] = (struct gm_hint){"?", "help", '?'};
+    hints[count] = (struct gm_hint){NULL, NULL, 0};
+    gm_hints_draw(sheet, column, hints);
+}
+
+void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const struct gm_start *start,
+                          const struct gm_shot *shot, bool fresh, const char *said)
+{
+    const struct gm_sheet whole = gm_screen_clear(screen, face);
+    int below = gm_screen_status_rows(&screen->cells), rows = whole.height - below, at = 0;
+    if (fresh) {
+        screen->fresh = false;
+    }
+    if (face->page == GM_PAGE_START) {
+        gm_screen_draw_page(&whole, face, NULL);
+        return;
+    }
+    if (rows > 6) {
+        gm_sheet_text(&whole, 1, 0, "geomint", GM_INK, true);
+        gm_sheet_text(&whole, 10, 0, "what a geometric integrator keeps, and an ordinary one loses",
+                      GM_SECONDARY, false);
+        at = rows > 22 ? 2 : 1;
+    }
+    bool look = whole.width >= LOOK_FROM_COLUMNS && whole.height >= LOOK_FROM_ROWS;
+    bool titles = !look || whole.width >= TITLES_FROM;
+    int list = look && !titles ? NAME_COLUMNS + 1 : look ? NAME_COLUMNS + TITLE_COLUMNS : whole.width - 2;
+    const struct gm_sheet left = gm_sheet_part(&whole, 1, at, list, rows - at);
+    draw_list(&left, start, titles);
+    if (look && start->choice < start->count) {
+        const struct gm_start_entry *chosen = &start->found[start->choice];
+        const struct gm_sheet right = gm_sheet_part(&whole, list + 3, at, whole.width - list - 4, rows - at);
+        if (chosen->tour) {
+            draw_tour(&right, chosen->tour);
+        } else {
+            draw_look(screen, &right, chosen->scene, shot, said);
+        }
+    }
+    if (below == 2) {
+        gm_screen_rule(&whole, 0);
+    }
+    if (below > 0) {
+        const struct gm_sheet last = gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1);
+        draw_keys(&last, start);
+    }
+}

@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/explorer/view/studies.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/explorer/view/keys.h"
+
+enum { REDRAW = 'L' - '@' };
+
+static const char keys[GM_STUDY_COUNT] = {[GM_STUDY_WORK] = 'w', [GM_STUDY_STABILITY] = 'm'};
+
+void gm_studies_close(struct gm_studies *studies)
+{
+    for (int i = 0; i < GM_STUDY_COUNT; i++) {
+        gm_study_close(studies->studies[i]);
+    }
+    free(studies->cells.cells);
+    *studies = (struct gm_studies){0};
+}
+
+bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const char *words, int wake)
+{
+    struct gm_study *present = studies->studies[kind];
+    if (!present || strcmp(gm_study_words(present), words) != 0) {
+        struct gm_study *study = gm_study_open(kind, words, wake, studies->notice);
+        if (!study) {
+            return false;
+        }
+        gm_study_close(present);
+        studies->studies[kind] = study;
+        studies->looks[kind] = NULL;
+    }
+    studies->shown = kind;
+    studies->fresh = false;
+    return true;
+}
+
+/* Whether a parameter stands at its default. */
+static bool is_standard(const struct gm_scene *scene, const struct gm_shot_parameter *parameter)
+{
+    void *owner =
+        calloc(1, scene->size > sizeof(struct gm_settings) ? scene->size : sizeof(struct gm_settings));
+    bool standard = true;
+    if (owner && gm_parameter_set(parameter->row, owner, parameter->value) == GM_PARSED) {
+        const double present = gm_parameter_get(parameter->row, owner);
+        gm_parameter_set(parameter->row, owner, parameter->row->standard);
+        const double usual = gm_parameter_get(parameter->row, owner);
+        standard = present == usual || (isnan(present) && isnan(usual));
+    }
+    free(owner);
+    return standard;
+}
+
+/* The scene, with what the user has set; the step is the study's own matter. */
+static void present_words(const struct gm_shot *shot, char *words, size_t size)
+{
+    size_t used = (size_t)snprintf(words, size, "%s", shot->scene->name);
+    for (size_t i = 0; i < shot->parameter_count; i++) {
+        const struct gm_shot_parameter *parameter = &shot->parameters[i];
+        if (strcmp(parameter->row->key, "dt") == 0 || is_standard(shot->scene, parameter)) {
+            continue;
+        }
+        used += (size_t)snprintf(words + used, size - used, " %s=%s", parameter->row->key, parameter->value);
+        if (used >= size) {
+            return;
+        }
+    }
+}
+
+void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot *shot, int wake)
+{
+    char words[1024];
+    present_words(shot, words, sizeof words);
+    gm_studies_open(studies, key == 'w' ? GM_STUDY_WORK : GM_STUDY_STABILITY, words, wake);
+}
+
+bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)
+{
+    static const char others[] = "qbtlnNa?";
+    studies->notice[0] = '\0';
+    if (studies->shown == GM_STUDY_NONE) {
+        return false;
+    }
+    struct gm_study *study = studies->studies[studies->shown];
+    if (gm_key_is_escape(key) || gm_key_is_erase(key) || key == keys[studies->shown]) {
+        studies->shown = GM_STUDY_NONE;
+        return true;
+    }
+    switch (key) {
+    case 'x':
+        gm_study_stop(study);
+        return true;
+    case 'p':
+        gm_study_save(study, theme);
+        return true;
+    case 'w':
+    case 'm':
+    case REDRAW:
+        return false;
+    default:
+        return key <= ' ' || key > '~' || !strchr(others, key);
+    }
+}
+
+bool gm_studies_look(struct gm_studies *studies)
+{
+    bool news = false;
+    for (int i = 0; i < GM_STUDY_COUNT; i++) {
+        struct gm_look *look = studies->studies[i] ? gm_study_take(studies->studies[i]) : NULL;
+        if (look) {
+            studies->looks[i] = look;
+            studies->fresh = studies->fresh && studies->shown != (enum gm_study_kind)i;
+            news = true;
+        }
+    }
+    return news;
+}
+
+/* ---- what is drawn ---- */
+
+/* Why there is no diagram, in its place. */
+static void draw_reason(const struct gm_sheet *sheet, const struct gm_look *look)
+{
+    const struct gm_sheet page = gm_sheet_part(sheet, 2, 1, sheet->width - 4, sheet->height - 1);
+    char sentence[GM_MESSAGE + 1];
+    snprintf(sentence, sizeof sentence, "%c%s.", toupper((unsigned char)look->message[0]),
+             look->message[0] ? look->message + 1 : "");
+    gm_sheet_text(&page, 0, 0, look->picture->title ? look->picture->title : "", GM_INK, true);
+    gm_sheet_wrapped(&page, 0, 2, page.height - 2, sentence, GM_INK);
+}
+
+void gm_studies_draw(const struct gm_sheet *sheet, struct gm_studies *studies)
+{
+    struct gm_look *look = studies->looks[studies->shown];
+    if (sheet->width < 1 || sheet->height < 1) {
+        return;
+    }
+    if (!look) {
+        gm_sheet_text(sheet, 1, 0, "measuring", GM_SECONDARY, false);
+        return;
+    }
+    if (look->impossible) {
+        draw_reason(sheet, look);
+        return;
+    }
+    struct gm_cells *cells = &studies->cells;
+    if (!studies->fresh || cells->columns != sheet->width || cells->rows != sheet->height ||
+        studies->blocks != sheet->face->blocks || studies->theme != sheet->face->theme) {
+        if (!gm_cells_resize(cells, sheet->width, sheet->height, sheet->face->theme)) {
+            return;
+        }
+        cells->outlines = sheet->face->few_colours || sheet->face->monochrome;
+        gm_cells_paint(cells, look->picture, sheet->face->theme, sheet->face->blocks);
+        studies->fresh = true;
+        studies->blocks = sheet->face->blocks;
+        studies->theme = sheet->face->theme;
+    }
+    for (int row = 0; row < sheet->height; row++) {
+        memcpy(&sheet->cells->cells[(size_t)(sheet->row + row) * (size_t)sheet->cells->columns +
+                                    (size_t)sheet->column],
+               &cells->cells[(size_t)row * (size_t)cells->columns],
+               sizeof(struct gm_cell) * (size_t)cells->columns);
+    }
+}
+
+static int percent(const struct gm_look *look)
+{
+    return look && look->all > 0 ? (int)(100 * look->done / look->all) : 0;
+}
+
+void gm_studies_status(const struct gm_studies *studies, char *text, size_t size)
+{
+    const struct gm_look *look = studies->looks[studies->shown];
+    const char *name = gm_study_name(studies->shown);
+    if (studies->notice[0]) {
+        snprintf(text, size, "%s", studies->notice);
+    } else if (!look) {
+        snprintf(text, size, "%s: begins", name);
+    } else if (look->impossible) {
+        snprintf(text, size, "%s: not possible here", name);
+    } else if (look->message[0]) {
+        snprintf(text, size, "%s %d %%: %s", name, percent(look), look->message);
+    } else {
+        snprintf(text, size, "%s %d %%: %s", name, percent(look), look->what);
+    }
+}
+
+void gm_studies_news(const struct gm_studies *studies, char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "%s", studies->notice);
+    for (int i = GM_STUDY_WORK; i < GM_STUDY_COUNT && used == 0; i++) {
+        const struct gm_look *look = studies->looks[i];
+        if (!studies->studies[i] || studies->shown == (enum gm_study_kind)i || (look && look->impossible)) {
+            continue;
+        }
+        if (look && look->finished) {
+            used += (size_t)snprintf(text + used, size - used, "%s is finished: %c shows it",
+                                     gm_study_name((enum gm_study_kind)i), keys[i]);
+        } else {
+            used += (size_t)snprintf(text + used, size - used, "%s %d %%",
+                                     gm_study_name((enum gm_study_kind)i), percent(look));
+        }
+    }
+}

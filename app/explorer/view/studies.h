@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_EXPLORER_VIEW_STUDIES_H
+#define GM_APP_EXPLORER_VIEW_STUDIES_H
+
+#include "app/explorer/view/screen.h"
+#include "app/explorer/view/study.h"
+
+/* The background studies of the explorer, one of each kind, and which of them is on the screen. */
+
+struct gm_studies {
+    struct gm_study *studies[GM_STUDY_COUNT];
+    struct gm_look *looks[GM_STUDY_COUNT]; /* the last ones taken; NULL: none yet */
+    enum gm_study_kind shown;              /* GM_STUDY_NONE: the scene is */
+    struct gm_cells cells;                 /* the shown picture, kept */
+    bool fresh;                            /* they show the last look */
+    enum gm_blocks blocks;                 /* and were painted with these */
+    enum gm_theme theme;
+    char notice[GM_MESSAGE]; /* what could not be done; "" after the next key */
+};
+
+void gm_studies_close(struct gm_studies *studies);
+
+/* Shows a study; starts it unless one of the same words is there already. False if it cannot be made: the
+   notice says why. */
+bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const char *words, int wake);
+
+/* The same for the scene as it is set now, by the key: w work-precision, m the stability map. */
+void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot *shot, int wake);
+
+/* What a key does while a study is shown; false: it is for others. */
+bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme);
+
+/* Takes what is new; true if the screen has to be composed again. */
+bool gm_studies_look(struct gm_studies *studies);
+
+/* The picture of the shown study over the sheet. */
+void gm_studies_draw(const struct gm_sheet *sheet, struct gm_studies *studies);
+/* The line on how far the shown study is. */
+void gm_studies_status(const struct gm_studies *studies, char *text, size_t size);
+/* The line on studies that go on unseen, or the notice; "" if there is nothing to say. */
+void gm_studies_news(const struct gm_studies *studies, char *text, size_t size);
+
+#endif

@@ -1,0 +1,484 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/figures/figure.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "app/output/still.h"
+#include "app/request/drive.h"
+#include "core/memory.h"
+
+enum { MOST_WORDS = 64, WORDS_SIZE = 512, FEW_SCHEMES = 3 };
+
+/* Text cut at blanks, as words that gm_request_parse takes. */
+struct words {
+    char text[WORDS_SIZE];
+    char *word[MOST_WORDS];
+    int count;
+};
+
+static void split(struct words *words, const char *text)
+{
+    char *rest = NULL;
+    words->count = 0;
+    snprintf(words->text, sizeof words->text, "%s", text);
+    for (char *word = strtok_r(words->text, " ", &rest); word && words->count < MOST_WORDS;
+         word = strtok_r(NULL, " ", &rest)) {
+        words->word[words->count++] = word;
+    }
+}
+
+static size_t key_length(const char *word)
+{
+    return strcspn(word, "=");
+}
+
+static bool same_key(const char *one, const char *other)
+{
+    return key_length(one) == key_length(other) && strncmp(one, other, key_length(one)) == 0;
+}
+
+/* The arguments with those of `quick` instead of their namesakes. */
+static void shorten(char *arguments, size_t size, const char *quick)
+{
+    struct words own, instead;
+    split(&own, arguments);
+    split(&instead, quick);
+    size_t used = 0;
+    for (int i = 0; i < own.count && used < size; i++) {
+        bool replaced = false;
+        for (int k = 0; k < instead.count; k++) {
+            replaced |= same_key(own.word[i], instead.word[k]);
+        }
+        if (!replaced) {
+            used += (size_t)snprintf(arguments + used, size - used, "%s ", own.word[i]);
+        }
+    }
+    if (used < size) {
+        snprintf(arguments + used, size - used, "%s", quick);
+    }
+}
+
+static bool parse(struct gm_request *request, const struct gm_figure_job *job, char *message)
+{
+    char sentence[GM_MESSAGE];
+    struct words words;
+    char *all[MOST_WORDS + 1] = {(char *)(uintptr_t)job->scene->name};
+    split(&words, job->arguments);
+    memcpy(all + 1, words.word, (size_t)words.count * sizeof words.word[0]);
+    if (gm_request_parse(request, words.count + 1, all, FEW_SCHEMES, sentence)) {
+        return true;
+    }
+    snprintf(message, GM_MESSAGE, "%s: %.400s", job->figure->name, sentence);
+    return false;
+}
+
+void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, const struct gm_figure *figure,
+                    bool quick)
+{
+    *job = (struct gm_figure_job){
+        .scene = scene, .figure = figure, .published = gm_published_find(figure->name)};
+    snprintf(job->arguments, sizeof job->arguments, "%s", figure->arguments);
+    if (quick && job->published && job->published->quick) {
+        shorten(job->arguments, sizeof job->arguments, job->published->quick);
+        job->shortened = true;
+    }
+}
+
+/* Whether a lane has this value of a key; *known is false if there is no such key. */
+static bool has_value(const struct gm_request *request, const struct gm_lane_spec *spec, const char *key,
+                      const char *value, bool *known)
+{
+    if (strcmp(key, "scheme") == 0) {
+        return strcmp(spec->scheme->name, value) == 0;
+    }
+    const struct gm_parameter *row = gm_scene_parameter(request->scene, key);
+    void *other = row ? malloc(request->scene->size) : NULL;
+    bool same = false;
+    if (other) {
+        memcpy(other, spec->parameters, request->scene->size);
+        *known &= gm_parameter_set(row, other, value) == GM_PARSED;
+        same = gm_parameter_get(row, other) == gm_parameter_get(row, spec->parameters);
+    } else {
+        *known = false;
+    }
+    free(other);
+    return same;
+}
+
+/* Whether it has one of those of a word "scheme=rk4" or "dt=0.1,0.2". */
+static bool has(const struct gm_request *request, const struct gm_lane_spec *spec, const char *word,
+                bool *known)
+{
+    char key[64], values[WORDS_SIZE], *rest = NULL;
+    bool any = false;
+    snprintf(key, sizeof key, "%.*s", (int)key_length(word), word);
+    snprintf(values, sizeof values, "%s", word + key_length(word) + (word[key_length(word)] == '='));
+    for (char *value = strtok_r(values, ",", &rest); value; value = strtok_r(NULL, ",", &rest)) {
+        any |= has_value(request, spec, key, value, known);
+    }
+    return any;
+}
+
+/* Indices of the lanes with these values; returns how many. */
+static size_t choose(const struct gm_request *request, const char *lanes, size_t *chosen, bool *known)
+{
+    struct words words;
+    size_t count = 0;
+    split(&words, lanes);
+    for (size_t i = 0; i < request->count && i < GM_FIGURE_LANES; i++) {
+        bool all = true;
+        for (int k = 0; k < words.count; k++) {
+            all &= has(request, &request->lanes[i], words.word[k], known);
+        }
+        if (all) {
+            chosen[count++] = i;
+        }
+    }
+    return count;
+}
+
+static bool check_statement(const struct gm_request *request, const struct gm_statement *statement,
+                            char *message)
+{
+    size_t chosen[GM_FIGURE_LANES];
+    bool known = true;
+    const size_t count = choose(request, statement->lanes, chosen, &known);
+    const size_t others = statement->against ? choose(request, statement->against, chosen, &known) : 1;
+    const bool paired = others == 1 || others == count || (statement->over && others > 0);
+    if (!known || count == 0 || !paired) {
+        snprintf(message, GM_MESSAGE, "\"%s\" does not name its lanes: %s", statement->says,
+                 statement->lanes);
+        return false;
+    }
+    if (statement->measure != GM_LASTS && gm_scene_observable(request->scene, statement->observable) < 0) {
+        snprintf(message, GM_MESSAGE, "\"%s\" names no observable: %s", statement->says,
+                 statement->observable);
+        return false;
+    }
+    if (statement->over && gm_scene_observable(request->scene, statement->over) < 0 &&
+        !gm_scene_parameter(request->scene, statement->over)) {
+        snprintf(message, GM_MESSAGE, "\"%s\" is an order over nothing known: %s", statement->says,
+                 statement->over);
+        return false;
+    }
+    return true;
+}
+
+bool gm_figure_check(const struct gm_figure_job *job, char *message)
+{
+    struct gm_request request;
+    if (!job->published) {
+        return true;
+    }
+    if (job->published->count > GM_FIGURE_STATEMENTS ||
+        job->scene->observable_count > GM_FIGURE_OBSERVABLES) {
+        snprintf(message, GM_MESSAGE, "%s has too many statements or observables", job->figure->name);
+        return false;
+    }
+    if (!parse(&request, job, message)) {
+        return false;
+    }
+    bool good = request.count <= GM_FIGURE_LANES;
+    if (!good) {
+        snprintf(message, GM_MESSAGE, "%s has more than %d lanes", job->figure->name, GM_FIGURE_LANES);
+    }
+    for (size_t i = 0; i < job->published->count && good; i++) {
+        good = check_statement(&request, &job->published->statements[i], message);
+    }
+    gm_request_close(&request);
+    return good;
+}
+
+/* The largest value of an observable after the time `from`, up to `to`. */
+static double largest(const struct gm_lane *lane, int observable, double from, double to)
+{
+    const struct gm_history *history = &lane->history;
+    double most = -INFINITY;
+    for (size_t i = 0; i < history->count; i++) {
+        const struct gm_bin *bin = &history->bins[i * history->series + (size_t)observable];
+        if (bin->t > from && bin->t <= to) {
+            most = fmax(most, bin->high);
+        }
+    }
+    return most;
+}
+
+/* The middle of the bin that holds the largest or smallest value, or the first one above a level. */
+static double when(const struct gm_lane *lane, int observable, const struct gm_statement *statement)
+{
+    const struct gm_history *history = &lane->history;
+    double best = NAN, at = INFINITY, before = lane->t0;
+    for (size_t i = 0; i < history->count; i++) {
+        const struct gm_bin *bin = &history->bins[i * history->series + (size_t)observable];
+        const bool better = statement->measure == GM_EXCEEDS ? isnan(best) && bin->high > statement->level
+                            : statement->measure == GM_PEAKS ? !(bin->high <= best)
+                                                             : !(bin->low >= best);
+        if (better) {
+            best = statement->measure == GM_DIPS ? bin->low : bin->high;
+            at = (before + bin->t) / 2;
+        }
+        before = bin->t;
+    }
+    return at;
+}
+
+static double at_start(const struct gm_lane *lane, size_t observable)
+{
+    struct gm_view view = gm_lane_view(lane);
+    view.state = view.start;
+    view.t = view.t0;
+    return lane->scene->observables[observable].evaluate(&view);
+}
+
+static double measure(const struct gm_lane *lane, const struct gm_statement *statement)
+{
+    const int observable =
+        statement->measure == GM_LASTS ? 0 : gm_scene_observable(lane->scene, statement->observable);
+    const double middle = (lane->t0 + lane->run->t) / 2;
+    switch (statement->measure) {
+    case GM_MAXIMUM:
+        return largest(lane, observable, -INFINITY, INFINITY);
+    case GM_GROWTH:
+        return largest(lane, observable, middle, INFINITY) / largest(lane, observable, -INFINITY, middle);
+    case GM_LASTS:
+        return lane->run->t;
+    case GM_FACTOR:
+        return gm_lane_observe(lane, (size_t)observable) / at_start(lane, (size_t)observable);
+    case GM_PEAKS:
+    case GM_DIPS:
+    case GM_EXCEEDS:
+        return when(lane, observable, statement);
+    case GM_AT_END:
+        return gm_lane_observe(lane, (size_t)observable);
+    }
+    return NAN;
+}
+
+/* Of a lane, the number over which an order is taken. */
+static double abscissa(const struct gm_lane *lane, const char *key)
+{
+    const int observable = gm_scene_observable(lane->scene, key);
+    return observable >= 0 ? gm_lane_observe(lane, (size_t)observable)
+                           : gm_parameter_get(gm_scene_parameter(lane->scene, key), lane->parameters);
+}
+
+/* From the first of the lanes to the last, positive where the measure falls on the way; lanes that failed
+   have no error to speak of. */
+static double order(struct gm_lane *const *lanes, const size_t *chosen, size_t count,
+                    const struct gm_statement *statement)
+{
+    const struct gm_lane *first = NULL, *last = NULL;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_lane *lane = lanes[chosen[i]];
+        if (lane->run->status == GM_OK) {
+            first = first ? first : lane;
+            last = lane;
+        }
+    }
+    if (first == last) {
+        return NAN;
+    }
+    return log(measure(first, statement) / measure(last, statement)) /
+           fabs(log(abscissa(first, statement->over) / abscissa(last, statement->over)));
+}
+
+/* What a statement measures of lane `index` of the chosen ones, or the order of all of them. */
+static double number_of(struct gm_lane *const *lanes, const size_t *chosen, size_t index, size_t count,
+                        const struct gm_statement *statement, bool *failed)
+{
+    if (statement->over) {
+        return order(lanes, chosen, count, statement);
+    }
+    *failed |= lanes[chosen[index]]->run->status != GM_OK;
+    return measure(lanes[chosen[index]], statement);
+}
+
+/* A run that ended before its time may have a number that is large enough, but never one that is small
+   enough: nobody knows what it would have become. */
+static bool holds(const struct gm_statement *statement, double number, bool failed)
+{
+    return number >= statement->low && number <= statement->high &&
+           !(failed && statement->measure != GM_LASTS && statement->high < INFINITY);
+}
+
+static void judge(const struct gm_request *request, struct gm_lane *const *lanes,
+                  const struct gm_statement *statement, struct gm_outcome *outcome)
+{
+    size_t chosen[GM_FIGURE_LANES], others[GM_FIGURE_LANES];
+    bool known = true;
+    const size_t count = choose(request, statement->lanes, chosen, &known);
+    const size_t other_count = statement->against ? choose(request, statement->against, others, &known) : 0;
+    double low = INFINITY, high = -INFINITY;
+    bool good = true;
+    for (size_t i = 0; i < (statement->over ? 1 : count); i++) {
+        bool failed = false;
+        double number = number_of(lanes, chosen, i, count, statement, &failed);
+        if (other_count > 0) {
+            number /= number_of(lanes, others, other_count == count ? i : 0, other_count, statement, &failed);
+        }
+        good &= holds(statement, number, failed);
+        low = isnan(number) ? number : fmin(low, number);
+        high = isnan(number) ? number : fmax(high, number);
+    }
+    const size_t at = outcome->verdict_count++;
+    outcome->verdicts[at].low = low;
+    outcome->verdicts[at].high = high;
+    outcome->verdicts[at].holds = good;
+}
+
+/* "rk4 dt=0.1": the scheme, and the keys of which the figure lists several values. */
+static void label(const struct gm_figure_job *job, const struct gm_lane_spec *spec, char *text, size_t size)
+{
+    struct words words;
+    char value[GM_TEXT_SIZE];
+    size_t used = (size_t)snprintf(text, size, "%s", spec->scheme->name);
+    split(&words, job->arguments);
+    for (int i = 0; i < words.count && used < size; i++) {
+        const char *word = words.word[i];
+        if (!strchr(word, ',') || same_key(word, "scheme=")) {
+            continue;
+        }
+        char key[64];
+        snprintf(key, sizeof key, "%.*s", (int)key_length(word), word);
+        const struct gm_parameter *row = gm_scene_parameter(job->scene, key);
+        if (row) {
+            used += (size_t)snprintf(text + used, size - used, " %s=%s", key,
+                                     gm_parameter_format(row, spec->parameters, value, sizeof value));
+        }
+    }
+}
+
+static void take_numbers(const struct gm_figure_job *job, const struct gm_request *request,
+                         struct gm_lane *const *lanes, struct gm_outcome *outcome)
+{
+    outcome->lane_count = request->count;
+    for (size_t i = 0; i < request->count; i++) {
+        label(job, &request->lanes[i], outcome->lanes[i].label, sizeof outcome->lanes[i].label);
+        gm_failure_sentence(lanes[i], outcome->lanes[i].failure, sizeof outcome->lanes[i].failure);
+        outcome->lanes[i].t = lanes[i]->run->t;
+        for (size_t k = 0; k < job->scene->observable_count && k < GM_FIGURE_OBSERVABLES; k++) {
+            outcome->lanes[i].observables[k] = gm_lane_observe(lanes[i], k);
+        }
+    }
+    for (size_t i = 0; job->published && i < job->published->count && i < GM_FIGURE_STATEMENTS; i++) {
+        judge(request, lanes, &job->published->statements[i], outcome);
+    }
+}
+
+char *gm_figure_path(const struct gm_options *options, const char *name, enum gm_theme theme)
+{
+    char *path = NULL;
+    const int length = asprintf(&path, "%s/%s%s.png", options->out ? options->out : ".", name,
+                                theme == GM_THEME_DARK ? "-dark" : "");
+    return length < 0 ? NULL : path;
+}
+
+static int paint(const struct gm_figure_job *job, const struct gm_request *request,
+                 struct gm_lane *const *lanes, const struct gm_options *options, char *message)
+{
+    const enum gm_theme themes[] = {GM_THEME_LIGHT, GM_THEME_DARK};
+    const struct gm_lane *looked_at[GM_FIGURE_LANES];
+    for (size_t i = 0; i < request->count; i++) {
+        looked_at[i] = lanes[i];
+    }
+    for (size_t i = 0; i < 2; i++) {
+        char *path = gm_figure_path(options, job->figure->name, themes[i]);
+        if (!path) {
+            snprintf(message, GM_MESSAGE, "not enough memory");
+            return GM_EXIT_FILE;
+        }
+        const bool good =
+            gm_still_write(path, options->width, options->height, themes[i], request, looked_at, message);
+        free(path);
+        if (!good) {
+            return GM_EXIT_FILE;
+        }
+    }
+    return GM_EXIT_OK;
+}
+
+static int make(const struct gm_figure_job *job, const struct gm_options *options,
+                const struct gm_request *request, struct gm_lane **lanes, struct gm_outcome *outcome)
+{
+    if (request->count > GM_FIGURE_LANES) {
+        snprintf(outcome->message, sizeof outcome->message, "it has more than %d lanes", GM_FIGURE_LANES);
+        return GM_EXIT_USAGE;
+    }
+    for (size_t i = 0; i < request->count; i++) {
+        lanes[i] = gm_request_open_lane(request, i, outcome->message);
+        struct gm_drive drive = {.lane = lanes[i], .request = request, .index = i};
+        if (!lanes[i] || !gm_drive_to(&drive, request->lanes[i].steps, true, outcome->message)) {
+            return GM_EXIT_USAGE;
+        }
+        if (gm_interrupted) {
+            snprintf(outcome->message, sizeof outcome->message, "interrupted");
+            return GM_EXIT_INTERRUPTED;
+        }
+    }
+    const int status = paint(job, request, lanes, options, outcome->message);
+    if (status == GM_EXIT_OK) {
+        take_numbers(job, request, lanes, outcome);
+    }
+    if (gm_memory_was_short()) { /* the process that makes a figure is not the one that tells */
+        snprintf(outcome->message, sizeof outcome->message, "not enough memory");
+        return GM_EXIT_MEMORY;
+    }
+    return status;
+}
+
+void gm_figure_make(const struct gm_figure_job *job, const struct gm_options *options,
+                    struct gm_outcome *outcome)
+{
+    struct timespec begin, end;
+    struct gm_request request;
+    struct gm_lane *lanes[GM_FIGURE_LANES] = {NULL};
+    clock_gettime(CLOCK_MONOTONIC, &begin);
+    outcome->status = GM_EXIT_USAGE;
+    if (parse(&request, job, outcome->message)) {
+        outcome->status = make(job, options, &request, lanes, outcome);
+        for (size_t i = 0; i < request.count && i < GM_FIGURE_LANES; i++) {
+            gm_lane_close(lanes[i]);
+        }
+        gm_request_close(&request);
+    }
+    clock_gettime(CLOCK_MONOTONIC, &end);
+    outcome->seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
+    outcome->progress = outcome->status == GM_EXIT_OK ? GM_MADE : GM_NOT_MADE;
+}
+
+const char *gm_verdict_word(const struct gm_figure_job *job, const struct gm_outcome *outcome, size_t index)
+{
+    return job->shortened ? "not judged" : outcome->verdicts[index].holds ? "holds" : "does not hold";
+}
+
+void gm_statement_expectation(const struct gm_statement *statement, char *text, size_t size)
+{
+    if (statement->low == statement->high) {
+        snprintf(text, size, "%.6g", statement->low);
+    } else if (statement->low == -INFINITY) {
+        snprintf(text, size, "at most %.3g", statement->high);
+    } else if (statement->high == INFINITY) {
+        snprintf(text, size, "at least %.3g", statement->low);
+    } else {
+        snprintf(text, size, "%.5g to %.5g", statement->low, statement->high);
+    }
+}
+
+void gm_verdict_number(double low, double high, char *text, size_t size)
+{
+    char first[32], last[32];
+    snprintf(first, sizeof first, "%.4g", low);
+    snprintf(last, sizeof last, "%.4g", high);
+    if (!(low <= high)) {
+        snprintf(text, size, "no number");
+    } else if (strcmp(first, last) == 0) {
+        snprintf(text, size, "%s", first);
+    } else {
+        snprintf(text, size, "%s to %s", first, last);
+    }
+}

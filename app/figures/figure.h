@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_FIGURES_FIGURE_H
+#define GM_APP_FIGURES_FIGURE_H
+
+#include "app/commands/options.h"
+#include "scenes/frame/published.h"
+
+/* One published figure: run, painted in both themes, and held against what its document says of it. */
+
+enum { GM_FIGURE_LANES = 32, GM_FIGURE_OBSERVABLES = 16, GM_FIGURE_STATEMENTS = 12, GM_FIGURE_LABEL = 96 };
+
+enum gm_making { GM_WAITING, GM_RUNNING, GM_MADE, GM_NOT_MADE };
+
+/* What came out, as plain data without pointers: it is filled by another process. */
+struct gm_outcome {
+    enum gm_making progress;
+    int status; /* an exit status; GM_EXIT_OK when made */
+    char message[GM_MESSAGE];
+    double seconds; /* that it took */
+    size_t lane_count;
+    struct {
+        char label[GM_FIGURE_LABEL]; /* the scheme and what else sets the lane apart */
+        char failure[GM_SENTENCE];   /* "" where it came to its end */
+        double t;
+        double observables[GM_FIGURE_OBSERVABLES];
+    } lanes[GM_FIGURE_LANES];
+    size_t verdict_count; /* the figure's statements */
+    struct {
+        double low, high; /* of the numbers of its lanes */
+        bool holds;
+    } verdicts[GM_FIGURE_STATEMENTS];
+};
+
+/* A figure as asked for. */
+struct gm_figure_job {
+    const struct gm_scene *scene;
+    const struct gm_figure *figure;
+    const struct gm_published *published; /* NULL if its document says nothing that can be measured */
+    char arguments[512];                  /* those that are run */
+    bool shortened;                       /* in work, by --quick: nothing is judged */
+};
+
+/* Settles which arguments are run. */
+void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, const struct gm_figure *figure,
+                    bool quick);
+
+/* Whether every statement names lanes and observables that there are; false with a sentence. */
+bool gm_figure_check(const struct gm_figure_job *job, char *message);
+
+/* Runs it, judges it and writes its pictures, below options->out: NAME.png and NAME-dark.png. An interruption
+   is GM_EXIT_INTERRUPTED. */
+void gm_figure_make(const struct gm_figure_job *job, const struct gm_options *options,
+                    struct gm_outcome *outcome);
+
+/* OUT/NAME.png or OUT/NAME-dark.png; malloc'ed. */
+char *gm_figure_path(const struct gm_options *options, const char *name, enum gm_theme theme);
+
+/* Of statement `index`: "holds", "does not hold", or "not judged" of a run that was shortened. */
+const char *gm_verdict_word(const struct gm_figure_job *job, const struct gm_outcome *outcome, size_t index);
+
+/* What a statement expects ("at most 1e-12") and what was found ("0.105", "0.09 to 0.11"; "no number" where
+   there is none). */
+void gm_statement_expectation(const struct gm_statement *statement, char *text, size_t size);
+void gm_verdict_number(double low, double high, char *text, size_t size);
+
+#endif

@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/figures/page.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Paper and ink are the pictures' own, so that a picture has no edge on the page. */
+static const char style[] =
+    ":root{color-scheme:light dark;--paper:#fcfcfa;--ink:#1d1f24;--soft:#6b6f78;--line:#e4e4df;--tint:#f2f2ee;"
+    "--good:#00664b;--bad:#a94400;--link:#0067a3}\n"
+    "@media(prefers-color-scheme:dark){:root{--paper:#14161b;--ink:#e8e8e4;--soft:#a2a7b1;--line:#2a2e36;"
+    "--tint:#1b1e24;--good:#3fd0a0;--bad:#ff9f4a;--link:#56b4e9}}\n"
+    "*{box-sizing:border-box}\n"
+    "html{scroll-behavior:smooth}\n"
+    "@media(prefers-reduced-motion:reduce){html{scroll-behavior:auto}}\n"
+    "body{margin:0;background:var(--paper);color:var(--ink);font:1rem/1.55 'DejaVu Sans',Verdana,system-ui,"
+    "sans-serif;font-variant-numeric:tabular-nums}\n"
+    "main,header,footer{max-width:64rem;margin:0 auto;padding:0 1.25rem}\n"
+    "header{padding-top:3rem}\n"
+    "h1{font-size:2rem;line-height:1.15;margin:0 0 .5rem;letter-spacing:-.01em;text-wrap:balance}\n"
+    "h2{font-size:1.3rem;line-height:1.3;margin:4rem 0 .25rem;text-wrap:balance}\n"
+    "h3{font-size:1.05rem;margin:0}\n"
+    "h3 .soft{font-weight:normal}\n"
+    "a{color:var(--link)}\n"
+    "p{max-width:46rem}\n"
+    ".soft,figcaption{color:var(--soft)}\n"
+    ".sum{font-size:1.1rem}\n"
+    ".notice{border-left:3px solid var(--bad);padding-left:1rem}\n"
+    "article{margin:2.5rem 0 0;padding-top:1.5rem;border-top:1px solid var(--line)}\n"
+    "article>h3 a{color:inherit;text-decoration:none}\n"
+    "article>h3 a:hover{text-decoration:underline}\n"
+    "figure{margin:1rem 0}\n"
+    "img{display:block;width:100%;height:auto}\n"
+    "pre{margin:.75rem 0;padding:.7rem .9rem;background:var(--tint);border-radius:.3rem;overflow-x:auto;"
+    "font:.85rem/1.5 'DejaVu Sans Mono',ui-monospace,monospace;white-space:pre-wrap;overflow-wrap:anywhere}\n"
+    ".wide{overflow-x:auto}\n"
+    "table{border-collapse:collapse;width:100%;font-size:.92rem}\n"
+    "th,td{text-align:left;vertical-align:top;padding:.4rem .9rem .4rem 0;border-bottom:1px solid var(--line)}\n"
+    "th{font-weight:normal;color:var(--soft)}\n"
+    "td.n,th.n{white-space:nowrap}.judged td:first-child{width:44%}\n"
+    ".good,.bad,.none{white-space:nowrap}\n"
+    ".good{color:var(--good)}.bad{color:var(--bad);font-weight:bold}.none{color:var(--soft)}\n"
+    "details{margin:.75rem 0;font-size:.92rem}\n"
+    "summary{cursor:pointer;color:var(--soft)}\n"
+    ".all{font-size:.85rem}.all td,.all th{white-space:nowrap}\n"
+    "nav ol{list-style:none;padding:0;margin:1.5rem 0;columns:17rem;column-gap:2rem}\n"
+    "nav li{break-inside:avoid;display:flex;justify-content:space-between;gap:1rem;padding:.2rem 0;"
+    "border-bottom:1px solid var(--line)}\n"
+    "nav li a{min-width:0;overflow-wrap:anywhere}nav .scene{flex:1}\n"
+    "footer{padding-top:3rem;padding-bottom:3rem;color:var(--soft);font-size:.9rem}\n"
+    "@media(max-width:40rem){header{padding-top:1.5rem}h1{font-size:1.6rem}h2{margin-top:3rem}"
+    ".judged,.judged tbody,.judged tr,.judged td{display:block}.judged thead{display:none}"
+    ".judged td:first-child{width:auto}.judged tr{padding:.5rem 0;border-bottom:1px solid var(--line)}.judged td{border:0;padding:.1rem 0}"
+    ".judged td[data-is]::before{content:attr(data-is) ' ';color:var(--soft)}"
+    "figure{overflow-x:auto;margin-left:-1.25rem;margin-right:-1.25rem}figure img{min-width:40rem}}\n"
+    "@media print{:root{--paper:#fff;--ink:#000;--soft:#444;--line:#bbb;--tint:#f4f4f4;--good:#004d38;"
+    "--bad:#8a3700;--link:#000}body{font-size:9.5pt}header,main,footer{max-width:none;padding-left:0;"
+    "padding-right:0}article{break-inside:avoid;margin-top:1.2rem;padding-top:.8rem}h2{break-after:avoid}"
+    "figure{margin:.4rem 0}p{margin:.4rem 0}table{font-size:8.5pt}"
+    "pre{font-size:7.5pt}td,th{padding:.2rem .6rem .2rem 0}details{display:none}a{text-decoration:none}@page{margin:1.6cm}}\n";
+
+static void put_text(FILE *page, const char *text)
+{
+    for (; *text; text++) {
+        switch (*text) {
+        case '&':
+            fputs("&amp;", page);
+            break;
+        case '<':
+            fputs("&lt;", page);
+            break;
+        case '>':
+            fputs("&gt;", page);
+            break;
+        case '"':
+            fputs("&quot;", page);
+            break;
+        default:
+            putc(*text, page);
+        }
+    }
+}
+
+/* As a sentence: with a capital letter in front. */
+static void put_sentence(FILE *page, const char *text)
+{
+    putc(toupper((unsigned char)text[0]), page);
+    put_text(page, text + 1);
+}
+
+/* RFC 4648. False if the file cannot be read. */
+static bool put_base64(FILE *page, const char *path)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    unsigned char bytes[3];
+    size_t count = 0;
+    FILE *file = fopen(path, "rb");
+    if (!file) {
+        return false;
+    }
+    while ((count = fread(bytes, 1, sizeof bytes, file)) > 0) {
+        const unsigned group = (unsigned)bytes[0] << 16 | (count > 1 ? (unsigned)bytes[1] << 8 : 0) |
+                               (count > 2 ? (unsigned)bytes[2] : 0);
+        putc(digits[group >> 18], page);
+        putc(digits[group >> 12 & 63], page);
+        putc(count > 1 ? digits[group >> 6 & 63] : '=', page);
+        putc(count > 2 ? digits[group & 63] : '=', page);
+    }
+    const bool good = !ferror(file);
+    fclose(file);
+    return good;
+}
+
+static bool put_picture(FILE *page, const struct gm_options *options, const struct gm_figure_job *job)
+{
+    char *dark = gm_figure_path(options, job->figure->name, GM_THEME_DARK);
+    char *light = gm_figure_path(options, job->figure->name, GM_THEME_LIGHT);
+    fputs("<figure><picture><source media=\"screen and (prefers-color-scheme:dark)\" "
+          "srcset=\"data:image/png;base64,",
+          page);
+    bool good = dark && light && put_base64(page, dark);
+    fputs("\"><img loading=\"lazy\" alt=\"", page);
+    put_text(page, job->scene->title);
+    fputs(": ", page);
+    put_text(page, job->figure->statement);
+    fprintf(page, "\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", options->width,
+            options->height);
+    good = good && put_base64(page, light);
+    fputs("\"></picture></figure>\n", page);
+    free(dark);
+    free(light);
+    return good;
+}
+
+static void put_verdict(FILE *page, const struct gm_figure_job *job, const struct gm_outcome *outcome,
+                        size_t index)
+{
+    const bool holds = outcome->verdicts[index].holds;
+    fprintf(page, "<span class=\"%s\">%s %s</span>",
+            job->shortened ? "none"
+            : holds        ? "good"
+                           : "bad",
+            job->shortened ? "–"
+            : holds        ? "✓"
+                           : "✗",
+            gm_verdict_word(job, outcome, index));
+}
+
+static void put_statements(FILE *page, const struct gm_figure_job *job, const struct gm_outcome *outcome)
+{
+    if (outcome->verdict_count == 0) {
+        return;
+    }
+    fputs("<table class=\"judged\"><thead><tr><th>The document says<th>of<th class=\"n\">expected"
+          "<th class=\"n\">found<th></tr></thead><tbody>\n",
+          page);
+    for (size_t i = 0; i < outcome->verdict_count; i++) {
+        char text[64];
+        const struct gm_statement *statement = &job->published->statements[i];
+        fputs("<tr><td>", page);
+        put_sentence(page, statement->says);
+        fputs("<td class=\"soft\">", page);
+        put_text(page, statement->lanes);
+        if (statement->against) {
+            fputs(" divided by ", page);
+            put_text(page, statement->against);
+        }
+        gm_statement_expectation(statement, text, sizeof text);
+        fprintf(page, "<td class=\"n\" data-is=\"expected\">%s", text);
+        gm_verdict_number(outcome->verdicts[i].low, outcome->verdicts[i].high, text, sizeof text);
+        fprintf(page, "<td class=\"n\" data-is=\"found\">%s<td>", text);
+        put_verdict(page, job, outcome, i);
+        fputs("</tr>\n", page);
+    }
+    fputs("</tbody></table>\n", page);
+}
+
+static void put_numbers(FILE *page, const struct gm_figure_job *job, const struct gm_outcome *outcome)
+{
+    fputs("<details><summary>All numbers at the end</summary><div class=\"wide\"><table class=\"all\">"
+          "<thead><tr><th>lane<th>t",
+          page);
+    for (size_t k = 0; k < job->scene->observable_count; k++) {
+        fputs("<th>", page);
+        put_text(page, job->scene->observables[k].key);
+    }
+    fputs("</tr></thead><tbody>\n", page);
+    for (size_t i = 0; i < outcome->lane_count; i++) {
+        fputs("<tr><td>", page);
+        put_text(page, outcome->lanes[i].label);
+        fprintf(page, "<td>%.6g", outcome->lanes[i].t);
+        for (size_t k = 0; k < job->scene->observable_count; k++) {
+            const double value = outcome->lanes[i].observables[k];
+            fputs("<td>", page);
+            if (isfinite(value)) {
+                fprintf(page, "%.6g", value);
+            } else {
+                fputs("–", page);
+            }
+        }
+        fputs("</tr>\n", page);
+    }
+    fputs("</tbody></table></div></details>\n", page);
+}
+
+static void put_failures(FILE *page, const struct gm_outcome *outcome)
+{
+    for (size_t i = 0; i < outcome->lane_count; i++) {
+        if (outcome->lanes[i].failure[0]) {
+            fputs("<p class=\"soft\">", page);
+            put_text(page, outcome->lanes[i].label);
+            fputs(" ended early: ", page);
+            put_text(page, outcome->lanes[i].failure);
+            fputs(".</p>\n", page);
+        }
+    }
+}
+
+/* "razafindralandy-34-couette" is "Figure 34, couette". */
+static void put_title(FILE *page, const char *name)
+{
+    const char *number = strchr(name, '-') + 1;
+    const int digits = (int)strspn(number, "0123456789");
+    fprintf(page, "Figure %.*s", digits, number);
+    if (number[digits] == '-') {
+        fputs(", ", page);
+        put_text(page, number + digits + 1);
+    }
+}
+
+static bool put_figure(FILE *page, const struct gm_options *options, const struct gm_figure_job *job,
+                       const struct gm_outcome *outcome)
+{
+    fprintf(page, "<article id=\"%s\">\n<h3><a href=\"#%s\">", job->figure->name, job->figure->name);
+    put_title(page, job->figure->name);
+    fprintf(page, "</a> <span class=\"soft\">%s</span></h3>\n<p>", job->scene->name);
+    put_sentence(page, job->figure->statement);
+    fputs(".</p>\n", page);
+    bool good = true;
+    if (outcome->progress == GM_MADE) {
+        good = put_picture(page, options, job);
+        put_statements(page, job, outcome);
+        if (job->published && job->published->remark) {
+            fputs("<p>", page);
+            put_text(page, job->published->remark);
+            fputs("</p>\n", page);
+        }
+        put_failures(page, outcome);
+    } else {
+        fputs("<p class=\"notice\">Not made", page);
+        if (outcome->message[0]) {
+            fputs(": ", page);
+            put_text(page, outcome->message);
+        }
+        fputs(".</p>\n", page);
+    }
+    fprintf(page, "<pre>geomint render %s ", job->scene->name);
+    put_text(page, job->arguments);
+    fputs("</pre>\n", page);
+    if (outcome->progress == GM_MADE) {
+        put_numbers(page, job, outcome);
+    }
+    fputs("</article>\n", page);
+    return good;
+}
+
+struct sum {
+    size_t made, hold, fail;
+};
+
+static struct sum sum_of(const struct gm_figure_job *jobs, const struct gm_outcome *outcomes, size_t count)
+{
+    struct sum sum = {0};
+    for (size_t i = 0; i < count; i++) {
+        sum.made += outcomes[i].progress == GM_MADE;
+        for (size_t k = 0; k < outcomes[i].verdict_count && !jobs[i].shortened; k++) {
+            sum.hold += outcomes[i].verdicts[k].holds;
+            sum.fail += !outcomes[i].verdicts[k].holds;
+        }
+    }
+    return sum;
+}
+
+static bool is_of(const struct gm_document *document, const struct gm_figure_job *job)
+{
+    const size_t length = strlen(document->prefix);
+    return strncmp(job->figure->name, document->prefix, length) == 0 && job->figure->name[length] == '-';
+}
+
+/* What is seen first of each figure: how many of its statements hold. */
+static void put_contents(FILE *page, const struct gm_document *document, const struct gm_figure_job *jobs,
+                         const struct gm_outcome *outcomes, size_t count)
+{
+    fputs("<nav><ol>\n", page);
+    for (size_t i = 0; i < count; i++) {
+        if (!is_of(document, &jobs[i])) {
+            continue;
+        }
+        const struct sum sum = sum_of(&jobs[i], &outcomes[i], 1);
+        fprintf(page, "<li><a href=\"#%s\">", jobs[i].figure->name);
+        put_title(page, jobs[i].figure->name);
+        const char *scene = jobs[i].scene->name;
+        fprintf(page, "</a><span class=\"soft scene\">%s</span>",
+                strstr(jobs[i].figure->name, scene) ? "" : scene);
+        if (!sum.made) {
+            fputs("<span class=\"bad\">✗ not made</span>", page);
+        } else if (sum.hold + sum.fail == 0) {
+            fputs("<span class=\"none\">– not judged</span>", page);
+        } else if (sum.fail == 0) {
+            fputs("<span class=\"good\">✓ holds</span>", page);
+        } else {
+            fprintf(page, "<span class=\"bad\">✗ %zu of %zu %s not</span>", sum.fail, sum.hold + sum.fail,
+                    sum.fail == 1 ? "does" : "do");
+        }
+        fputs("</li>\n", page);
+    }
+    fputs("</ol></nav>\n", page);
+}
+
+static void put_head(FILE *page, const struct gm_options *options, const struct sum *sum, size_t count)
+{
+    fprintf(page,
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+            "<meta name=\"generator\" content=\"geomint %s\">\n<title>Published figures, made again</title>\n"
+            "<style>\n%s</style>\n</head>\n<body>\n<header>\n<h1>Published figures, made again</h1>\n",
+            GM_VERSION, style);
+    fprintf(page,
+            "<p class=\"sum\">%zu of %zu figures made. Of %zu statements that were measured, "
+            "<span class=\"good\">✓ %zu hold</span> and <span class=\"bad\">✗ %zu do not</span>.</p>\n",
+            sum->made, count, sum->hold + sum->fail, sum->hold, sum->fail);
+    fputs(
+        "<p class=\"soft\">Each figure comes with what its document says of it, the number that was found here, "
+        "and the command that makes the picture. Bounds are the document’s own where it gives a number. Where it "
+        "gives a word, the word means the same throughout: a number <i>grows</i> whose largest value in the "
+        "second half of the time is more than 1.1 times that in the first, and is <i>bounded</i> otherwise; "
+        "<i>round-off</i> is at most 1e-13; <i>close</i> is within 5 % of the solution’s own size; "
+        "<i>about</i> is up to twice as much. A run that "
+        "ended before its time never has a number that is small enough. Where a statement does not hold, the reason "
+        "stands under it.</p>\n",
+        page);
+    if (options->quick) {
+        fputs("<p class=\"notice\">Made with --quick: smaller pictures, and the longest runs are made with "
+              "coarser grids or steps. Nothing is judged of those.</p>\n",
+              page);
+    }
+    fputs("</header>\n<main>\n", page);
+}
+
+static bool put_document(FILE *page, const struct gm_options *options, const struct gm_document *document,
+                         const struct gm_figure_job *jobs, const struct gm_outcome *outcomes, size_t count)
+{
+    bool any = false, good = true;
+    for (size_t i = 0; i < count; i++) {
+        any |= is_of(document, &jobs[i]);
+    }
+    if (!any) {
+        return true;
+    }
+    fprintf(page, "<section id=\"%s\">\n<h2>", document->prefix);
+    put_text(page, document->citation);
+    fprintf(page, "</h2>\n<p><a href=\"%s\">%s</a></p>\n", document->link, document->link);
+    put_contents(page, document, jobs, outcomes, count);
+    for (size_t i = 0; i < count; i++) {
+        if (is_of(document, &jobs[i])) {
+            good &= put_figure(page, options, &jobs[i], &outcomes[i]);
+        }
+    }
+    fputs("</section>\n", page);
+    return good;
+}
+
+bool gm_figures_page_write(const struct gm_options *options, const struct gm_figure_job *jobs,
+                           const struct gm_outcome *outcomes, size_t count, char *message)
+{
+    char *path = NULL, *partial = NULL;
+    const char *out = options->out ? options->out : ".";
+    if (asprintf(&path, "%s/figures.html", out) < 0 || asprintf(&partial, "%s/.figures.html", out) < 0) {
+        free(path);
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        return false;
+    }
+    errno = 0;
+    FILE *page = fopen(partial, "w");
+    bool good = page != NULL;
+    if (good) {
+        const struct sum sum = sum_of(jobs, outcomes, count);
+        put_head(page, options, &sum, count);
+        for (size_t i = 0; i < gm_document_count(); i++) {
+            good &= put_document(page, options, gm_document_at(i), jobs, outcomes, count);
+        }
+        fprintf(page,
+                "</main>\n<footer>Made by geomint %s: <code>geomint figures%s</code>.</footer>\n</body>\n"
+                "</html>\n",
+                GM_VERSION, options->quick ? " --quick" : "");
+        good &= !ferror(page);
+        good &= fclose(page) == 0;
+        good = good && rename(partial, path) == 0;
+    }
+    if (!good) {
+        snprintf(message, GM_MESSAGE, "%.200s could not be written: %s", path, strerror(errno));
+        remove(partial);
+    }
+    free(path);
+    free(partial);
+    return good;
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/output/folder.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "render/message.h"
+
+/* What is there is asked first: one may not be allowed to make what one may enter. */
+static bool make_one(const char *path)
+{
+    struct stat found;
+    return !*path || stat(path, &found) == 0 || mkdir(path, 0777) == 0 || errno == EEXIST;
+}
+
+/* Every folder of the path that is not there; the path is the same afterwards. */
+static bool make_all(char *path)
+{
+    for (char *slash = strchr(path, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        const bool made = make_one(path);
+        *slash = '/';
+        if (!made) {
+            return false;
+        }
+    }
+    return make_one(path);
+}
+
+bool gm_folder_make(const char *path, char *message)
+{
+    char *copy = path ? strdup(path) : NULL;
+    const bool good = !path || (copy && make_all(copy));
+    if (!good) {
+        snprintf(message, GM_MESSAGE, "%.360s could not be made: %s", path, strerror(errno));
+    }
+    free(copy);
+    return good;
+}
+
+bool gm_folder_make_for(const char *file, char *message)
+{
+    const char *slash = strrchr(file, '/');
+    if (!slash) {
+        return true;
+    }
+    char *folder = strndup(file, (size_t)(slash - file));
+    const bool good = folder && gm_folder_make(folder, message);
+    if (!folder) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+    }
+    free(folder);
+    return good;
+}

@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/output/frames.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <libdeflate.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "app/output/folder.h"
+#include "render/files/temporary.h"
+
+/* The checksum of the running program: frames of another build are not ours, whatever its version says. False
+   if the program cannot be read. */
+static bool program_checksum(unsigned *checksum)
+{
+    FILE *file = fopen("/proc/self/exe", "rbe");
+    if (!file) {
+        return false;
+    }
+    char bytes[1 << 16];
+    size_t size = 0;
+    *checksum = 0;
+    while ((size = fread(bytes, 1, sizeof bytes, file)) > 0) {
+        *checksum = libdeflate_crc32(*checksum, bytes, size);
+    }
+    const bool good = !ferror(file);
+    fclose(file);
+    return good;
+}
+
+static char *identify(const struct gm_schedule *schedule, const struct gm_provenance *provenance,
+                      unsigned program)
+{
+    unsigned checksum = 0;
+    for (size_t i = 0; i < provenance->count; i++) {
+        const char *text = provenance->texts[i].text;
+        checksum = libdeflate_crc32(checksum, text, strlen(text) + 1);
+    }
+    char *text = NULL;
+    if (asprintf(&text, "%ld from t = %.17g to %.17g, render %08x, program %08x", schedule->count,
+                 schedule->first, schedule->last, checksum, program) < 0) {
+        return NULL;
+    }
+    return text;
+}
+
+char *gm_frames_text(const struct gm_frames *frames, long frame)
+{
+    char *text = NULL;
+    return asprintf(&text, "%ld of %s", frame + 1, frames->identity) < 0 ? NULL : text;
+}
+
+char *gm_frames_path(const struct gm_frames *frames, long frame)
+{
+    char *path = NULL;
+    return asprintf(&path, "%s/%s-%06ld.png", frames->folder, frames->name, frame) < 0 ? NULL : path;
+}
+
+/* FOLDER/NAME-%06ld.png, or FOLDER/NAME.png. */
+static char *pattern_of(const char *folder, const char *name, bool still)
+{
+    char *text = NULL;
+    return asprintf(&text, "%s/%s%s.png", folder, name, still ? "" : "-%06ld") < 0 ? NULL : text;
+}
+
+/* Looks at one file of the folder: a frame, or what a killed run left of one. */
+static bool look_at(struct gm_frames *frames, int folder, const char *file)
+{
+    const size_t length = strlen(frames->name);
+    const bool hidden = file[0] == '.';
+    long frame = 0;
+    int used = 0;
+    if (strncmp(file + hidden, frames->name, length) != 0 ||
+        sscanf(file + hidden + length, "-%ld.png%n", &frame, &used) != 1 || used == 0 || frame < 0 ||
+        frame >= frames->schedule->count) {
+        return true;
+    }
+    if (hidden) {
+        if (gm_schedule_is_ours(frames->schedule, frame) && gm_temporary_is_stale(file)) {
+            unlinkat(folder, file, 0);
+        }
+        return true;
+    }
+    char *path = gm_frames_path(frames, frame), *text = gm_frames_text(frames, frame);
+    const bool good = path && text;
+    if (good && !frames->there[frame] && gm_png_tells(path, GM_KEY_FRAME, text)) {
+        frames->there[frame] = true;
+        frames->found += gm_schedule_is_ours(frames->schedule, frame);
+    }
+    free(path);
+    free(text);
+    return good;
+}
+
+/* What the folder holds is looked at, not every frame that there could be. */
+static bool look(struct gm_frames *frames)
+{
+    frames->there = calloc((size_t)frames->schedule->count, sizeof *frames->there);
+    DIR *folder = frames->there && !frames->schedule->still ? opendir(frames->folder) : NULL;
+    bool good = frames->there != NULL;
+    const struct dirent *entry = NULL;
+    while (good && folder && (entry = readdir(folder)) != NULL) {
+        good = look_at(frames, dirfd(folder), entry->d_name);
+    }
+    if (folder) {
+        closedir(folder);
+    }
+    return good;
+}
+
+bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule, const char *folder,
+                    const char *name, const struct gm_provenance *provenance, char *message)
+{
+    unsigned program = 0;
+    *frames = (struct gm_frames){0};
+    if (!program_checksum(&program)) {
+        snprintf(message, GM_MESSAGE, "the program itself could not be read: %s", strerror(errno));
+        return false;
+    }
+    *frames = (struct gm_frames){
+        .schedule = schedule,
+        .folder = strdup(folder),
+        .name = strdup(name),
+        .pattern = pattern_of(folder, name, schedule->still),
+        .identity = identify(schedule, provenance, program),
+    };
+    if (!gm_folder_make(folder, message)) {
+        gm_frames_close(frames);
+        return false;
+    }
+    if (!frames->folder || !frames->name || !frames->pattern || !frames->identity || !look(frames)) {
+        snprintf(message, GM_MESSAGE, "not enough memory for %ld frames", schedule->count);
+        gm_frames_close(frames);
+        return false;
+    }
+    return true;
+}
+
+void gm_frames_close(struct gm_frames *frames)
+{
+    free(frames->folder);
+    free(frames->name);
+    free(frames->pattern);
+    free(frames->identity);
+    free(frames->there);
+    *frames = (struct gm_frames){0};
+}
+
+static bool is_missing(const struct gm_frames *frames, long frame)
+{
+    return !frames->there[frame] && gm_schedule_is_ours(frames->schedule, frame);
+}
+
+long gm_frames_first_missing(const struct gm_frames *frames)
+{
+    for (long frame = 0; frame < frames->schedule->count; frame++) {
+        if (is_missing(frames, frame)) {
+            return frame;
+        }
+    }
+    return -1;
+}
+
+long gm_frames_last_missing(const struct gm_frames *frames)
+{
+    for (long frame = frames->schedule->count - 1; frame >= 0; frame--) {
+        if (is_missing(frames, frame)) {
+            return frame;
+        }
+    }
+    return -1;
+}
+
+void gm_frames_remove(const struct gm_frames *frames)
+{
+    for (long frame = 0; frame < frames->schedule->count; frame++) {
+        char *path = gm_frames_path(frames, frame);
+        if (path) {
+            unlink(path);
+        }
+        free(path);
+    }
+    rmdir(frames->folder);
+}

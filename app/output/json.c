@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/output/json.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "render/cells/text.h"
+
+/* Whether a letter of so many bytes is the only way to write this code. */
+static bool is_proper(uint32_t code, size_t bytes)
+{
+    const size_t needed = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+    return bytes == needed && (code < 0xD800 || code > 0xDFFF) && code <= 0x10FFFF;
+}
+
+void gm_json_text(const char *text)
+{
+    putchar('"');
+    while (*text) {
+        const char *letter = text;
+        const uint32_t code = gm_text_next(&text);
+        if (code == '\n') {
+            fputs("\\n", stdout);
+        } else if (code < ' ') {
+            printf("\\u%04x", (unsigned)code);
+        } else if (!is_proper(code, (size_t)(text - letter))) {
+            fputs("\\ufffd", stdout);
+        } else {
+            printf("%s%.*s", code == '"' || code == '\\' ? "\\" : "", (int)(text - letter), letter);
+        }
+    }
+    putchar('"');
+}
+
+void gm_json_pair(const char *key, const char *text)
+{
+    gm_json_text(key);
+    putchar(':');
+    gm_json_text(text);
+}
+
+void gm_json_number_pair(const char *key, double value)
+{
+    gm_json_text(key);
+    putchar(':');
+    gm_json_number(value);
+}
+
+void gm_json_number(double value)
+{
+    if (isfinite(value)) {
+        printf("%.17g", value);
+    } else {
+        fputs("null", stdout);
+    }
+}

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/output/provenance.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/request/words.h"
+
+static bool take(struct gm_provenance *provenance, const char *key, char *text)
+{
+    if (!text) {
+        return false;
+    }
+    provenance->owned[provenance->count] = text;
+    provenance->texts[provenance->count++] = (struct gm_png_text){key, text};
+    return true;
+}
+
+__attribute__((format(printf, 1, 2))) static char *format(const char *pattern, ...)
+{
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, pattern);
+    const int length = vasprintf(&text, pattern, arguments);
+    va_end(arguments);
+    return length < 0 ? NULL : text;
+}
+
+static char *scheme_names(const struct gm_request *request)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    for (size_t i = 0; i < request->count; i++) {
+        fprintf(stream, "%s%s", i ? " " : "", request->lanes[i].scheme->name);
+    }
+    fclose(stream);
+    return text;
+}
+
+/* Every parameter of every lane, a line each. */
+static char *all_parameters(const struct gm_request *request)
+{
+    char *text = NULL, value[GM_TEXT_SIZE];
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    const struct gm_scene *scene = request->scene;
+    for (size_t i = 0; i < request->count; i++) {
+        const struct gm_lane_spec *spec = &request->lanes[i];
+        fprintf(stream, "scheme=%s", spec->scheme->name);
+        for (size_t k = 0; k < scene->parameter_count; k++) {
+            fprintf(stream, " %s=%s", scene->parameters[k].key,
+                    gm_parameter_format(&scene->parameters[k], spec->parameters, value, sizeof value));
+        }
+        for (const struct gm_parameter *const *row = spec->scheme->family->parameters; row && *row; row++) {
+            fprintf(stream, " %s=%s", (*row)->key,
+                    gm_parameter_format(*row, &spec->settings, value, sizeof value));
+        }
+        fputc('\n', stream);
+    }
+    fclose(stream);
+    return text;
+}
+
+bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width,
+                        int height, enum gm_theme theme, const char *backend)
+{
+    *provenance = (struct gm_provenance){0};
+    const bool good = take(provenance, "Title", format("%s", request->scene->title)) &&
+                      take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
+                      take(provenance, "geomint:scene", format("%s", request->scene->name)) &&
+                      take(provenance, "geomint:schemes", scheme_names(request)) &&
+                      take(provenance, "geomint:parameters", all_parameters(request)) &&
+                      take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request)) &&
+                      take(provenance, GM_KEY_CHANGES, gm_changes_format(request)) &&
+                      take(provenance, GM_KEY_PICTURE,
+                           format("%dx%d %s", width, height, theme == GM_THEME_DARK ? "dark" : "light")) &&
+                      take(provenance, "geomint:context", format("%s", backend));
+    if (!good) {
+        gm_provenance_close(provenance);
+    }
+    return good;
+}
+
+static char *command_line(const char *command, const struct gm_options *options)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    fputs(command, stream);
+    for (int i = 0; i < options->word_count; i++) {
+        fputc(' ', stream);
+        gm_words_put(stream, options->words[i]);
+    }
+    if (options->measure) {
+        fprintf(stream, " --measure %s", options->measure);
+    }
+    if (options->region) {
+        fprintf(stream, " --region %s", options->region);
+    }
+    fprintf(stream, " --size %dx%d --theme %s", options->width, options->height,
+            options->theme == GM_THEME_DARK ? "dark" : "light");
+    fclose(stream);
+    return text;
+}
+
+bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
+                              const struct gm_options *options, const char *backend)
+{
+    *provenance = (struct gm_provenance){0};
+    const bool good = take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
+                      take(provenance, GM_KEY_COMMAND, command_line(command, options)) &&
+                      take(provenance, "geomint:context", format("%s", backend));
+    if (!good) {
+        gm_provenance_close(provenance);
+    }
+    return good;
+}
+
+void gm_provenance_close(struct gm_provenance *provenance)
+{
+    for (size_t i = 0; i < provenance->count; i++) {
+        free(provenance->owned[i]);
+    }
+    provenance->count = 0;
+}
+
+char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++) {
+        fprintf(stream, "%s%ld", i ? " " : "", lanes[i]->run->steps);
+    }
+    fclose(stream);
+    return text;
+}

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OUTPUT_PROVENANCE_H
+#define GM_APP_OUTPUT_PROVENANCE_H
+
+#include "app/commands/options.h"
+#include "render/files/png.h"
+#include "render/layout/theme.h"
+
+/* What a PNG tells of how it was made: enough for `geomint again`. */
+
+enum { GM_PROVENANCE_TEXTS = 9 };
+
+struct gm_provenance {
+    struct gm_png_text texts[GM_PROVENANCE_TEXTS];
+    size_t count;
+    char *owned[GM_PROVENANCE_TEXTS]; /* the texts' memory */
+};
+
+/* Keys of the chunks that `again` reads. */
+#define GM_KEY_ARGUMENTS "geomint:arguments"
+#define GM_KEY_CHANGES "geomint:changes"
+#define GM_KEY_STEPS "geomint:steps"     /* of each lane, separated by blanks */
+#define GM_KEY_PICTURE "geomint:picture" /* WIDTHxHEIGHT theme */
+
+#define GM_KEY_COMMAND                                                                                       \
+    "geomint:command" /* of a chart, instead of all these: the words of its command line                     \
+                       */
+
+#define GM_KEY_FRAME "geomint:frame"       /* which frame of which render */
+#define GM_KEY_FAILURES "geomint:failures" /* a line for each lane that has failed by then */
+
+/* Everything but the steps. False when memory is short. */
+bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width,
+                        int height, enum gm_theme theme, const char *backend);
+/* The same for the chart of a command that measures: the words and options that `again` calls it with. */
+bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
+                              const struct gm_options *options, const char *backend);
+void gm_provenance_close(struct gm_provenance *provenance);
+
+/* The steps of the lanes now, as the text of GM_KEY_STEPS; malloc'ed, NULL when memory is short. */
+char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count);
+
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OUTPUT_SCHEDULE_H
+#define GM_APP_OUTPUT_SCHEDULE_H
+
+#include "app/commands/options.h"
+
+/* When the frames of a render are, in model time, and which of them are one shard's. */
+struct gm_schedule {
+    long count;
+    double first, last; /* model times, evenly divided */
+    bool still;         /* one picture, not a sequence */
+    long shard, shards; /* blocks of frames go to the shards in turn; 1 of 1: all are ours */
+    long ours;          /* how many frames that is */
+};
+
+/* From the options of `render`. False with a sentence (GM_MESSAGE bytes) if they contradict. */
+bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *request,
+                      const struct gm_options *options, char *message);
+
+double gm_schedule_time(const struct gm_schedule *schedule, long frame);
+
+bool gm_schedule_is_ours(const struct gm_schedule *schedule, long frame);
+/* The last of ours; -1 if none is. */
+long gm_schedule_last(const struct gm_schedule *schedule);
+
+#endif

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OUTPUT_WRAPPED_H
+#define GM_APP_OUTPUT_WRAPPED_H
+
+/* Text on standard output, as wide as that is. */
+
+/* The width in columns: COLUMNS, else that of the terminal; 0 where it is none, and lines may be of any
+ * length. */
+int gm_output_columns(void);
+
+/* Prints text and a newline; between its words it goes on in further lines that are indented by so many
+   columns, fewer where that would leave no room. `before` columns of the first line are filled already. */
+void gm_print_wrapped(const char *text, int before, int indent);
+
+#endif

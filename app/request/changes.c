@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Changes in flight, and a request as text: what a PNG keeps so that it can be made again. */
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/request/request.h"
+#include "app/request/words.h"
+#include "core/schemes.h"
+#include "render/cells/text.h"
+
+/* One key of the formatted request: the value of every lane. */
+static void format_key(FILE *stream, const struct gm_request *request, const char *key,
+                       const char *(*value)(const struct gm_request *, size_t lane, const void *row,
+                                            char *text),
+                       const void *row, const char *standard, size_t *lists)
+{
+    char first[GM_TEXT_SIZE], text[GM_TEXT_SIZE];
+    bool same = true;
+    snprintf(first, sizeof first, "%s", value(request, 0, row, text));
+    for (size_t i = 1; i < request->count; i++) {
+        same &= strcmp(first, value(request, i, row, text)) == 0;
+    }
+    if (same && standard && strcmp(first, standard) == 0) {
+        return;
+    }
+    fprintf(stream, " %s=", key);
+    gm_words_put(stream, first);
+    for (size_t i = 1; i < request->count && !same; i++) {
+        fputc(',', stream);
+        gm_words_put(stream, value(request, i, row, text));
+    }
+    *lists += same ? 0 : 1;
+}
+
+static const char *scheme_value(const struct gm_request *request, size_t lane, const void *row, char *text)
+{
+    (void)row;
+    snprintf(text, GM_TEXT_SIZE, "%s", request->lanes[lane].scheme->name);
+    return text;
+}
+
+static const char *parameter_value(const struct gm_request *request, size_t lane, const void *row, char *text)
+{
+    return gm_parameter_format(row, request->lanes[lane].parameters, text, GM_TEXT_SIZE);
+}
+
+static const char *setting_value(const struct gm_request *request, size_t lane, const void *row, char *text)
+{
+    return gm_parameter_format(row, &request->lanes[lane].settings, text, GM_TEXT_SIZE);
+}
+
+char *gm_request_format(const struct gm_request *request)
+{
+    if (request->arguments) {
+        return strdup(request->arguments);
+    }
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    size_t lists = 0;
+    fputs(request->scene->name, stream);
+    format_key(stream, request, "scheme", scheme_value, NULL, NULL, &lists);
+    for (size_t i = 0; i < request->scene->parameter_count; i++) {
+        const struct gm_parameter *row = &request->scene->parameters[i];
+        format_key(stream, request, row->key, parameter_value, row, row->standard, &lists);
+    }
+    for (size_t i = 0; i < gm_settings_parameter_count; i++) {
+        const struct gm_parameter *row = &gm_settings_parameters[i];
+        format_key(stream, request, row->key, setting_value, row, row->standard, &lists);
+    }
+    if (lists > 1) {
+        fputs(" zip=yes", stream);
+    }
+    if (request->overlay) {
+        fputs(" overlay=yes", stream);
+    }
+    fclose(stream);
+    return text;
+}
+
+char *gm_changes_format(const struct gm_request *request)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    for (size_t i = 0; i < request->change_count; i++) {
+        const struct gm_change *change = &request->changes[i];
+        fprintf(stream, "%zu %ld %s\n", change->lane, change->step, change->text);
+    }
+    fclose(stream);
+    return text;
+}
+
+bool gm_change_add(struct gm_request *request, size_t lane, long step, const char *text)
+{
+    struct gm_change *grown =
+        realloc(request->changes, (request->change_count + 1) * sizeof *request->changes);
+    if (!grown) {
+        return false;
+    }
+    request->changes = grown;
+    struct gm_change *change = &grown[request->change_count++];
+    *change = (struct gm_change){.lane = lane, .step = step};
+    snprintf(change->text, sizeof change->text, "%s", text);
+    return true;
+}
+
+/* "LANE STEP KEY=VALUE"; false if it is anything else. */
+static bool parse_change(struct gm_request *request, const char *line)
+{
+    if (!isdigit((unsigned char)*line)) {
+        return false;
+    }
+    char *end = NULL;
+    errno = 0;
+    const unsigned long lane = strtoul(line, &end, 10);
+    if (errno || *end != ' ' || !isdigit((unsigned char)end[1]) || lane >= request->count) {
+        return false;
+    }
+    const long step = strtol(end + 1, &end, 10);
+    if (errno || *end != ' ' || step > GM_MOST_STEPS || !strchr(end, '=')) {
+        return false;
+    }
+    const char *text = end + strspn(end, " ");
+    return strlen(text) < sizeof request->changes->text && gm_text_is_plain(text) &&
+           gm_change_add(request, lane, step, text);
+}
+
+bool gm_changes_parse(struct gm_request *request, const char *text)
+{
+    while (*text) {
+        const size_t length = strcspn(text, "\n");
+        char line[256];
+        if (length >= sizeof line) {
+            return false;
+        }
+        memcpy(line, text, length);
+        line[length] = '\0';
+        if (!parse_change(request, line)) {
+            return false;
+        }
+        text += length + (text[length] == '\n');
+    }
+    return true;
+}
+
+/* What a change is: a scheme's name, a step, or (neither) a live parameter, which is stored. */
+struct meaning {
+    const char *scheme;
+    double dt;
+};
+
+static bool understand(const struct gm_scene *scene, void *parameters, const char *text,
+                       struct meaning *meaning, char *message)
+{
+    const char *equals = strchr(text, '=');
+    if (!equals) {
+        snprintf(message, GM_MESSAGE, "\"%.60s\" is not of the form key=value", text);
+        return false;
+    }
+    char key[96];
+    snprintf(key, sizeof key, "%.*s", (int)(equals - text), text);
+    const char *value = equals + 1;
+    *meaning = (struct meaning){.dt = NAN};
+    if (strcmp(key, "scheme") == 0) {
+        meaning->scheme = value;
+        if (!gm_scheme_find(value)) {
+            snprintf(message, GM_MESSAGE, "there is no scheme \"%.40s\"", value);
+            return false;
+        }
+        return true;
+    }
+    if (strcmp(key, "dt") == 0) {
+        /* its sign may turn, which no range in the table allows */
+        if (!gm_number_parse(value, &meaning->dt) || !isfinite(meaning->dt) || meaning->dt == 0) {
+            snprintf(message, GM_MESSAGE, "dt=%.60s is not a step", value);
+            return false;
+        }
+        return true;
+    }
+    const struct gm_parameter *row = gm_scene_parameter(scene, key);
+    if (!row || !row->live || gm_parameter_set(row, parameters, value) != GM_PARSED) {
+        snprintf(message, GM_MESSAGE, "%.60s cannot be changed in flight", text);
+        return false;
+    }
+    return true;
+}
+
+bool gm_change_check(const struct gm_request *request, const struct gm_change *change, char *message)
+{
+    const struct gm_lane_spec *spec = &request->lanes[change->lane];
+    if (change->step > spec->steps) {
+        snprintf(message, GM_MESSAGE, "a change after %ld steps comes too late: lane %zu makes %ld",
+                 change->step, change->lane, spec->steps);
+        return false;
+    }
+    void *parameters = malloc(request->scene->size);
+    if (!parameters) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        return false;
+    }
+    memcpy(parameters, spec->parameters, request->scene->size);
+    struct meaning meaning;
+    const bool good = understand(request->scene, parameters, change->text, &meaning, message);
+    free(parameters);
+    return good;
+}
+
+bool gm_change_apply(struct gm_lane *lane, const char *text, char *message)
+{
+    struct meaning meaning;
+    if (!understand(lane->scene, lane->parameters, text, &meaning, message)) {
+        return false;
+    }
+    if (meaning.scheme) {
+        return gm_lane_switch(lane, gm_scheme_find_for(meaning.scheme, &lane->problem), message);
+    }
+    if (!isnan(meaning.dt)) {
+        gm_lane_set_step(lane, meaning.dt);
+    }
+    return true;
+}

@@ -1,0 +1,431 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/request/request.h"
+#include "core/schemes.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/commands/reference/catalogue.h"
+#include "app/request/equal_cost.h"
+#include "app/request/nearest.h"
+#include "app/request/words.h"
+
+__attribute__((format(printf, 2, 3))) static bool refuse(char *message, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, GM_MESSAGE, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+static const char *scene_name(size_t i, const void *data)
+{
+    return (void)data, gm_scene_at(i)->name;
+}
+
+static const char *scheme_name(size_t i, const void *data)
+{
+    return ((const struct gm_scheme *const *)data)[i]->name;
+}
+
+static bool set_parameter(const struct gm_parameter *row, void *owner, const char *text, char *message)
+{
+    switch (gm_parameter_set(row, owner, text)) {
+    case GM_PARSED:
+        return true;
+    case GM_NOT_UNDERSTOOD:
+        if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
+            char choices[GM_MESSAGE / 2] = "no, yes";
+            size_t used = 0;
+            for (size_t i = 0; row->type == GM_CHOICE && row->choices[i] && used < sizeof choices; i++) {
+                used += (size_t)snprintf(choices + used, sizeof choices - used, "%s%s", i ? ", " : "",
+                                         row->choices[i]);
+            }
+            return refuse(message, "%s=%.60s is none of: %s", row->key, text, choices);
+        }
+        return refuse(message, "%s=%.60s is not %s", row->key, text,
+                      row->type == GM_TEXT      ? "a word of at most 255 bytes without blanks"
+                      : row->type == GM_INTEGER ? "a whole number"
+                                                : "a number");
+    case GM_OUT_OF_RANGE:
+        break;
+    }
+    char low[40], high[40], nearest[64] = "";
+    double value = NAN;
+    gm_number_parse(text, &value);
+    gm_number_format(row->lowest, low, sizeof low);
+    gm_number_format(row->highest, high, sizeof high);
+    if (!isnan(value)) {
+        snprintf(nearest, sizeof nearest, "; the nearest is %s", value < row->lowest ? low : high);
+    }
+    return refuse(message, "%s=%.60s is out of range: it lies between %s and %s%s", row->key, text, low, high,
+                  nearest);
+}
+
+static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, const char *name,
+                       char *message)
+{
+    spec->scheme = gm_scheme_find(name);
+    if (!spec->scheme) {
+        const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
+        const char *near = gm_nearest(name, gm_catalogue_fitting(scene, fitting), scheme_name, fitting);
+        return refuse(message, "there is no scheme \"%.40s\"%s%s", name,
+                      near ? "; did you mean " : "; see geomint list ", near ? near : scene->name);
+    }
+    return true;
+}
+
+/* Applies value `index` of a list to a lane; some common keys are not the lane's. */
+static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const struct gm_word *list,
+                  size_t index, char *message)
+{
+    const char *text = list->values[index];
+    if (strcmp(list->key, "scheme") == 0) {
+        return set_scheme(scene, spec, text, message);
+    }
+    if (strcmp(list->key, "steps") == 0) {
+        double steps = 0;
+        if (!gm_number_parse(text, &steps) || !(steps >= 0 && steps <= (double)GM_MOST_STEPS) ||
+            steps != floor(steps)) {
+            return refuse(message, "steps=%.60s is not a whole number from 0 to 1e15", text);
+        }
+        spec->steps = (long)steps;
+        return true;
+    }
+    const struct gm_parameter *own = gm_scene_parameter(scene, list->key);
+    const struct gm_parameter *row = own ? own : gm_setting_find(list->key);
+    void *owner = own ? spec->parameters : (void *)&spec->settings;
+    if (!row || set_parameter(row, owner, text, message)) {
+        return true;
+    }
+    char number[48];
+    if (row->type == GM_REAL && gm_words_decimal_comma(list, index, number, sizeof number)) {
+        const size_t used = strlen(message);
+        snprintf(message + used, GM_MESSAGE - used, "; " GM_DECIMAL_POINT, number);
+    }
+    return false;
+}
+
+/* Adds "Δt = 0.1" for a key and its value, or a scheme's title, to what a name says already. */
+static void add_name(const struct gm_word *list, size_t index, const struct gm_scheme *scheme, char *name,
+                     size_t size)
+{
+    const size_t length = strlen(name);
+    const char *comma = length ? ", " : "";
+    if (strcmp(list->key, "scheme") == 0) {
+        snprintf(name + length, size - length, "%s%s", comma, scheme->title);
+    } else {
+        snprintf(name + length, size - length, "%s%s = %s", comma,
+                 strcmp(list->key, "dt") == 0 ? "Δt" : list->key, list->values[index]);
+    }
+}
+
+static const char all_lanes[] = "all lanes";
+
+void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay)
+{
+    const char *panel = strcmp(shown->panel_name, all_lanes) == 0 ? "" : shown->panel_name;
+    const char *colour = shown->colour_name;
+    const bool untitled = !panel[0] && strncmp(colour, scheme->title, strlen(scheme->title)) != 0;
+    char name[2 * sizeof shown->panel_name + sizeof ", "];
+    snprintf(name, sizeof name, "%s%s%s", untitled ? scheme->title : panel,
+             (untitled || panel[0]) && colour[0] ? ", " : "", colour);
+    *shown = (struct gm_shown){.panel = overlay ? 0 : lane, .colour = lane, .dash = lane};
+    memcpy(overlay ? shown->colour_name : shown->panel_name, name,
+           strnlen(name, sizeof shown->panel_name - 1)); /* the rest is zero */
+    if (overlay) {
+        snprintf(shown->panel_name, sizeof shown->panel_name, "%s", all_lanes);
+    } else if (strcmp(shown->panel_name, scheme->title) == 0) {
+        shown->panel_name[0] = '\0';
+    }
+}
+
+/* The first list of several values gives the panels, the others the colours; zipped, a lane has a panel named
+   after all of them. */
+static void show(const struct gm_words *words, size_t lane, struct gm_lane_spec *spec)
+{
+    struct gm_shown *shown = &spec->shown;
+    *shown = (struct gm_shown){.panel = lane, .colour = lane};
+    bool panels = false, colours = false; /* named already */
+    for (size_t i = 0; i < words->count; i++) {
+        const struct gm_word *list = &words->list[i];
+        if (list->count == 1) {
+            continue;
+        }
+        const size_t index = gm_words_choice(words, i, lane);
+        if (!panels || words->zip) {
+            panels = true;
+            add_name(list, index, spec->scheme, shown->panel_name, sizeof shown->panel_name);
+            shown->panel = words->zip ? lane : index;
+        } else {
+            shown->colour = colours ? shown->colour * list->count + index : index;
+            colours = true;
+            add_name(list, index, spec->scheme, shown->colour_name, sizeof shown->colour_name);
+        }
+    }
+    shown->dash = colours ? shown->panel : shown->colour;
+    if (strcmp(shown->panel_name, spec->scheme->title) == 0) {
+        shown->panel_name[0] = '\0'; /* which is what "" stands for */
+    }
+}
+
+/* dt and until, or steps, to whole steps; with `steps` until follows. */
+static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec, bool steps_given,
+                        char *message)
+{
+    struct gm_timing *timing = spec->parameters;
+    const bool own_time = spec->scheme && spec->scheme->family->own_time;
+    const double t0 = gm_scene_t0(scene, spec->parameters);
+    spec->until = steps_given ? NAN : timing->until;
+    if (steps_given) {
+        timing->until = own_time ? GM_NEVER : t0 + (double)spec->steps * timing->dt;
+        return true;
+    }
+    if (own_time) {
+        spec->steps = GM_MOST_STEPS; /* it ends at the first t >= until, after steps that it chooses */
+        return true;
+    }
+    const double steps = round((timing->until - t0) / timing->dt);
+    if (steps < 0) {
+        return refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
+    }
+    if (!(steps <= (double)GM_MOST_STEPS)) {
+        return refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
+    }
+    spec->steps = (long)steps;
+    return true;
+}
+
+/* A parameter that a scheme brings is told to a scheme that has it. */
+static bool check_settings(const struct gm_request *request, const struct gm_words *words, char *message)
+{
+    const struct gm_scene *scene = request->scene;
+    for (size_t i = 0; i < words->count; i++) {
+        const struct gm_parameter *row = gm_setting_find(words->list[i].key);
+        bool used = !row || gm_scene_parameter(scene, words->list[i].key);
+        for (size_t k = 0; k < request->count && !used; k++) {
+            used = gm_scheme_takes(request->lanes[k].scheme, row);
+        }
+        if (used) {
+            continue;
+        }
+        const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
+        const size_t count = gm_catalogue_fitting(scene, fitting);
+        const char *between = "; those that do: ";
+        size_t told = (size_t)snprintf(message, GM_MESSAGE, "none of these schemes takes %s=", row->key);
+        for (size_t k = 0; k < count && told < GM_MESSAGE; k++) {
+            if (gm_scheme_takes(fitting[k], row)) {
+                told +=
+                    (size_t)snprintf(message + told, GM_MESSAGE - told, "%s%s", between, fitting[k]->name);
+                between = ", ";
+                used = true;
+            }
+        }
+        return used ? false
+                    : refuse(message, "no scheme that fits scene %s takes %s=", scene->name, row->key);
+    }
+    return true;
+}
+
+/* The lane that differs from `lane` in its scheme alone, and has the first one. */
+static size_t first_scheme(const struct gm_words *words, size_t lane)
+{
+    if (words->zip) {
+        return 0;
+    }
+    for (size_t other = 0; other < lane; other++) {
+        bool same = true;
+        for (size_t i = 0; i < words->count; i++) {
+            same = same && (strcmp(words->list[i].key, "scheme") == 0 ||
+                            gm_words_choice(words, i, other) == gm_words_choice(words, i, lane));
+        }
+        if (same) {
+            return other;
+        }
+    }
+    return lane;
+}
+
+/* Whether an earlier lane has the same problem. */
+static bool is_repeated(const struct gm_request *request, size_t lane)
+{
+    for (size_t i = 0; i < lane; i++) {
+        if (memcmp(request->lanes[i].parameters, request->lanes[lane].parameters, request->scene->size) ==
+            0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Of the schemes of a name those that fit; a problem is set up once for all its lanes. */
+static bool find_schemes(struct gm_request *request, char *message)
+{
+    const struct gm_scene *scene = request->scene;
+    const struct gm_scheme *unfit = NULL;
+    for (size_t i = 0; i < request->count && !unfit; i++) {
+        struct gm_problem problem = {0};
+        if (is_repeated(request, i)) {
+            continue;
+        }
+        if (!scene->setup(request->lanes[i].parameters, &problem, message)) {
+            char sentence[GM_SENTENCE];
+            request->unreadable = scene->readable && !scene->readable(request->lanes[i].parameters, sentence);
+            return false;
+        }
+        for (size_t k = i; k < request->count && !unfit; k++) {
+            struct gm_lane_spec *spec = &request->lanes[k];
+            if (memcmp(spec->parameters, request->lanes[i].parameters, scene->size) == 0) {
+                spec->scheme = gm_scheme_find_for(spec->scheme->name, &problem);
+                unfit = gm_scheme_fits(spec->scheme, &problem) ? NULL : spec->scheme;
+            }
+        }
+        if (scene->close) {
+            scene->close(&problem);
+        }
+    }
+    return !unfit || refuse(message, "scheme %s does not fit scene %s; geomint list %s names those that do",
+                            unfit->name, scene->name, scene->name);
+}
+
+static bool make_lanes(struct gm_request *request, struct gm_words *words, char *message)
+{
+    const struct gm_scene *scene = request->scene;
+    size_t count = 0;
+    if (!gm_words_lanes(words, &count, message)) {
+        return false;
+    }
+    if (request->overlay && count > GM_LANE_COLOURS) {
+        return refuse(message, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
+                      GM_LANE_COLOURS, count);
+    }
+    request->lanes = calloc(count, sizeof *request->lanes);
+    if (!request->lanes) {
+        return refuse(message, "not enough memory");
+    }
+    const bool steps_given = gm_words_find(words, "steps") != NULL;
+    if (steps_given && gm_words_find(words, "until")) {
+        return refuse(message, "steps= and until= are both given; one of them follows from the other");
+    }
+    const char *keys[GM_MOST_WORDS] = {NULL};
+    for (size_t i = 0; i < words->count && i < GM_MOST_WORDS; i++) {
+        keys[i] = words->list[i].key;
+    }
+    for (size_t k = 0; k < count; k++) {
+        struct gm_lane_spec *spec = &request->lanes[k];
+        spec->parameters = calloc(1, scene->size);
+        request->count++;
+        if (!spec->parameters) {
+            return refuse(message, "not enough memory");
+        }
+        gm_parameters_reset(scene->parameters, scene->parameter_count, spec->parameters);
+        gm_parameters_reset(gm_settings_parameters, gm_settings_parameter_count, &spec->settings);
+        for (size_t i = 0; i < words->count; i++) {
+            if (!apply(scene, spec, &words->list[i], gm_words_choice(words, i, k), message)) {
+                return false;
+            }
+        }
+        if (scene->settle && !scene->settle(spec->parameters, keys, words->count, message)) {
+            return false;
+        }
+        if (!settle_time(scene, spec, steps_given, message)) {
+            return false;
+        }
+    }
+    if (!find_schemes(request, message)) {
+        return false;
+    }
+    for (size_t k = 0; k < count; k++) {
+        struct gm_lane_spec *spec = &request->lanes[k];
+        show(words, k, spec); /* rows of one name may have different titles */
+        if (request->overlay) {
+            gm_show_in_order(&spec->shown, k, spec->scheme, true);
+        }
+    }
+    if (gm_words_chosen(words, "equal")) {
+        if (steps_given) {
+            return refuse(message,
+                          "equal=cost scales the steps up to until=; steps= cannot be given with it");
+        }
+        for (size_t k = 0; k < count; k++) {
+            if (!gm_equal_cost(request, k, first_scheme(words, k), message) ||
+                !settle_time(scene, &request->lanes[k], false, message)) {
+                return false;
+            }
+        }
+    }
+    return check_settings(request, words, message);
+}
+
+bool gm_request_parse(struct gm_request *request, int count, char *const typed[], size_t schemes,
+                      char *message)
+{
+    *request = (struct gm_request){0};
+    if (count == 0) {
+        return refuse(message, "which scene? geomint list names them");
+    }
+    request->scene = gm_scene_find(typed[0]);
+    if (!request->scene) {
+        const char *near = gm_nearest(typed[0], gm_scene_count(), scene_name, NULL);
+        return refuse(message, "there is no scene \"%.40s\"%s%s", typed[0],
+                      near ? "; did you mean " : "; see geomint list", near ? near : "");
+    }
+    enum { MOST_SHOWN = 8 };
+    char shown[256], *instead[MOST_SHOWN], *rest = NULL;
+    char *const *given = typed + 1;
+    int given_count = count - 1;
+    if (given_count == 0 && schemes > 1 && request->scene->lanes) {
+        snprintf(shown, sizeof shown, "%s", request->scene->lanes);
+        for (char *word = strtok_r(shown, " ", &rest); word && given_count < MOST_SHOWN;
+             word = strtok_r(NULL, " ", &rest)) {
+            instead[given_count++] = word;
+        }
+        given = instead;
+    }
+    struct gm_words words;
+    bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
+    request->overlay = good && gm_words_chosen(&words, "overlay");
+    good = good && make_lanes(request, &words, message);
+    if (good) {
+        request->arguments = gm_words_join(request->scene, &words);
+        good = request->arguments || refuse(message, "not enough memory");
+    }
+    gm_words_close(&words);
+    if (!good) {
+        const bool unreadable = request->unreadable;
+        gm_request_close(request);
+        request->unreadable = unreadable;
+    }
+    return good;
+}
+
+int gm_request_refusal(const struct gm_request *request)
+{
+    return request->unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
+}
+
+void gm_request_close(struct gm_request *request)
+{
+    for (size_t i = 0; i < request->count; i++) {
+        free(request->lanes[i].parameters);
+    }
+    free(request->lanes);
+    free(request->changes);
+    free(request->arguments);
+    *request = (struct gm_request){0};
+}
+
+struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message)
+{
+    const struct gm_lane_spec *spec = &request->lanes[index];
+    struct gm_lane *lane =
+        gm_lane_open(request->scene, spec->parameters, &spec->settings, spec->scheme, message);
+    if (lane) {
+        gm_lane_show(lane, &spec->shown);
+    }
+    return lane;
+}

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_REQUEST_REQUEST_H
+#define GM_APP_REQUEST_REQUEST_H
+
+#include "render/message.h"
+#include "scenes/frame/lane.h"
+
+/* What the user asked for: a scene and its lanes, read from `SCENE key=value ...`. */
+
+struct gm_lane_spec {
+    struct gm_shown shown;
+    void *parameters; /* the scene's own struct */
+    struct gm_settings settings;
+    const struct gm_scheme *scheme;
+    long steps;   /* from start to until */
+    double until; /* as asked for; NAN where steps= says it */
+};
+
+/* A change made in flight: after `step` steps of lane `lane`, "key=value" (a live parameter or scheme). */
+struct gm_change {
+    size_t lane;
+    long step;
+    char text[96];
+};
+
+/* So many steps a lane may make, and changes lie at so many at most. */
+#define GM_MOST_STEPS 1000000000000000L
+
+struct gm_request {
+    const struct gm_scene *scene;
+    struct gm_lane_spec *lanes;
+    size_t count;
+    struct gm_change *changes; /* in order of step */
+    size_t change_count;
+    bool overlay;    /* all lanes in one panel */
+    bool unreadable; /* of a request that was refused: because of a file that it names */
+    char *arguments; /* what it was read from, schemes named; NULL: gm_request_format finds out */
+};
+
+/* How many of a scene's preferred schemes a command takes where none is named. */
+enum { GM_RUN_SCHEMES = 1, GM_RENDER_SCHEMES = 3 };
+
+/* Exit statuses of the program. */
+enum {
+    GM_EXIT_OK = 0,
+    GM_EXIT_USAGE = 1,
+    GM_EXIT_NUMERICAL = 2,
+    GM_EXIT_FILE = 3,
+    GM_EXIT_CLAIM = 4,
+    GM_EXIT_MEMORY = 5,
+    GM_EXIT_INTERRUPTED = 130,
+    GM_EXIT_PIPE = 141,
+};
+
+/* Reads words such as "disc", "scheme=rk4,midpoint", "dt=pi/60,pi/12", "zip=yes",
+   "overlay=yes" (the scene first).
+   `schemes` is how many of the scene's preferred schemes to take where none is named. False with one
+   sentence in message (GM_MESSAGE bytes); the request is then empty, but for `unreadable`. */
+bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
+                      char *message);
+void gm_request_close(struct gm_request *request);
+
+/* The exit status for a request that gm_request_parse refused. */
+int gm_request_refusal(const struct gm_request *request);
+
+/* The lanes as arguments that gm_request_parse reads to the same request: "disc scheme=rk4,midpoint ...",
+   words separated by blanks, every parameter that is not at its default; malloc'ed. */
+char *gm_request_format(const struct gm_request *request);
+
+/* The changes as text, one "lane step key=value" a line, and back. */
+char *gm_changes_format(const struct gm_request *request);
+bool gm_changes_parse(struct gm_request *request, const char *text);
+
+/* A colour for lane number `lane`, and a panel of its own or one for all; what names say stays. */
+void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_scheme *scheme, bool overlay);
+
+/* Appends one; false when memory is short. */
+bool gm_change_add(struct gm_request *request, size_t lane, long step, const char *text);
+
+/* Opens lane `index` at its start; NULL with a sentence. */
+struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message);
+
+/* Whether a change can be made before its lane ends; false with a sentence. */
+bool gm_change_check(const struct gm_request *request, const struct gm_change *change, char *message);
+
+/* Makes the change "key=value" on a lane now (a live parameter or the scheme); false with a sentence. */
+bool gm_change_apply(struct gm_lane *lane, const char *text, char *message);
+
+#endif

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_REQUEST_WORDS_H
+#define GM_APP_REQUEST_WORDS_H
+
+#include <stdio.h>
+
+#include "scenes/frame/scene.h"
+
+/* What was typed behind a scene's name: keys with lists of values, and which of the values lane k has. */
+
+enum { GM_MOST_WORDS = 32, GM_MOST_VALUES = 64, GM_MOST_REQUESTED = 64 };
+
+struct gm_word {
+    char *key;
+    char *values[GM_MOST_VALUES];
+    size_t count;
+};
+
+struct gm_words {
+    struct gm_word list[GM_MOST_WORDS];
+    size_t count;
+    bool zip;
+};
+
+/* The keys that every scene has beside its parameters and its schemes'. */
+struct gm_common_key {
+    const char *name, *value, *help;
+    const char *choices[3]; /* NULL-terminated; none: any value */
+};
+extern const struct gm_common_key gm_common_keys[];
+extern const size_t gm_common_key_count;
+/* NULL if there is none of that name */
+const struct gm_common_key *gm_common_key_find(const char *name);
+
+/* Reads `count` words "key=value,value" for a scene; without scheme= the first `schemes` that it prefers are
+   put in front. False with a sentence (GM_MESSAGE bytes). In both cases to be closed. */
+bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int count, char *const typed[],
+                   size_t schemes, char *message);
+void gm_words_close(struct gm_words *words);
+
+/* NULL if the key was not typed. */
+const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);
+
+/* Whether a common key that has choices was given its second one: yes, cost. */
+bool gm_words_chosen(const struct gm_words *words, const char *key);
+
+/* Whether value `index` of a list and the one before it (of the first: behind it) are probably one number
+   with a comma as its decimal mark: 0,5 or 1,05. Writes it with a point. */
+bool gm_words_decimal_comma(const struct gm_word *list, size_t index, char *number, size_t size);
+#define GM_DECIMAL_POINT "the decimal mark is a point (%s), a comma separates the values of a list"
+
+/* How many lanes they make: the product of the lists' lengths, or, zipped, their length. False with a
+   sentence. */
+bool gm_words_lanes(const struct gm_words *words, size_t *lanes, char *message);
+
+/* Which value of list i lane number `lane` takes. The first list changes slowest. */
+size_t gm_words_choice(const struct gm_words *words, size_t i, size_t lane);
+
+/* Words as text: separated by blanks, with a backslash before a blank or backslash that belongs to a word.
+   Cuts such text, in place, into at most `most` words; their number. */
+int gm_words_split(char *text, char **words, int most);
+/* Writes one word as gm_words_split reads it. */
+void gm_words_put(FILE *stream, const char *word);
+
+/* "SCENE key=value ..."; malloc'ed, NULL when memory is short. */
+char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words);
+
+#endif

@@ -1,0 +1,296 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "app/studies/stability.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { MOST_WORDS = 64 };
+
+/* A run that takes longer than this is judged where it is. */
+static const double most_seconds = 10;
+
+static bool refuse(char *message, const char *text)
+{
+    snprintf(message, GM_MESSAGE, "%s", text);
+    return false;
+}
+
+/* The scene, the plan's arguments and schemes unless overridden, and the user's words. */
+static bool parse(struct gm_stability_table *table, const struct gm_options *options, char *message)
+{
+    char *words[MOST_WORDS], arguments[512], schemes[512] = "scheme=", *rest = NULL;
+    const struct gm_scene *scene = gm_scene_find(options->words[0]);
+    const bool chosen =
+        scene && scene->stability && scene->stability->schemes && !gm_options_have(options, "scheme=");
+    int count = 0;
+    words[count++] = options->words[0];
+    if (scene && !scene->stability) {
+        snprintf(message, GM_MESSAGE, "scene %s has no stability map", scene->name);
+        return false;
+    }
+    if (scene) {
+        snprintf(arguments, sizeof arguments, "%s", scene->stability->arguments);
+        for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+            if (!gm_options_have(options, word)) {
+                words[count++] = word;
+            }
+        }
+    }
+    for (size_t i = 0; chosen && scene->stability->schemes[i]; i++) {
+        const size_t used = strlen(schemes);
+        snprintf(schemes + used, sizeof schemes - used, "%s%s", i ? "," : "", scene->stability->schemes[i]);
+    }
+    if (chosen) {
+        words[count++] = schemes;
+    }
+    for (int i = 1; i < options->word_count && count < MOST_WORDS; i++) {
+        words[count++] = options->words[i];
+    }
+    return gm_request_parse(&table->request, count, words, 6, message);
+}
+
+bool gm_stability_open(struct gm_stability_table *table, const struct gm_options *options, char *message)
+{
+    *table = (struct gm_stability_table){0};
+    if (options->word_count == 0) {
+        return refuse(message, "stability of which scene? Or --region SCHEME");
+    }
+    if (!parse(table, options, message)) {
+        return false;
+    }
+    const struct gm_request *request = &table->request;
+    table->plan = request->scene->stability;
+    table->parameter = gm_scene_parameter(request->scene, table->plan->parameter);
+    table->count = request->count;
+    table->maps = calloc(request->count, sizeof *table->maps);
+    bool good = table->maps != NULL;
+    for (size_t i = 0; good && i < request->count; i++) {
+        table->maps[i].scheme = request->lanes[i].scheme;
+        table->maps[i].cells =
+            calloc(table->plan->step_count * table->plan->value_count, sizeof(struct gm_map_cell));
+        good = table->maps[i].cells != NULL;
+        for (size_t k = 0; k < i; k++) {
+            if (request->lanes[k].scheme == request->lanes[i].scheme) {
+                snprintf(message, GM_MESSAGE, "stability varies dt and %s itself: only scheme takes a list",
+                         table->plan->parameter);
+                gm_stability_close(table);
+                return false;
+            }
+        }
+    }
+    if (!good) {
+        gm_stability_close(table);
+        return refuse(message, "not enough memory");
+    }
+    return true;
+}
+
+void gm_stability_close(struct gm_stability_table *table)
+{
+    for (size_t i = 0; i < table->count && table->maps; i++) {
+        free(table->maps[i].cells);
+    }
+    free(table->maps);
+    gm_request_close(&table->request);
+    *table = (struct gm_stability_table){0};
+}
+
+static const struct gm_observable *find(const struct gm_scene *scene, const char *key)
+{
+    const int observable = key ? gm_scene_observable(scene, key) : -1;
+    return observable < 0 ? NULL : &scene->observables[observable];
+}
+
+static double processor_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double evaluate(const struct gm_lane *lane, const struct gm_observable *observable)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    return observable->evaluate(&view);
+}
+
+/* Up to `steps` steps in all, or the end of a scheme that chooses them; one by one where the largest value on
+   the way is asked for. */
+static void run_to(struct gm_lane *lane, long steps, const struct gm_observable *observable, double *largest,
+                   const struct gm_listener *listener)
+{
+    const struct gm_timing *timing = lane->parameters;
+    const bool own_time = lane->scheme->family->own_time;
+    const double started = processor_seconds();
+    while (lane->run->status == GM_OK && processor_seconds() - started < most_seconds &&
+           !gm_listener_stops(listener)) {
+        const long left = steps - lane->run->steps;
+        if (left <= 0 || (own_time && lane->run->t >= timing->until)) {
+            return;
+        }
+        gm_lane_advance(lane, own_time || largest ? 1 : left < 1000 ? left : 1000);
+        if (largest) {
+            *largest = fmax(*largest, evaluate(lane, observable));
+        }
+    }
+}
+
+static void judge(struct gm_lane *lane, const struct gm_stability *plan, const struct gm_listener *listener,
+                  struct gm_map_cell *cell)
+{
+    const struct gm_observable *kept = find(lane->scene, plan->kept), *error = find(lane->scene, plan->error);
+    const struct gm_timing *timing = lane->parameters;
+    const long all =
+        lane->scheme->family->own_time ? INT64_MAX : (long)fmax(1, round(timing->until / timing->dt));
+    double before = evaluate(lane, kept), after = -INFINITY;
+    if (plan->settle > 0 && all > 2 * plan->settle && all < INT64_MAX) {
+        run_to(lane, plan->settle, kept, &before, listener);
+        run_to(lane, all - plan->settle, NULL, NULL, listener);
+        run_to(lane, all, kept, &after, listener);
+    } else {
+        run_to(lane, all, NULL, NULL, listener);
+        after = evaluate(lane, kept);
+    }
+    cell->status = lane->run->status;
+    cell->t = lane->run->t;
+    cell->ratio = after / before;
+    cell->error = error ? fabs(gm_lane_observe(lane, (size_t)(error - lane->scene->observables))) : NAN;
+    if (cell->status != GM_OK) {
+        cell->verdict = GM_FAILED;
+    } else if (fabs(cell->ratio) > 2) {
+        cell->verdict = GM_GAINED;
+    } else if (!(cell->ratio >= 0.5)) {
+        cell->verdict = GM_LOST;
+    } else {
+        cell->verdict = error && !(cell->error <= 0.1) ? GM_WRONG : GM_BOUNDED;
+    }
+}
+
+bool gm_stability_measure(struct gm_stability_table *table, const struct gm_listener *listener, char *message)
+{
+    const struct gm_stability *plan = table->plan;
+    const size_t each = plan->step_count * plan->value_count;
+    for (size_t i = 0; i < table->count; i++) {
+        const struct gm_lane_spec *spec = &table->request.lanes[i];
+        struct gm_timing *timing = spec->parameters;
+        for (size_t k = 0; k < each; k++) {
+            struct gm_map_cell *cell = &table->maps[i].cells[k];
+            gm_listener_hears(listener, spec->scheme->name, i * each + k, table->count * each);
+            gm_parameter_put(table->parameter, spec->parameters, plan->values[k % plan->value_count]);
+            timing->dt = cell->dt = plan->steps[k / plan->value_count] * plan->unit(spec->parameters);
+            struct gm_lane *lane = gm_request_open_lane(&table->request, i, message);
+            if (!lane) {
+                return false;
+            }
+            judge(lane, plan, listener, cell);
+            gm_lane_close(lane);
+            if (gm_listener_stops(listener)) {
+                cell->verdict = GM_UNTRIED;
+                return true;
+            }
+        }
+    }
+    return true;
+}
+
+const char *gm_cell_word(const struct gm_map_cell *cell)
+{
+    static const char *const words[] = {"untried", "bounded", "lost", "gained", "wrong"};
+    return cell->verdict == GM_FAILED ? gm_status_name(cell->status) : words[cell->verdict];
+}
+
+char gm_cell_letter(const struct gm_map_cell *cell)
+{
+    switch (cell->verdict) {
+    case GM_UNTRIED:
+        return '?';
+    case GM_BOUNDED:
+        return '.';
+    case GM_LOST:
+        return 'L';
+    case GM_GAINED:
+        return 'G';
+    case GM_WRONG:
+        return 'W';
+    case GM_FAILED:
+        break;
+    }
+    switch (cell->status) {
+    case GM_BLOW_UP:
+        return 'B';
+    case GM_NO_CONVERGENCE:
+        return 'N';
+    case GM_MESH_CROSSING:
+        return 'M';
+    default:
+        return 'C';
+    }
+}
+
+const char *gm_stability_letters(const struct gm_stability_table *table, char *text, size_t size)
+{
+    const size_t each = table->plan->step_count * table->plan->value_count;
+    bool told[128] = {['.'] = true};
+    size_t used = (size_t)snprintf(text, size, "%s", "");
+    for (size_t i = 0; i < table->count * each; i++) {
+        const struct gm_map_cell *cell = &table->maps[i / each].cells[i % each];
+        const char letter = gm_cell_letter(cell);
+        if (!told[(size_t)letter] && used < size) {
+            used += (size_t)snprintf(text + used, size - used, "%s%c %s", used ? ", " : "", letter,
+                                     gm_cell_word(cell));
+            told[(size_t)letter] = true;
+        }
+    }
+    return text;
+}
+
+double gm_stability_limit(const struct gm_stability_table *table, const struct gm_stability_map *map)
+{
+    const struct gm_stability *plan = table->plan;
+    double limit = 0;
+    for (size_t s = 0; s < plan->step_count; s++) {
+        for (size_t v = 0; v < plan->value_count; v++) {
+            if (map->cells[s * plan->value_count + v].verdict != GM_BOUNDED) {
+                return limit;
+            }
+        }
+        limit = plan->steps[s];
+    }
+    return limit;
+}
+
+bool gm_stability_write(const struct gm_stability_table *table, const char *path)
+{
+    const struct gm_stability *plan = table->plan;
+    FILE *csv = fopen(path, "w");
+    if (!csv) {
+        return false;
+    }
+    fprintf(csv, "scene,scheme,%s,step,dt,verdict,status,t,ratio,error\n", plan->parameter);
+    for (size_t i = 0; i < table->count; i++) {
+        for (size_t k = 0; k < plan->step_count * plan->value_count; k++) {
+            const struct gm_map_cell *cell = &table->maps[i].cells[k];
+            if (cell->verdict == GM_UNTRIED) {
+                continue;
+            }
+            fprintf(csv, "%s,%s,%.17g,%.17g,%.17g,%s,%s,%.17g,", table->request.scene->name,
+                    table->maps[i].scheme->name, plan->values[k % plan->value_count],
+                    plan->steps[k / plan->value_count], cell->dt, gm_cell_word(cell),
+                    gm_status_name(cell->status), cell->t);
+            if (isfinite(cell->ratio)) {
+                fprintf(csv, "%.9g", cell->ratio);
+            }
+            fputc(',', csv);
+            if (isfinite(cell->error)) {
+                fprintf(csv, "%.9g", cell->error);
+            }
+            fputc('\n', csv);
+        }
+    }
+    const bool failed = ferror(csv) != 0;
+    return fclose(csv) == 0 && !failed;
+}

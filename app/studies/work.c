@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measures error and cost of every scheme with every step. */
+#include "app/studies/work.h"
+#include "core/schemes.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { REPEATS = 5 };
+
+/* A measurement is repeated until it has taken so long, and given up when one run takes longer. */
+static const double enough_seconds = 0.1, most_seconds = 4;
+
+static bool refuse(char *message, const char *text)
+{
+    snprintf(message, GM_MESSAGE, "%s", text);
+    return false;
+}
+
+static double processor_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static struct gm_timing *timing_of(const struct gm_work_table *table)
+{
+    return table->request.lanes[0].parameters;
+}
+
+/* A lane of this scheme and step at its start. */
+static struct gm_lane *open_lane(const struct gm_work_table *table, const struct gm_scheme *scheme, double dt,
+                                 char *message)
+{
+    struct gm_timing *timing = timing_of(table);
+    const double usual = timing->dt;
+    timing->dt = dt; /* the lane takes a copy */
+    struct gm_lane *lane =
+        gm_lane_open(table->request.scene, timing, &table->request.lanes[0].settings, scheme, message);
+    timing->dt = usual;
+    return lane;
+}
+
+/* How much time the runs of the table are to cover. */
+static double whole_time(const struct gm_work_table *table)
+{
+    return timing_of(table)->until - gm_scene_t0(table->request.scene, timing_of(table));
+}
+
+static bool stopped(const struct gm_work_table *table)
+{
+    return gm_listener_stops(table->listener);
+}
+
+static bool ended(const struct gm_lane *lane, long steps)
+{
+    const struct gm_run *run = lane->run;
+    const double until = ((const struct gm_timing *)lane->parameters)->until;
+    return run->status != GM_OK ||
+           (lane->scheme->family->own_time ? run->t >= until * (1 - 1e-12) : run->steps >= steps);
+}
+
+/* To the end, in bursts that answer an interruption; gives up after `most` seconds. Returns the processor
+ * time. */
+static double run_through(const struct gm_work_table *table, struct gm_lane *lane, long steps, bool follow,
+                          double most)
+{
+    const double size = (double)(lane->problem.n * lane->problem.m);
+    const bool own_time = lane->scheme->family->own_time;
+    const long burst = own_time && follow ? 1 : (long)fmax(1, fmin(1e5, 1e6 / size));
+    double spent = 0;
+    while (!ended(lane, steps) && spent < most && !stopped(table)) {
+        const long left = steps - lane->run->steps, some = left < burst ? left : burst;
+        const double started = processor_seconds();
+        if (follow) {
+            gm_lane_advance(lane, some);
+        } else if (own_time) {
+            /* it may come to its end after any step */
+            for (long i = 0; i < some && !ended(lane, steps); i++) {
+                gm_run_advance(lane->run, 1);
+            }
+        } else {
+            gm_run_advance(lane->run, some);
+        }
+        spent += processor_seconds() - started;
+    }
+    return spent;
+}
+
+/* The state that solutions are measured against: the exact one, or that of a trusted run, for all steps of
+   the ladder. NULL if there is none. */
+static double *reference_state(struct gm_work_table *table, char *message)
+{
+    const struct gm_work *work = table->request.scene->work;
+    const struct gm_scheme *trusted = work && work->reference ? gm_scheme_find(work->reference) : NULL;
+    struct gm_lane *lane = open_lane(table, table->request.lanes[0].scheme, timing_of(table)->dt, message);
+    if (!lane) {
+        return NULL;
+    }
+    const size_t count = lane->problem.n * lane->problem.m;
+    double *state = malloc(count * sizeof *state);
+    const bool named = trusted != NULL;
+    for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (gm_scheme_fits(scheme, &lane->problem) && !scheme->family->own_time && scheme->order >= 4) {
+            trusted = trusted && trusted->order >= scheme->order ? trusted : scheme;
+        }
+    }
+    if (state && lane->problem.exact) {
+        snprintf(table->reference, sizeof table->reference, "the exact solution");
+        lane->problem.exact->solution(&lane->problem, timing_of(table)->until, lane->start, state,
+                                      lane->problem.m);
+    } else if (state && trusted) {
+        /* a quarter of the shortest step that halving the ladder a few times less gives: beyond, rounding
+         * rules */
+        const size_t middle = table->step_count > 3 ? table->step_count - 3 : table->step_count - 1;
+        const double dt = table->steps[middle] / 4;
+        snprintf(table->reference, sizeof table->reference, "a run of %s with a step of %.3g", trusted->name,
+                 dt);
+        gm_lane_close(lane);
+        lane = open_lane(table, trusted, dt, message);
+        const long steps = (long)round(whole_time(table) / dt);
+        if (lane) {
+            /* the carried rounding errors are worth their price here */
+            run_through(table, lane, steps, false, INFINITY);
+        }
+        if (!lane || lane->run->status != GM_OK || stopped(table)) {
+            if (lane) {
+                snprintf(message, GM_MESSAGE, "the reference, %s, failed: %s", table->reference,
+                         gm_status_name(lane->run->status));
+            }
+            free(state);
+            state = NULL;
+        } else {
+            memcpy(state, gm_run_state(lane->run), count * sizeof *state);
+        }
+    } else {
+        free(state);
+        state = NULL;
+        refuse(
+            message,
+            "there is nothing to compare with: neither an exact solution nor a scheme of order 4 or more to "
+            "make a reference with; --measure KEY compares an observable of the scene instead");
+    }
+    gm_lane_close(lane);
+    return state;
+}
+
+static double error_of(const struct gm_work_table *table, const struct gm_lane *lane, const double *reference)
+{
+    const struct gm_scene *scene = lane->scene;
+    if (reference) {
+        const double *state = gm_run_state(lane->run);
+        double error = 0;
+        for (size_t i = 0; i < lane->problem.n * lane->problem.m; i++) {
+            const double difference = fabs(state[i] - reference[i]);
+            error = difference <= error ? error : difference; /* keeps a NaN */
+        }
+        return error;
+    }
+    const int observable = gm_scene_observable(scene, table->measure);
+    return observable < 0 ? NAN : fabs(gm_lane_observe(lane, (size_t)observable));
+}
+
+/* One scheme with one step. False with a sentence only if no lane could be opened. */
+static bool measure_point(const struct gm_work_table *table, const struct gm_scheme *scheme, double dt,
+                          const double *reference, struct gm_work_point *point, char *message)
+{
+    const bool own_time = scheme->family->own_time;
+    const long steps = own_time ? INT64_MAX : (long)round(whole_time(table) / dt);
+    const bool follow = table->request.scene->follow > 0 && !reference;
+    *point = (struct gm_work_point){.dt = dt, .error = NAN, .seconds = INFINITY};
+    double spent = 0;
+    for (int repeat = 0; repeat < REPEATS && spent < enough_seconds && !stopped(table); repeat++) {
+        struct gm_lane *lane = open_lane(table, scheme, dt, message);
+        if (!lane) {
+            return false;
+        }
+        const double seconds = run_through(table, lane, steps, false, most_seconds);
+        const struct gm_run *run = lane->run;
+        const bool whole = run->status != GM_OK || ended(lane, steps);
+        point->seconds = whole ? fmin(point->seconds, seconds) : point->seconds;
+        spent += whole ? seconds : enough_seconds;
+        if (repeat == 0) {
+            point->status = run->status;
+            point->t = run->t;
+            point->steps = run->steps;
+            point->evaluations = gm_run_per_member(run, run->evaluations);
+            point->solves = gm_run_per_member(run, run->solves);
+            if (run->status == GM_OK && whole && !stopped(table) && (!reference || !own_time)) {
+                point->error = error_of(table, lane, reference);
+            }
+        }
+        gm_lane_close(lane);
+    }
+    /* an observable that recalls the past: once more, looking on the way */
+    if (follow && point->status == GM_OK && isfinite(point->error) && !stopped(table)) {
+        struct gm_lane *lane = open_lane(table, scheme, dt, message);
+        if (!lane) {
+            return false;
+        }
+        run_through(table, lane, steps, true, INFINITY);
+        point->error = error_of(table, lane, reference);
+        gm_lane_close(lane);
+    }
+    return true;
+}
+
+/* Shorter steps than this are of no use: round-off rules, or it takes too long; or, where the resolution
+   varies, the resolution rules. `count` points of this resolution were measured, the last ones of the line.
+ */
+static bool is_enough(const struct gm_work_table *table, const struct gm_work_line *line, size_t count)
+{
+    if (count < 2) {
+        return false;
+    }
+    const struct gm_work_point *last = &line->points[line->count - 1], *before = last - 1;
+    const bool resolved = table->resolution && fabs(last->error - before->error) < 0.03 * before->error;
+    const bool round_off = last->error < 1e-9 && last->error > 0.7 * before->error;
+    const bool long_enough = last->status == GM_OK && last->seconds > most_seconds / 3;
+    return resolved || round_off || long_enough || !isfinite(last->seconds);
+}
+
+/* The step of a rung of the ladder, at the present resolution. */
+static double step_of(const struct gm_work_table *table, size_t rung)
+{
+    struct gm_timing *timing = timing_of(table);
+    if (!table->ratio) {
+        return table->steps[rung];
+    }
+    char sentence[GM_SENTENCE];
+    gm_parameter_put(table->ratio, timing, table->steps[rung]);
+    table->request.scene->settle(timing, &table->ratio->key, 1, sentence);
+    return timing->dt;
+}
+
+static bool measure_line(struct gm_work_table *table, struct gm_work_line *line, const double *reference,
+                         char *message)
+{
+    const size_t all = table->scheme_count * table->step_count * table->resolution_count;
+    const size_t each = table->step_count * table->resolution_count;
+    void *own = timing_of(table);
+    for (size_t r = 0; r < table->resolution_count; r++) {
+        const size_t first = line->count;
+        if (table->resolution) {
+            gm_parameter_put(table->resolution, own, table->resolutions[r]);
+        }
+        for (size_t k = 0; k < table->step_count && !is_enough(table, line, line->count - first); k++) {
+            struct gm_work_point point;
+            gm_listener_hears(table->listener, line->scheme->name,
+                              table->line_count * each - each + r * table->step_count + k, all);
+            if (!measure_point(table, line->scheme, step_of(table, k), reference, &point, message)) {
+                return false;
+            }
+            if (stopped(table)) {
+                return true;
+            }
+            point.resolution = table->resolution ? gm_work_resolution(table, table->resolutions[r]) : 0;
+            line->points[line->count++] = point;
+        }
+    }
+    return true;
+}
+
+/* The best points by each cost, where resolution and step vary. Errors of both may cancel by chance: a point
+   is credited with the largest error of its resolution at its step and all shorter ones. */
+static bool choose_best(const struct gm_work_table *table, struct gm_work_line *line, char *message)
+{
+    if (!table->resolution) {
+        return true;
+    }
+    struct gm_work_point *earned = calloc(line->count + 1, sizeof *earned);
+    bool good = earned != NULL;
+    for (size_t k = line->count; good && k-- > 0;) {
+        earned[k] = line->points[k];
+        if (k + 1 < line->count && earned[k + 1].resolution == earned[k].resolution &&
+            earned[k + 1].error > earned[k].error) {
+            earned[k].error = earned[k + 1].error;
+        }
+    }
+    for (int cost = 0; good && cost < GM_COST_COUNT; cost++) {
+        line->best[cost] = calloc(line->count + 1, sizeof *line->best[cost]);
+        good = line->best[cost] != NULL;
+        if (good) {
+            line->best_count[cost] =
+                gm_work_keep_best(earned, line->count, (enum gm_work_cost)cost, line->best[cost]);
+        }
+    }
+    free(earned);
+    return good || refuse(message, "not enough memory");
+}
+
+bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *listener, char *message)
+{
+    double *reference = NULL;
+    table->listener = listener;
+    gm_listener_hears(listener, "reference", 0,
+                      table->scheme_count * table->step_count * table->resolution_count);
+    if (!table->observed) {
+        reference = reference_state(table, message);
+        if (!reference) {
+            return false;
+        }
+    }
+    bool good = true;
+    for (size_t i = 0; i < table->scheme_count && good && !stopped(table); i++) {
+        struct gm_work_line *line = &table->lines[table->line_count];
+        *line = (struct gm_work_line){.scheme = table->schemes[i]};
+        line->points = calloc(table->step_count * table->resolution_count, sizeof *line->points);
+        if (!line->points) {
+            good = refuse(message, "not enough memory");
+            break;
+        }
+        table->line_count++;
+        good = measure_line(table, line, reference, message) && choose_best(table, line, message);
+    }
+    free(reference);
+    return good;
+}

@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What work-precision is to measure: from the words of the command line to schemes, steps and a measure. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/request/nearest.h"
+#include "app/studies/work.h"
+#include "core/schemes.h"
+
+enum { MOST_WORDS = 64 };
+
+static const double usual_errors[3] = {1e-3, 1e-6, 1e-9};
+
+static const char solution_error[] = "solution_error";
+
+static bool refuse(char *message, const char *text)
+{
+    snprintf(message, GM_MESSAGE, "%s", text);
+    return false;
+}
+
+static struct gm_timing *timing_of(const struct gm_work_table *table)
+{
+    return table->request.lanes[0].parameters;
+}
+
+/* The scene, its arguments for this purpose unless overridden, and the user's words. */
+static bool parse(struct gm_request *request, const struct gm_options *options, char *message)
+{
+    char *words[MOST_WORDS], arguments[512] = "", *rest = NULL;
+    int count = 0;
+    const struct gm_scene *scene = options->word_count > 0 ? gm_scene_find(options->words[0]) : NULL;
+    if (options->word_count > 0) {
+        words[count++] = options->words[0];
+    }
+    if (scene && scene->work) {
+        snprintf(arguments, sizeof arguments, "%s", scene->work->arguments);
+    }
+    for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        if (!gm_options_have(options, word)) {
+            words[count++] = word;
+        }
+    }
+    for (int i = 1; i < options->word_count && count < MOST_WORDS; i++) {
+        words[count++] = options->words[i];
+    }
+    return gm_request_parse(request, count, words, 1, message);
+}
+
+/* Lanes may differ in scheme, dt, resolution and ratio alone, and in what was not typed but follows from
+   those. */
+static bool alike(const struct gm_work_table *table, const struct gm_options *options)
+{
+    const struct gm_request *request = &table->request;
+    const struct gm_scene *scene = request->scene;
+    for (size_t i = 1; i < request->count; i++) {
+        for (size_t k = 0; k < scene->parameter_count; k++) {
+            const struct gm_parameter *row = &scene->parameters[k];
+            char word[64];
+            snprintf(word, sizeof word, "%s=", row->key);
+            const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == table->resolution ||
+                                row == table->ratio || !gm_options_have(options, word);
+            const double first = gm_parameter_get(row, request->lanes[0].parameters);
+            const double other = gm_parameter_get(row, request->lanes[i].parameters);
+            const bool left_to_itself = isnan(first) && isnan(other);
+            if (!varies && first != other && !left_to_itself) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* Whether the ladders or the lines of the diagram have the values of this word. */
+static bool is_varied(const struct gm_work_table *table, const char *word)
+{
+    const char *const keys[] = {"scheme", "dt", "until", table->resolution ? table->resolution->key : NULL,
+                                table->ratio ? table->ratio->key : NULL};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        const size_t length = keys[i] ? strlen(keys[i]) : 0;
+        if (length > 0 && strncmp(word, keys[i], length) == 0 && word[length] == '=') {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void tell_setting(struct gm_work_table *table, const char *word)
+{
+    const size_t used = strlen(table->settings);
+    if (!is_varied(table, word)) {
+        snprintf(table->settings + used, sizeof table->settings - used, "%s%s", used ? " " : "", word);
+    }
+}
+
+/* Tells the words of the plan and of the user. */
+static void tell_settings(struct gm_work_table *table, const struct gm_options *options)
+{
+    const struct gm_work *work = table->request.scene->work;
+    char arguments[512], *rest = NULL;
+    snprintf(arguments, sizeof arguments, "%s", work ? work->arguments : "");
+    for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        if (!gm_options_have(options, word)) {
+            tell_setting(table, word);
+        }
+    }
+    for (int i = 1; i < options->word_count; i++) {
+        tell_setting(table, options->words[i]);
+    }
+}
+
+static bool add_scheme(struct gm_work_table *table, const struct gm_scheme *scheme)
+{
+    for (size_t i = 0; i < table->scheme_count; i++) {
+        if (table->schemes[i] == scheme) {
+            return true;
+        }
+    }
+    table->schemes[table->scheme_count++] = scheme;
+    return true;
+}
+
+/* Those of the words, or all that fit `lane`'s problem and are no yardstick themselves. */
+static bool choose_schemes(struct gm_work_table *table, const struct gm_lane *lane, bool named, char *message)
+{
+    const struct gm_request *request = &table->request;
+    table->schemes = calloc(gm_scheme_count() + request->count, sizeof *table->schemes);
+    table->lines = calloc(gm_scheme_count() + request->count, sizeof *table->lines);
+    if (!table->schemes || !table->lines) {
+        return refuse(message, "not enough memory");
+    }
+    for (size_t i = 0; named && i < request->count; i++) {
+        add_scheme(table, request->lanes[i].scheme);
+    }
+    for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
+        const struct gm_work *work = request->scene->work;
+        bool entrant = !work || !work->schemes;
+        for (size_t k = 0; !entrant && work->schemes[k]; k++) {
+            entrant = strcmp(work->schemes[k], gm_scheme_at(i)->name) == 0;
+        }
+        const bool exact =
+            work && work->is_exact && strcmp(work->is_exact, gm_scheme_at(i)->name) == 0 && table->observed;
+        if (entrant && !exact && gm_scheme_fits(gm_scheme_at(i), &lane->problem)) {
+            add_scheme(table, gm_scheme_at(i));
+        }
+    }
+    return true;
+}
+
+static int falling(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x < *y) - (*x > *y);
+}
+
+static bool choose_steps(struct gm_work_table *table, bool given, char *message)
+{
+    const struct gm_request *request = &table->request;
+    const struct gm_work *work = request->scene->work;
+    const struct gm_timing *timing = timing_of(table);
+    const double whole = timing->until - gm_scene_t0(request->scene, timing);
+    const size_t most = given ? request->count : 64;
+    table->steps = calloc(most, sizeof *table->steps);
+    if (!table->steps) {
+        return refuse(message, "not enough memory");
+    }
+    if (given) {
+        for (size_t i = 0; i < request->count; i++) {
+            const void *own = request->lanes[i].parameters;
+            const double step =
+                table->ratio ? gm_parameter_get(table->ratio, own) : ((const struct gm_timing *)own)->dt;
+            bool known = false;
+            for (size_t k = 0; k < table->step_count; k++) {
+                known |= table->steps[k] == step;
+            }
+            if (!known) {
+                table->steps[table->step_count++] = step;
+            }
+        }
+        qsort(table->steps, table->step_count, sizeof *table->steps, falling);
+        return true;
+    }
+    const double coarsest = work ? work->coarsest : 4 * timing->dt;
+    const int halvings = work ? work->halvings : 7;
+    double steps = fmax(1, ceil(whole / coarsest - 1e-9));
+    for (int i = 0; i <= halvings; i++, steps *= 2) {
+        table->steps[table->step_count++] = whole / steps;
+    }
+    return true;
+}
+
+/* The values of the plan, or those of the words if they give more than one; a single one is no ladder. */
+static bool choose_resolutions(struct gm_work_table *table, const struct gm_options *options, char *message)
+{
+    const struct gm_work *work = table->request.scene->work;
+    const struct gm_parameter *row = table->resolution;
+    char word[64];
+    snprintf(word, sizeof word, "%s=", row ? row->key : "");
+    const bool given = row && gm_options_have(options, word);
+    const size_t most = given ? table->request.count : row ? work->resolution_count : 0;
+    table->smaller_is_finer = row && work->resolutions[0] > work->resolutions[work->resolution_count - 1];
+    table->resolutions = calloc(most + 1, sizeof *table->resolutions);
+    if (!table->resolutions) {
+        return refuse(message, "not enough memory");
+    }
+    for (size_t i = 0; i < most; i++) {
+        const double value =
+            given ? gm_parameter_get(row, table->request.lanes[i].parameters) : work->resolutions[i];
+        bool known = false;
+        for (size_t k = 0; k < table->resolution_count; k++) {
+            known |= table->resolutions[k] == value;
+        }
+        if (!known) {
+            table->resolutions[table->resolution_count++] = value;
+        }
+    }
+    if (table->resolution_count < 2) {
+        table->resolution = NULL;
+        table->resolution_count = 1;
+    }
+    return true;
+}
+
+static const char *observable_name(size_t i, const void *scene)
+{
+    return ((const struct gm_scene *)scene)->observables[i].key;
+}
+
+static bool choose_measure(struct gm_work_table *table, const struct gm_lane *lane, const char *asked,
+                           char *message)
+{
+    const struct gm_scene *scene = table->request.scene;
+    table->measure = asked                                 ? asked
+                     : scene->work && scene->work->measure ? scene->work->measure
+                                                           : solution_error;
+    table->measure_title = "largest difference from the true solution";
+    table->observed =
+        strcmp(table->measure, solution_error) != 0 ||
+        (scene->work && scene->work->measure && strcmp(scene->work->measure, solution_error) == 0);
+    if (!table->observed) {
+        return true;
+    }
+    for (size_t i = 0; i < scene->observable_count; i++) {
+        if (strcmp(scene->observables[i].key, table->measure) != 0) {
+            continue;
+        }
+        /* at the start already a measure can say nothing with these parameters, as a distance from an exact
+           solution that there is not */
+        if (isfinite(gm_lane_observe(lane, i))) {
+            table->measure_title = scene->observables[i].title;
+            return true;
+        }
+        if (!asked) {
+            table->measure = solution_error;
+            table->observed = false;
+            return true;
+        }
+        snprintf(message, GM_MESSAGE, "%s says nothing with these parameters", asked);
+        return false;
+    }
+    const char *near = gm_nearest(table->measure, scene->observable_count, observable_name, scene);
+    snprintf(message, GM_MESSAGE, "scene %s has no observable %.60s%s%s", scene->name, table->measure,
+             near ? "; did you mean " : "", near ? near : "");
+    return false;
+}
+
+/* One lane is set up, and tells which measure says something and which schemes fit. */
+static bool choose(struct gm_work_table *table, const struct gm_options *options, char *message)
+{
+    struct gm_lane *lane = gm_request_open_lane(&table->request, 0, message);
+    const bool good = lane && choose_measure(table, lane, options->measure, message) &&
+                      choose_schemes(table, lane, gm_options_have(options, "scheme="), message);
+    gm_lane_close(lane);
+    return good;
+}
+
+bool gm_work_open(struct gm_work_table *table, const struct gm_options *options, char *message)
+{
+    *table = (struct gm_work_table){0};
+    if (options->word_count == 0) {
+        return refuse(message, "work-precision of which scene? See geomint list scenes");
+    }
+    if (!parse(&table->request, options, message)) {
+        return false;
+    }
+    const struct gm_work *work = table->request.scene->work;
+    table->resolution =
+        work && work->resolution ? gm_scene_parameter(table->request.scene, work->resolution) : NULL;
+    table->errors = work && work->errors ? work->errors : usual_errors;
+    if (work && work->ratio) {
+        char word[64];
+        snprintf(word, sizeof word, "%s=", work->ratio);
+        table->ratio =
+            gm_options_have(options, word) ? gm_scene_parameter(table->request.scene, work->ratio) : NULL;
+    }
+    if (!alike(table, options)) {
+        snprintf(message, GM_MESSAGE,
+                 "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
+                 table->resolution ? ", " : "", table->resolution ? table->resolution->key : "",
+                 work && work->ratio ? ", " : "", work && work->ratio ? work->ratio : "");
+        gm_work_close(table);
+        return false;
+    }
+    tell_settings(table, options);
+    if (!(timing_of(table)->until > gm_scene_t0(table->request.scene, timing_of(table)))) {
+        snprintf(message, GM_MESSAGE, "until=%g is the start: there is nothing to measure",
+                 timing_of(table)->until);
+        gm_work_close(table);
+        return false;
+    }
+    if (!choose_steps(table, gm_options_have(options, "dt=") || table->ratio, message) ||
+        !choose_resolutions(table, options, message) || !choose(table, options, message)) {
+        gm_work_close(table);
+        return false;
+    }
+    return true;
+}
+
+void gm_work_close(struct gm_work_table *table)
+{
+    for (size_t i = 0; i < table->line_count; i++) {
+        free(table->lines[i].points);
+        for (size_t cost = 0; cost < GM_COST_COUNT; cost++) {
+            free(table->lines[i].best[cost]);
+        }
+    }
+    free(table->lines);
+    free(table->schemes);
+    free(table->steps);
+    free(table->resolutions);
+    gm_request_close(&table->request);
+    *table = (struct gm_work_table){0};
+}

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where tours are, and which one is meant. */
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "app/request/nearest.h"
+#include "app/tours/tour.h"
+
+static const char ending[] = ".tour";
+
+/* bin/geomint beside share/geomint/tours, wherever the two have been moved together. */
+static bool beside_program(char *path, size_t size)
+{
+    char program[4096];
+    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length <= 0) {
+        return false;
+    }
+    program[length] = '\0';
+    for (int i = 0; i < 2; i++) {
+        char *slash = strrchr(program, '/');
+        if (!slash) {
+            return false;
+        }
+        *slash = '\0';
+    }
+    const int wanted = snprintf(path, size, "%s/share/geomint/tours", program);
+    return wanted < (int)size && access(path, R_OK) == 0;
+}
+
+const char *gm_tour_folder(char *path, size_t size)
+{
+    const char *own = getenv("GEOMINT_TOURS");
+    if (own && *own) {
+        snprintf(path, size, "%s", own);
+    } else if (!beside_program(path, size)) {
+        snprintf(path, size, "%s", GM_TOURS);
+    }
+    return path;
+}
+
+static bool has_ending(const char *name)
+{
+    const size_t length = strlen(name), wanted = sizeof ending - 1;
+    return length > wanted && strcmp(name + length - wanted, ending) == 0;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const struct gm_tour *x = a, *y = b;
+    return x->place != y->place ? (x->place > y->place) - (x->place < y->place) : strcmp(x->name, y->name);
+}
+
+struct gm_tour *gm_tours_read(size_t *count, char *message)
+{
+    char folder[4096], path[8192], sentence[GM_MESSAGE];
+    struct gm_tour *tours = calloc(1, sizeof *tours);
+    *count = 0;
+    message[0] = '\0';
+    DIR *directory = opendir(gm_tour_folder(folder, sizeof folder));
+    if (!directory || !tours) {
+        snprintf(message, GM_MESSAGE, "there is no folder %.300s with tours; GEOMINT_TOURS can name another",
+                 folder);
+    }
+    for (struct dirent *entry; tours && directory && (entry = readdir(directory));) {
+        if (!has_ending(entry->d_name)) {
+            continue;
+        }
+        struct gm_tour *more = realloc(tours, (*count + 1) * sizeof *tours);
+        if (!more) {
+            break;
+        }
+        tours = more;
+        bool file = false;
+        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (gm_tour_read(&tours[*count], path, &file, sentence)) {
+            (*count)++;
+        } else if (!message[0]) {
+            snprintf(message, GM_MESSAGE, "%s", sentence);
+        }
+    }
+    if (directory) {
+        closedir(directory);
+    }
+    if (*count > 1) {
+        qsort(tours, *count, sizeof *tours, by_place);
+    }
+    return tours;
+}
+
+void gm_tours_close(struct gm_tour *tours, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        gm_tour_close(&tours[i]);
+    }
+    free(tours);
+}
+
+static const char *name_at(size_t i, const void *data)
+{
+    return ((const struct gm_tour *)data)[i].name;
+}
+
+bool gm_tour_find(const char *word, char *path, size_t size, char *message)
+{
+    char folder[4096];
+    if (strchr(word, '/') || has_ending(word)) {
+        snprintf(path, size, "%s", word);
+        return true;
+    }
+    gm_tour_folder(folder, sizeof folder);
+    if (snprintf(path, size, "%s/%s%s", folder, word, ending) < (int)size && access(path, R_OK) == 0) {
+        return true;
+    }
+    size_t count = 0;
+    struct gm_tour *tours = gm_tours_read(&count, message);
+    bool found = false;
+    for (size_t i = 0; i < count && !found; i++) {
+        if (strcasecmp(tours[i].title, word) == 0 || strcasecmp(tours[i].name, word) == 0) {
+            snprintf(path, size, "%s/%s%s", folder, tours[i].name, ending);
+            found = true;
+        }
+    }
+    if (!found && count > 0) {
+        const char *near = gm_nearest(word, count, name_at, tours);
+        snprintf(message, GM_MESSAGE, "there is no tour \"%.60s\"%s%s", word,
+                 near ? "; did you mean " : "; geomint tour lists them, and a file has the ending .tour",
+                 near ? near : "");
+    }
+    gm_tours_close(tours, count);
+    return found;
+}

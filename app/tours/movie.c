@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A tour as a movie or as pictures: what the explorer shows, with the texts below. */
+#include "app/tours/movie.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/lanes/agenda.h"
+#include "app/output/folder.h"
+#include "app/output/provenance.h"
+#include "app/request/drive.h"
+#include "app/request/words.h"
+#include "app/studies/stability.h"
+#include "app/studies/work.h"
+#include "core/memory.h"
+#include "render/files/png.h"
+#include "render/files/sink.h"
+#include "render/gl/canvas.h"
+
+enum { PARAGRAPHS = 4 };
+
+/* How fast one reads, and how long a step's end stands. */
+static const double words_a_second = 2.7, settle_seconds = 1.5, end_seconds = 2;
+
+struct show {
+    const struct gm_tour *tour;
+    const struct gm_options *options;
+    const struct gm_tour_step *step;
+    struct gm_session session;
+    bool open; /* the session is */
+    struct gm_canvas *canvas;
+    struct gm_picture *picture;
+    struct gm_sink *sink; /* of a movie; NULL: pictures */
+    unsigned char *rgb;   /* the picture that stands */
+    double fps;
+    long frames;       /* of the movie, so far */
+    bool answered;     /* the step's question is, if it has one */
+    const void *table; /* of a study, that is drawn instead of the scene; NULL: none */
+    bool failed;
+    char message[GM_MESSAGE];
+};
+
+static bool fail(struct show *show, const char *sentence)
+{
+    snprintf(show->message, sizeof show->message, "%s", sentence);
+    show->failed = true;
+    return false;
+}
+
+static double reading_seconds(const char *text)
+{
+    double words = 0;
+    for (const char *at = text; at && *at; at++) {
+        words += *at != ' ' && (at[1] == ' ' || at[1] == '\0');
+    }
+    return words > 0 ? words / words_a_second : 0;
+}
+
+/* ---- one picture ---- */
+
+static size_t tell(const struct show *show, struct gm_paragraph *told)
+{
+    const struct gm_tour_step *step = show->step;
+    const bool asks = step->ask && !show->answered;
+    size_t count = 0;
+    told[count++] = (struct gm_paragraph){step->title, GM_INK, true};
+    if (asks || !step->ask) {
+        told[count++] = (struct gm_paragraph){step->say, GM_INK, false};
+    }
+    if (asks) {
+        told[count++] = (struct gm_paragraph){step->ask, GM_INK, true};
+        return count;
+    }
+    if (step->ask) {
+        told[count++] = (struct gm_paragraph){step->answer, GM_INK, false};
+    }
+    if (step->watch) {
+        const char *watch = gm_picture_text(show->picture, "Watch: %s", step->watch);
+        told[count++] = (struct gm_paragraph){watch, GM_SECONDARY, false};
+    }
+    return count;
+}
+
+static bool paint(struct show *show)
+{
+    const struct gm_session *session = &show->session;
+    struct gm_paragraph told[PARAGRAPHS];
+    gm_picture_clear(show->picture);
+    if (!show->table) {
+        session->scene->draw((const struct gm_lane *const *)session->lanes, session->count, show->picture);
+    } else if (show->step->study == GM_STUDY_WORK) {
+        gm_work_draw(show->table, show->picture);
+    } else {
+        gm_stability_draw(show->table, show->picture);
+    }
+    show->picture->told = told;
+    show->picture->told_count = tell(show, told);
+    show->picture->told_lines = 5;
+    return (gm_canvas_paint(show->canvas, show->picture, show->rgb) && !gm_memory_was_short()) ||
+           fail(show, "not enough memory to paint");
+}
+
+/* What stands, for so many frames more. False after a failure: the sink tells of it when it is closed. */
+static bool put(struct show *show, long count)
+{
+    const size_t size = 3 * (size_t)show->options->width * (size_t)show->options->height;
+    for (long i = 0; show->sink && i < count && !gm_interrupted; i++) {
+        unsigned char *frame = gm_sink_frame(show->sink);
+        if (!frame) {
+            return false;
+        }
+        memcpy(frame, show->rgb, size);
+        gm_sink_put(show->sink, frame, show->frames++, NULL, 0);
+    }
+    return true;
+}
+
+static long frames_of(const struct show *show, double seconds)
+{
+    return (long)fmax(1, round(seconds * show->fps));
+}
+
+/* OUT/NAME-03.png, or OUT/NAME-03-question.png. */
+static bool write_page(struct show *show, const char *suffix)
+{
+    char path[4096];
+    struct gm_session *session = &show->session;
+    const struct gm_options *options = show->options;
+    const size_t number = (size_t)(show->step - show->tour->steps) + 1;
+    if (show->sink) {
+        return true;
+    }
+    snprintf(path, sizeof path, "%s/%s-%02zu%s.png", options->out ? options->out : ".", show->tour->name,
+             number, suffix);
+    struct gm_provenance provenance = {0};
+    struct gm_png_text texts[GM_PROVENANCE_TEXTS + 1];
+    char *steps = gm_provenance_steps((const struct gm_lane *const *)session->lanes, session->count);
+    bool good = steps && gm_provenance_make(&provenance, &session->log, options->width, options->height,
+                                            options->theme, gm_canvas_backend(show->canvas));
+    if (!good) {
+        fail(show, "not enough memory");
+    } else {
+        memcpy(texts, provenance.texts, provenance.count * sizeof texts[0]);
+        texts[provenance.count] = (struct gm_png_text){GM_KEY_STEPS, steps};
+        good = gm_png_write(path, options->width, options->height, show->rgb, texts, provenance.count + 1,
+                            show->message);
+        show->failed = !good;
+    }
+    gm_provenance_close(&provenance);
+    free(steps);
+    return good;
+}
+
+/* ---- one step ---- */
+
+static bool open_scene(struct show *show)
+{
+    if (!show->step->show) {
+        return true;
+    }
+    if (show->open) {
+        gm_session_close(&show->session);
+    }
+    show->open = gm_session_open(&show->session, &show->step->request, show->message);
+    show->failed = !show->open;
+    return show->open;
+}
+
+static bool run(struct show *show)
+{
+    const size_t number = (size_t)(show->step - show->tour->steps);
+    const double begin = gm_tour_begin(show->tour, number), end = show->step->until;
+    struct gm_agenda agenda = gm_agenda_of(show->tour, number, number);
+    const long count = end > begin ? frames_of(show, show->step->seconds) : 0;
+    for (long k = 1; k <= count && !gm_interrupted; k++) {
+        const double t = k < count ? begin + (end - begin) * (double)k / (double)count : end;
+        char message[GM_MESSAGE];
+        bool more = true;
+        while (more && !gm_interrupted) {
+            const double limit = fmin(t, gm_agenda_limit(&agenda));
+            while (gm_session_advance(&show->session, limit) && !gm_interrupted) {
+                ;
+            }
+            more = limit < t;
+            gm_agenda_keep(&agenda, &show->session, message);
+            if (message[0]) {
+                return fail(show, message);
+            }
+        }
+        if ((show->sink || k == count) && (!paint(show) || !put(show, 1))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The diagram as it grows: so many frames for every point that all of them take the step's time. */
+static void grow(void *self, const char *what, size_t done, size_t all)
+{
+    struct show *show = self;
+    (void)what;
+    if (show->sink && done > 0 && !show->failed && paint(show)) {
+        show->failed = !put(show, frames_of(show, show->step->seconds / (double)all));
+    }
+}
+
+static bool has_failed(void *self)
+{
+    return ((const struct show *)self)->failed;
+}
+
+static bool measure(struct show *show)
+{
+    enum { MOST_WORDS = 64 };
+    char *words[MOST_WORDS], *copy = strdup(show->step->study_words);
+    if (!copy) {
+        return fail(show, "not enough memory");
+    }
+    const struct gm_options options = {.words = words, .word_count = gm_words_split(copy, words, MOST_WORDS)};
+    const struct gm_listener listener = {.report = grow, .stopped = has_failed, .self = show};
+    bool good = false;
+    if (show->step->study == GM_STUDY_WORK) {
+        struct gm_work_table table;
+        if (gm_work_open(&table, &options, show->message)) {
+            show->table = &table;
+            good = gm_work_measure(&table, &listener, show->message) && paint(show) && write_page(show, "") &&
+                   put(show, frames_of(show, end_seconds));
+            gm_work_close(&table);
+        }
+    } else {
+        struct gm_stability_table table;
+        if (gm_stability_open(&table, &options, show->message)) {
+            show->table = &table;
+            good = gm_stability_measure(&table, &listener, show->message) && paint(show) &&
+                   write_page(show, "") && put(show, frames_of(show, end_seconds));
+            gm_stability_close(&table);
+        }
+    }
+    show->table = NULL;
+    show->failed = show->failed || (!good && !gm_interrupted);
+    free(copy);
+    return good;
+}
+
+static bool play(struct show *show, const struct gm_tour_step *step)
+{
+    show->step = step;
+    show->answered = false;
+    if (!open_scene(show)) {
+        return false;
+    }
+    if (step->ask) {
+        const double seconds = reading_seconds(step->say) + reading_seconds(step->ask) + settle_seconds;
+        if (!paint(show) || !put(show, frames_of(show, seconds)) || !write_page(show, "-question")) {
+            return false;
+        }
+    }
+    show->answered = true;
+    const double reading =
+        reading_seconds(step->ask ? step->answer : step->say) + reading_seconds(step->watch);
+    /* one looks while one reads, but not at the very beginning */
+    if (!paint(show) || !put(show, frames_of(show, fmin(reading / 2, 4)))) {
+        return false;
+    }
+    if (step->study != GM_STUDY_NONE && !measure(show)) {
+        return false;
+    }
+    const double rest = step->study != GM_STUDY_NONE ? 0 : fmax(end_seconds, reading / 2 - step->seconds);
+    return step->study != GM_STUDY_NONE ||
+           (run(show) && put(show, frames_of(show, rest)) && write_page(show, ""));
+}
+
+static bool open_show(struct show *show)
+{
+    const struct gm_options *options = show->options;
+    show->canvas = gm_canvas_open(options->width, options->height, options->theme, show->message);
+    show->picture = gm_picture_open();
+    show->rgb = malloc(3 * (size_t)options->width * (size_t)options->height);
+    if (!show->canvas) {
+        return false;
+    }
+    if (!show->picture || !show->rgb) {
+        return fail(show, "not enough memory");
+    }
+    if (options->movie) {
+        const struct gm_sink_settings settings = {.width = options->width,
+                                                  .height = options->height,
+                                                  .fps = show->fps,
+                                                  .interruptions = &gm_interrupted};
+        if (gm_folder_make_for(options->movie, show->message)) {
+            show->sink = gm_sink_open_movie(options->movie, &settings, show->message);
+        }
+        return show->sink != NULL;
+    }
+    return gm_folder_make(options->out, show->message);
+}
+
+int gm_tour_render(const struct gm_tour *tour, const struct gm_options *options)
+{
+    struct show show = {.tour = tour, .options = options, .fps = isnan(options->fps) ? 30 : options->fps};
+    bool good = open_show(&show);
+    for (size_t i = 0; i < tour->count && good && !gm_interrupted; i++) {
+        gm_listener_hears(&gm_terminal_listener, tour->steps[i].title, i + 1, tour->count);
+        good = play(&show, &tour->steps[i]);
+    }
+    gm_terminal_listener_clear();
+    if (show.open) {
+        gm_session_close(&show.session);
+    }
+    /* an interrupted movie is finished with the frames it has */
+    char failure[GM_MESSAGE] = "";
+    const bool made = !show.sink || gm_sink_close(show.sink, good || gm_interrupted, failure);
+    if (!made) {
+        gm_complain("%s", failure);
+    } else if (!good && !gm_interrupted) {
+        gm_complain("%s", show.message);
+    }
+    good = good && made;
+    if (good && !gm_interrupted && options->movie) {
+        gm_complain("wrote %s", options->movie);
+    } else if (good && !gm_interrupted) {
+        gm_complain("wrote %s/%s-*.png", options->out ? options->out : ".", tour->name);
+    }
+    gm_picture_close(show.picture);
+    free(show.rgb);
+    gm_canvas_close(show.canvas);
+    return gm_interrupted ? GM_EXIT_INTERRUPTED : good ? GM_EXIT_OK : GM_EXIT_FILE;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_TOURS_TOUR_H
+#define GM_APP_TOURS_TOUR_H
+
+#include "app/request/request.h"
+
+/* A tour: steps that a class is led through, read from a text file that a teacher can write (docs/tours.md).
+   Texts of one paragraph are without line breaks. */
+
+enum { GM_EVERY_LANE = -1 };
+
+/* A change in flight, at a model time. */
+struct gm_tour_change {
+    double t;
+    long lane;     /* from 0, or GM_EVERY_LANE */
+    char text[96]; /* "scheme=midpoint", "dt=0.1" */
+};
+
+enum gm_study_kind { GM_STUDY_NONE, GM_STUDY_WORK, GM_STUDY_STABILITY, GM_STUDY_COUNT };
+
+struct gm_tour_step {
+    char *title;
+    char *say;     /* what it is about */
+    char *ask;     /* a question to answer before it runs; NULL: none */
+    char *answer;  /* with a question */
+    char *watch;   /* what to watch; NULL: nothing in particular */
+    char *attempt; /* what to try; NULL: nothing in particular */
+    char *show;    /* the arguments of `request`; NULL: the step goes on from where the one before ends */
+    struct gm_request request;
+    double until;                   /* model time to run to */
+    double seconds;                 /* that this takes to be watched */
+    struct gm_tour_change *changes; /* in order of time */
+    size_t change_count;
+    enum gm_study_kind study;
+    char *study_words; /* of the command, the scene first; NULL: no study */
+};
+
+struct gm_tour {
+    char *name; /* of the file, without folder and ending */
+    char *title;
+    char *about; /* one line for the list */
+    long place;  /* in the list */
+    struct gm_tour_step *steps;
+    size_t count; /* at least 1 */
+};
+
+/* Reads a tour and tries out everything that it shows. False with one sentence that names file and line
+   (GM_MESSAGE bytes); *file tells that the file could not be read at all. The tour is then empty. */
+bool gm_tour_read(struct gm_tour *tour, const char *path, bool *file, char *message);
+/* The same from memory; `name` stands for the file in sentences. */
+bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, size_t size, char *message);
+void gm_tour_close(struct gm_tour *tour);
+
+/* The step that shows the scene on which this one builds. */
+size_t gm_tour_first(const struct gm_tour *tour, size_t step);
+/* Where the model time begins that a step shows. */
+double gm_tour_begin(const struct gm_tour *tour, size_t step);
+
+/* ---- where tours are ---- */
+
+/* The folder: that of GEOMINT_TOURS, or beside the installed program, or where it was installed to. */
+const char *gm_tour_folder(char *path, size_t size);
+
+/* The path of the tour that a word names: a file, a name in the folder, or a title. False with a sentence. */
+bool gm_tour_find(const char *word, char *path, size_t size, char *message);
+
+/* The readable tours of the folder in their order; sets *count. Those that cannot be read are left out, the
+   sentence of the first of them in message, which is otherwise empty. malloc'ed; free with gm_tours_close. */
+struct gm_tour *gm_tours_read(size_t *count, char *message);
+void gm_tours_close(struct gm_tour *tours, size_t count);
+
+#endif

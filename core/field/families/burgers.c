@@ -1,0 +1,447 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Schemes for u_t + u u_x = nu u_xx and their invariantised forms, which commute with its symmetries.
+   D0 u = (u_{j+1} - u_{j-1})/(2h), D2 u = (u_{j+1} - 2 u_j + u_{j-1})/h^2, time step k:
+       FTCS              v = u - k u D0 u + k nu D2 u                    (or D0(u^2/2), conservative)
+       Lax-Wendroff      v = u - k D0(u^2/2) + k^2/(2h^2) [A+ (f_{j+1} - f_j) - A- (f_j - f_{j-1})] + k nu D2
+   u, f = u^2/2, A+- the mean of u to the right and left Crank-Nicolson    (v - u)/k + (v D0 v + u D0 u)/2 =
+   nu/2 (D2 u + D2 v) A moving frame turns the three values around a node into u = 0, D0 u = 0 by a boost and
+   a projection with a4 = -D0 u, m = 1 + k D0 u; there the step is made, and transformed back. A node that
+   moves by sigma a step gives a5 = -sigma/k (the print omits sigma a4): FTCS              v = [u - sigma a4 +
+   k nu D2 u / m] / m Lax-Wendroff      v = [u - sigma a4 + k/m (nu + k a^2/(2m)) D2 u] / m,   a = (u_{j+1} +
+   2 u_j + u_{j-1})/4 + a5 Crank-Nicolson    m (m v + sigma a4 - u)/k + (m v + sigma a4 + a5) m (m D0 v +
+   a4)/2 = nu/2 (D2 u + m^3 D2 v) Chhay & Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018),
+   section "Invariantisation". */
+#include "core/field/families/burgers.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clones.h"
+#include "core/field/families/families.h"
+
+/* in the order of the formula: at h/nu > 2 rounding errors grow, and the result depends on it */
+GM_CLONES static void ftcs_printed(const double *restrict u, double *restrict v, size_t points, double k,
+                                   double viscosity, double h)
+{
+    for (size_t j = 1; j + 1 < points; j++) {
+        v[j] = u[j] - k * u[j] * (u[j + 1] - u[j - 1]) / (2 * h) +
+               k * viscosity * (u[j + 1] - 2 * u[j] + u[j - 1]) / (h * h);
+    }
+}
+
+GM_CLONES static void ftcs_conservative(const double *restrict u, double *restrict v, size_t points,
+                                        double convection, double diffusion)
+{
+    for (size_t j = 1; j + 1 < points; j++) {
+        v[j] = u[j] - convection * (u[j + 1] * u[j + 1] - u[j - 1] * u[j - 1]) / 2 +
+               diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]);
+    }
+}
+
+static enum gm_status ftcs(const struct gm_burgers_step *step, struct gm_progress *progress)
+{
+    const double k = step->k, h = step->h, viscosity = step->burgers->viscosity;
+    if (step->burgers->printed) {
+        ftcs_printed(step->u, step->out, step->points, k, viscosity, h);
+    } else {
+        ftcs_conservative(step->u, step->out, step->points, k / (2 * h), viscosity * k / (h * h));
+    }
+    progress->evaluations++;
+    return GM_OK;
+}
+
+GM_CLONES static void lax_wendroff_nodes(const double *restrict u, double *restrict v, size_t points,
+                                         double ratio, double diffusion)
+{
+    for (size_t j = 1; j + 1 < points; j++) {
+        const double left = u[j - 1] * u[j - 1] / 2, here = u[j] * u[j] / 2, right = u[j + 1] * u[j + 1] / 2;
+        const double second = (u[j] + u[j + 1]) / 2 * (right - here) - (u[j - 1] + u[j]) / 2 * (here - left);
+        v[j] = u[j] - ratio / 2 * (right - left) + ratio * ratio / 2 * second +
+               diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]);
+    }
+}
+
+static enum gm_status lax_wendroff(const struct gm_burgers_step *step, struct gm_progress *progress)
+{
+    lax_wendroff_nodes(step->u, step->out, step->points, step->k / step->h,
+                       step->burgers->viscosity * step->k / (step->h * step->h));
+    progress->evaluations++;
+    return GM_OK;
+}
+
+GM_CLONES static void ftcs_invariant_nodes(const double *restrict u, double *restrict v, size_t points,
+                                           double k, double sigma, double over_2h, double diffusion)
+{
+    for (size_t j = 1; j + 1 < points; j++) {
+        const double slope = over_2h * (u[j + 1] - u[j - 1]), m = 1 + k * slope;
+        v[j] = (u[j] + sigma * slope + diffusion * (u[j + 1] - 2 * u[j] + u[j - 1]) / m) / m;
+    }
+}
+
+static enum gm_status ftcs_invariant(const struct gm_burgers_step *step, struct gm_progress *progress)
+{
+    ftcs_invariant_nodes(step->u, step->out, step->points, step->k, step->sigma, 1 / (2 * step->h),
+                         step->burgers->viscosity * step->k / (step->h * step->h));
+    progress->evaluations++;
+    return GM_OK;
+}
+
+GM_CLONES static void lax_wendroff_invariant_nodes(const double *restrict u, double *restrict v,
+                                                   size_t points, double k, double sigma, double over_2h,
+                                                   double over_square, double viscosity)
+{
+    const double a5 = -sigma / k;
+    for (size_t j = 1; j + 1 < points; j++) {
+        const double slope = over_2h * (u[j + 1] - u[j - 1]), over_m = 1 / (1 + k * slope);
+        const double a = (u[j + 1] + 2 * u[j] + u[j - 1]) / 4 + a5;
+        const double second = over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
+        v[j] = (u[j] + sigma * slope + k * over_m * (viscosity + k / 2 * over_m * (a * a)) * second) * over_m;
+    }
+}
+
+static enum gm_status lax_wendroff_invariant(const struct gm_burgers_step *step, struct gm_progress *progress)
+{
+    lax_wendroff_invariant_nodes(step->u, step->out, step->points, step->k, step->sigma, 1 / (2 * step->h),
+                                 1 / (step->h * step->h), step->burgers->viscosity);
+    progress->evaluations++;
+    return GM_OK;
+}
+
+/* One row of Newton's system at node j for the guess v. */
+struct row {
+    double below, diagonal, above, residual;
+};
+
+/* Crank-Nicolson; the constant `old` is its part at the old level. */
+static struct row row_standard(const struct gm_burgers_step *step, const double *v, size_t j, double old)
+{
+    const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
+    const double nu = step->burgers->viscosity / 2;
+    const double second = over_square * (v[j + 1] - 2 * v[j] + v[j - 1]);
+    struct row row = {-nu * over_square, 1 / step->k + 2 * nu * over_square, -nu * over_square, 0};
+    if (step->burgers->printed) {
+        const double slope = over_2h * (v[j + 1] - v[j - 1]);
+        row.residual = v[j] / step->k + v[j] * slope / 2 - nu * second + old;
+        row.below -= v[j] * over_2h / 2;
+        row.diagonal += slope / 2;
+        row.above += v[j] * over_2h / 2;
+    } else {
+        const double flux = over_2h * (v[j + 1] * v[j + 1] - v[j - 1] * v[j - 1]) / 2;
+        row.residual = v[j] / step->k + flux / 2 - nu * second + old;
+        row.below -= over_2h * v[j - 1] / 2;
+        row.above += over_2h * v[j + 1] / 2;
+    }
+    return row;
+}
+
+static double old_standard(const struct gm_burgers_step *step, size_t j)
+{
+    const double *u = step->u;
+    const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
+    const double convection = step->burgers->printed
+                                  ? u[j] * over_2h * (u[j + 1] - u[j - 1])
+                                  : over_2h * (u[j + 1] * u[j + 1] - u[j - 1] * u[j - 1]) / 2;
+    return -u[j] / step->k + convection / 2 -
+           step->burgers->viscosity / 2 * over_square * (u[j + 1] - 2 * u[j] + u[j - 1]);
+}
+
+static struct row row_invariant(const struct gm_burgers_step *step, const double *v, size_t j, double old)
+{
+    (void)old;
+    const double *u = step->u;
+    const double over_2h = 1 / (2 * step->h), over_square = 1 / (step->h * step->h);
+    const double nu = step->burgers->viscosity / 2;
+    const double a4 = -over_2h * (u[j + 1] - u[j - 1]), m = 1 - a4 * step->k;
+    const double shift = step->sigma * a4, a5 = -step->sigma / step->k;
+    const double value = m * v[j] + shift + a5, slope = m * (m * over_2h * (v[j + 1] - v[j - 1]) + a4);
+    const double cube = m * m * m * over_square;
+    return (struct row){
+        .residual =
+            m * (m * v[j] + shift - u[j]) / step->k + value * slope / 2 -
+            nu * (over_square * (u[j + 1] - 2 * u[j] + u[j - 1]) + cube * (v[j + 1] - 2 * v[j] + v[j - 1])),
+        .below = -value * m * m * over_2h / 2 - nu * cube,
+        .diagonal = m * m / step->k + m * slope / 2 + 2 * nu * cube,
+        .above = value * m * m * over_2h / 2 - nu * cube,
+    };
+}
+
+static double nothing(const struct gm_burgers_step *step, size_t j)
+{
+    return (void)step, (void)j, 0;
+}
+
+/* Newton's method; the tridiagonal systems by elimination. */
+static enum gm_status solve(const struct gm_burgers_step *step, struct gm_progress *progress,
+                            double (*old)(const struct gm_burgers_step *, size_t),
+                            struct row (*row_at)(const struct gm_burgers_step *, const double *, size_t,
+                                                 double))
+{
+    enum { MOST = 60 };
+    const size_t points = step->points;
+    double *v = step->out, *constant = step->scratch, *above = constant + points, *right = above + points;
+    double last = INFINITY;
+    for (size_t j = 1; j + 1 < points; j++) {
+        constant[j] = old(step, j);
+        v[j] = step->u[j];
+    }
+    for (int i = 0; i < MOST; i++) {
+        above[0] = right[0] = 0;
+        for (size_t j = 1; j + 1 < points; j++) {
+            const struct row row = row_at(step, v, j, constant[j]);
+            const double pivot = 1 / (row.diagonal - row.below * above[j - 1]);
+            above[j] = row.above * pivot;
+            right[j] = (row.residual - row.below * right[j - 1]) * pivot;
+        }
+        double change = 0, largest = 1, size = 0;
+        for (size_t j = points - 2; j > 0; j--) {
+            change = right[j] - (j + 2 < points ? above[j] * change : 0);
+            v[j] -= change;
+            size = fabs(change) > size || isnan(change) ? fabs(change) : size;
+            largest = fmax(largest, fabs(v[j]));
+        }
+        progress->iterations++;
+        progress->solves++;
+        progress->evaluations++;
+        if (!isfinite(size)) {
+            return GM_NO_CONVERGENCE;
+        }
+        if (size <= 1e-16 * largest || (size >= last && size <= 1e-12 * largest)) {
+            return GM_OK;
+        }
+        last = size;
+    }
+    return GM_NO_CONVERGENCE;
+}
+
+static enum gm_status crank_nicolson(const struct gm_burgers_step *step, struct gm_progress *progress)
+{
+    return solve(step, progress, old_standard, row_standard);
+}
+
+static enum gm_status crank_nicolson_invariant(const struct gm_burgers_step *step,
+                                               struct gm_progress *progress)
+{
+    return solve(step, progress, nothing, row_invariant);
+}
+
+struct work {
+    size_t points;
+    double *level[2], *companion[2], *scratch;
+    double *memory;
+};
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct gm_burgers_row *row = scheme->coefficients;
+    const size_t points = problem->line.points;
+    const size_t arrays = 2 + (gm_burgers_of(problem)->lambda != 0 ? 2 : 0) + (row->implicit ? 3 : 0);
+    struct work *work = malloc(sizeof *work);
+    double *memory = calloc(arrays * points, sizeof *memory);
+    if (!work || !memory) {
+        free(work);
+        free(memory);
+        return NULL;
+    }
+    *work = (struct work){.points = points, .memory = memory};
+    double *next = memory;
+    work->level[0] = next;
+    work->level[1] = next += points;
+    if (gm_burgers_of(problem)->lambda != 0) {
+        work->companion[0] = next += points;
+        work->companion[1] = next += points;
+    }
+    work->scratch = row->implicit ? next + points : NULL;
+    return work;
+}
+
+static void workspace_close(void *workspace)
+{
+    struct work *work = workspace;
+    free(work->memory);
+    free(work);
+}
+
+GM_CLONES static bool within(const double *u, size_t points, double lambda, double limit)
+{
+    long outside = 0;
+    for (size_t j = 0; j < points; j++) {
+        outside += !(fabs(u[j] - lambda) <= limit);
+    }
+    return outside == 0;
+}
+
+bool gm_burgers_fixed(const struct gm_burgers *burgers, const struct gm_scheme *scheme)
+{
+    const struct gm_burgers_row *row = scheme->coefficients;
+    return burgers->frame == GM_FRAME_FIXED || (burgers->frame == GM_FRAME_EACH && !row->invariant);
+}
+
+/* One step of a level to its other half, with the exact values at both ends. */
+static enum gm_status make_step(const struct gm_task *task, const struct gm_burgers *burgers,
+                                double *level[2], double *scratch, double t, struct gm_progress *progress)
+{
+    const struct gm_burgers_row *row = task->scheme->coefficients;
+    const struct gm_line *line = &task->problem->line;
+    const size_t last = line->points - 1;
+    const bool fixed = gm_burgers_fixed(burgers, task->scheme);
+    const struct gm_burgers_step step = {
+        .burgers = burgers,
+        .points = line->points,
+        .h = line->dx,
+        .k = task->dt,
+        .sigma = fixed ? 0 : burgers->lambda * task->dt,
+        .u = level[0],
+        .out = level[1],
+        .scratch = scratch,
+    };
+    level[1][0] = gm_burgers_exact(burgers, fixed, gm_line_node(line, 0), t);
+    level[1][last] = gm_burgers_exact(burgers, fixed, gm_line_node(line, last), t);
+    enum gm_status status = row->method(&step, progress);
+    if (status == GM_OK && !within(level[1], line->points, burgers->lambda, task->limit)) {
+        status = GM_BLOW_UP;
+    }
+    if (status == GM_OK) {
+        double *past = level[0];
+        level[0] = level[1];
+        level[1] = past;
+    }
+    return status;
+}
+
+static struct gm_progress advance(const struct gm_task *task)
+{
+    struct work *work = task->workspace;
+    const struct gm_burgers *burgers = gm_burgers_of(task->problem);
+    const size_t points = work->points, size = points * sizeof(double);
+    struct gm_burgers at_rest = *burgers;
+    at_rest.lambda = 0;
+    bool accompanied = work->companion[0] && task->y[2 * points] != 0;
+    struct gm_progress progress = {.status = GM_OK}, uncounted = {.status = GM_OK};
+    memcpy(work->level[0], task->y, size);
+    if (work->companion[0]) {
+        memcpy(work->companion[0], task->y + points, size);
+    }
+    for (long k = 0; k < task->steps; k++) {
+        const double t = task->t0 + (double)(task->n + k + 1) * task->dt;
+        progress.status = make_step(task, burgers, work->level, work->scratch, t, &progress);
+        if (progress.status != GM_OK) {
+            return progress;
+        }
+        /* a companion that fails stands still: its failure is not this run's */
+        accompanied =
+            accompanied && make_step(task, &at_rest, work->companion, work->scratch, t, &uncounted) == GM_OK;
+        progress.done++;
+    }
+    memcpy(task->out, work->level[0], size);
+    if (work->companion[0]) {
+        memcpy(task->out + points, work->companion[0], size);
+        task->out[2 * points] = accompanied;
+    }
+    return progress;
+}
+
+double gm_burgers_projection_defect(const struct gm_scheme *scheme, double viscosity, double h, double k,
+                                    double a, double x, const double u[3])
+{
+    const struct gm_burgers_row *row = scheme->coefficients;
+    if (row->implicit) {
+        return NAN;
+    }
+    const struct gm_burgers burgers = {.viscosity = viscosity};
+    struct gm_progress progress = {.status = GM_OK};
+    double before[3], plain[3] = {0}, projected[3] = {0};
+    for (int j = 0; j < 3; j++) {
+        before[j] = u[j] + a * (x + (j - 1) * h);
+    }
+    const double shrink = 1 - a * k;
+    struct gm_burgers_step step = {.burgers = &burgers, .points = 3, .h = h, .k = k, .u = u, .out = plain};
+    row->method(&step, &progress);
+    step.k = k / shrink;
+    step.sigma = x / shrink - x;
+    step.u = before;
+    step.out = projected;
+    row->method(&step, &progress);
+    return fabs(projected[1] - (shrink * plain[1] + a * x));
+}
+
+static const struct gm_burgers_row rows[] = {
+    {ftcs, false, false},
+    {lax_wendroff, false, false},
+    {crank_nicolson, true, false},
+    {ftcs_invariant, false, true},
+    {lax_wendroff_invariant, false, true},
+    {crank_nicolson_invariant, true, true},
+};
+
+#define BURGERS .family = &gm_family_burgers, .needs = GM_NEEDS_BURGERS
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "ftcs",
+        .title = "FTCS",
+        .formula = "v = u − k u D₀u + kν D₂u,  or D₀(u²/2) for u D₀u",
+        .reference = "forward in time, centred in space; Razafindralandy et al. (2018), eq. 97",
+        .coefficients = &rows[0],
+        .order = 1,
+        BURGERS,
+    },
+    {
+        .name = "lax-wendroff",
+        .title = "Lax-Wendroff",
+        .formula = "v = u − k D₀f + k²/2h² [A₊(fⱼ₊₁ − fⱼ) − A₋(fⱼ − fⱼ₋₁)] + kν D₂u,  f = u²/2",
+        .reference = "P. Lax & B. Wendroff, Comm. Pure Appl. Math. 13 (1960) 217",
+        .coefficients = &rows[1],
+        .order = 1,
+        BURGERS,
+    },
+    {
+        .name = "crank-nicolson",
+        .title = "Crank-Nicolson",
+        .formula = "(v − u)/k + (v D₀v + u D₀u)/2 = ν/2 (D₂u + D₂v)",
+        .reference = "J. Crank & P. Nicolson, Proc. Camb. Phil. Soc. 43 (1947) 50",
+        .coefficients = &rows[2],
+        .order = 2,
+        BURGERS,
+    },
+    {
+        .name = "ftcs-invariant",
+        .title = "FTCS, invariant",
+        .formula = "v = [u − σa₄ + kν D₂u/m]/m,  a₄ = −D₀u,  m = 1 + k D₀u,  σ the node's displacement",
+        .reference = "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
+        .coefficients = &rows[3],
+        .order = 1,
+        .claims = GM_EQUIVARIANT,
+        BURGERS,
+    },
+    {
+        .name = "lax-wendroff-invariant",
+        .title = "Lax-Wendroff, invariant",
+        .formula = "v = [u − σa₄ + k/m (ν + ka²/2m) D₂u]/m,  a = (uⱼ₊₁ + 2uⱼ + uⱼ₋₁)/4 − σ/k",
+        .reference = "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
+        .coefficients = &rows[4],
+        .order = 1,
+        .claims = GM_EQUIVARIANT,
+        BURGERS,
+    },
+    {
+        .name = "crank-nicolson-invariant",
+        .title = "Crank-Nicolson, invariant",
+        .formula = "m(mv + σa₄ − u)/k + (mv + σa₄ − σ/k) m(mD₀v + a₄)/2 = ν/2 (D₂u + m³D₂v)",
+        .reference = "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
+        .coefficients = &rows[5],
+        .order = 2,
+        .claims = GM_EQUIVARIANT,
+        BURGERS,
+    },
+};
+
+const struct gm_family gm_family_burgers = {
+    .kind = &gm_kind_field,
+    .title = "Burgers, standard and invariantised",
+    .schemes = schemes,
+    .count = sizeof schemes / sizeof schemes[0],
+    .loop = advance,
+    .workspace_open = workspace_open,
+    .workspace_close = workspace_close,
+};

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FIELD_FAMILIES_TWO_STEP_H
+#define GM_CORE_FIELD_FAMILIES_TWO_STEP_H
+
+#include "core/field/field.h"
+#include "core/linear/ring_newton.h"
+
+/* Levels have two more points than the grid, at both ends: level[-1] and level[points]. */
+struct gm_two_step_work {
+    size_t points;
+    double *level[3];              /* past, present, next */
+    double *force;                 /* points + 2, from [-1] */
+    double *right, *guess, *cells; /* of implicit schemes */
+    double *change;                /* from the past to the present level, of schemes that keep it */
+    struct gm_ring ring;
+    struct gm_ring_newton newton; /* opened by schemes that use it */
+    double *memory;
+};
+
+/* One step of length dt: next from past and now, both with their end points; status GM_OK. */
+typedef enum gm_status gm_two_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                                   const double *past, const double *now, double *next,
+                                   struct gm_progress *progress);
+
+/* The level at t + dt from the present one and another at t + gap, gap neither dt nor -dt. */
+typedef void gm_two_step_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                               double gap, const double *now, const double *other, double *next);
+gm_two_step_start gm_wave_start;
+
+/* Whose discrete conservation laws a scheme has: those of nodes, those of nodes at twice the distance in time
+   and space, those of cells, or others. */
+enum gm_wave_law { GM_LAW_NODES, GM_LAW_CENTRED, GM_LAW_CELLS, GM_LAW_NONE };
+
+/* What a row of such a scheme points to. */
+struct gm_two_step_row {
+    gm_two_step *step;
+    gm_two_step_start *start;
+    enum gm_wave_law law;
+    bool average;      /* the force is the quotient of V, not V' at the present level */
+    bool keeps_change; /* work->change is the scheme's memory */
+};
+
+/* GM_LAW_NONE for schemes of other families. */
+enum gm_wave_law gm_wave_law_of(const struct gm_scheme *scheme);
+
+/* Advances a wave problem by a scheme of two steps. */
+struct gm_progress gm_two_step_advance(const struct gm_task *task);
+void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
+void gm_two_step_close(void *workspace);
+
+/* Sets the two end points of a level, or of anything that is periodic up to `jump`. */
+static inline void gm_line_close(double *level, size_t points, double jump)
+{
+    level[-1] = level[points - 1] - jump;
+    level[points] = level[0] + jump;
+}
+
+/* The nine-point box (core/field/families/box.c). */
+gm_two_step gm_box_step;
+
+#endif

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FIELD_FIELD_H
+#define GM_CORE_FIELD_FIELD_H
+
+#include <math.h>
+
+#include "core/kind.h"
+
+struct gm_faces; /* core/field/multisymplectic.h */
+
+/* Fields on a line: Hamiltonian partial differential equations in one space dimension on a periodic grid, in
+   their multisymplectic form M s_t + K s_x = grad S(s),     M, K skew, (Bridges & Reich, Phys. Lett. A 284
+   (2001) 184), and what elimination makes of them. */
+
+/* Whether none of the values is beyond the limit of a task, or no number. */
+static inline bool gm_field_within(const double *values, size_t count, double limit)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!(fabs(values[i]) <= limit)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+struct gm_form {
+    size_t dimension;    /* of s */
+    const double *m, *k; /* dimension * dimension, row by row */
+    void (*gradient)(const void *parameters, const double *s, double *gradient); /* at one point */
+};
+
+/* u_tt - u_xx + V'(u) = 0. All arrays have `count` entries. */
+struct gm_wave {
+    double (*potential)(double u);                                /* V */
+    double (*slope)(double u);                                    /* V' */
+    double (*curvature)(double u);                                /* V'' */
+    void (*slopes)(const double *u, double *slope, size_t count); /* V' of many */
+    /* [V(a) - V(b)] / (a - b), without cancellation, and its derivative in a */
+    double (*quotient)(double a, double b);
+    double (*quotient_slope)(double a, double b);
+};
+
+/* a A^p f_t + b D^p f + Q g(A f) = 0 on the grid, A f = (f_i + f_{i+1})/2, D f = (f_{i+1} - f_i)/dx, Q = A D
+   or A: what the box scheme leaves of an equation of first order in time. The field is real, with the state
+   of a wave problem, or complex, and its state is the real parts and the imaginary parts. */
+struct gm_dispersive {
+    int power;                                              /* p, 2 or 3 */
+    double factor[2];                                       /* a, real and imaginary part */
+    double (*dispersion)(const struct gm_problem *problem); /* b */
+    bool derivative;                                        /* Q = A D */
+    bool complex_valued;
+    void (*nonlinear)(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
+                      double *g_im, size_t count); /* g */
+    /* The derivative of g at `base` along f; all arrays hold `count` real parts, then the imaginary ones. */
+    void (*linearised)(const struct gm_problem *problem, const double *base, const double *f, double *g,
+                       size_t count);
+    /* The multisymplectic variables of a tangent on the faces of the cells between two levels of it (real
+       parts, then imaginary ones), from the linearised box equations that are not the field's own; `base`
+       holds the means of the solution in the cells. */
+    void (*complete)(const struct gm_problem *problem, double dt, const double *base, const double *now,
+                     const double *next, struct gm_faces *faces);
+};
+
+/* State of a wave problem, 2 points + 1 numbers: u at the present time t, u at another time, and the second
+   time minus t. A scheme of two steps needs nothing else: after a step of length dt the other time is t - dt,
+   at a start from two exact levels it is t + dt. */
+static inline size_t gm_wave_size(size_t points)
+{
+    return 2 * points + 1;
+}
+
+/* The facets of a field. */
+enum gm_field_facet {
+    GM_NEEDS_FORM = 1u << 0,    /* the multisymplectic form */
+    GM_NEEDS_WAVE = 1u << 1,    /* u_tt - u_xx + V'(u) = 0 */
+    GM_NEEDS_BURGERS = 1u << 2, /* u_t + u u_x = nu u_xx in moving frames */
+    GM_NEEDS_KDV = 1u << 3,     /* u_t + eta u u_x + mu u_xxx = 0 */
+    GM_NEEDS_NLS = 1u << 4,     /* i psi_t + psi_xx + |psi|^2 psi = 0 */
+};
+struct gm_field {
+    const struct gm_form *form; /* NULL: it has none, and so on */
+    const struct gm_wave *wave;
+    const struct gm_dispersive *dispersive;
+    unsigned
+        equation; /* GM_NEEDS_BURGERS, _KDV, _NLS: the problem's parameters are then its constants; or 0 */
+};
+
+extern const struct gm_kind gm_kind_field;
+
+static inline const struct gm_field *gm_field_of(const struct gm_problem *problem)
+{
+    return problem->facets;
+}
+
+#endif

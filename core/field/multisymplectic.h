@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FIELD_MULTISYMPLECTIC_H
+#define GM_CORE_FIELD_MULTISYMPLECTIC_H
+
+#include "core/field/field.h"
+
+/* The law that a multisymplectic scheme for M s_t + K s_x = grad S(s) keeps, for any skew M and K: for two
+   solutions a and b of the linearised scheme, with omega(a, b) = a' M b and kappa(a, b) = a' K b, a
+   difference quotient of omega in time and one of kappa in space add up to nothing. Bridges & Reich, Phys.
+   Lett. A 284 (2001) 184; Reich, J. Comput. Phys. 157 (2000) 473; Moore & Reich, Numer. Math. 95 (2003) 625.
+ */
+
+/* A tangent solution on the faces of a row of cells between two levels: on the lower and the upper face at
+   the r stages of the scheme in space, [(cell * r + stage) * dimension + component], on the left side of
+   every cell and the right one of the last at its s stages in time, [(side * s + stage) * dimension +
+   component]. The box has one stage each: means of the corners. */
+struct gm_faces {
+    double *lower, *upper; /* points * r * dimension */
+    double *sides;         /* (points + 1) * s * dimension */
+    double *scratch;       /* points */
+};
+
+/* Stages and weights (of sum 1) of such a scheme, and the sides of its cells. */
+struct gm_cells {
+    size_t points, r, s;
+    const double *space, *time;
+    double dx, dt;
+};
+
+/* Makes room for the faces of one tangent, all 0; false where memory is short. gm_faces_close frees it. */
+bool gm_faces_open(struct gm_faces *faces, const struct gm_form *field, const struct gm_cells *cells);
+void gm_faces_close(struct gm_faces *faces);
+
+/* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell. */
+double gm_cells_law(const struct gm_form *field, const struct gm_cells *cells, const struct gm_faces *a,
+                    const struct gm_faces *b);
+
+/* Fills in a tangent at a node at the three levels n - 1, n, n + 1, [level * dimension + component]. */
+typedef void gm_complete_node(const void *tangent, size_t node, double *s);
+
+/* The largest residual of schemes of nodes: with M+ and K+ the upper triangles
+       M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s)        (Euler box)
+   or with `centred` the whole matrices and centred differences (midpoint). Tangents a and b on a ring; no
+   dimension is above GM_MOST_COMPONENTS. */
+enum { GM_MOST_COMPONENTS = 4 };
+double gm_nodes_law(const struct gm_form *field, bool centred, size_t points, double dx, double dt,
+                    gm_complete_node *complete, const void *a, const void *b);
+
+/* The residual of the scheme's multisymplectic law (core/field/multisymplectic.h) over the grid, with two
+   tangent solutions that start from unit waves at the last levels of the state `y` and make one step of the
+   linearised scheme; the variables that elimination left out are found again from the scheme's equations.
+   `memory` is the scheme's own, where it has one. NaN where a scheme has no such law, memory is short or the
+   next step fails. */
+double gm_form_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                        const double *y, const double *memory);
+
+/* The same with tangents that are extrapolated differences of the scheme's own steps, so that nothing but the
+   step itself is held to the law; accurate to about 1e-9. */
+double gm_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                      const double *y, const double *memory);
+
+/* Fills a component of a tangent at its start: cos(2 pi waves i / points + phase). */
+void gm_tangent_start(double *tangent, size_t points, double waves, double phase);
+
+#endif

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FIELD_PROBLEMS_DISPERSIVE_H
+#define GM_CORE_FIELD_PROBLEMS_DISPERSIVE_H
+
+#include "core/field/field.h"
+
+/* Korteweg-de Vries, u_t + eta u u_x + mu u_xxx = 0, with the state of a wave problem. */
+enum gm_kdv_initial {
+    GM_KDV_SOLITON, /* 3 c/eta sech^2(sqrt(c/mu)/2 (x - x0 - c t)) */
+    GM_KDV_TWO, /* 12 mu/eta (ln F)_xx, F = 1 + e1 + e2 + ((k1-k2)/(k1+k2))^2 e1 e2, ei = exp(ki (x-xi) - mu
+                   ki^3 t), k = 1.2, .8, x1 = -30, x2 = -15; on the ring they meet again and again */
+    GM_KDV_COSINE, /* cos(pi x) at t = 0 (Zabusky & Kruskal 1965); no exact solution */
+};
+struct gm_kdv {
+    int initial;
+    double eta, mu, velocity, position;
+};
+static inline const struct gm_kdv *gm_kdv_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
+/* NaN for the cosine at t > 0. */
+double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t);
+/* Whether that solves the equation on the ring too, but for tails of a thousandth of a soliton's height. */
+bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, double t);
+/* The levels 0 and dt, and dt; for the cosine the second is an Euler step with exact derivatives. */
+void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y);
+
+/* dx sum u;  dx sum (A u)^2;  dx sum [mu (D u)^2 / 2 - eta (A u)^3 / 6] */
+double gm_kdv_mass(const struct gm_problem *problem, const double *y);
+double gm_kdv_square(const struct gm_problem *problem, const double *y);
+double gm_kdv_energy(const struct gm_problem *problem, const double *y);
+
+/* Nonlinear Schroedinger, i psi_t + psi_xx + |psi|^2 psi = 0; the state is Re psi, then Im psi. */
+enum gm_nls_initial {
+    GM_NLS_SOLITON,   /* sqrt(2) a sech(a (x - x0 - c t)) exp i[c (x - x0)/2 + (a^2 - c^2/4) t] */
+    GM_NLS_COLLISION, /* one from x0 with c and one from -x0 with -c; no exact solution */
+};
+struct gm_nls {
+    int initial;
+    double amplitude, velocity, position;
+};
+static inline const struct gm_nls *gm_nls_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
+/* NaN for a collision at t > 0. */
+void gm_nls_exact(const struct gm_nls *nls, const struct gm_line *line, double x, double t, double *re,
+                  double *im);
+/* Whether that solves the equation on the ring too, but for tails of a thousandth of the amplitude. */
+bool gm_nls_is_known(const struct gm_nls *nls, const struct gm_line *line, double t);
+
+/* dx sum |A psi|^2;  dx sum [|D psi|^2 - |A psi|^4 / 2];  dx sum |psi|^2 */
+double gm_nls_charge(const struct gm_problem *problem, const double *y);
+double gm_nls_energy(const struct gm_problem *problem, const double *y);
+double gm_nls_node_charge(const struct gm_problem *problem, const double *y);
+
+/* The caller sets line, n (kdv: gm_wave_size, nls: 2 points) and parameters (struct gm_kdv or gm_nls). */
+extern const struct gm_problem gm_problem_kdv, gm_problem_nls;
+
+#endif

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* psi = p + i q, s = (p, q, v, w):  q_t - v_x = |psi|^2 p,  -p_t - w_x = |psi|^2 q,  p_x = v,  q_x = w,
+   S = (p^2 + q^2)^2/4 + (v^2 + w^2)/2.   Islas, Karpeev & Schober, J. Comput. Phys. 173 (2001) 116. */
+#include <complex.h>
+#include <math.h>
+
+#include "core/field/multisymplectic.h"
+#include "core/field/problems/dispersive.h"
+#include "core/linear/ring.h"
+
+static const double m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+static const double k[16] = {0, 0, -1, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0, 1, 0, 0};
+
+static void gradient(const void *parameters, const double *s, double *gradient)
+{
+    (void)parameters;
+    const double square = s[0] * s[0] + s[1] * s[1];
+    gradient[0] = square * s[0];
+    gradient[1] = square * s[1];
+    gradient[2] = s[2];
+    gradient[3] = s[3];
+}
+
+static double dispersion(const struct gm_problem *problem)
+{
+    return (void)problem, 1;
+}
+
+static void nonlinear(const struct gm_problem *problem, const double *re, const double *im, double *g_re,
+                      double *g_im, size_t count)
+{
+    (void)problem;
+    for (size_t i = 0; i < count; i++) {
+        const double square = re[i] * re[i] + im[i] * im[i];
+        g_re[i] = square * re[i];
+        g_im[i] = square * im[i];
+    }
+}
+
+/* 2 |m|^2 f + m^2 conj f */
+static void linearised(const struct gm_problem *problem, const double *base, const double *f, double *g,
+                       size_t count)
+{
+    (void)problem;
+    for (size_t i = 0; i < count; i++) {
+        const double re = base[i], im = base[count + i], f_re = f[i], f_im = f[count + i];
+        const double square = 2 * (re * re + im * im), twice_re = re * re - im * im, twice_im = 2 * re * im;
+        g[i] = square * f_re + twice_re * f_re + twice_im * f_im;
+        g[count + i] = square * f_im + twice_im * f_re - twice_re * f_im;
+    }
+}
+
+enum { P, Q, V, W, DIMENSION };
+
+/* A_x v = D_x p and A_x w = D_x q at the sides; the other two equations are the scheme, but that on an even
+   number of points their alternating parts, of -D_x v and -D_x w and the force, are that of v and w. */
+static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
+                     const double *next, struct gm_faces *faces)
+{
+    (void)dt;
+    const size_t points = problem->line.points;
+    double alternating[2] = {0};
+    for (size_t i = 0; points % 2 == 0 && i < points; i++) {
+        const size_t r = i + 1 < points ? i + 1 : 0;
+        const double at[2] = {base[i], base[points + i]};
+        const double mean[2] = {(now[i] + now[r] + next[i] + next[r]) / 4,
+                                (now[points + i] + now[points + r] + next[points + i] + next[points + r]) /
+                                    4};
+        double force[2];
+        linearised(problem, at, mean, force, 1);
+        for (size_t part = 0; part < 2; part++) {
+            alternating[part] += (i % 2 ? -force[part] : force[part]) / (double)points;
+        }
+    }
+    for (size_t part = 0; part < 2; part++) {
+        const double *f = now + part * points, *g = next + part * points;
+        double *slope = faces->scratch;
+        for (size_t i = 0; i < points; i++) {
+            const size_t r = i + 1 < points ? i + 1 : 0;
+            faces->lower[i * DIMENSION + P + part] = (f[i] + f[r]) / 2;
+            faces->upper[i * DIMENSION + P + part] = (g[i] + g[r]) / 2;
+            slope[i] = (f[r] + g[r] - f[i] - g[i]) / (2 * problem->line.dx);
+        }
+        gm_ring_unaverage(slope, points);
+        for (size_t i = 0; i <= points; i++) {
+            const size_t at = i < points ? i : 0;
+            faces->sides[i * DIMENSION + P + part] = (f[at] + g[at]) / 2;
+            const double free = problem->line.dx / 2 * alternating[part];
+            faces->sides[i * DIMENSION + V + part] = slope[at] + (at % 2 ? -free : free);
+        }
+    }
+}
+
+/* Adds one soliton; on the ring its phase follows it. */
+static void add_soliton(const struct gm_nls *nls, const struct gm_line *line, double c, double x0, double x,
+                        double t, double *re, double *im)
+{
+    const double period = line->dx * (double)line->points, a = nls->amplitude;
+    double away = x - x0 - c * t;
+    away -= period * floor(away / period + 0.5);
+    const double size = sqrt(2) * a / cosh(a * away), phase = c * away / 2 + (a * a + c * c / 4) * t;
+    *re += size * cos(phase);
+    *im += size * sin(phase);
+}
+
+void gm_nls_exact(const struct gm_nls *nls, const struct gm_line *line, double x, double t, double *re,
+                  double *im)
+{
+    *re = *im = nls->initial == GM_NLS_COLLISION && t != 0 ? NAN : 0;
+    add_soliton(nls, line, nls->velocity, nls->position, x, t, re, im);
+    if (nls->initial == GM_NLS_COLLISION) {
+        add_soliton(nls, line, -nls->velocity, -nls->position, x, t, re, im);
+    }
+}
+
+bool gm_nls_is_known(const struct gm_nls *nls, const struct gm_line *line, double t)
+{
+    const double half = line->dx * (double)line->points / 2;
+    return t == 0 || (nls->initial == GM_NLS_SOLITON && 2 * exp(-nls->amplitude * half) <= 1e-3);
+}
+
+double gm_nls_charge(const struct gm_problem *problem, const double *y)
+{
+    const size_t points = problem->line.points;
+    double sum = 0;
+    for (size_t i = 0; i < points; i++) {
+        const size_t right = i + 1 < points ? i + 1 : 0;
+        const double re = (y[i] + y[right]) / 2, im = (y[points + i] + y[points + right]) / 2;
+        sum += re * re + im * im;
+    }
+    return problem->line.dx * sum;
+}
+
+double gm_nls_energy(const struct gm_problem *problem, const double *y)
+{
+    const size_t points = problem->line.points;
+    const double dx = problem->line.dx;
+    double sum = 0;
+    for (size_t i = 0; i < points; i++) {
+        const size_t right = i + 1 < points ? i + 1 : 0;
+        const double re = (y[i] + y[right]) / 2, im = (y[points + i] + y[points + right]) / 2;
+        const double re_slope = (y[right] - y[i]) / dx, im_slope = (y[points + right] - y[points + i]) / dx;
+        const double square = re * re + im * im;
+        sum += re_slope * re_slope + im_slope * im_slope - square * square / 2;
+    }
+    return dx * sum;
+}
+
+double gm_nls_node_charge(const struct gm_problem *problem, const double *y)
+{
+    double sum = 0;
+    for (size_t i = 0; i < 2 * problem->line.points; i++) {
+        sum += y[i] * y[i];
+    }
+    return problem->line.dx * sum;
+}
+
+static const struct gm_form form = {4, m, k, gradient};
+static const struct gm_dispersive dispersive = {.power = 2,
+                                                .factor = {0, 1},
+                                                .dispersion = dispersion,
+                                                .complex_valued = true,
+                                                .nonlinear = nonlinear,
+                                                .linearised = linearised,
+                                                .complete = complete};
+
+const struct gm_problem gm_problem_nls = {
+    .name = "nonlinear Schrödinger",
+    .kind = &gm_kind_field,
+    .facets = &(const struct gm_field){.form = &form, .dispersive = &dispersive, .equation = GM_NEEDS_NLS},
+    .m = 1,
+    .bound = 1e3,
+};

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* u_tt - u_xx + V'(u) = 0 with s = (u, v, w):  -v_t + w_x = V'(u),  u_t = v,  -u_x = -w,
+   S = V(u) + v^2/2 - w^2/2.   Bridges & Reich, Phys. Lett. A 284 (2001) 184; Razafindralandy et al. (2018).
+ */
+#include <math.h>
+
+#include "core/field/problems/sine_gordon.h"
+#include "core/field/problems/wave.h"
+#include "core/linear/sine.h"
+
+static const double m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
+static const double k[9] = {0, 0, 1, 0, 0, 0, -1, 0, 0};
+
+static void gradient_sine_gordon(const void *parameters, const double *s, double *gradient)
+{
+    (void)parameters;
+    gradient[0] = sin(s[0]);
+    gradient[1] = s[1];
+    gradient[2] = -s[2];
+}
+
+static void gradient_linear(const void *parameters, const double *s, double *gradient)
+{
+    (void)parameters;
+    gradient[0] = 0;
+    gradient[1] = s[1];
+    gradient[2] = -s[2];
+}
+
+/* sin x / x and its derivative; series where the quotient would cancel */
+static double sinc(double x)
+{
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+}
+
+static double sinc_slope(double x)
+{
+    return fabs(x) < 1e-3 ? -x / 3 + x * x * x / 30 : (cos(x) - sin(x) / x) / x;
+}
+
+static double potential(double u)
+{
+    return -cos(u);
+}
+
+/* -(cos a - cos b) / (a - b) */
+static double quotient(double a, double b)
+{
+    return sin((a + b) / 2) * sinc((a - b) / 2);
+}
+
+static double quotient_slope(double a, double b)
+{
+    const double mean = (a + b) / 2, half = (a - b) / 2;
+    return (cos(mean) * sinc(half) + sin(mean) * sinc_slope(half)) / 2;
+}
+
+static double none(double u)
+{
+    return (void)u, 0;
+}
+
+static double none_between(double a, double b)
+{
+    return (void)a, (void)b, 0;
+}
+
+static void no_slopes(const double *u, double *slope, size_t count)
+{
+    (void)u;
+    for (size_t i = 0; i < count; i++) {
+        slope[i] = 0;
+    }
+}
+
+static const struct gm_wave sine_gordon = {
+    .potential = potential,
+    .slope = sin,
+    .curvature = cos,
+    .slopes = gm_sines,
+    .quotient = quotient,
+    .quotient_slope = quotient_slope,
+};
+static const struct gm_form sine_gordon_form = {3, m, k, gradient_sine_gordon};
+
+static const struct gm_wave linear = {
+    .potential = none,
+    .slope = none,
+    .curvature = none,
+    .slopes = no_slopes,
+    .quotient = none_between,
+    .quotient_slope = none_between,
+};
+static const struct gm_form linear_form = {3, m, k, gradient_linear};
+
+const struct gm_problem gm_problem_sine_gordon = {
+    .name = "sine-Gordon",
+    .kind = &gm_kind_field,
+    .facets = &(const struct gm_field){.form = &sine_gordon_form, .wave = &sine_gordon},
+    .m = 1,
+    .bound = 1e3,
+    .exact = &gm_sine_gordon_solution,
+};
+const struct gm_problem gm_problem_wave = {
+    .name = "wave equation",
+    .kind = &gm_kind_field,
+    .facets = &(const struct gm_field){.form = &linear_form, .wave = &linear},
+    .m = 1,
+    .bound = 1e3,
+};

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FIELD_PROBLEMS_WAVE_H
+#define GM_CORE_FIELD_PROBLEMS_WAVE_H
+
+#include "core/field/field.h"
+
+/* u_tt - u_xx + V'(u) = 0, V = -cos u or V = 0: the caller sets line and n = gm_wave_size(line.points). */
+extern const struct gm_problem gm_problem_sine_gordon; /* parameters: struct gm_sine_gordon */
+extern const struct gm_problem gm_problem_wave;
+
+#endif

@@ -1,0 +1,372 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Incompressible flow in discrete exterior calculus (notation: core/flow/flow.h), with C(F) = -d0' diag(F) A:
+       half step   star0 omega* = star0 omega - dt/2 [C(F) omega + nu K omega],   K psi* + sheet = star0
+   omega* flow        [star0/dt + C(F*) + nu K] omega' = star0 omega / dt,   K psi' + sheet = star0 omega'
+       scalar      [star0/dt + C(F*) + diag(q) + kappa K] theta' = star0 theta / dt
+   Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175; Razafindralandy et al. (2018), eqs. 153-155.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "core/flow/families/families.h"
+#include "core/flow/solver.h"
+#include "core/flow/tracers.h"
+
+/* A row: the share of the new time in convection and diffusion; 0 for the steady state. */
+struct row {
+    double share;
+};
+
+static const struct row backward = {1}, centred = {0.5}, steady = {0};
+
+static double *block(const struct gm_flow *flow, double *y, enum gm_flow_block which)
+{
+    return y + (size_t)which * flow->complex->vertices;
+}
+
+static void *open_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return gm_flow_solver_open(gm_flow_of(problem));
+}
+
+static void close_workspace(void *workspace)
+{
+    gm_flow_solver_close(workspace);
+}
+
+/* What the steady scheme carries: the Reynolds number it has come to, the corrections made for it, and
+   whether the last one was round-off. */
+enum { LEVEL, CORRECTIONS, DONE, MEMORY };
+
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)problem;
+    return scheme->coefficients == &steady ? MEMORY : 0;
+}
+
+static const double first_level =
+    100; /* Newton's method converges from rest up to about this Reynolds number */
+
+static enum gm_status start(const struct gm_task *task)
+{
+    const struct gm_flow *flow = gm_flow_of(task->problem);
+    if (task->scheme->coefficients == &steady) {
+        task->memory_out[LEVEL] = fmin(flow->reynolds, first_level);
+        task->memory_out[CORRECTIONS] = task->memory_out[DONE] = 0;
+    }
+    return GM_OK;
+}
+
+static void fluxes(struct gm_flow_solver *solver, const double *psi)
+{
+    gm_flow_fluxes(solver->flow->complex, psi, solver->centre, solver->flux);
+}
+
+/* psi* of the fluxes, from the present vorticity. */
+static void half_step(struct gm_flow_solver *solver, double dt, double *y)
+{
+    const struct gm_flow *flow = solver->flow;
+    const struct gm_complex *complex = flow->complex;
+    const double *omega = block(flow, y, GM_FLOW_OMEGA);
+    double *psi_half = block(flow, y, GM_FLOW_PSI_HALF);
+    fluxes(solver, y);
+    gm_transport_assemble(&solver->transport, solver->flux, 0, 1, flow->viscosity, GM_BACKFLOW_ZERO);
+    gm_transport_apply(&solver->transport, omega, solver->rate);
+    for (size_t v = 0; v < complex->vertices; v++) {
+        solver->rate[v] = complex->star0[v] * omega[v] - dt / 2 * solver->rate[v] - flow->sheet[v];
+    }
+    memcpy(psi_half, flow->psi, complex->vertices * sizeof *psi_half);
+    if (solver->unknowns.count > 0) {
+        gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
+                                  solver->x, psi_half);
+    }
+}
+
+/* star0 omega / dt less what the old time contributes, into solver->rate. Leaves the matrix of the step
+ * assembled. */
+static void make_equation(struct gm_flow_solver *solver, const struct row *row, double dt,
+                          const double *omega)
+{
+    const struct gm_flow *flow = solver->flow;
+    const struct gm_complex *complex = flow->complex;
+    struct gm_transport *transport = &solver->transport;
+    if (row->share < 1) {
+        gm_transport_assemble(transport, solver->flux, 0, 1 - row->share, flow->viscosity, GM_BACKFLOW_ZERO);
+        gm_transport_apply(transport, omega, solver->rate);
+    } else {
+        memset(solver->rate, 0, complex->vertices * sizeof *solver->rate);
+    }
+    for (size_t v = 0; v < complex->vertices; v++) {
+        solver->rate[v] = complex->star0[v] * omega[v] / dt - solver->rate[v];
+    }
+    gm_transport_assemble(transport, solver->flux, 1 / dt, row->share, flow->viscosity, GM_BACKFLOW_ZERO);
+}
+
+/* The step for omega itself, where boundary values of psi do not enter it. */
+static bool advance_vorticity(struct gm_flow_solver *solver, const struct row *row, double dt, double *y,
+                              struct gm_progress *progress)
+{
+    const struct gm_flow *flow = solver->flow;
+    const struct gm_complex *complex = flow->complex;
+    double *omega = block(flow, y, GM_FLOW_OMEGA);
+    make_equation(solver, row, dt, omega);
+    memcpy(solver->field, omega, complex->vertices * sizeof *omega);
+    if (!gm_transport_solve(&solver->transport, solver->held, solver->rate, solver->field, solver->bicgstab,
+                            &progress->iterations)) {
+        return false;
+    }
+    double *used = block(flow, y, GM_FLOW_OMEGA_USED);
+    for (size_t v = 0; v < complex->vertices; v++) {
+        used[v] = row->share * solver->field[v] + (1 - row->share) * omega[v];
+        omega[v] = solver->field[v];
+        solver->rate[v] = complex->star0[v] * omega[v];
+    }
+    if (solver->unknowns.count > 0) {
+        gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
+                                  solver->x, y);
+    }
+    progress->solves += 2;
+    return true;
+}
+
+/* The unknowns' residual of the equation that is assembled, right side in solver->rate, into solver->b. */
+static double residual(struct gm_flow_solver *solver, const double *omega)
+{
+    const struct gm_unknowns *unknowns = &solver->unknowns;
+    double *product = solver->field, sum = 0, size = 0;
+    gm_transport_apply(&solver->transport, omega, product);
+    for (size_t i = 0; i < unknowns->count + solver->soft; i++) {
+        const int v = i < unknowns->count ? unknowns->vertex[i] : solver->soft_vertex[i - unknowns->count];
+        solver->b[i] = solver->rate[v] - product[v];
+        sum += solver->b[i] * solver->b[i];
+        size += solver->rate[v] * solver->rate[v];
+    }
+    return sqrt(fmax(sum, size));
+}
+
+/* Adds solver->x to psi and to omega of soft vertices, and makes omega of the others. */
+static void correct(const struct gm_flow_solver *solver, double *y)
+{
+    const struct gm_flow *flow = solver->flow;
+    const struct gm_unknowns *unknowns = &solver->unknowns;
+    double *omega = block(flow, y, GM_FLOW_OMEGA);
+    for (size_t i = 0; i < unknowns->count; i++) {
+        y[unknowns->vertex[i]] += solver->x[i];
+    }
+    for (size_t i = 0; i < solver->soft; i++) {
+        omega[solver->soft_vertex[i]] += solver->x[unknowns->count + i];
+    }
+    gm_flow_vorticity(flow, y, omega);
+}
+
+/* The step for psi, and for omega where psi does not give it. The first guess goes on as the last step did.
+ */
+static bool advance_stream(struct gm_flow_solver *solver, const struct row *row, double dt, double *y,
+                           const double *psi_before, struct gm_progress *progress)
+{
+    const struct gm_flow *flow = solver->flow;
+    const struct gm_complex *complex = flow->complex;
+    double *omega = block(flow, y, GM_FLOW_OMEGA), *used = block(flow, y, GM_FLOW_OMEGA_USED);
+    const double last = gm_flow_step(flow, y), ratio = last != 0 ? dt / last : 0;
+    make_equation(solver, row, dt, omega);
+    memcpy(used, omega, complex->vertices * sizeof *used);
+    for (size_t i = 0; i < solver->unknowns.count; i++) {
+        const int v = solver->unknowns.vertex[i];
+        y[v] += ratio * (y[v] - psi_before[v]);
+    }
+    gm_flow_vorticity(flow, y, omega);
+    const double size = residual(solver, omega);
+    if (!gm_flow_solver_factor(solver, 1 / dt, row->share * flow->viscosity) ||
+        !gm_flow_solver_correct(solver, size, &progress->iterations)) {
+        return false;
+    }
+    correct(solver, y);
+    for (size_t v = 0; v < complex->vertices; v++) {
+        used[v] = row->share * omega[v] + (1 - row->share) * used[v];
+    }
+    progress->solves += 2;
+    return true;
+}
+
+static bool advance_scalar(struct gm_flow_solver *solver, double dt, double *y, struct gm_progress *progress)
+{
+    const struct gm_flow *flow = solver->flow;
+    const struct gm_complex *complex = flow->complex;
+    double *theta = block(flow, y, GM_FLOW_THETA);
+    memcpy(block(flow, y, GM_FLOW_THETA_BEFORE), theta, complex->vertices * sizeof *theta);
+    const double shift = dt > 0 || dt < 0 ? 1 / dt : 0;
+    gm_transport_assemble(&solver->transport, solver->flux, shift, 1, flow->diffusivity, GM_BACKFLOW_OWN);
+    for (size_t v = 0; v < complex->vertices; v++) {
+        solver->rate[v] = shift * complex->star0[v] * theta[v];
+    }
+    progress->solves++;
+    return shift != 0
+               ? gm_transport_solve(&solver->transport, flow->theta_fixed, solver->rate, theta,
+                                    solver->bicgstab, &progress->iterations)
+               : gm_transport_solve_directly(&solver->transport, flow->theta_fixed, solver->rate, theta);
+}
+
+static enum gm_status step(struct gm_flow_solver *solver, const struct row *row, double dt, long number,
+                           double *y, struct gm_progress *progress)
+{
+    const struct gm_flow *flow = solver->flow;
+    const size_t n = flow->complex->vertices;
+    double *before = block(flow, y, GM_FLOW_PSI_BEFORE), *psi_before = solver->velocities;
+    memcpy(psi_before, before, n * sizeof *before);
+    memcpy(before, y, n * sizeof *before);
+    half_step(solver, dt, y);
+    fluxes(solver, block(flow, y, GM_FLOW_PSI_HALF));
+    const bool moved = solver->vorticity_form ? advance_vorticity(solver, row, dt, y, progress)
+                                              : advance_stream(solver, row, dt, y, psi_before, progress);
+    if (!moved || (flow->scalar && !advance_scalar(solver, dt, y, progress))) {
+        return GM_NO_CONVERGENCE;
+    }
+    if (!(gm_flow_kinetic_energy(flow, y) <= solver->energy_limit)) {
+        return GM_BLOW_UP;
+    }
+    if (flow->tracers > 0) {
+        gm_flow_vertex_velocities(flow->complex, block(flow, y, GM_FLOW_PSI_HALF), solver->velocities);
+        gm_tracers_carry(flow, solver->velocities, dt, number, y, y);
+    }
+    y[GM_FLOW_BLOCKS * n] = dt;
+    progress->evaluations += 2;
+    return GM_OK;
+}
+
+/* One correction of Newton's method at the present Reynolds number; a change small enough leads to the next
+ * one. */
+static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried, double *y,
+                                  struct gm_progress *progress)
+{
+    enum { MOST_CORRECTIONS = 25 };
+    const double roundoff = 1e-9, good_start = 1e-2, factor = carried[LEVEL] < 1000 ? 2.5 : 1.5;
+    const struct gm_flow *flow = solver->flow;
+    const size_t n = flow->complex->vertices;
+    double *omega = block(flow, y, GM_FLOW_OMEGA);
+    memcpy(block(flow, y, GM_FLOW_PSI_BEFORE), y, n * sizeof *y);
+    if (carried[DONE] != 0) {
+        return GM_OK;
+    }
+    const double ratio = flow->reynolds > 0 ? flow->reynolds / carried[LEVEL] : 1;
+    if (solver->unknowns.count > 0) {
+        fluxes(solver, y);
+        gm_transport_assemble(&solver->transport, solver->flux, 0, 1, ratio * flow->viscosity,
+                              GM_BACKFLOW_ZERO);
+        memset(solver->rate, 0, n * sizeof *solver->rate);
+        residual(solver, omega);
+        if (!gm_flow_solver_newton(solver, omega)) {
+            return GM_NO_CONVERGENCE;
+        }
+        correct(solver, y);
+    }
+    double change = 0, size = 0;
+    for (size_t v = 0; v < n; v++) {
+        change = fmax(change, fabs(y[v] - block(flow, y, GM_FLOW_PSI_BEFORE)[v]));
+        size = fmax(size, fabs(y[v]));
+    }
+    memcpy(block(flow, y, GM_FLOW_PSI_HALF), y, n * sizeof *y);
+    memcpy(block(flow, y, GM_FLOW_OMEGA_USED), omega, n * sizeof *y);
+    y[GM_FLOW_BLOCKS * n] = 0;
+    fluxes(solver, y);
+    if (flow->scalar && !advance_scalar(solver, 0, y, progress)) {
+        return GM_NO_CONVERGENCE;
+    }
+    progress->evaluations++;
+    progress->solves++;
+    progress->iterations++;
+    if (++carried[CORRECTIONS] > MOST_CORRECTIONS) {
+        return GM_NO_CONVERGENCE;
+    }
+    if (carried[LEVEL] < flow->reynolds && change <= good_start * size) {
+        carried[LEVEL] = fmin(flow->reynolds, factor * carried[LEVEL]);
+        carried[CORRECTIONS] = 0;
+    } else if (carried[LEVEL] >= flow->reynolds && change <= roundoff * size) {
+        carried[DONE] = 1;
+    }
+    return GM_OK;
+}
+
+static bool within(const double *y, size_t n, double limit)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (!(fabs(y[i]) <= limit)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    const struct gm_flow *flow = gm_flow_of(task->problem);
+    const struct row *row = task->scheme->coefficients;
+    struct gm_progress progress = {.status = GM_OK};
+    memcpy(task->out, task->y, task->problem->n * sizeof *task->y);
+    if (row == &steady) {
+        memcpy(task->memory_out, task->memory, MEMORY * sizeof *task->memory);
+    }
+    while (progress.done < task->steps) {
+        progress.status = row == &steady
+                              ? step_steady(task->workspace, task->memory_out, task->out, &progress)
+                              : step(task->workspace, row, task->dt * flow->time_unit,
+                                     task->steps_before + progress.done, task->out, &progress);
+        if (progress.status == GM_OK && !within(task->out, task->problem->n, task->limit)) {
+            progress.status = GM_BLOW_UP;
+        }
+        if (progress.status != GM_OK) {
+            break;
+        }
+        progress.done++;
+    }
+    return progress;
+}
+
+#define FLOW .family = &gm_family_exterior_calculus
+#define EXACT_CALCULUS (GM_DIVERGENCE_FREE | GM_KEEPS_CONSTANTS | GM_CLOSES_BUDGET)
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "semi-implicit",
+        .title = "semi-implicit",
+        .formula = "[⋆₀/h + C(F½) + νK] ω₁ = ⋆₀ω₀/h,  K ψ₁ = ⋆₀ω₁;  F½ of an explicit half step",
+        .reference = "Mohamed, Hirani & Samtaney (2016); Razafindralandy et al. (2018), eqs. 153-155",
+        .coefficients = &backward,
+        .order = 1,
+        .claims = EXACT_CALCULUS | GM_KEEPS_LINEAR,
+        FLOW,
+    },
+    {
+        .name = "crank-nicolson",
+        .title = "Crank–Nicolson",
+        .formula = "[⋆₀/h + (C(F½) + νK)/2] ω₁ = [⋆₀/h − (C(F½) + νK)/2] ω₀,  K ψ₁ = ⋆₀ω₁",
+        .reference =
+            "J. Crank & P. Nicolson (1947); with the fluxes of Razafindralandy et al. (2018), eq. 153",
+        .coefficients = &centred,
+        .order = 2,
+        .claims = EXACT_CALCULUS | GM_KEEPS_LINEAR | GM_KEEPS_QUADRATIC,
+        FLOW,
+    },
+    {
+        .name = "steady",
+        .title = "steady state",
+        .formula = "C(F) ω + νK ω = 0 by Newton's method, with continuation in the Reynolds number",
+        .reference = "Mohamed, Hirani & Samtaney (2016); a step is a correction",
+        .coefficients = &steady,
+        .order = 0,
+        .claims = EXACT_CALCULUS,
+        FLOW,
+    },
+};
+
+const struct gm_family gm_family_exterior_calculus = {
+    .kind = &gm_kind_flow,
+    .title = "discrete exterior calculus",
+    .schemes = schemes,
+    .count = sizeof schemes / sizeof schemes[0],
+    .loop = loop,
+    .memory = memory,
+    .start = start,
+    .workspace_open = open_workspace,
+    .workspace_close = close_workspace,
+};

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_KIND_H
+#define GM_CORE_KIND_H
+
+#include "core/scheme.h"
+
+struct gm_certificate;
+
+/* What a facet is called. */
+struct gm_facet_words {
+    unsigned need;         /* GM_NEEDS_... of the kind; 0 ends a list */
+    const char *structure; /* what a problem without it lacks: "a Hamiltonian" */
+    const char *problems;  /* those that have it: "Hamiltonian systems" */
+};
+
+/* A kind of problem: a wing of core, which brings its facets, its problems, its families of schemes and what
+   they are certified on. The hall knows a problem only through it. */
+struct gm_kind {
+    const char *name;     /* "ode" */
+    const char *problems; /* "ordinary differential equations" */
+    /* Those facets first that say most; NULL: none have words. */
+    const struct gm_facet_words *words;
+    /* The facets that a problem of this kind has, as bits. NULL: none have names. */
+    unsigned (*facets)(const struct gm_problem *problem);
+    /* The loop over the problem's own kernels; NULL, or it returns NULL: the family's own. */
+    gm_loop *(*loop)(const struct gm_scheme *scheme, const struct gm_problem *problem);
+    /* Measures the order and the claims of a scheme of this kind. */
+    void (*certify)(const struct gm_scheme *scheme, struct gm_certificate *certificate);
+    const struct gm_family *const *families; /* NULL-terminated */
+};
+
+/* The loop that advances this problem by this scheme: that over the problem's kernels, else the family's;
+   NULL if there is neither. The family's workspace is opened for its own loop only. */
+gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem);
+/* whether the problem has what the scheme needs */
+bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem);
+/* What the scheme needs and the problem lacks, in words; NULL if it fits, or where there is no word for it.
+ */
+const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem);
+/* The problems that a scheme is for, in words: those of its kind, or of the facet that says most. */
+const char *gm_scheme_problems(const struct gm_scheme *scheme);
+
+#endif

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gaussian elimination within a band, rows exchanged for the largest pivot (Golub & Van Loan, Matrix
+   Computations, 4.3). Blocking would not pay: bands are 1 to 17 wide here. */
+#include "core/linear/banded.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool gm_banded_open(struct gm_banded *matrix, size_t n, size_t band)
+{
+    *matrix = (struct gm_banded){.n = n, .band = band, .stride = 3 * band + 1};
+    matrix->values = calloc(n * matrix->stride, sizeof *matrix->values);
+    matrix->pivots = calloc(n, sizeof *matrix->pivots);
+    if (!matrix->values || !matrix->pivots) {
+        gm_banded_close(matrix);
+        return false;
+    }
+    return true;
+}
+
+void gm_banded_close(struct gm_banded *matrix)
+{
+    free(matrix->values);
+    free(matrix->pivots);
+    *matrix = (struct gm_banded){0};
+}
+
+void gm_banded_clear(struct gm_banded *matrix)
+{
+    memset(matrix->values, 0, matrix->n * matrix->stride * sizeof *matrix->values);
+}
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* y -= factor x */
+static inline void subtract(double *restrict y, const double *restrict x, double factor, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        y[i] -= factor * x[i];
+    }
+}
+
+bool gm_banded_factor(struct gm_banded *matrix)
+{
+    const size_t n = matrix->n, band = matrix->band, step = matrix->stride - 1;
+    size_t last = 0; /* the last column that the rows used so far reach */
+    for (size_t j = 0; j < n; j++) {
+        double *diagonal = matrix->values + j * matrix->stride + 2 * band;
+        const size_t below = least(band, n - 1 - j);
+        size_t pivot = 0;
+        for (size_t i = 1; i <= below; i++) {
+            pivot = fabs(diagonal[i]) > fabs(diagonal[pivot]) ? i : pivot;
+        }
+        matrix->pivots[j] = j + pivot;
+        if (!(fabs(diagonal[pivot]) > 0) || !isfinite(diagonal[pivot])) {
+            return false;
+        }
+        const size_t reach = least(j + pivot + band, n - 1);
+        last = reach > last ? reach : last;
+        if (pivot > 0) {
+            /* along a row, one column on is `step` on */
+            for (size_t k = 0; k <= last - j; k++) {
+                const double held = diagonal[k * step];
+                diagonal[k * step] = diagonal[k * step + pivot];
+                diagonal[k * step + pivot] = held;
+            }
+        }
+        const double inverse = 1 / diagonal[0];
+        for (size_t i = 1; i <= below; i++) {
+            diagonal[i] *= inverse;
+        }
+        for (size_t k = 1; k <= last - j; k++) {
+            double *column = diagonal + k * step;
+            if (column[0] != 0) {
+                subtract(column + 1, diagonal + 1, column[0], below);
+            }
+        }
+    }
+    return true;
+}
+
+void gm_banded_solve(const struct gm_banded *matrix, double *x)
+{
+    const size_t n = matrix->n, band = matrix->band;
+    for (size_t j = 0; j < n; j++) {
+        const size_t pivot = matrix->pivots[j];
+        const double value = x[pivot];
+        x[pivot] = x[j];
+        x[j] = value;
+        subtract(x + j + 1, matrix->values + j * matrix->stride + 2 * band + 1, value,
+                 least(band, n - 1 - j));
+    }
+    for (size_t j = n; j-- > 0;) {
+        const double *diagonal = matrix->values + j * matrix->stride + 2 * band;
+        const size_t above = least(2 * band, j);
+        x[j] /= diagonal[0];
+        subtract(x + j - above, diagonal - above, x[j], above);
+    }
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_LINEAR_CHOLESKY_H
+#define GM_CORE_LINEAR_CHOLESKY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* The Cholesky factor of a sparse symmetric positive definite matrix, by CHOLMOD (Chen, Davis, Hager &
+   Rajamanickam, ACM Trans. Math. Softw. 35 (2008) 22). Solving allocates nothing after the first time. */
+struct gm_cholesky;
+
+/* Rows start[i] .. start[i + 1] of columns; only columns <= row are read. NULL when memory is short or the
+   matrix is not positive definite. */
+struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value);
+void gm_cholesky_close(struct gm_cholesky *cholesky);
+/* b, x: n; may be the same */
+void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x);
+
+/* Solves A x = b once by sparse LU (UMFPACK; Davis, ACM Trans. Math. Softw. 30 (2004) 196), rows as above,
+   all columns. Allocates. False when memory is short or A is singular. */
+bool gm_lu_solve(size_t n, const int *start, const int *column, const double *value, const double *b,
+                 double *x);
+
+#endif

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_LINEAR_DIFFERENCES_H
+#define GM_CORE_LINEAR_DIFFERENCES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Derivatives of a map along a direction, by central differences at falling distances, extrapolated. */
+
+/* Writes what the map makes of `from` (from_count) to `to` (to_count); false if it fails. */
+typedef bool gm_map(const void *context, const double *from, double *to);
+
+/* slope := d/de map(from + e direction) at e = 0; good to about 1e-12 of the values where the map is smooth
+   over a distance of 0.05 times the direction. False where memory is short or the map fails. */
+bool gm_differentiate(gm_map *map, const void *context, size_t from_count, const double *from,
+                      const double *direction, size_t to_count, double *slope);
+
+#endif

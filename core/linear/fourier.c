@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* GSL's transforms by small factors cost count * p for a prime factor p. Where p is large, by the chirp z
+   transform: with jk = (j^2 + k^2 - (k - j)^2)/2,
+       X_k = w_k sum_j (x_j w_j) conj(w_{k-j}),  w_j = exp(-i pi j^2 / count),
+   a convolution, which two transforms by factors of 2 make. Bluestein, IEEE Trans. Audio Electroacoust. 18
+   (1970) 451. */
+#include "core/linear/fourier.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <gsl/gsl_fft_complex.h>
+
+#include "core/memory.h"
+
+/* Factors of GSL's above this cost more than the chirp. */
+enum { LARGEST_FACTOR = 100 };
+
+struct gm_fourier {
+    size_t count;
+    gsl_fft_complex_wavetable *table;
+    gsl_fft_complex_workspace *space;
+    size_t length;                    /* of the convolution, a power of 2; 0: there is none */
+    double complex *chirp;            /* w, count of them */
+    double complex *kernel, *scratch; /* the transform of conj(w); length */
+};
+
+static size_t largest_factor(size_t count)
+{
+    size_t largest = 1;
+    for (size_t p = 2; p * p <= count; p++) {
+        while (count % p == 0) {
+            largest = p;
+            count /= p;
+        }
+    }
+    return count > largest ? count : largest;
+}
+
+static void transform(double complex *x, size_t length)
+{
+    gsl_fft_complex_radix2_forward((double *)x, 1, length);
+}
+
+static struct gm_fourier *open_chirp(struct gm_fourier *fourier)
+{
+    const size_t count = fourier->count;
+    size_t length = 1;
+    while (length < 2 * count - 1) {
+        length *= 2;
+    }
+    fourier->length = length;
+    fourier->chirp = calloc(count + 2 * length, sizeof *fourier->chirp);
+    if (!fourier->chirp) {
+        gm_fourier_close(fourier);
+        return NULL;
+    }
+    fourier->kernel = fourier->chirp + count;
+    fourier->scratch = fourier->kernel + length;
+    for (size_t j = 0; j < count; j++) {
+        /* the square in its period, so that no digit of the angle is lost */
+        const uint64_t square = (uint64_t)j * j % (2 * (uint64_t)count);
+        fourier->chirp[j] = cexp(-I * (M_PI * (double)square / (double)count));
+        fourier->kernel[j] = conj(fourier->chirp[j]);
+        fourier->kernel[j ? length - j : 0] = fourier->kernel[j];
+    }
+    transform(fourier->kernel, length);
+    return fourier;
+}
+
+struct gm_fourier *gm_fourier_open(size_t count)
+{
+    struct gm_fourier *fourier = calloc(1, sizeof *fourier);
+    if (!fourier) {
+        return NULL;
+    }
+    fourier->count = count;
+    if (largest_factor(count) > LARGEST_FACTOR) {
+        return open_chirp(fourier);
+    }
+    gm_memory_heed_gsl();
+    fourier->table = gsl_fft_complex_wavetable_alloc(count);
+    fourier->space = gsl_fft_complex_workspace_alloc(count);
+    if (!fourier->table || !fourier->space) {
+        gm_fourier_close(fourier);
+        return NULL;
+    }
+    return fourier;
+}
+
+void gm_fourier_close(struct gm_fourier *fourier)
+{
+    if (!fourier) {
+        return;
+    }
+    if (fourier->table) {
+        gsl_fft_complex_wavetable_free(fourier->table);
+    }
+    if (fourier->space) {
+        gsl_fft_complex_workspace_free(fourier->space);
+    }
+    free(fourier->chirp);
+    free(fourier);
+}
+
+void gm_fourier_forward(struct gm_fourier *fourier, double complex *x)
+{
+    const size_t count = fourier->count, length = fourier->length;
+    if (length == 0) {
+        gsl_fft_complex_forward((double *)x, 1, count, fourier->table, fourier->space);
+        return;
+    }
+    double complex *y = fourier->scratch;
+    for (size_t j = 0; j < length; j++) {
+        y[j] = j < count ? x[j] * fourier->chirp[j] : 0;
+    }
+    transform(y, length);
+    /* back by the conjugate of the transform of the conjugate */
+    for (size_t j = 0; j < length; j++) {
+        y[j] = conj(y[j] * fourier->kernel[j]);
+    }
+    transform(y, length);
+    for (size_t k = 0; k < count; k++) {
+        x[k] = conj(y[k]) / (double)length * fourier->chirp[k];
+    }
+}
+
+void gm_fourier_inverse(struct gm_fourier *fourier, double complex *x)
+{
+    if (fourier->length == 0) {
+        gsl_fft_complex_inverse((double *)x, 1, fourier->count, fourier->table, fourier->space);
+        return;
+    }
+    for (size_t j = 0; j < fourier->count; j++) {
+        x[j] = conj(x[j]);
+    }
+    gm_fourier_forward(fourier, x);
+    for (size_t j = 0; j < fourier->count; j++) {
+        x[j] = conj(x[j]) / (double)fourier->count;
+    }
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_MEMORY_H
+#define GM_CORE_MEMORY_H
+
+#include <stdbool.h>
+
+/* Memory that the system refused. Every malloc, calloc, realloc, aligned_alloc, strdup, strndup, asprintf,
+   vasprintf and open_memstream of the program is linked to one that notes a refusal here (core/meson.build),
+   so that none can be forgotten: whoever hands out a number, a file or an exit status asks whether memory was
+   short. */
+
+/* Notes a refusal that a library reports. */
+void gm_memory_refused(void);
+
+/* From now on GSL, which would end the program at an error, only has its refusals noted. */
+void gm_memory_heed_gsl(void);
+
+/* How many refusals this thread has met: what was computed between two equal answers is whole. */
+unsigned long gm_memory_refusals(void);
+
+/* Whether any thread has met one since the program began. */
+bool gm_memory_was_short(void);
+
+#endif

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_MESH_FAMILIES_FAMILIES_H
+#define GM_CORE_MESH_FAMILIES_FAMILIES_H
+
+#include "core/mesh/moving_mesh.h"
+
+#define GM_FAMILY(name) extern const struct gm_family gm_family_##name;
+#include "core/mesh/families/families.def"
+#undef GM_FAMILY
+
+#endif

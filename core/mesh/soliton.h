@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_MESH_SOLITON_H
+#define GM_CORE_MESH_SOLITON_H
+
+#include "core/mesh/moving_mesh.h"
+
+/* One or two solitons of the sine-Gordon equation, or kinks of phi^4, between the walls of a box, on a moving
+   mesh. Tyranowski & Desbrun (2019), section 5. */
+
+enum gm_soliton_field { GM_SINE_GORDON, GM_PHI4 };
+enum gm_soliton_density { GM_ARCLENGTH, GM_CURVATURE, GM_MIX, GM_LIMITED, GM_TEMPERED };
+
+struct gm_soliton {
+    int field;   /* enum gm_soliton_field */
+    int density; /* enum gm_soliton_density */
+    long solitons, points;
+    double velocity, length;
+    double alpha; /* NaN: one that puts about half of the nodes where the field changes */
+};
+
+/* The problem for these parameters, which outlive it. */
+void gm_soliton_problem(const struct gm_soliton *soliton, struct gm_problem *problem);
+
+/* alpha, resolved */
+double gm_soliton_alpha(const struct gm_soliton *soliton);
+
+/* The field at the start, a gm_profile of a struct gm_soliton. */
+void gm_soliton_profile(const void *soliton, double x, double *value, double *slope, double *rate);
+
+/* The solution, exact but for what an image of the soliton behind a wall contributes there (about 1e-12); NaN
+   where none is known: of phi^4 once a kink has come near a wall or another kink. Their eq. 168. */
+double gm_soliton_exact(const struct gm_soliton *soliton, double x, double t);
+
+/* The energy of the solitons on the line. */
+double gm_soliton_energy(const struct gm_soliton *soliton);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_ODE_CERTIFY_MEASURE_H
+#define GM_CORE_ODE_CERTIFY_MEASURE_H
+
+#include "core/scheme.h"
+
+/* What core/certify.c is made of: the problems that schemes are certified on, and the measurements. */
+
+enum { GM_SUBJECT_COMPONENTS = 12, GM_SUBJECT_INVARIANTS = 2 };
+
+/* A quantity that some schemes keep. */
+typedef double gm_invariant(const struct gm_problem *problem, const double *y);
+
+struct gm_subject {
+    struct gm_problem problem; /* m = 1 */
+    double start[GM_SUBJECT_COMPONENTS];
+    double dt;        /* of one step; large enough that RK4 shows a symplecticity defect above 1e-6 */
+    unsigned only;    /* facets: not for schemes that need none of them; 0: for all */
+    bool hamiltonian; /* (q, p), reversible under p -> -p */
+    bool volume;      /* without divergence, to be measured */
+    gm_invariant *linear[GM_SUBJECT_INVARIANTS], *quadratic[GM_SUBJECT_INVARIANTS],
+        *bilinear[GM_SUBJECT_INVARIANTS]; /* NULL where it has none */
+};
+
+size_t gm_subject_count(void);
+struct gm_subject gm_subject_at(size_t index);
+bool gm_subject_fits(const struct gm_subject *subject, const struct gm_scheme *scheme);
+
+/* The components that a scheme maps: the state, or with a second copy of phase space both. */
+size_t gm_subject_components(const struct gm_subject *subject, const struct gm_scheme *scheme);
+/* Fills them at the start. */
+void gm_subject_start(const struct gm_subject *subject, const struct gm_scheme *scheme, double *whole);
+
+/* Makes `steps` steps of m members, whole and end [component * m + member]; false if it fails. */
+bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                        long steps, size_t m, const double *whole, double *end);
+
+/* Where a run that turns round after `steps` steps is after so many more: by the step -dt, or with p
+   reflected in every copy of phase space. It remembers what the scheme remembers. False if a step fails. */
+bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt, long steps,
+                     bool reflected, double *end);
+
+double gm_distance(const double *a, const double *b, size_t n);
+
+/* The order: the slope of log error against log dt, against GSL's Prince-Dormand stepper at its tightest
+   tolerance; for a scheme that chooses its order, the slope of log error against the logarithm of the
+   tolerance. NaN if it cannot be measured. */
+double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme *scheme);
+
+/* |M' J M - J| and |det M - 1|, M the derivative of one step: central differences at 4 distances,
+   extrapolated by Romberg, all as one ensemble. Error of the differences about 1e-13. */
+double gm_symplecticity_defect(const struct gm_subject *subject, const struct gm_scheme *scheme);
+double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme *scheme);
+
+double gm_symmetry_defect(const struct gm_subject *subject,
+                          const struct gm_scheme *scheme); /* step(-dt) step(dt) */
+double gm_reversibility_defect(const struct gm_subject *subject,
+                               const struct gm_scheme *scheme); /* R step R step */
+
+/* The largest relative change of the quantities over many smaller steps. */
+double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                gm_invariant *const *quantities, size_t count);
+double gm_energy_drift(const struct gm_subject *subject, const struct gm_scheme *scheme);
+
+#endif

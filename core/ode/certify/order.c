@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+#include "core/ode/certify/measure.h"
+#include "core/ode/kernel/loops.h"
+#include "core/run.h"
+
+/* The error is summed over several times: at a single one it may happen to vanish. */
+enum { TIMES = 4 };
+
+static int field_for_gsl(double t, const double y[], double f[], void *problem)
+{
+    (void)t;
+    gm_field(problem, y, f, 1);
+    return GSL_SUCCESS;
+}
+
+/* y := the solution at `until`, from y */
+static bool solve_by_gsl(const struct gm_problem *problem, double until, double *y)
+{
+    struct gm_problem copy = *problem;
+    gsl_odeiv2_system system = {field_for_gsl, NULL, problem->n, &copy};
+    gsl_odeiv2_driver *driver =
+        gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-15, 1e-15);
+    if (!driver) {
+        return false;
+    }
+    double t = 0;
+    const int status = gsl_odeiv2_driver_apply(driver, &t, until, y);
+    gsl_odeiv2_driver_free(driver);
+    return status == GSL_SUCCESS;
+}
+
+/* The solution at k until / TIMES, k = 1.., one after the other. */
+static bool solve_at_times(const struct gm_subject *subject, double until,
+                           double exact[TIMES][GM_SUBJECT_COMPONENTS])
+{
+    double y[GM_SUBJECT_COMPONENTS];
+    memcpy(y, subject->start, sizeof y);
+    for (int k = 0; k < TIMES; k++) {
+        if (!solve_by_gsl(&subject->problem, until / TIMES, y)) {
+            return false;
+        }
+        memcpy(exact[k], y, sizeof y);
+    }
+    return true;
+}
+
+/* NaN if the run fails */
+static double error_of(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                       const struct gm_settings *settings, double dt, long steps_between,
+                       double exact[TIMES][GM_SUBJECT_COMPONENTS])
+{
+    struct gm_run *run = gm_run_open(&subject->problem, scheme, settings, 0, dt, subject->start);
+    if (!run) {
+        return NAN;
+    }
+    double sum = 0;
+    for (int k = 0; k < TIMES; k++) {
+        gm_run_advance(run, steps_between);
+        sum += gm_distance(gm_run_state(run), exact[k], subject->problem.n);
+    }
+    const bool good = run->status == GM_OK;
+    gm_run_close(run);
+    return good ? sum : NAN;
+}
+
+/* A scheme that chooses its step is compared with the solution at the time that it reached. */
+static double error_at_own_time(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                                const struct gm_settings *settings, double dt, double until)
+{
+    struct gm_run *run = gm_run_open(&subject->problem, scheme, settings, 0, dt, subject->start);
+    if (!run) {
+        return NAN;
+    }
+    while (run->status == GM_OK && run->t < until) {
+        gm_run_advance(run, 1);
+    }
+    double exact[GM_SUBJECT_COMPONENTS], error = NAN;
+    memcpy(exact, subject->start, sizeof exact);
+    if (run->status == GM_OK && solve_by_gsl(&subject->problem, run->t, exact)) {
+        error = gm_distance(gm_run_state(run), exact, subject->problem.n);
+    }
+    gm_run_close(run);
+    return error;
+}
+
+/* by least squares */
+static double slope(const double *x, const double *y, int count)
+{
+    double mean_x = 0, mean_y = 0, above = 0, below = 0;
+    for (int i = 0; i < count; i++) {
+        mean_x += x[i] / count;
+        mean_y += y[i] / count;
+    }
+    for (int i = 0; i < count; i++) {
+        above += (x[i] - mean_x) * (y[i] - mean_y);
+        below += (x[i] - mean_x) * (x[i] - mean_x);
+    }
+    return above / below;
+}
+
+static double measure_by_tolerance(const struct gm_subject *subject, const struct gm_scheme *scheme)
+{
+    enum { LADDER = 4 };
+    const double until = 10;
+    double exact[TIMES][GM_SUBJECT_COMPONENTS], x[LADDER], e[LADDER];
+    if (!solve_at_times(subject, until, exact)) {
+        return NAN;
+    }
+    for (int i = 0; i < LADDER; i++) {
+        const struct gm_settings settings = {.tolerance = pow(10, -4 - 2 * i)};
+        x[i] = log(settings.tolerance);
+        e[i] = log(error_of(subject, scheme, &settings, until / TIMES, 1, exact));
+    }
+    return slope(x, e, LADDER);
+}
+
+double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme *scheme)
+{
+    enum { PER_OCTAVE = 4, LADDER = 9 * PER_OCTAVE, FITTED = PER_OCTAVE + 1 };
+    if (scheme->order == 0) {
+        return measure_by_tolerance(subject, scheme);
+    }
+    /* The higher the order, the longer the time until round-off is small beside the error. The variational
+       schemes that choose their step may not reach a turning point. */
+    const bool own_time = scheme->family->own_time;
+    const double until = scheme->needs & GM_NEEDS_LAGRANGIAN ? 0.4 : scheme->order < 5 ? 2 : 10;
+    const double plateau = 1e-12, ceiling = 0.1;
+    double exact[TIMES][GM_SUBJECT_COMPONENTS];
+    if (!own_time && !solve_at_times(subject, until, exact)) {
+        return NAN;
+    }
+    /* the finest steps, a factor of two apart, whose error stands clear of round-off */
+    double x[LADDER], e[LADDER];
+    int count = 0;
+    for (int i = 0; i < LADDER; i++) {
+        const long between = lround((own_time ? 8 : until) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE));
+        const double dt = until / (double)(TIMES * between);
+        const struct gm_settings settings = {.compensated = 1, .binding = 5, .tau0 = dt};
+        const double error = own_time ? error_at_own_time(subject, scheme, &settings, dt, until)
+                                      : error_of(subject, scheme, &settings, dt, between, exact);
+        if (error < plateau) {
+            break;
+        }
+        if (error < ceiling) {
+            x[count] = log(dt);
+            e[count] = log(error);
+            count++;
+        }
+    }
+    return count < FITTED ? NAN : slope(x + count - FITTED, e + count - FITTED, FITTED);
+}

@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The certification problems: non-linear, not chaotic over the times that are used, each with structure of
+ * its own. */
+#include <math.h>
+#include <string.h>
+
+#include "core/ode/certify/measure.h"
+#include "core/ode/problems/problems.h"
+#include "core/run.h"
+
+static const double well = 0.3, no_well = 0, perturbation = 0.05, omega = 5, strength = 2;
+static const double abc_constants[] = {1, 0.8, 0.6};
+static const double trace_free[] = {0.4, 1.1, -0.3, -0.7, 0.5, 0.2, 0.9, -0.6, -0.9};
+
+static double momentum(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    return y[2] + y[3];
+}
+
+static double sphere(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    return (y[0] * y[0] + y[1] * y[1] + y[2] * y[2]) / 2;
+}
+
+static double ellipsoid(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    return y[0] * y[0] / 4 + y[1] * y[1] / 2 + 3 * y[2] * y[2] / 4;
+}
+
+static double angular_momentum(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    return y[0] * y[3] - y[1] * y[2];
+}
+
+static double impulse_x(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    return y[0] + y[1] + y[2] + y[3];
+}
+
+static double impulse_y(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    return y[4] + y[5] + y[6] + y[7];
+}
+
+static double angular_impulse(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    double sum = 0;
+    for (int i = 0; i < 8; i++) {
+        sum += y[i] * y[i];
+    }
+    return sum;
+}
+
+static const struct {
+    const struct gm_problem *problem;
+    const void *parameters;
+    struct gm_subject subject;
+} subjects[] = {
+    {&gm_problem_pendulum, NULL, {.start = {0.6, 1.1}, .dt = 0.6, .hamiltonian = true}},
+    {&gm_problem_particles, &well, {.start = {0.5, -0.4, 0.3, 0.8}, .dt = 0.6, .hamiltonian = true}},
+    {&gm_problem_particles,
+     &no_well,
+     {.start = {0.7, -0.2, 0.4, -0.9}, .dt = 0.6, .hamiltonian = true, .linear = {momentum}}},
+    {&gm_problem_kepler,
+     NULL,
+     {.start = {0.8, 0.1, -0.2, 1.2},
+      .dt = 0.3,
+      .hamiltonian = true,
+      .quadratic = {angular_momentum},
+      .bilinear = {angular_momentum}}},
+    {&gm_problem_henon_heiles, NULL, {.start = {0.1, -0.1, 0.3, 0.2}, .dt = 0.6, .hamiltonian = true}},
+    {&gm_problem_product, NULL, {.start = {0.5, -0.6}, .dt = 0.3, .hamiltonian = true}},
+    {&gm_problem_vortices_four,
+     &strength,
+     {.start = {1, -0.6, -1.1, 0.5, 0.1, 0.8, -0.2, -0.9},
+      .dt = 0.6,
+      .hamiltonian = true,
+      .linear = {impulse_x, impulse_y},
+      .quadratic = {angular_impulse}}},
+    {&gm_problem_rigid_body, NULL, {.start = {0.9, 0.5, -0.7}, .dt = 0.6, .quadratic = {sphere, ellipsoid}}},
+    {&gm_problem_abc, abc_constants, {.start = {0.5, 1.1, -0.4}, .dt = 0.6, .volume = true}},
+    {&gm_problem_linear,
+     trace_free,
+     {.start = {0.5, 1.1, -0.4}, .dt = 0.6, .only = GM_NEEDS_VOLUME, .volume = true}},
+    {&gm_problem_kepler_perturbed,
+     &perturbation,
+     {.start = {0.8, 0.1, -0.2, 1.2},
+      .dt = 0.3,
+      .only = GM_NEEDS_KEPLER_SPLIT,
+      .hamiltonian = true,
+      .quadratic = {angular_momentum},
+      .bilinear = {angular_momentum}}},
+    {&gm_problem_fpu,
+     &omega,
+     {.start = {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
+      .dt = 0.3,
+      .only = GM_NEEDS_FAST_LINEAR,
+      .hamiltonian = true}},
+    /* (h Omega)^2 = 0.09, with which two copies of phase space bear the binding that they are given here */
+    {&gm_problem_fpu,
+     &omega,
+     {.start = {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
+      .dt = 0.06,
+      .only = GM_NEEDS_HAMILTONIAN,
+      .hamiltonian = true}},
+};
+
+size_t gm_subject_count(void)
+{
+    return sizeof subjects / sizeof subjects[0];
+}
+
+struct gm_subject gm_subject_at(size_t index)
+{
+    struct gm_subject subject = subjects[index].subject;
+    subject.problem = *subjects[index].problem;
+    subject.problem.parameters = subjects[index].parameters;
+    return subject;
+}
+
+bool gm_subject_fits(const struct gm_subject *subject, const struct gm_scheme *scheme)
+{
+    const bool meant = subject->only == 0 || (scheme->needs & subject->only) != 0;
+    return meant && gm_scheme_fits(scheme, &subject->problem);
+}
+
+size_t gm_subject_components(const struct gm_subject *subject, const struct gm_scheme *scheme)
+{
+    return (scheme->family->doubled ? 2 : 1) * subject->problem.n;
+}
+
+void gm_subject_start(const struct gm_subject *subject, const struct gm_scheme *scheme, double *whole)
+{
+    const size_t n = subject->problem.n;
+    for (size_t c = 0; c < gm_subject_components(subject, scheme); c++) {
+        whole[c] = subject->start[c % n] + (c < n ? 0 : 0.01); /* the copies need not agree */
+    }
+}
+
+/* The map of both copies of phase space, which no run shows: the memory is given and taken. */
+static bool advance_doubled(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                            const struct gm_settings *settings, double dt, long steps, const double *whole,
+                            double *end)
+{
+    const size_t count = problem->n * problem->m;
+    void *workspace = scheme->family->workspace_open(problem, scheme);
+    if (!workspace) {
+        return false;
+    }
+    const struct gm_task task = {
+        .problem = problem,
+        .scheme = scheme,
+        .dt = dt,
+        .steps = steps,
+        .limit = 1e10,
+        .y = whole,
+        .out = end,
+        .memory = whole + count,
+        .memory_out = end + count,
+        .workspace = workspace,
+        .settings = settings,
+    };
+    const struct gm_progress progress = scheme->family->loop(&task);
+    scheme->family->workspace_close(workspace);
+    return progress.done == steps;
+}
+
+/* for the schemes that choose their step tau0 is what dt is for the others */
+static struct gm_settings settings_for(double dt)
+{
+    return (struct gm_settings){.compensated = 1, .binding = 5, .tau0 = fabs(dt)};
+}
+
+bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                        long steps, size_t m, const double *whole, double *end)
+{
+    const struct gm_settings settings = settings_for(dt);
+    struct gm_problem problem = subject->problem;
+    problem.m = m;
+    if (scheme->family->doubled) {
+        return advance_doubled(&problem, scheme, &settings, dt, steps, whole, end);
+    }
+    struct gm_run *run = gm_run_open(&problem, scheme, &settings, 0, dt, whole);
+    if (!run) {
+        return false;
+    }
+    const bool good = gm_run_advance(run, steps) == GM_OK;
+    memcpy(end, gm_run_state(run), problem.n * m * sizeof *end);
+    gm_run_close(run);
+    return good;
+}
+
+/* p := -p in every copy of phase space */
+static void reflect(const struct gm_subject *subject, const struct gm_scheme *scheme, double *whole)
+{
+    const size_t n = subject->problem.n;
+    for (size_t c = 0; c < gm_subject_components(subject, scheme); c++) {
+        whole[c] = c % n >= n / 2 ? -whole[c] : whole[c];
+    }
+}
+
+/* Two copies of phase space remember nothing else. */
+static bool turn_doubled(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                         long steps, bool reflected, double *end)
+{
+    double start[2 * GM_SUBJECT_COMPONENTS], there[2 * GM_SUBJECT_COMPONENTS];
+    gm_subject_start(subject, scheme, start);
+    if (!gm_subject_advance(subject, scheme, dt, steps, 1, start, there)) {
+        return false;
+    }
+    if (reflected) {
+        reflect(subject, scheme, there);
+    }
+    const bool good = gm_subject_advance(subject, scheme, reflected ? dt : -dt, steps, 1, there, end);
+    if (reflected) {
+        reflect(subject, scheme, end);
+    }
+    return good;
+}
+
+bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt, long steps,
+                     bool reflected, double *end)
+{
+    if (scheme->family->doubled) {
+        return turn_doubled(subject, scheme, dt, steps, reflected, end);
+    }
+    const struct gm_settings settings = settings_for(dt);
+    struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, subject->start);
+    const size_t bytes = subject->problem.n * sizeof *end;
+    bool good = run && gm_run_advance(run, steps) == GM_OK;
+    if (good && reflected) {
+        memcpy(end, gm_run_state(run), bytes);
+        reflect(subject, scheme, end);
+        gm_run_set_state(run, end);
+    } else if (good) {
+        gm_run_set_step(run, -dt);
+    }
+    good = good && gm_run_advance(run, steps) == GM_OK;
+    if (good) {
+        memcpy(end, gm_run_state(run), bytes);
+        if (reflected) {
+            reflect(subject, scheme, end);
+        }
+    }
+    gm_run_close(run);
+    return good;
+}
+
+double gm_distance(const double *a, const double *b, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        largest = fmax(largest, fabs(a[i] - b[i]));
+    }
+    return largest;
+}

@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Steppers of the GNU Scientific Library, to compare with. tolerance = 0: one step of the library's of length
+   dt, its error not asked for; else its adaptive driver over every dt, with that absolute and relative
+   tolerance. The multistep methods choose order and step themselves, so for them 0 means 1e-8; they keep a
+   past of their own, and such a run cannot be resumed bit for bit. GSL manual, chapter "Ordinary differential
+   equations". */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+#include "core/memory.h"
+#include "core/ode/families/families.h"
+#include "core/ode/kernel/loops.h"
+
+/* of the multistep methods where none is given */
+#define STANDARD_TOLERANCE 1e-8
+
+enum stepper { RK4, RK8PD, MSADAMS, MSBDF };
+static const enum stepper rk4 = RK4, rk8pd = RK8PD, msadams = MSADAMS, msbdf = MSBDF;
+
+struct workspace {
+    const struct gm_problem *problem;
+    enum stepper stepper;
+    unsigned long evaluations, solves;
+    gsl_odeiv2_system system;
+    gsl_odeiv2_driver **drivers; /* one for each member, because each has its own past */
+    double dt, tolerance;        /* that the drivers were set for */
+    double *state;               /* n * m, after the last good step */
+    double *y;                   /* n */
+    long good;                   /* that step, counted from the run's first */
+    enum gm_status status;       /* why the step after it failed */
+};
+
+static int field(double t, const double y[], double f[], void *parameters)
+{
+    (void)t;
+    struct workspace *workspace = parameters;
+    gm_field(workspace->problem, y, f, 1);
+    workspace->evaluations++;
+    for (size_t c = 0; c < workspace->problem->n; c++) {
+        if (!isfinite(f[c])) {
+            return GSL_EBADFUNC;
+        }
+    }
+    return GSL_SUCCESS;
+}
+
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *parameters)
+{
+    (void)t;
+    struct workspace *workspace = parameters;
+    const struct gm_problem *problem = workspace->problem;
+    if (!gm_ode_of(problem)->loops[GM_ISA_BASELINE]->jacobian) {
+        return GSL_EBADFUNC;
+    }
+    gm_ode_of(problem)->loops[GM_ISA_BASELINE]->jacobian(problem, y, dfdy);
+    memset(dfdt, 0, problem->n * sizeof *dfdt);
+    workspace->solves++;
+    return GSL_SUCCESS;
+}
+
+static void workspace_close(void *pointer)
+{
+    struct workspace *workspace = pointer;
+    for (size_t i = 0; workspace->drivers && i < workspace->problem->m; i++) {
+        if (workspace->drivers[i]) {
+            gsl_odeiv2_driver_free(workspace->drivers[i]);
+        }
+    }
+    free(workspace->drivers);
+    free(workspace->state);
+    free(workspace->y);
+    free(workspace);
+}
+
+static bool make_drivers(struct workspace *workspace)
+{
+    const gsl_odeiv2_step_type *const types[] = {
+        [RK4] = gsl_odeiv2_step_rk4,
+        [RK8PD] = gsl_odeiv2_step_rk8pd,
+        [MSADAMS] = gsl_odeiv2_step_msadams,
+        [MSBDF] = gsl_odeiv2_step_msbdf,
+    };
+    const double tolerance = workspace->tolerance > 0 ? workspace->tolerance : STANDARD_TOLERANCE;
+    for (size_t i = 0; i < workspace->problem->m; i++) {
+        if (workspace->drivers[i]) {
+            gsl_odeiv2_driver_free(workspace->drivers[i]);
+        }
+        workspace->drivers[i] = gsl_odeiv2_driver_alloc_y_new(&workspace->system, types[workspace->stepper],
+                                                              workspace->dt, tolerance, tolerance);
+        if (!workspace->drivers[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    struct workspace *workspace = calloc(1, sizeof *workspace);
+    if (!workspace) {
+        return NULL;
+    }
+    gm_memory_heed_gsl();
+    workspace->problem = problem;
+    workspace->stepper = *(const enum stepper *)scheme->coefficients;
+    workspace->system = (gsl_odeiv2_system){field, jacobian, problem->n, workspace};
+    workspace->dt = 1;
+    workspace->good = -1;
+    workspace->drivers = calloc(problem->m, sizeof *workspace->drivers);
+    workspace->state = malloc(problem->n * problem->m * sizeof *workspace->state);
+    workspace->y = malloc(problem->n * sizeof *workspace->y);
+    if (!workspace->drivers || !workspace->state || !workspace->y || !make_drivers(workspace)) {
+        workspace_close(workspace);
+        return NULL;
+    }
+    return workspace;
+}
+
+static void workspace_reset(void *pointer)
+{
+    struct workspace *workspace = pointer;
+    workspace->good = -1;
+    workspace->dt = 0; /* so that the next step forgets the past */
+}
+
+static int advance(struct workspace *workspace, gsl_odeiv2_driver *driver, double t, double dt, double *y)
+{
+    const bool multistep = workspace->stepper == MSADAMS || workspace->stepper == MSBDF;
+    if (workspace->tolerance > 0 || multistep) {
+        const double until = t + dt;
+        return gsl_odeiv2_driver_apply(driver, &t, until, y);
+    }
+    double *const error = driver->e->yerr;
+    return gsl_odeiv2_step_apply(driver->s, t, dt, y, error, NULL, NULL, &workspace->system);
+}
+
+/* One step of all members from workspace->state, in place unless it fails. */
+static enum gm_status step(const struct gm_task *task, struct workspace *workspace, double t)
+{
+    const size_t n = task->problem->n, m = task->problem->m;
+    for (size_t i = 0; i < m; i++) {
+        for (size_t c = 0; c < n; c++) {
+            workspace->y[c] = workspace->state[c * m + i];
+        }
+        if (advance(workspace, workspace->drivers[i], t, task->dt, workspace->y) != GSL_SUCCESS) {
+            return GM_NO_CONVERGENCE;
+        }
+        for (size_t c = 0; c < n; c++) {
+            if (!(fabs(workspace->y[c]) <= task->limit)) { /* a NaN compares false */
+                return GM_BLOW_UP;
+            }
+            task->out[c * m + i] = workspace->y[c];
+        }
+    }
+    memcpy(workspace->state, task->out, n * m * sizeof(double));
+    return GM_OK;
+}
+
+static bool set_up(const struct gm_task *task, struct workspace *workspace)
+{
+    const bool retuned = workspace->tolerance != task->settings->tolerance;
+    const bool reversed = workspace->dt != task->dt;
+    workspace->tolerance = task->settings->tolerance;
+    workspace->dt = task->dt;
+    if (retuned && !make_drivers(workspace)) {
+        return false;
+    }
+    for (size_t i = 0; (retuned || reversed) && i < task->problem->m; i++) {
+        gsl_odeiv2_driver_reset_hstart(workspace->drivers[i], task->dt);
+    }
+    return true;
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    struct workspace *workspace = task->workspace;
+    const size_t size = task->problem->n * task->problem->m * sizeof(double);
+    struct gm_progress progress = {.done = task->steps, .status = GM_OK};
+    /* asked again for the steps before one that failed: they cannot be repeated, but they are known */
+    if (workspace->status != GM_OK && workspace->good == task->steps_before + task->steps) {
+        memcpy(task->out, workspace->state, size);
+        progress.evaluations = workspace->evaluations;
+        progress.solves = workspace->solves;
+        return progress;
+    }
+    workspace->evaluations = 0;
+    workspace->solves = 0;
+    workspace->status = GM_OK;
+    memcpy(workspace->state, task->y, size);
+    if (!set_up(task, workspace)) {
+        workspace->status = GM_NO_CONVERGENCE;
+    }
+    long done = 0;
+    while (done < task->steps && workspace->status == GM_OK) {
+        /* a time of the library's own that does not depend on how the run was cut; problems are autonomous */
+        workspace->status = step(task, workspace, (double)(task->steps_before + done) * task->dt);
+        done += workspace->status == GM_OK ? 1 : 0;
+    }
+    workspace->good = task->steps_before + done;
+    progress.done = done;
+    progress.status = workspace->status;
+    progress.evaluations = workspace->evaluations;
+    progress.solves = workspace->solves;
+    return progress;
+}
+
+#define GSL .family = &gm_family_gsl_steppers, .claims = GM_KEEPS_LINEAR
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "gsl-rk4",
+        .title = "GSL RK4",
+        .formula = "gsl_odeiv2_step_rk4 (step doubling for its error)",
+        .reference = "GNU Scientific Library, ordinary differential equations",
+        .coefficients = &rk4,
+        .order = 4,
+        GSL,
+    },
+    {
+        .name = "gsl-rk8pd",
+        .title = "GSL Prince-Dormand 8",
+        .formula = "gsl_odeiv2_step_rk8pd",
+        .reference = "GNU Scientific Library; P.J. Prince & J.R. Dormand, J. Comput. Appl. Math. 7 (1981) 67",
+        .coefficients = &rk8pd,
+        .order = 8,
+        GSL,
+    },
+    {
+        .name = "gsl-msadams",
+        .title = "GSL Adams",
+        .formula = "gsl_odeiv2_step_msadams: multistep, chooses its order",
+        .reference = "GNU Scientific Library; variable coefficient Adams in Nordsieck form",
+        .coefficients = &msadams,
+        GSL,
+    },
+    {
+        .name = "gsl-msbdf",
+        .title = "GSL BDF",
+        .formula = "gsl_odeiv2_step_msbdf: multistep, chooses its order",
+        .reference = "GNU Scientific Library; variable coefficient backward differences in Nordsieck form",
+        .coefficients = &msbdf,
+        GSL,
+    },
+};
+
+const struct gm_family gm_family_gsl_steppers = {
+    .kind = &gm_kind_ode,
+    .title = "GSL steppers",
+    .schemes = schemes,
+    .count = sizeof schemes / sizeof schemes[0],
+    .parameters = gm_settings_of_gsl,
+    .loop = loop,
+    .workspace_open = workspace_open,
+    .workspace_close = workspace_close,
+    .workspace_reset = workspace_reset,
+    .not_resumable = true,
+};

@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One pass of the implicit Runge-Kutta family; see core/ode/kernel/pass.h. */
+
+enum { K(IMPLICIT_ITERATIONS) = 150 };
+
+/* Components [from, to) of the increments, from the slopes: z := h a f in the lanes that are active. Returns
+   the sum of the changes: a sum, because it hands a NaN on where a maximum may lose it. */
+GM_INLINE real K(implicit_update)(const struct gm_implicit_row *row, int stages, int from, int to, double h,
+                                  mask active, real f[][GM_COMPONENTS], real z[][GM_COMPONENTS])
+{
+    real change = K(constant)(0);
+    for (int i = 0; i < stages; i++) {
+        for (int c = from; c < to; c++) {
+            real next = h * row->a[i][0] * f[0][c];
+            for (int j = 1; j < stages; j++) {
+                next += h * row->a[i][j] * f[j][c];
+            }
+            change += K(magnitude)(next - z[i][c]);
+            z[i][c] = K(pick)(active, next, z[i][c]);
+        }
+    }
+    return change;
+}
+
+/* Components [from, to) of slope i, in the lanes that are active. */
+GM_INLINE void K(implicit_take)(int from, int to, mask active, const real *slope, real *f)
+{
+    for (int c = from; c < to; c++) {
+        f[c] = K(pick)(active, slope[c - from], f[c]);
+    }
+}
+
+/* One iteration: new slopes at y + z, and new z from them. Where q' depends on p alone and p' on q alone, p'
+   is taken at the new q, which doubles the order in h that an iteration gains. */
+GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages, const real *y, double h,
+                                   const void *parameters, mask active, real f[][GM_COMPONENTS],
+                                   real z[][GM_COMPONENTS])
+{
+#ifdef GM_SEPARABLE
+    enum { HALF = GM_COMPONENTS / 2 };
+    for (int i = 0; i < stages; i++) {
+        real p[HALF], velocity[HALF];
+        for (int c = 0; c < HALF; c++) {
+            p[c] = y[HALF + c] + z[i][HALF + c];
+        }
+        K(velocity)(p, velocity, parameters);
+        K(implicit_take)(0, HALF, active, velocity, f[i]);
+    }
+    const real change = K(implicit_update)(row, stages, 0, HALF, h, active, f, z);
+    for (int i = 0; i < stages; i++) {
+        real q[HALF], force[HALF];
+        for (int c = 0; c < HALF; c++) {
+            q[c] = y[c] + z[i][c];
+        }
+        K(force)(q, force, parameters);
+        K(implicit_take)(HALF, GM_COMPONENTS, active, force, f[i]);
+    }
+    return change + K(implicit_update)(row, stages, HALF, GM_COMPONENTS, h, active, f, z);
+#else
+    for (int i = 0; i < stages; i++) {
+        real stage[GM_COMPONENTS], slope[GM_COMPONENTS];
+        for (int c = 0; c < GM_COMPONENTS; c++) {
+            stage[c] = y[c] + z[i][c];
+        }
+        K(field)(stage, slope, parameters);
+        K(implicit_take)(0, GM_COMPONENTS, active, slope, f[i]);
+    }
+    return K(implicit_update)(row, stages, 0, GM_COMPONENTS, h, active, f, z);
+#endif
+}
+
+/* Solves for the slopes f_i = f(y + z_i) of the lanes by fixed-point iteration, from z = 0, until the change
+   of z is zero or, at the level of round-off, no longer decreases, or the next one, changes being in
+   geometric progression, would be far below round-off. A lane that is done is frozen, so its bits do not
+   depend on the others. Returns the lanes that were solved. */
+GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int stages, const real *y, double h,
+                                       const void *parameters, real f[][GM_COMPONENTS],
+                                       struct K(counts) * counts)
+{
+    real z[GM_IMPLICIT_STAGES][GM_COMPONENTS];
+    for (int c = 0; c < GM_COMPONENTS; c++) {
+        for (int i = 0; i < stages; i++) {
+            z[i][c] = K(constant)(0);
+            f[i][c] = K(constant)(0);
+        }
+    }
+    real negligible = K(constant)(0); /* 2^-60 of the first change: with more, invariants drift */
+    real previous = K(constant)(1e300);
+    mask active = K(all)(), solved = K(other)(active);
+    for (int iteration = 0; iteration < K(IMPLICIT_ITERATIONS); iteration++) {
+        const real change = K(implicit_iterate)(row, stages, y, h, parameters, active, f, z);
+        if (iteration == 0) {
+            negligible = 8.673617379884035e-19 * change;
+        }
+        for (int l = 0; l < counts->lanes; l++) {
+            counts->evaluations += K(mask_lane)(active, l) ? (unsigned long)stages : 0;
+            counts->iterations += K(mask_lane)(active, l) ? 1 : 0;
+        }
+        mask last = change * change <= negligible * previous;
+        real norm = K(constant)(0);
+        for (int c = 0; c < GM_COMPONENTS; c++) {
+            norm += K(magnitude)(y[c]);
+        }
+        const real roundoff = (8 * stages * 2.220446049250313e-16) * norm;
+        mask stagnant = K(both)(K(either)(change >= previous, last), change <= roundoff);
+        mask done = K(both)(active, K(either)(change == K(constant)(0), stagnant));
+        solved |= done;
+        active &= K(both)(K(other)(done), change < K(constant)(1e100));
+        if (!K(somewhere)(active)) {
+            break;
+        }
+        previous = change;
+    }
+    return solved;
+}
+
+#ifdef GM_PASS_SCALAR
+
+/* Solves a x = r by Gaussian elimination with partial pivoting; x overwrites r. False if a is singular. */
+static bool implicit_eliminate(int n, double *a, double *r)
+{
+    for (int k = 0; k < n; k++) {
+        int pivot = k;
+        for (int i = k + 1; i < n; i++) {
+            pivot = fabs(a[i * n + k]) > fabs(a[pivot * n + k]) ? i : pivot;
+        }
+        if (!(fabs(a[pivot * n + k]) > 0)) {
+            return false;
+        }
+        if (pivot != k) {
+            for (int j = k; j < n; j++) {
+                double swap = a[k * n + j];
+                a[k * n + j] = a[pivot * n + j];
+                a[pivot * n + j] = swap;
+            }
+            double swap = r[k];
+            r[k] = r[pivot];
+            r[pivot] = swap;
+        }
+        for (int i = k + 1; i < n; i++) {
+            double factor = a[i * n + k] / a[k * n + k];
+            for (int j = k + 1; j < n; j++) {
+                a[i * n + j] -= factor * a[k * n + j];
+            }
+            r[i] -= factor * r[k];
+        }
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        for (int j = k + 1; j < n; j++) {
+            r[k] -= a[k * n + j] * r[j];
+        }
+        r[k] /= a[k * n + k];
+    }
+    return true;
+}
+
+/* The same equations by Newton's method with the Jacobian of every stage, for one member. */
+static bool implicit_newton(const struct gm_implicit_row *row, const double *y, double h,
+                            const void *parameters, double f[][GM_COMPONENTS], struct counts_scalar *counts)
+{
+    enum { NEWTON_ITERATIONS = 50, N = GM_COMPONENTS };
+    const int stages = row->stages, size = stages * N;
+    double z[GM_IMPLICIT_STAGES][N] = {{0}};
+    double matrix[GM_IMPLICIT_STAGES * N * GM_IMPLICIT_STAGES * N], right[GM_IMPLICIT_STAGES * N];
+    double previous = INFINITY;
+    for (int iteration = 0; iteration < NEWTON_ITERATIONS; iteration++) {
+        double scale = 0;
+        for (int j = 0; j < stages; j++) {
+            double stage[N], jacobian[N][N];
+            for (int c = 0; c < N; c++) {
+                stage[c] = y[c] + z[j][c];
+                scale += fabs(y[c]) + fabs(z[j][c]);
+            }
+            field_scalar(stage, f[j], parameters);
+            jacobian_scalar(stage, jacobian, parameters);
+            for (int i = 0; i < stages; i++) {
+                for (int r = 0; r < N; r++) {
+                    for (int c = 0; c < N; c++) {
+                        double unit = i == j && r == c ? 1 : 0;
+                        matrix[(i * N + r) * size + j * N + c] = unit - h * row->a[i][j] * jacobian[r][c];
+                    }
+                }
+            }
+        }
+        for (int i = 0; i < stages; i++) {
+            for (int c = 0; c < N; c++) {
+                double residual = -z[i][c];
+                for (int j = 0; j < stages; j++) {
+                    residual += h * row->a[i][j] * f[j][c];
+                }
+                right[i * N + c] = residual;
+            }
+        }
+        counts->evaluations += (unsigned long)stages;
+        counts->iterations++;
+        counts->solves++;
+        if (!implicit_eliminate(size, matrix, right)) {
+            return false;
+        }
+        double change = 0;
+        for (int i = 0; i < size; i++) {
+            change += fabs(right[i]);
+            z[i / N][i % N] += right[i];
+        }
+        if (!isfinite(change)) {
+            return false;
+        }
+        if (change == 0 || (change >= previous && change <= 64 * 2.220446049250313e-16 * scale)) {
+            return true;
+        }
+        previous = change;
+    }
+    return false;
+}
+
+#endif
+
+/* Lane by lane, for those in `which`. */
+static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_implicit_row *row, mask which,
+                                                            const real *y, double h, const void *parameters,
+                                                            real f[][GM_COMPONENTS],
+                                                            struct K(counts) * counts)
+{
+    mask solved = K(other)(K(all)());
+    for (int l = 0; l < GM_LANES; l++) {
+        if (!K(mask_lane)(which, l)) {
+            continue;
+        }
+        double state[GM_COMPONENTS], slope[GM_IMPLICIT_STAGES][GM_COMPONENTS];
+        for (int c = 0; c < GM_COMPONENTS; c++) {
+            state[c] = K(lane)(y[c], l);
+        }
+        struct counts_scalar cost = {.lanes = 1};
+        K(set_mask_lane)(&solved, l, implicit_newton(row, state, h, parameters, slope, &cost));
+        for (int i = 0; i < row->stages; i++) {
+            for (int c = 0; c < GM_COMPONENTS; c++) {
+                K(set_lane)(&f[i][c], l, slope[i][c]);
+            }
+        }
+        if (l < counts->lanes) {
+            counts->evaluations += cost.evaluations;
+            counts->iterations += cost.iterations;
+            counts->solves += cost.solves;
+        }
+    }
+    return solved;
+}
+
+GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int stages, struct K(block) * block,
+                                       double dt, const void *parameters, bool compensated, bool stiff,
+                                       struct K(counts) * counts)
+{
+    mask good = K(all)();
+    for (int substep = 0; substep < row->substeps; substep++) {
+        const double h = dt * row->fractions[substep];
+        real f[GM_IMPLICIT_STAGES][GM_COMPONENTS];
+        mask solved = K(other)(K(all)());
+        if (!stiff) {
+            solved = K(implicit_fixed_point)(row, stages, block->y, h, parameters, f, counts);
+        }
+        if (!K(everywhere)(solved)) {
+            solved |= K(implicit_by_newton)(row, K(other)(solved), block->y, h, parameters, f, counts);
+        }
+        good &= solved;
+        for (int c = 0; c < GM_COMPONENTS; c++) {
+            real increment = h * row->b[0] * f[0][c];
+            for (int i = 1; i < stages; i++) {
+                increment += h * row->b[i] * f[i][c];
+            }
+            K(add)(&block->y[c], &block->carry[c], increment, compensated);
+        }
+    }
+    return good;
+}
+
+/* The number of stages as a constant, so that the small loops unroll. */
+#define GM_IMPLICIT_STEP(count)                                                                              \
+    GM_INLINE mask K(implicit_step_##count)(const struct gm_implicit_row *row, struct K(block) * block,      \
+                                            double dt, const void *parameters, bool compensated, bool stiff, \
+                                            struct K(counts) * counts)                                       \
+    {                                                                                                        \
+        return K(implicit_step_stages)(row, count, block, dt, parameters, compensated, stiff, counts);       \
+    }
+GM_IMPLICIT_STEP(1)
+GM_IMPLICIT_STEP(2)
+GM_IMPLICIT_STEP(3)
+GM_IMPLICIT_STEP(4)
+#undef GM_IMPLICIT_STEP
+
+#define GM_ROW struct gm_implicit_row
+#define GM_DRIVE K(implicit_drive_1)
+#define GM_STEP K(implicit_step_1)
+#define GM_ABREAST 1
+#include "core/ode/kernel/drive.h"
+#define GM_ROW struct gm_implicit_row
+#define GM_DRIVE K(implicit_drive_2)
+#define GM_STEP K(implicit_step_2)
+#define GM_ABREAST 1
+#include "core/ode/kernel/drive.h"
+#define GM_ROW struct gm_implicit_row
+#define GM_DRIVE K(implicit_drive_3)
+#define GM_STEP K(implicit_step_3)
+#define GM_ABREAST 1
+#include "core/ode/kernel/drive.h"
+#define GM_ROW struct gm_implicit_row
+#define GM_DRIVE K(implicit_drive_4)
+#define GM_STEP K(implicit_step_4)
+#define GM_ABREAST 1
+#include "core/ode/kernel/drive.h"
+
+__attribute__((unused)) static struct gm_progress K(implicit_runge_kutta_run)(const struct gm_task *task)
+{
+    const struct gm_implicit_row *row = task->scheme->coefficients;
+    const bool compensated = task->carry != NULL;
+    switch (row->stages) {
+    case 1:
+        return K(implicit_drive_1)(task, row, compensated);
+    case 2:
+        return K(implicit_drive_2)(task, row, compensated);
+    case 3:
+        return K(implicit_drive_3)(task, row, compensated);
+    default:
+        return K(implicit_drive_4)(task, row, compensated);
+    }
+}

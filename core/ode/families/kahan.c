@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Kahan's method for a quadratic field:  y1 = y0 + h (I - h/2 f'(y0))^(-1) f(y0): products u v become
+   (u0 v1 + u1 v0)/2, which is linearly implicit and its own adjoint.
+   W. Kahan, Unconventional numerical methods for trajectory calculations (1993);
+   Celledoni, McLachlan, Owren & Quispel, J. Phys. A 46 (2013) 025201. */
+#include <stdlib.h>
+
+#include "core/ode/families/families.h"
+#include "core/ode/families/members.h"
+#include "core/ode/kernel/loops.h"
+
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
+{
+    const size_t n = members->n;
+    double *f = members->scratch, *matrix = f + n;
+    gm_field(task->problem, members->y, f, 1);
+    if (!gm_jacobian(task->problem, members->y, matrix)) {
+        return GM_NO_CONVERGENCE;
+    }
+    for (size_t i = 0; i < n * n; i++) {
+        matrix[i] = (i % (n + 1) == 0 ? 1 : 0) - 0.5 * task->dt * matrix[i];
+    }
+    progress->evaluations++;
+    progress->solves++;
+    if (!gm_eliminate(n, matrix, f)) {
+        return GM_NO_CONVERGENCE;
+    }
+    for (size_t c = 0; c < n; c++) {
+        members->y[c] += task->dt * f[c];
+    }
+    return GM_OK;
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return gm_members_open(problem, 0, problem->n + gm_matrix_size(problem));
+}
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "kahan2",
+        .title = "Kahan",
+        .formula = "y₁ = y₀ + h (I − h/2 f′(y₀))⁻¹ f(y₀),  f quadratic",
+        .reference = "W. Kahan (1993); Celledoni, McLachlan, Owren & Quispel, J. Phys. A 46 (2013) 025201",
+        .family = &gm_family_kahan,
+        .order = 2,
+        .needs = GM_NEEDS_QUADRATIC,
+        .claims = GM_SYMMETRIC | GM_REVERSIBLE,
+    },
+};
+
+const struct gm_family gm_family_kahan = {
+    .kind = &gm_kind_ode,
+    .title = "Kahan",
+    .schemes = schemes,
+    .count = sizeof schemes / sizeof schemes[0],
+    .loop = loop,
+    .workspace_open = workspace_open,
+    .workspace_close = free,
+};

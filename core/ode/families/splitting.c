@@ -1,0 +1,306 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Splitting methods for H(q, p) = T(p) + V(q): compositions of the exact flows
+       drift  q := q + c h dT/dp(p),      kick  p := p - c h dV/dq(q).
+   Each flow is symplectic, so is every composition. An invariant q' A p of H has {q' A p, T} + {q' A p, V} =
+   0, of which the first depends on p alone and the second on q alone: both vanish, and each flow keeps it.
+   McLachlan & Quispel, Acta Numerica 11 (2002) 341; Hairer, Lubich & Wanner (2006), section II.5. */
+#include "core/ode/families/splitting.h"
+
+#include "core/ode/families/compositions.h"
+#include "core/ode/families/families.h"
+#include "core/ode/kernel/loops.h"
+
+#define DRIFT(c)                                                                                             \
+    {                                                                                                        \
+        GM_DRIFT, c                                                                                          \
+    }
+#define KICK(c)                                                                                              \
+    {                                                                                                        \
+        GM_KICK, c                                                                                           \
+    }
+
+static const struct gm_splitting symplectic_euler = {2, {KICK(1), DRIFT(1)}};
+static const struct gm_splitting symplectic_euler_adjoint = {2, {DRIFT(1), KICK(1)}};
+static const struct gm_splitting verlet = {3, {KICK(0.5), DRIFT(1), KICK(0.5)}};
+static const struct gm_splitting verlet_position = {3, {DRIFT(0.5), KICK(1), DRIFT(0.5)}};
+static const struct gm_splitting ruth3 = {
+    6, {DRIFT(1), KICK(-1. / 24), DRIFT(-2. / 3), KICK(3. / 4), DRIFT(2. / 3), KICK(7. / 24)}};
+
+/* Palindromes, of which half is written down: pieces of one kind on the odd places, of the other on the even.
+ */
+#define SYMMETRIC_5(ODD, EVEN, a, b) ODD(a), EVEN(b), ODD(1 - 2 * (a)), EVEN(b), ODD(a)
+#define SYMMETRIC_9(ODD, EVEN, a, b, c, d, e)                                                                \
+    ODD(a), EVEN(b), ODD(c), EVEN(d), ODD(e), EVEN(d), ODD(c), EVEN(b), ODD(a)
+#define SYMMETRIC_13(ODD, EVEN, a, b, c, d, e, f, g)                                                         \
+    ODD(a), EVEN(b), ODD(c), EVEN(d), ODD(e), EVEN(f), ODD(g), EVEN(f), ODD(e), EVEN(d), ODD(c), EVEN(b),    \
+        ODD(a)
+
+static const struct gm_splitting mclachlan2 = {5, {SYMMETRIC_5(KICK, DRIFT, 0.1931833275037836, 0.5)}};
+
+#define XI 0.1786178958448091
+#define LAMBDA -0.2123418310626054
+#define CHI -0.06626458266981849
+static const struct gm_splitting pefrl4 = {
+    9, {SYMMETRIC_9(DRIFT, KICK, XI, 0.5 - LAMBDA, CHI, LAMBDA, 1 - 2 * (CHI + XI))}};
+
+#define A1 0.0792036964311957
+#define A2 0.353172906049774
+#define A3 -0.0420650803577195
+#define B1 0.209515106613362
+#define B2 -0.143851773179818
+static const struct gm_splitting blanes_moan4 = {
+    13, {SYMMETRIC_13(DRIFT, KICK, A1, B1, A2, B2, A3, 0.5 - (B1 + B2), 1 - 2 * (A1 + A2 + A3))}};
+#undef A1
+#undef A2
+#undef A3
+#undef B1
+#undef B2
+
+#define A1 0.245298957184271
+#define A2 0.604872665711080
+#define B1 0.0829844064174052
+#define B2 0.396309801498368
+#define B3 -0.0390563049223486
+static const struct gm_splitting blanes_moan_nystrom4 = {
+    13, {SYMMETRIC_13(KICK, DRIFT, B1, A1, B2, A2, B3, 0.5 - (A1 + A2), 1 - 2 * (B1 + B2 + B3))}};
+#undef A1
+#undef A2
+#undef B1
+#undef B2
+#undef B3
+
+#define A1 0.123229775946271
+#define A2 0.290553797799558
+#define A3 -0.127049212625417
+#define A4 -0.246331761062075
+#define A5 0.357208872795928
+#define A6 (1 - 2 * (A1 + A2 + A3 + A4 + A5))
+#define B1 0.0414649985182624
+#define B2 0.198128671918067
+#define B3 -0.0400061921041533
+#define B4 0.0752539843015807
+#define B5 -0.0115113874206879
+#define B6 (0.5 - (B1 + B2 + B3 + B4 + B5))
+static const struct gm_splitting blanes_moan_nystrom6 = {
+    23, {KICK(B1), DRIFT(A1), KICK(B2), DRIFT(A2), KICK(B3), DRIFT(A3), KICK(B4), DRIFT(A4),
+         KICK(B5), DRIFT(A5), KICK(B6), DRIFT(A6), KICK(B6), DRIFT(A5), KICK(B5), DRIFT(A4),
+         KICK(B4), DRIFT(A3), KICK(B3), DRIFT(A2), KICK(B2), DRIFT(A1), KICK(B1)}};
+
+/* Compositions of kick-drift-kick Verlet; kicks that meet are one. */
+#define FIRST(g) KICK((g) / 2), DRIFT(g)
+#define NEXT(g, next) KICK(((g) + (next)) / 2), DRIFT(next)
+#define LAST(g) KICK((g) / 2)
+#define VERLET_3(a, b) FIRST(a), NEXT(a, b), NEXT(b, a), LAST(a)
+#define VERLET_5(a, b, c) FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, b), NEXT(b, a), LAST(a)
+#define VERLET_7(a, b, c, d)                                                                                 \
+    FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, d), NEXT(d, c), NEXT(c, b), NEXT(b, a), LAST(a)
+#define VERLET_9(a, b, c, d, e)                                                                              \
+    FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, d), NEXT(d, e), NEXT(e, d), NEXT(d, c), NEXT(c, b),            \
+        NEXT(b, a), LAST(a)
+#define VERLET_15(a, b, c, d, e, f, g, h)                                                                    \
+    FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, d), NEXT(d, e), NEXT(e, f), NEXT(f, g), NEXT(g, h),            \
+        NEXT(h, g), NEXT(g, f), NEXT(f, e), NEXT(e, d), NEXT(d, c), NEXT(c, b), NEXT(b, a), LAST(a)
+#define VERLET_17(a, b, c, d, e, f, g, h, i)                                                                 \
+    FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, d), NEXT(d, e), NEXT(e, f), NEXT(f, g), NEXT(g, h),            \
+        NEXT(h, i), NEXT(i, h), NEXT(h, g), NEXT(g, f), NEXT(f, e), NEXT(e, d), NEXT(d, c), NEXT(c, b),      \
+        NEXT(b, a), LAST(a)
+static const struct gm_splitting yoshida4 = {7, {GM_YOSHIDA4(VERLET_3)}};
+static const struct gm_splitting suzuki4 = {11, {GM_SUZUKI4(VERLET_5)}};
+static const struct gm_splitting mclachlan4 = {11, {GM_MCLACHLAN4(VERLET_5)}};
+static const struct gm_splitting yoshida6 = {15, {GM_YOSHIDA6(VERLET_7)}};
+static const struct gm_splitting kahan_li6 = {19, {GM_KAHAN_LI6(VERLET_9)}};
+static const struct gm_splitting suzuki_umeno8 = {31, {GM_SUZUKI_UMENO8(VERLET_15)}};
+static const struct gm_splitting kahan_li8 = {35, {GM_KAHAN_LI8(VERLET_17)}};
+
+#define SPLITTING .family = &gm_family_splitting, .needs = GM_NEEDS_SPLIT
+#define NYSTROM .family = &gm_family_splitting, .needs = GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM
+#define SYMPLECTIC (GM_SYMPLECTIC | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR)
+#define SYMMETRIC (SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE)
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "symplectic-euler",
+        .title = "symplectic Euler",
+        .formula = "p₁ = p₀ − h ∂H/∂q(q₀),  q₁ = q₀ + h ∂H/∂p(p₁)",
+        .reference = "R. de Vogelaere (1956); Razafindralandy et al. (2018), eq. 24",
+        .coefficients = &symplectic_euler,
+        .order = 1,
+        .claims = SYMPLECTIC,
+        SPLITTING,
+    },
+    {
+        .name = "symplectic-euler-adjoint",
+        .title = "symplectic Euler (adjoint)",
+        .formula = "q₁ = q₀ + h ∂H/∂p(p₀),  p₁ = p₀ − h ∂H/∂q(q₁)",
+        .reference = "Hairer, Lubich & Wanner (2006), VI.3",
+        .coefficients = &symplectic_euler_adjoint,
+        .order = 1,
+        .claims = SYMPLECTIC,
+        SPLITTING,
+    },
+    {
+        .name = "verlet",
+        .title = "Verlet",
+        .formula = "p½ = p₀ − h/2 ∂V(q₀),  q₁ = q₀ + h ∂T(p½),  p₁ = p½ − h/2 ∂V(q₁)",
+        .reference = "L. Verlet, Phys. Rev. 159 (1967) 98; C. Størmer (1907)",
+        .coefficients = &verlet,
+        .order = 2,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "verlet-position",
+        .title = "Verlet (position)",
+        .formula = "q½ = q₀ + h/2 ∂T(p₀),  p₁ = p₀ − h ∂V(q½),  q₁ = q½ + h/2 ∂T(p₁)",
+        .reference = "Hairer, Lubich & Wanner (2006), I.1.4",
+        .coefficients = &verlet_position,
+        .order = 2,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "mclachlan2",
+        .title = "McLachlan 2",
+        .formula = "kick λ, drift 1/2, kick 1 − 2λ, drift 1/2, kick λ,  λ = 0.19318…",
+        .reference =
+            "R.I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; Omelyan, Mryglod & Folk, Comput. Phys. Commun. 146 (2002) 188",
+        .coefficients = &mclachlan2,
+        .order = 2,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "ruth3",
+        .title = "Ruth 3",
+        .formula = "drift 1, kick −1/24, drift −2/3, kick 3/4, drift 2/3, kick 7/24",
+        .reference = "R.D. Ruth, IEEE Trans. Nucl. Sci. 30 (1983) 2669",
+        .coefficients = &ruth3,
+        .order = 3,
+        .claims = SYMPLECTIC,
+        SPLITTING,
+    },
+    {
+        .name = "yoshida4",
+        .title = "Yoshida 4",
+        .formula = "three Verlet steps of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2)",
+        .reference =
+            "E. Forest & R.D. Ruth, Physica D 43 (1990) 105; H. Yoshida, Phys. Lett. A 150 (1990) 262",
+        .coefficients = &yoshida4,
+        .order = 4,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "suzuki4",
+        .title = "Suzuki 4",
+        .formula = "five Verlet steps of lengths bh, bh, (1 − 4b)h, bh, bh,  b = 1/(4 − ∛4)",
+        .reference = "M. Suzuki, Phys. Lett. A 146 (1990) 319",
+        .coefficients = &suzuki4,
+        .order = 4,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "mclachlan4",
+        .title = "McLachlan 4",
+        .formula = "five Verlet steps of lengths γ₁h, γ₂h, γ₃h, γ₂h, γ₁h,  γ₁ = 0.28",
+        .reference = "R.I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151",
+        .coefficients = &mclachlan4,
+        .order = 4,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "pefrl4",
+        .title = "PEFRL 4",
+        .formula = "drift ξ, kick 1/2 − λ, drift χ, kick λ, drift 1 − 2(χ + ξ), and back",
+        .reference = "Omelyan, Mryglod & Folk, Comput. Phys. Commun. 146 (2002) 188",
+        .coefficients = &pefrl4,
+        .order = 4,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "blanes-moan4",
+        .title = "Blanes-Moan 4",
+        .formula = "drift a₁, kick b₁, drift a₂, kick b₂, drift a₃, kick b₃, drift a₄, and back",
+        .reference = "S. Blanes & P.C. Moan, J. Comput. Appl. Math. 142 (2002) 313, S6 of order 4",
+        .coefficients = &blanes_moan4,
+        .order = 4,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "blanes-moan-nystrom4",
+        .title = "Blanes-Moan Nyström 4",
+        .formula = "kick b₁, drift a₁, kick b₂, drift a₂, kick b₃, drift a₃, kick b₄, and back;  T quadratic",
+        .reference =
+            "S. Blanes & P.C. Moan, J. Comput. Appl. Math. 142 (2002) 313, Runge-Kutta-Nyström, 6 stages",
+        .coefficients = &blanes_moan_nystrom4,
+        .order = 4,
+        .claims = SYMMETRIC,
+        NYSTROM,
+    },
+    {
+        .name = "yoshida6",
+        .title = "Yoshida 6",
+        .formula = "seven Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
+        .reference = "H. Yoshida, Phys. Lett. A 150 (1990) 262, solution A",
+        .coefficients = &yoshida6,
+        .order = 6,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "kahan-li6",
+        .title = "Kahan-Li 6",
+        .formula = "nine Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
+        .reference = "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089",
+        .coefficients = &kahan_li6,
+        .order = 6,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "blanes-moan-nystrom6",
+        .title = "Blanes-Moan Nyström 6",
+        .formula = "kick b₁, drift a₁, …, kick b₆, drift a₆, and back;  T quadratic",
+        .reference =
+            "S. Blanes & P.C. Moan, J. Comput. Appl. Math. 142 (2002) 313, Runge-Kutta-Nyström, 11 stages",
+        .coefficients = &blanes_moan_nystrom6,
+        .order = 6,
+        .claims = SYMMETRIC,
+        NYSTROM,
+    },
+    {
+        .name = "suzuki-umeno8",
+        .title = "Suzuki-Umeno 8",
+        .formula = "fifteen Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
+        .reference =
+            "M. Suzuki & K. Umeno, in: Computer Simulation Studies in Condensed-Matter Physics VI (1993) 74; "
+            "Hairer, Lubich & Wanner (2006), section V.3.2",
+        .coefficients = &suzuki_umeno8,
+        .order = 8,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+    {
+        .name = "kahan-li8",
+        .title = "Kahan-Li 8",
+        .formula = "seventeen Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
+        .reference = "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089",
+        .coefficients = &kahan_li8,
+        .order = 8,
+        .claims = SYMMETRIC,
+        SPLITTING,
+    },
+};
+
+const struct gm_family gm_family_splitting = {
+    .kind = &gm_kind_ode,
+    .over_kernels = GM_OVER_SPLITTING,
+    .title = "splitting",
+    .schemes = schemes,
+    .count = sizeof schemes / sizeof schemes[0],
+    .parameters = gm_settings_of_sums,
+};

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One pass of the splitting family; see core/ode/kernel/pass.h. The table is read at run time: a row is data.
+ */
+
+/* The force is kept from the last kick of a step to the first of the next, where q has not moved between, and
+   is counted once, even where a call ends in between and it is computed again. */
+GM_INLINE mask K(splitting_step)(const struct gm_splitting *table, struct K(block) * block, double h,
+                                 const void *parameters, bool compensated, bool stiff,
+                                 struct K(counts) * counts)
+{
+    (void)stiff;
+    enum { HALF = GM_COMPONENTS / 2 };
+    const bool ends_with_kick = table->pieces[table->count - 1].piece == GM_KICK;
+#pragma GCC unroll 3
+    for (int i = 0; i < table->count; i++) {
+        const double c = table->pieces[i].fraction * h;
+        if (table->pieces[i].piece == GM_DRIFT) {
+            real velocity[HALF];
+            K(velocity)(block->y + HALF, velocity, parameters);
+            for (int k = 0; k < HALF; k++) {
+                K(add)(&block->y[k], &block->carry[k], c * velocity[k], compensated);
+            }
+            block->force_known = false;
+            continue;
+        }
+        if (!block->force_known) {
+            K(force)(block->y, block->force, parameters);
+            block->force_known = true;
+            const bool counted = i == 0 && ends_with_kick && counts->continued;
+            counts->evaluations += counted ? 0 : (unsigned long)counts->lanes;
+        }
+        for (int k = 0; k < HALF; k++) {
+            K(add)(&block->y[HALF + k], &block->carry[HALF + k], c * block->force[k], compensated);
+        }
+    }
+    return K(all)();
+}
+
+#define GM_DRIVE K(splitting_drive)
+#define GM_ROW struct gm_splitting
+#define GM_STEP K(splitting_step)
+#define GM_ABREAST K(ABREAST)
+#include "core/ode/kernel/drive.h"
+
+/* Kick, drift, kick with the kinds of its pieces known to the compiler: half the time of the table's loop. */
+GM_INLINE struct gm_progress K(splitting_by_three)(const struct gm_task *task,
+                                                   const struct gm_splitting *table)
+{
+    const struct gm_splitting known = {3,
+                                       {{GM_KICK, table->pieces[0].fraction},
+                                        {GM_DRIFT, table->pieces[1].fraction},
+                                        {GM_KICK, table->pieces[2].fraction}}};
+    return K(splitting_drive)(task, &known, false);
+}
+
+__attribute__((unused)) static struct gm_progress K(splitting_run)(const struct gm_task *task)
+{
+    const struct gm_splitting *table = task->scheme->coefficients;
+    if (table->count == 3 && table->pieces[0].piece == GM_KICK && table->pieces[1].piece == GM_DRIFT &&
+        table->pieces[2].piece == GM_KICK && !task->carry) {
+        return K(splitting_by_three)(task, table);
+    }
+    return task->carry ? K(splitting_drive)(task, table, true) : K(splitting_drive)(task, table, false);
+}

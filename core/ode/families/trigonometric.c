@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Trigonometric methods for q'' = -omega^2 q + g(q): a kick, the exact flow of the stiff linear part, a kick:
+       p += h/2 a g(phi q),   (q, p) := rotation by h omega,   p += h/2 a g(phi q),
+   phi and a diagonal, functions of h omega; the filter psi is a sinc(h omega).
+       impulse (Verlet-I, r-RESPA)  phi = 1,     a = 1
+       mollified impulse            phi = sinc,  a = sinc           symplectic: a = phi
+       Gautschi                     phi = 1,     a = sinc^2(h omega / 2) / sinc(h omega)
+   The memory is g(phi q) at the end of the step, which the next one begins with.
+   Hairer, Lubich & Wanner (2006), sections XIII.1 to XIII.2. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/ode/families/families.h"
+#include "core/ode/families/members.h"
+
+enum filter { IMPULSE, MOLLIFIED, GAUTSCHI };
+static const enum filter impulse = IMPULSE, mollified = MOLLIFIED, gautschi = GAUTSCHI;
+
+static double sinc(double x)
+{
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+}
+
+/* phi and a at h omega */
+static void filters(enum filter filter, double x, double *phi, double *a)
+{
+    const double half = sinc(x / 2);
+    *phi = filter == MOLLIFIED ? sinc(x) : 1;
+    *a = filter == IMPULSE ? 1 : filter == MOLLIFIED ? sinc(x) : half * half / sinc(x);
+}
+
+/* g(phi q) of member `member` of m, into g[component * stride] */
+static void filtered_force(const struct gm_task *task, const double *q, size_t stride, double *at,
+                           double *force, double *g)
+{
+    const struct gm_problem *problem = task->problem;
+    const enum filter filter = *(const enum filter *)task->scheme->coefficients;
+    const size_t half = problem->n / 2;
+    for (size_t c = 0; c < half; c++) {
+        double phi, a;
+        filters(filter, task->dt * gm_ode_of(problem)->fast_linear->frequency(problem, c), &phi, &a);
+        at[c] = phi * q[c * stride];
+    }
+    gm_ode_of(problem)->fast_linear->slow_force(problem, at, force, 1);
+    for (size_t c = 0; c < half; c++) {
+        g[c * stride] = force[c];
+    }
+}
+
+/* The coefficients of one component, kept in the scratch while the step stays the same. */
+struct component {
+    double kick, cosine, sine_over_omega, omega_sine;
+};
+enum { PER_COMPONENT = sizeof(struct component) / sizeof(double) };
+
+/* The scratch: the step that the coefficients are for, two arrays of n/2, the coefficients. */
+static struct component *components(const struct gm_task *task, struct gm_members *members)
+{
+    const struct gm_problem *problem = task->problem;
+    const size_t half = members->n / 2;
+    struct component *list = (struct component *)(void *)(members->scratch + 1 + 2 * half);
+    if (members->scratch[0] == task->dt) {
+        return list;
+    }
+    members->scratch[0] = task->dt;
+    for (size_t c = 0; c < half; c++) {
+        const double omega = gm_ode_of(problem)->fast_linear->frequency(problem, c), x = task->dt * omega;
+        double phi, a;
+        filters(*(const enum filter *)task->scheme->coefficients, x, &phi, &a);
+        list[c] = (struct component){.kick = task->dt / 2 * a,
+                                     .cosine = cos(x),
+                                     .sine_over_omega = task->dt * sinc(x),
+                                     .omega_sine = omega * sin(x)};
+    }
+    return list;
+}
+
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
+{
+    const size_t half = members->n / 2;
+    const struct component *list = components(task, members);
+    double *q = members->y, *p = members->y + half, *g = members->memory;
+    for (size_t c = 0; c < half; c++) {
+        const double kicked = p[c] + list[c].kick * g[c], before = q[c];
+        q[c] = list[c].cosine * before + list[c].sine_over_omega * kicked;
+        p[c] = list[c].cosine * kicked - list[c].omega_sine * before;
+    }
+    filtered_force(task, q, 1, members->scratch + 1, members->scratch + 1 + half, g);
+    progress->evaluations++;
+    for (size_t c = 0; c < half; c++) {
+        p[c] += list[c].kick * g[c];
+    }
+    return GM_OK;
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    struct gm_progress progress = gm_members_advance(task, step);
+    if (task->steps_before == 0) {
+        progress.evaluations += task->problem->m; /* of start */
+    }
+    return progress;
+}
+
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return problem->n / 2 * problem->m;
+}
+
+static enum gm_status start(const struct gm_task *task)
+{
+    struct gm_members *members = task->workspace;
+    const size_t m = task->problem->m, half = task->problem->n / 2;
+    for (size_t i = 0; i < m; i++) {
+        filtered_force(task, task->y + i, m, members->scratch + 1, members->scratch + 1 + half,
+                       task->memory_out + i);
+    }
+    return GM_OK;
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    const size_t half = problem->n / 2;
+    return gm_members_open(problem, half, 1 + 2 * half + PER_COMPONENT * half);
+}
+
+#define TRIGONOMETRIC .family = &gm_family_trigonometric, .order = 2, .needs = GM_NEEDS_FAST_LINEAR
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "impulse2",
+        .title = "impulse",
+        .formula = "p += h/2 g(q);  (q, p) := flow of q″ = −ω²q over h;  p += h/2 g(q)",
+        .reference =
+            "Grubmüller, Heller, Windemuth & Schulten, Mol. Simul. 6 (1991) 121; Tuckerman, Berne & Martyna, "
+            "J. Chem. Phys. 97 (1992) 1990",
+        .coefficients = &impulse,
+        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE,
+        TRIGONOMETRIC,
+    },
+    {
+        .name = "mollified2",
+        .title = "mollified impulse",
+        .formula = "p += h/2 a g(aq);  (q, p) := flow of q″ = −ω²q over h;  p += h/2 a g(aq),  a = sinc hω",
+        .reference = "García-Archilla, Sanz-Serna & Skeel, SIAM J. Sci. Comput. 20 (1999) 930",
+        .coefficients = &mollified,
+        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE,
+        TRIGONOMETRIC,
+    },
+    {
+        .name = "gautschi2",
+        .title = "Gautschi",
+        .formula = "p += h/2 a g(q);  (q, p) := flow of q″ = −ω²q over h;  p += h/2 a g(q),\n"
+                   "a = sinc²(hω/2)/sinc hω",
+        .reference = "W. Gautschi, Numer. Math. 3 (1961) 381; Hairer, Lubich & Wanner (2006), XIII.1.2",
+        .coefficients = &gautschi,
+        .claims = GM_SYMMETRIC | GM_REVERSIBLE,
+        TRIGONOMETRIC,
+    },
+};
+
+const struct gm_family gm_family_trigonometric = {
+    .kind = &gm_kind_ode,
+    .title = "trigonometric",
+    .schemes = schemes,
+    .count = sizeof schemes / sizeof schemes[0],
+    .loop = loop,
+    .memory = memory,
+    .start = start,
+    .workspace_open = workspace_open,
+    .workspace_close = free,
+};

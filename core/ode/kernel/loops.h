@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_ODE_KERNEL_LOOPS_H
+#define GM_CORE_ODE_KERNEL_LOOPS_H
+
+#include "core/ode/ode.h"
+
+/* The families that have a loop over kernels: gm_family.over_kernels. */
+enum { GM_OVER_NONE, GM_OVER_EXPLICIT, GM_OVER_IMPLICIT, GM_OVER_SPLITTING, GM_OVER_COUNT };
+
+/* What core/ode/kernel/loops.c makes of a problem's kernels for one instruction set. */
+struct gm_loops {
+    /* f(y) of the active components of m members */
+    void (*field)(const struct gm_problem *problem, const double *y, double *f, size_t m);
+    /* the Jacobian of one member, n * n row by row; NULL where n is chosen at run time */
+    void (*jacobian)(const struct gm_problem *problem, const double *y, double *jacobian);
+    /* The velocities of `count` passive particles at (x, y), carried by the active components `active`; if
+       strain is not NULL also their derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
+    void (*passive)(const struct gm_problem *problem, const double *active, const double *x, const double *y,
+                    double *velocity_x, double *velocity_y, double *strain, size_t count);
+    gm_loop *over_kernels[GM_OVER_COUNT]; /* NULL: the problem lacks what the family needs */
+};
+
+#define GM_LOOPS_NAME(problem, isa) GM_LOOPS_NAME_(problem, isa)
+#define GM_LOOPS_NAME_(problem, isa) gm_loops_##problem##_##isa
+
+/* Declares, and lists, a problem's loops; GM_LOOPS_X86 is set where the build made the wider ones. */
+#ifdef GM_LOOPS_X86
+#define GM_LOOPS_DECLARE(problem)                                                                            \
+    extern const struct gm_loops gm_loops_##problem##_baseline, gm_loops_##problem##_avx2,                   \
+        gm_loops_##problem##_avx512;
+#define GM_LOOPS(problem)                                                                                    \
+    {                                                                                                        \
+        &gm_loops_##problem##_baseline, &gm_loops_##problem##_avx2, &gm_loops_##problem##_avx512             \
+    }
+#else
+#define GM_LOOPS_DECLARE(problem) extern const struct gm_loops gm_loops_##problem##_baseline;
+#define GM_LOOPS(problem)                                                                                    \
+    {                                                                                                        \
+        &gm_loops_##problem##_baseline                                                                       \
+    }
+#endif
+
+/* f(y) of the active components of m members, whichever way the problem gives it. */
+void gm_field(const struct gm_problem *problem, const double *y, double *f, size_t m);
+
+/* The best instruction set of this machine and build: an index into gm_ode_of(problem)->loops. */
+enum gm_isa gm_isa_best(void);
+const char *gm_isa_name(enum gm_isa isa);
+
+#endif

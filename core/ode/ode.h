@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_ODE_ODE_H
+#define GM_CORE_ODE_ODE_H
+
+#include "core/kind.h"
+
+struct gm_loops; /* core/ode/kernel/loops.h */
+
+/* Ordinary differential equations y' = f(y) and the structure that they may have. All arrays are
+   component-major, [component * m + member], for the m members passed. */
+
+/* Instruction sets that loops are compiled for. */
+enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
+
+/* H(q, p) = T(p) + V(q): exact flows of two parts; q are the first n / 2 components */
+struct gm_split {
+    bool nystrom; /* T is quadratic */
+};
+
+/* q' = w dH/dp, p' = -w dH/dq with q the first n / 2 components and w = weight(problem) (NULL: 1). So the
+   gradient of H is made of the field: dH/dq = -p' / w, dH/dp = q' / w. */
+struct gm_hamiltonian {
+    void (*energy)(const struct gm_problem *problem, const double *y, double *energy, size_t m);
+    double (*weight)(const struct gm_problem *problem);
+    bool partial; /* `energy` is that of the first of several copies, as where tangent vectors are carried
+                     along */
+};
+
+/* L(q, v) = v^2/2 - V(q), one degree of freedom: values[0..2] = V, V', V'' at q */
+struct gm_lagrangian {
+    void (*potential)(const struct gm_problem *problem, double q, double values[3]);
+};
+
+/* H = |p|^2/2 + sum_i omega_i^2 q_i^2 / 2 + U(q): a stiff linear part that is solved exactly */
+struct gm_fast_linear {
+    double (*frequency)(const struct gm_problem *problem,
+                        size_t i); /* omega_i of component i < n / 2; 0: slow */
+    /* -dU/dq (n/2 * m) */
+    void (*slow_force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
+};
+
+/* H = |p|^2/2 + V(q), V = -1/|q| + W(q) < 0 in the plane, (q1, q2, p1, p2) */
+struct gm_kepler_split {
+    void (*potential)(const struct gm_problem *problem, const double *q, double *potential, size_t m); /* V */
+    void (*perturbing_force)(const struct gm_problem *problem, const double *q, double *force,
+                             size_t m); /* -dW/dq */
+};
+
+/* f = f_0 + ... + f_(pieces - 1), each without divergence and with an exact flow */
+struct gm_volume {
+    size_t pieces;
+    void (*flow)(const struct gm_problem *problem, size_t piece, double h, double *y,
+                 size_t m); /* in place */
+};
+
+/* The facets of a system. Where n is a constant, loops hold loops over the problem's kernels. Where n is
+   chosen at run time (vortices) they hold none, and a family steps through gm_field if it can. */
+enum gm_ode_facet {
+    GM_NEEDS_SPLIT = 1u << 0,
+    GM_NEEDS_HAMILTONIAN = 1u << 1,
+    GM_NEEDS_LAGRANGIAN = 1u << 2,
+    GM_NEEDS_FAST_LINEAR = 1u << 3,
+    GM_NEEDS_KEPLER_SPLIT = 1u << 4,
+    GM_NEEDS_VOLUME = 1u << 5,
+    GM_NEEDS_QUADRATIC = 1u << 6,   /* the field is quadratic */
+    GM_NEEDS_NYSTROM = 1u << 7,     /* a split whose kinetic energy is quadratic */
+    GM_NEEDS_INSEPARABLE = 1u << 8, /* a hamiltonian without a split */
+    GM_NEEDS_ENERGY = 1u << 9,      /* a hamiltonian whose energy generates the whole field */
+};
+struct gm_ode {
+    bool stiff;     /* implicit equations are solved by Newton's method from the first iteration on */
+    bool quadratic; /* f is a polynomial of degree 2 */
+    const struct gm_split *split; /* NULL: it has none, and so on */
+    const struct gm_hamiltonian *hamiltonian;
+    const struct gm_lagrangian *lagrangian;
+    const struct gm_fast_linear *fast_linear;
+    const struct gm_kepler_split *kepler_split;
+    const struct gm_volume *volume;
+    const struct gm_loops *loops[GM_ISA_COUNT]; /* made of the problem's kernels by core/ode/kernel/loops.c */
+};
+
+extern const struct gm_kind gm_kind_ode;
+
+static inline const struct gm_ode *gm_ode_of(const struct gm_problem *problem)
+{
+    return problem->facets;
+}
+
+#endif

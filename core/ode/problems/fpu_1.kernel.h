@@ -1,0 +1,3 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#define GM_SPRINGS 1
+#include "core/ode/problems/fpu.kernel.h"

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Point vortices of equal strength g = *(const double *)parameters in the plane, H = -(1/2 pi) sum_(i<j) g^2
+   ln r_ij. H. Aref, Annu. Rev. Fluid Mech. 15 (1983) 345; Razafindralandy et al. (2018), eq. 30, whose factor
+   and sense of rotation are mended: with q_i = g x_i, p_i = y_i these are Hamilton's equations. */
+#include <math.h>
+
+#include "core/ode/kernel/loops.h"
+#include "core/ode/problems/problems.h"
+
+GM_LOOPS_DECLARE(vortices)
+GM_LOOPS_DECLARE(vortices_four)
+GM_LOOPS_DECLARE(vortices_reduced)
+GM_LOOPS_DECLARE(vortices_reduced_carrying)
+
+static double strength(const struct gm_problem *problem)
+{
+    return *(const double *)problem->parameters;
+}
+
+static double inverse_strength(const struct gm_problem *problem)
+{
+    return 1 / strength(problem);
+}
+
+/* A vortex that is carried stands for two. */
+static double inverse_of_two(const struct gm_problem *problem)
+{
+    return 1 / (2 * strength(problem));
+}
+
+static void energy(const struct gm_problem *problem, const double *state, double *value, size_t m)
+{
+    const size_t count = (problem->n - 2 * problem->passive) / 2;
+    const double factor = strength(problem) * strength(problem) / (4 * M_PI);
+    for (size_t k = 0; k < m; k++) {
+        const double *x = state + k, *y = state + count * m + k;
+        /* one logarithm for many pairs: the product of their squared distances, while it is a number of note
+         */
+        double sum = 0, product = 1;
+        for (size_t i = 0; i < count; i++) {
+            for (size_t j = i + 1; j < count; j++) {
+                const double dx = x[i * m] - x[j * m], dy = y[i * m] - y[j * m];
+                const double longer = product * (dx * dx + dy * dy);
+                if (longer > 1e-150 && longer < 1e150) {
+                    product = longer;
+                } else {
+                    sum += log(product) + log(dx * dx + dy * dy);
+                    product = 1;
+                }
+            }
+        }
+        sum += log(product);
+        value[k] = -factor * sum;
+    }
+}
+
+static void reduced_energy(const struct gm_problem *problem, const double *state, double *value, size_t m)
+{
+    const double factor = strength(problem) * strength(problem) / (4 * M_PI);
+    for (size_t k = 0; k < m; k++) {
+        const double x1 = state[k], x2 = state[m + k], y1 = state[2 * m + k], y2 = state[3 * m + k];
+        const double dx = x1 - x2, dy = y1 - y2, sx = x1 + x2, sy = y1 + y2;
+        value[k] = -factor * (2 * log(dx * dx + dy * dy) + 2 * log(sx * sx + sy * sy) +
+                              log(4 * (x1 * x1 + y1 * y1)) + log(4 * (x2 * x2 + y2 * y2)));
+    }
+}
+
+static const struct gm_hamiltonian full = {.energy = energy, .weight = inverse_strength};
+static const struct gm_hamiltonian halved = {.energy = reduced_energy, .weight = inverse_of_two};
+
+#define VORTICES(components, its_hamiltonian, its_loops)                                                     \
+    {                                                                                                        \
+        .name = "vortices", .kind = &gm_kind_ode, .n = (components), .m = 1,                                 \
+        .facets = &(const struct gm_ode)                                                                     \
+        {                                                                                                    \
+            .hamiltonian = &(its_hamiltonian), .loops = GM_LOOPS(its_loops)                                  \
+        }                                                                                                    \
+    }
+
+const struct gm_problem gm_problem_vortices = VORTICES(8, full, vortices);
+const struct gm_problem gm_problem_vortices_four = VORTICES(8, full, vortices_four);
+const struct gm_problem gm_problem_vortices_reduced = VORTICES(4, halved, vortices_reduced);
+const struct gm_problem gm_problem_vortices_reduced_carrying = VORTICES(4, halved, vortices_reduced_carrying);

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sums of Kirchhoff's equations for any number of vortices, and the velocities of passive particles,
+   compiled once for each instruction set GM_ISA. Blocks have eight lanes on every instruction set, so the
+   order of the additions, and with it every bit, is the same. */
+#include <math.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+
+enum { LANES = 8 };
+typedef double lanes __attribute__((vector_size(LANES * 8)));
+
+static inline lanes load(const double *from)
+{
+    lanes value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
+static inline void store(double *to, lanes value)
+{
+    memcpy(to, &value, sizeof value);
+}
+
+static inline double sum_of(lanes value)
+{
+    return ((value[0] + value[4]) + (value[2] + value[6])) + ((value[1] + value[5]) + (value[3] + value[7]));
+}
+
+static double factor_of(const struct gm_problem *problem)
+{
+    return *(const double *)problem->parameters / (2 * M_PI);
+}
+
+/* Each pair once: what j gives to i, i gives to j with the opposite sign. */
+static void pair_sum(const struct gm_problem *problem, const double *state, double *f, size_t m)
+{
+    (void)m;
+    const size_t count = (problem->n - 2 * problem->passive) / 2;
+    const double *x = state, *y = state + count;
+    double *sum_x = f + count, *sum_y = f;
+    memset(f, 0, 2 * count * sizeof *f);
+    for (size_t i = 0; i < count; i++) {
+        const double x_i = x[i], y_i = y[i];
+        lanes mine_x = {0}, mine_y = {0};
+        size_t j = i + 1;
+        for (; j + LANES <= count; j += LANES) {
+            const lanes dx = x_i - load(x + j), dy = y_i - load(y + j);
+            const lanes inverse = 1 / (dx * dx + dy * dy);
+            const lanes give_x = dx * inverse, give_y = dy * inverse;
+            mine_x += give_x;
+            mine_y += give_y;
+            store(sum_x + j, load(sum_x + j) - give_x);
+            store(sum_y + j, load(sum_y + j) - give_y);
+        }
+        double rest_x = sum_of(mine_x), rest_y = sum_of(mine_y);
+        for (; j < count; j++) {
+            const double dx = x_i - x[j], dy = y_i - y[j], inverse = 1 / (dx * dx + dy * dy);
+            const double give_x = dx * inverse, give_y = dy * inverse;
+            rest_x += give_x;
+            rest_y += give_y;
+            sum_x[j] -= give_x;
+            sum_y[j] -= give_y;
+        }
+        sum_x[i] += rest_x;
+        sum_y[i] += rest_y;
+    }
+    const double factor = factor_of(problem);
+    for (size_t i = 0; i < count; i++) {
+        sum_y[i] *= -factor;
+        sum_x[i] *= factor;
+    }
+}
+
+/* Two vortices and their images under z -> -z. */
+static void reduced(const struct gm_problem *problem, const double *state, double *f, size_t m)
+{
+    (void)m;
+    const double factor = factor_of(problem);
+    const double dx = state[0] - state[1], dy = state[2] - state[3];
+    const double sx = state[0] + state[1], sy = state[2] + state[3];
+    const double near = 1 / (dx * dx + dy * dy), far = 1 / (sx * sx + sy * sy);
+    for (int i = 0; i < 2; i++) {
+        const double sign = i == 0 ? 1 : -1, x = state[i], y = state[2 + i], own = 0.5 / (x * x + y * y);
+        f[i] = -(factor * (sign * dy * near + y * own + sy * far));
+        f[2 + i] = factor * (sign * dx * near + x * own + sx * far);
+    }
+}
+
+/* Velocities at (x, y), `count` of them, due to vortices at (at_x, at_y); where strain is not NULL also their
+   derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */
+static inline __attribute__((always_inline)) void carry(double factor, const double *at_x, const double *at_y,
+                                                        size_t vortices, const double *x, const double *y,
+                                                        double *velocity_x, double *velocity_y,
+                                                        double *strain, size_t count, bool images)
+{
+    for (size_t i = 0; i < count; i += LANES) {
+        const size_t members = count - i < LANES ? count - i : LANES;
+        lanes x_i = {0}, y_i = {0}, sum_x = {0}, sum_y = {0}, a = {0}, b = {0};
+        memcpy(&x_i, x + i, members * sizeof *x);
+        memcpy(&y_i, y + i, members * sizeof *y);
+        for (size_t j = 0; j < vortices; j++) {
+            for (int sign = 1; sign >= (images ? -1 : 1); sign -= 2) {
+                const lanes dx = x_i - sign * at_x[j], dy = y_i - sign * at_y[j];
+                const lanes inverse = 1 / (dx * dx + dy * dy);
+                sum_x += dx * inverse;
+                sum_y += dy * inverse;
+                if (strain) {
+                    a += 2 * dx * dy * inverse * inverse;
+                    b += (dy * dy - dx * dx) * inverse * inverse;
+                }
+            }
+        }
+        sum_y *= -factor;
+        sum_x *= factor;
+        memcpy(velocity_x + i, &sum_y, members * sizeof *x);
+        memcpy(velocity_y + i, &sum_x, members * sizeof *y);
+        if (strain) {
+            a *= factor;
+            b *= factor;
+            memcpy(strain + i, &a, members * sizeof *x);
+            memcpy(strain + count + i, &b, members * sizeof *x);
+        }
+    }
+}
+
+static void carried(const struct gm_problem *problem, const double *active, const double *x, const double *y,
+                    double *velocity_x, double *velocity_y, double *strain, size_t count)
+{
+    const size_t vortices = (problem->n - 2 * problem->passive) / 2;
+    if (strain) {
+        carry(factor_of(problem), active, active + vortices, vortices, x, y, velocity_x, velocity_y, strain,
+              count, false);
+    } else {
+        carry(factor_of(problem), active, active + vortices, vortices, x, y, velocity_x, velocity_y, NULL,
+              count, false);
+    }
+}
+
+static void carried_by_four(const struct gm_problem *problem, const double *active, const double *x,
+                            const double *y, double *velocity_x, double *velocity_y, double *strain,
+                            size_t count)
+{
+    if (strain) {
+        carry(factor_of(problem), active, active + 2, 2, x, y, velocity_x, velocity_y, strain, count, true);
+    } else {
+        carry(factor_of(problem), active, active + 2, 2, x, y, velocity_x, velocity_y, NULL, count, true);
+    }
+}
+
+const struct gm_loops GM_LOOPS_NAME(vortices, GM_ISA) = {.field = pair_sum, .passive = carried};
+const struct gm_loops GM_LOOPS_NAME(vortices_reduced_carrying, GM_ISA) = {.field = reduced,
+                                                                          .passive = carried_by_four};

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The kinds of problems and, through them, all schemes. */
+#include "core/schemes.h"
+
+#include <string.h>
+
+#define GM_KIND(name) extern const struct gm_kind gm_kind_##name;
+#include "core/kinds.def"
+#undef GM_KIND
+
+static const struct gm_kind *const kinds[] = {
+#define GM_KIND(name) &gm_kind_##name,
+#include "core/kinds.def"
+#undef GM_KIND
+};
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
+
+size_t gm_scheme_count(void)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < KINDS; i++) {
+        for (const struct gm_family *const *family = kinds[i]->families; *family; family++) {
+            count += (*family)->count;
+        }
+    }
+    return count;
+}
+
+const struct gm_scheme *gm_scheme_at(size_t index)
+{
+    for (size_t i = 0; i < KINDS; i++) {
+        for (const struct gm_family *const *family = kinds[i]->families; *family; family++) {
+            if (index < (*family)->count) {
+                return &(*family)->schemes[index];
+            }
+            index -= (*family)->count;
+        }
+    }
+    return NULL;
+}
+
+const struct gm_scheme *gm_scheme_find(const char *name)
+{
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (strcmp(scheme->name, name) == 0 || (scheme->alias && strcmp(scheme->alias, name) == 0)) {
+            return scheme;
+        }
+    }
+    return NULL;
+}
+
+const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem)
+{
+    const struct gm_scheme *found = gm_scheme_find(name);
+    for (size_t i = 0; found && i < gm_scheme_count() && !gm_scheme_fits(found, problem); i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (strcmp(scheme->name, name) == 0 && gm_scheme_fits(scheme, problem)) {
+            return scheme;
+        }
+    }
+    return found;
+}

@@ -1,0 +1,336 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/cells/cells.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "render/cells/blocks.h"
+#include "render/cells/raster.h"
+#include "render/cells/text.h"
+#include "render/layout/layout.h"
+
+/* A cell on the layout's surface. Twice as high as wide, like the cells of nearly every font, and divisible
+   by the sub-pixels of every kind of block. */
+enum { CELL_WIDTH = 8, CELL_HEIGHT = 16 };
+
+/* Below this there is room for the states and one graph. */
+enum { ROOMY_COLUMNS = 72, ROOMY_ROWS = 27 };
+
+static double measure(const void *self, enum gm_text_size size, const char *text)
+{
+    (void)size;
+    return CELL_WIDTH * gm_text_width(text, *(const bool *)self);
+}
+
+struct painter {
+    struct gm_cells *cells;
+    enum gm_theme theme;
+    bool ascii;
+    bool *taken; /* cells that hold text */
+};
+
+static bool is_free(const struct painter *painter, int column, int row, int width)
+{
+    if (row < 0 || row >= painter->cells->rows || column < 0 || column + width > painter->cells->columns) {
+        return false;
+    }
+    /* a cell of air on both sides */
+    for (int i = column - 1; i <= column + width; i++) {
+        if (i >= 0 && i < painter->cells->columns &&
+            painter->taken[(size_t)row * (size_t)painter->cells->columns + (size_t)i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Writes a text whose anchor is at x. On cells texts move by up to half a cell, so what no longer fits is
+   left out here even though the layout had room for it. */
+static void paint_text(struct painter *painter, double x, int row, enum gm_anchor anchor, const char *text,
+                       enum gm_role role, bool bold, bool on_paper)
+{
+    int width = gm_text_width(text, painter->ascii);
+    double left = x / CELL_WIDTH - (anchor == GM_ANCHOR_RIGHT    ? width
+                                    : anchor == GM_ANCHOR_CENTRE ? 0.5 * width
+                                                                 : 0);
+    if (!(fabs(left) < 1e6) || width == 0) {
+        return;
+    }
+    int column = (int)floor(left + 0.5);
+    if (column + width > painter->cells->columns && column + width <= painter->cells->columns + 2) {
+        column = painter->cells->columns - width;
+    }
+    if (column < 0 && column >= -2) {
+        column = 0;
+    }
+    if (!is_free(painter, column, row, width)) {
+        return;
+    }
+    size_t first = (size_t)row * (size_t)painter->cells->columns + (size_t)column;
+    for (size_t i = first; i < first + (size_t)width; i++) {
+        painter->taken[i] = true;
+        if (on_paper) {
+            painter->cells->cells[i].background = gm_theme_colour(painter->theme, GM_PAPER);
+        }
+    }
+    gm_cells_text(painter->cells, column, row, -1, text, painter->ascii, painter->theme, role, bold);
+}
+
+/* Grid and axes as dots of the raster, beneath the marks: where dots are fine enough for a hairline. */
+static void paint_dotted_grid(struct gm_raster *raster, const struct gm_frame *frame)
+{
+    const struct gm_box *box = &frame->box;
+    double right = box->x + box->width, bottom = box->y + box->height;
+    for (size_t i = 0; i < frame->x_tick_count; i++) {
+        double x = frame->x_ticks[i].position;
+        gm_raster_rule(raster, x, box->y, x, bottom, GM_GRID, 2);
+    }
+    for (size_t i = 0; i < frame->y_tick_count; i++) {
+        double y = frame->y_ticks[i].position;
+        gm_raster_rule(raster, box->x, y, right, y, GM_GRID, 2);
+    }
+    gm_raster_rule(raster, box->x, box->y, box->x, bottom, GM_SECONDARY, 1);
+    gm_raster_rule(raster, box->x, bottom, right, bottom, GM_SECONDARY, 1);
+}
+
+/* Grid and axes as characters in the cells that the marks left blank: thinner than any block. */
+enum { RULE_LEFT = 1, RULE_RIGHT = 2, RULE_UP = 4, RULE_DOWN = 8 };
+
+static void rule_cell(const struct painter *painter, int column, int row, unsigned arms, enum gm_role role)
+{
+    static const uint16_t drawn[16] = {[3] = 0x2500, [12] = 0x2502, [15] = 0x253C, [6] = 0x2514};
+    if (column < 0 || row < 0 || column >= painter->cells->columns || row >= painter->cells->rows) {
+        return;
+    }
+    struct gm_cell *cell =
+        &painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column];
+    bool crosses = cell->role == GM_GRID && cell->glyph != ' ' && role == GM_GRID;
+    if (cell->glyph != ' ' && cell->role != GM_GRID) {
+        return;
+    }
+    if (painter->ascii) {
+        cell->glyph = role == GM_GRID ? (arms == 3 ? '.' : ':') : arms == 3 ? '-' : arms == 12 ? '|' : '+';
+    } else {
+        cell->glyph = crosses ? drawn[15] : drawn[arms];
+    }
+    cell->role = role;
+    cell->foreground = gm_theme_colour(painter->theme, role);
+}
+
+static int cell_of(double position, int size)
+{
+    return (int)floor(position / size);
+}
+
+static void rule(const struct painter *painter, double x0, double y0, double x1, double y1, enum gm_role role)
+{
+    int left = cell_of(x0, CELL_WIDTH), right = cell_of(x1, CELL_WIDTH);
+    int top = cell_of(y0, CELL_HEIGHT), bottom = cell_of(y1, CELL_HEIGHT);
+    for (int row = top; row <= bottom; row++) {
+        for (int column = left; column <= right; column++) {
+            rule_cell(painter, column, row, y0 == y1 ? RULE_LEFT | RULE_RIGHT : RULE_UP | RULE_DOWN, role);
+        }
+    }
+}
+
+static void paint_thin_grid(const struct painter *painter, const struct gm_frame *frame)
+{
+    const struct gm_box *box = &frame->box;
+    double right = box->x + box->width, bottom = box->y + box->height;
+    for (size_t i = 0; i < frame->x_tick_count; i++) {
+        rule(painter, frame->x_ticks[i].position, box->y, frame->x_ticks[i].position, bottom, GM_GRID);
+    }
+    for (size_t i = 0; i < frame->y_tick_count; i++) {
+        rule(painter, box->x, frame->y_ticks[i].position, right, frame->y_ticks[i].position, GM_GRID);
+    }
+    rule(painter, box->x, bottom, right, bottom, GM_SECONDARY);
+    rule(painter, box->x, box->y, box->x, bottom, GM_SECONDARY);
+    int column = cell_of(box->x, CELL_WIDTH), row = cell_of(bottom, CELL_HEIGHT);
+    if (row < painter->cells->rows && column < painter->cells->columns && row >= 0 && column >= 0) {
+        struct gm_cell *corner =
+            &painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column];
+        if (corner->role == GM_SECONDARY) {
+            corner->glyph = painter->ascii ? '+' : 0x2514;
+        }
+    }
+}
+
+/* Whether a line goes around the polygon before it. */
+static bool is_outline(const struct gm_mark *before, const struct gm_mark *mark)
+{
+    return before && before->kind == GM_MARK_POLYGON && mark->kind == GM_MARK_LINE && mark->closed &&
+           mark->count == before->count && mark->style.role == before->style.role;
+}
+
+static enum gm_map map_of(const struct gm_panel *panel)
+{
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
+            return mark->map;
+        }
+    }
+    return GM_MAP_SEQUENTIAL;
+}
+
+/* What of the marks a raster takes. */
+struct taking {
+    bool grid;     /* dotted, beneath the marks */
+    bool areas;    /* an outline counts as a part of what it surrounds */
+    bool outlines; /* what has an outline is not filled */
+    bool only;     /* only panels in which something is filled */
+};
+
+static bool is_filled(const struct gm_panel *panel)
+{
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
+        if (mark->kind == GM_MARK_POLYGON || mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout, struct taking taking)
+{
+    bool ok = true;
+    for (size_t i = 0; i < layout->frame_count; i++) {
+        const struct gm_frame *frame = &layout->frames[i];
+        const struct gm_mark *before = NULL;
+        if (taking.only && !is_filled(frame->panel)) {
+            continue;
+        }
+        if (frame->panel->axes && taking.grid) {
+            paint_dotted_grid(raster, frame);
+        }
+        for (const struct gm_mark *mark = frame->panel->first; ok && mark; before = mark, mark = mark->next) {
+            if (!taking.outlines || !mark->next || !is_outline(mark, mark->next)) {
+                ok = gm_raster_mark(raster, frame, mark, taking.areas && is_outline(before, mark));
+            }
+        }
+        if (frame->colour_bar.width > 0) {
+            gm_raster_bar(raster, &frame->colour_bar, map_of(frame->panel));
+        }
+    }
+    return ok;
+}
+
+static int row_of(double y)
+{
+    return fabs(y) < 1e6 ? (int)floor(y / CELL_HEIGHT) : -1;
+}
+
+/* The row of a label: what stands above a panel's data moves up and what stands below moves down, so that
+   neither comes to lie in the first or last row of the data; beside them it goes where most of it is. */
+static int label_row(const struct painter *painter, const struct gm_layout *layout,
+                     const struct gm_label *label)
+{
+    double left = label->x, width = CELL_WIDTH * gm_text_width(label->text, painter->ascii);
+    left -= label->anchor == GM_ANCHOR_RIGHT ? width : label->anchor == GM_ANCHOR_CENTRE ? 0.5 * width : 0;
+    int row = row_of(label->y + 0.5 * CELL_HEIGHT);
+    for (size_t i = 0; i < layout->frame_count && label->size != GM_TEXT_TITLE; i++) {
+        const struct gm_box *box = &layout->frames[i].box;
+        if (left + width < box->x || left > box->x + box->width) {
+            continue;
+        }
+        if (label->y + CELL_HEIGHT <= box->y + 0.5 && label->y + 4 * CELL_HEIGHT > box->y) {
+            return row_of(box->y) - 1 - row_of(box->y - label->y - CELL_HEIGHT + 0.5);
+        }
+        if (label->y >= box->y + box->height - 0.5 && label->y < box->y + box->height + 3 * CELL_HEIGHT) {
+            row = row_of(label->y + CELL_HEIGHT - 1);
+        }
+    }
+    return row == painter->cells->rows ? row - 1 : row;
+}
+
+static void paint_texts(struct painter *painter, const struct gm_layout *layout)
+{
+    for (size_t i = 0; i < layout->label_count; i++) {
+        const struct gm_label *label = &layout->labels[i];
+        const int row =
+            label->among_marks ? row_of(label->y + 0.5 * CELL_HEIGHT) : label_row(painter, layout, label);
+        if (!label->vertical) { /* letters do not turn in a terminal; the panel's title says what the axis is
+                                 */
+            paint_text(painter, label->x, row, label->anchor, label->text, label->role, label->bold,
+                       !label->among_marks);
+        }
+    }
+}
+
+static bool open_raster(struct gm_raster *raster, const struct gm_cells *cells, enum gm_theme theme,
+                        enum gm_blocks blocks, double scale)
+{
+    int across, down;
+    bool sharp;
+    gm_blocks_grid(blocks, &across, &down, &sharp);
+    if (!gm_raster_open(raster, cells->columns * across, cells->rows * down, theme)) {
+        return false;
+    }
+    raster->unit_x = (double)CELL_WIDTH / across;
+    raster->unit_y = (double)CELL_HEIGHT / down;
+    raster->scale = scale;
+    raster->sharp = sharp;
+    return true;
+}
+
+/* Marks to glyphs. */
+static bool paint_blocks(struct gm_cells *cells, const struct gm_layout *layout, enum gm_theme theme,
+                         enum gm_blocks blocks, double scale)
+{
+    struct gm_raster raster = {0}, areas = {0};
+    bool dots = blocks == GM_BRAILLE, two = dots && !cells->outlines;
+    const struct taking taking = {.grid = dots, .areas = two, .outlines = dots && cells->outlines};
+    bool ok = open_raster(&raster, cells, theme, blocks, scale) &&
+              (!two || open_raster(&areas, cells, theme, GM_QUADRANTS, scale));
+    if (ok) {
+        ok = paint_marks(&raster, layout, taking) &&
+             (!two || paint_marks(&areas, layout, (struct taking){.areas = true, .only = true}));
+        gm_blocks_glyphs(cells, &raster, two ? &areas : NULL, blocks);
+    }
+    gm_raster_close(&raster);
+    gm_raster_close(&areas);
+    return ok;
+}
+
+static struct gm_metrics metrics_of(const struct gm_cells *cells, const bool *ascii)
+{
+    struct gm_metrics metrics = {.width = (double)cells->columns * CELL_WIDTH,
+                                 .height = (double)cells->rows * CELL_HEIGHT,
+                                 .measure = measure,
+                                 .self = ascii,
+                                 .terse = cells->columns < ROOMY_COLUMNS || cells->rows < ROOMY_ROWS};
+    metrics.scale = metrics.height / 720;
+    for (int size = 0; size < GM_TEXT_SIZE_COUNT; size++) {
+        metrics.line[size] = CELL_HEIGHT;
+    }
+    return metrics;
+}
+
+bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_theme theme,
+                    enum gm_blocks blocks)
+{
+    bool ascii = blocks == GM_ASCII;
+    struct gm_metrics metrics = metrics_of(cells, &ascii);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    struct painter painter = {.cells = cells, .theme = theme, .ascii = ascii};
+    painter.taken = calloc((size_t)cells->columns * (size_t)cells->rows, sizeof *painter.taken);
+    bool ok = layout && painter.taken && paint_blocks(cells, layout, theme, blocks, metrics.scale);
+    for (size_t i = 0; ok && blocks != GM_BRAILLE && i < layout->frame_count; i++) {
+        if (layout->frames[i].panel->axes) {
+            paint_thin_grid(&painter, &layout->frames[i]);
+        }
+    }
+    if (ok) {
+        paint_texts(&painter, layout);
+    }
+    free(painter.taken);
+    return ok;
+}
+
+const struct gm_panel *gm_cells_locate(const struct gm_cells *cells, struct gm_picture *picture,
+                                       enum gm_blocks blocks, int column, int row, double *x, double *y)
+{
+    bool ascii = blocks == GM_ASCII;
+    struct gm_metrics metrics = metrics_of(cells, &ascii);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    return gm_layout_locate(layout, (column + 0.5) * CELL_WIDTH, (row + 0.5) * CELL_HEIGHT, x, y);
+}

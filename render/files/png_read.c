@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/files/png.h"
+
+#include <libdeflate.h>
+#include <png.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/files/regular_file.h"
+#include "render/message.h"
+
+enum {
+    SIGNATURE = 8, /* bytes */
+    LENGTH = 4,
+    TYPE = 4,
+    CHECKSUM = 4,
+    LARGEST = 1 << 30,     /* the largest picture that is painted has 805 MB of pixels */
+    MOST_CHUNKS = 1 << 20, /* libpng writes one for 8 kB of pixels */
+};
+
+/* A chunk's data, and what is left of the bytes that texts may have. */
+struct chunk {
+    const unsigned char *data;
+    size_t size, room;
+};
+
+static char *copy_of(const void *bytes, size_t size)
+{
+    char *text = malloc(size + 1);
+    if (text) {
+        memcpy(text, bytes, size);
+        text[size] = '\0';
+    }
+    return text;
+}
+
+/* A text packed in zlib's format; NULL if it is damaged or larger than the room. */
+static char *unpack(const unsigned char *packed, size_t size, size_t room)
+{
+    struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
+    char *bytes = decompressor ? malloc(room + 1) : NULL, *text = NULL;
+    size_t length = 0;
+    if (bytes &&
+        libdeflate_zlib_decompress(decompressor, packed, size, bytes, room, &length) == LIBDEFLATE_SUCCESS) {
+        text = copy_of(bytes, length);
+        if (text && strlen(text) != length) {
+            free(text);
+            text = NULL;
+        }
+    }
+    if (decompressor) {
+        libdeflate_free_decompressor(decompressor);
+    }
+    free(bytes);
+    return text;
+}
+
+/* The text behind the key of a chunk tEXt, zTXt or iTXt (the PNG specification, 11.3.3); malloc'ed, NULL if
+   the chunk is damaged or the text too large. */
+static char *text_of(const struct chunk *chunk, const char *type, size_t key)
+{
+    const unsigned char *at = chunk->data + key + 1, *end = chunk->data + chunk->size;
+    bool packed = type[0] == 'z';
+    if (packed || type[0] == 'i') {
+        const ptrdiff_t front = packed ? 1 : 2; /* the method; of iTXt the flag before it */
+        if (end - at < front || at[front - 1] != 0 || (!packed && at[0] > 1)) {
+            return NULL;
+        }
+        packed = packed || at[0] == 1;
+        at += front;
+    }
+    for (int i = 0; i < 2 && type[0] == 'i'; i++) { /* the language, the translated key */
+        const unsigned char *zero = memchr(at, 0, (size_t)(end - at));
+        if (!zero) {
+            return NULL;
+        }
+        at = zero + 1;
+    }
+    const size_t size = (size_t)(end - at);
+    if (packed) {
+        return unpack(at, size, chunk->room);
+    }
+    return size > chunk->room || memchr(at, 0, size) ? NULL : copy_of(at, size);
+}
+
+/* The texts that are looked for. */
+struct search {
+    const char *const *keys;
+    char **texts;
+    size_t count, room;
+};
+
+/* The index of a chunk's key among those that are still looked for; their number if it is none of them. */
+static size_t wanted(const struct search *search, const unsigned char *data, size_t size)
+{
+    size_t i = 0;
+    for (; i < search->count; i++) {
+        const size_t length = strlen(search->keys[i]) + 1;
+        if (!search->texts[i] && size >= length && memcmp(data, search->keys[i], length) == 0) {
+            break;
+        }
+    }
+    return i;
+}
+
+/* Reads a chunk of text, of which the file has `length` bytes and a checksum left. */
+static bool take_text(FILE *file, const char *type, size_t length, struct search *search, char *reason)
+{
+    unsigned char *bytes = malloc(TYPE + length + CHECKSUM);
+    bool good = bytes && fread(bytes + TYPE, 1, length + CHECKSUM, file) == length + CHECKSUM;
+    if (good) {
+        memcpy(bytes, type, TYPE);
+        const struct chunk chunk = {bytes + TYPE, length, search->room};
+        const size_t i = wanted(search, chunk.data, length);
+        good = libdeflate_crc32(0, bytes, TYPE + length) == png_get_uint_32(chunk.data + length);
+        if (good && i < search->count) {
+            char *text = text_of(&chunk, type, strlen(search->keys[i]));
+            good = text != NULL;
+            search->texts[i] = text;
+            search->room -= text ? strlen(text) : 0;
+        }
+    }
+    if (!good) {
+        snprintf(reason, GM_REGULAR_REASON, "a text of it is damaged or too large");
+    }
+    free(bytes);
+    return good;
+}
+
+/* Walks over the chunks. */
+static bool find_texts(FILE *file, size_t left, struct search *search, char *reason)
+{
+    unsigned char head[LENGTH + TYPE];
+    size_t unread = GM_PNG_TEXTS_MOST; /* bytes of texts as they are in the file, wanted or not */
+    for (long chunks = 0; left >= sizeof head + CHECKSUM && chunks < MOST_CHUNKS; chunks++) {
+        if (fread(head, 1, sizeof head, file) != sizeof head) {
+            break;
+        }
+        left -= sizeof head + CHECKSUM;
+        const size_t length = png_get_uint_32(head);
+        const char *type = (const char *)head + LENGTH;
+        if (length > left || (chunks == 0) != (memcmp(type, "IHDR", TYPE) == 0)) {
+            break;
+        }
+        left -= length;
+        if (memcmp(type, "IEND", TYPE) == 0) {
+            return true;
+        }
+        if (memcmp(type, "tEXt", TYPE) == 0 || memcmp(type, "zTXt", TYPE) == 0 ||
+            memcmp(type, "iTXt", TYPE) == 0) {
+            if (length > unread) {
+                snprintf(reason, GM_REGULAR_REASON, "its texts have more than %d MB",
+                         GM_PNG_TEXTS_MOST >> 20);
+                return false;
+            }
+            unread -= length;
+            if (!take_text(file, type, length, search, reason)) {
+                return false;
+            }
+        } else if (fseeko(file, (off_t)(length + CHECKSUM), SEEK_CUR) != 0) {
+            break;
+        }
+    }
+    snprintf(reason, GM_REGULAR_REASON, "it is cut short or damaged");
+    return false;
+}
+
+bool gm_png_read_texts(const char *path, const char *const *keys, char **texts, size_t count, char *message)
+{
+    char reason[GM_REGULAR_REASON] = "it is not a PNG file";
+    unsigned char signature[SIGNATURE];
+    size_t size = 0;
+    struct search search = {keys, texts, count, GM_PNG_TEXTS_MOST};
+    for (size_t i = 0; i < count; i++) {
+        texts[i] = NULL;
+    }
+    FILE *file = gm_regular_open(path, LARGEST, &size, reason);
+    const bool good = file && fread(signature, 1, SIGNATURE, file) == SIGNATURE &&
+                      png_sig_cmp(signature, 0, SIGNATURE) == 0 &&
+                      find_texts(file, size - SIGNATURE, &search, reason);
+    if (file) {
+        fclose(file);
+    }
+    if (!good) {
+        for (size_t i = 0; i < count; i++) {
+            free(texts[i]);
+            texts[i] = NULL;
+        }
+        snprintf(message, GM_MESSAGE, "cannot read %.360s: %s", path, reason);
+    }
+    return good;
+}
+
+char *gm_png_read_text(const char *path, const char *key, char *message)
+{
+    char *text = NULL;
+    if (gm_png_read_texts(path, &key, &text, 1, message) && !text) {
+        snprintf(message, GM_MESSAGE, "%.360s holds no text \"%.64s\"", path, key);
+    }
+    return text;
+}
+
+/* Whether a tEXt chunk's data are this key and this text. */
+static bool is_text(const unsigned char *data, size_t size, const char *key, const char *text)
+{
+    const size_t front = strlen(key) + 1, length = strlen(text);
+    return size == front + length && memcmp(data, key, front) == 0 && memcmp(data + front, text, length) == 0;
+}
+
+bool gm_png_tells(const char *path, const char *key, const char *text)
+{
+    size_t size = 0;
+    char reason[GM_REGULAR_REASON];
+    unsigned char *bytes = (unsigned char *)gm_regular_read(path, LARGEST, &size, reason);
+    bool told = false, whole = false;
+    if (bytes && size >= SIGNATURE && png_sig_cmp(bytes, 0, SIGNATURE) == 0) {
+        size_t at = SIGNATURE;
+        while (!whole && size - at >= LENGTH + TYPE + CHECKSUM) {
+            const size_t length = png_get_uint_32(bytes + at);
+            if (length > size - at - (LENGTH + TYPE + CHECKSUM)) {
+                break;
+            }
+            const unsigned char *type = bytes + at + LENGTH, *data = type + TYPE;
+            if (libdeflate_crc32(0, type, TYPE + length) != png_get_uint_32(data + length)) {
+                break;
+            }
+            told = told || (memcmp(type, "tEXt", TYPE) == 0 && is_text(data, length, key, text));
+            whole = memcmp(type, "IEND", TYPE) == 0;
+            at += LENGTH + TYPE + length + CHECKSUM;
+        }
+    }
+    free(bytes);
+    return told && whole;
+}
+
+bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, char *message)
+{
+    png_image image = {.version = PNG_IMAGE_VERSION};
+    size_t size = 0;
+    char reason[GM_REGULAR_REASON];
+    FILE *file = gm_regular_open(path, LARGEST, &size, reason);
+    if (!file) {
+        snprintf(message, GM_MESSAGE, "cannot read %.360s: %s", path, reason);
+        return false;
+    }
+    bool good = false;
+    if (png_image_begin_read_from_stdio(&image, file)) {
+        if (image.width == (png_uint_32)width && image.height == (png_uint_32)height) {
+            image.format = PNG_FORMAT_RGB;
+            good = png_image_finish_read(&image, NULL, rgb, 0, NULL);
+        } else {
+            snprintf(image.message, sizeof image.message, "it is no picture of %dx%d", width, height);
+        }
+        png_image_free(&image);
+    }
+    fclose(file);
+    if (!good) {
+        snprintf(message, GM_MESSAGE, "cannot read %.360s: %.64s", path, image.message);
+    }
+    return good;
+}

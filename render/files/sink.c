@@ -1,0 +1,233 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/files/sink_kind.h"
+#include "render/files/thread.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A frame waits in `queue` from put until a worker takes it, and in `idle` when nobody has use for it. There
+   are `limit` frames in all, made when first asked for: put never waits, gm_sink_frame does. */
+
+struct job {
+    unsigned char *frame;
+    long number;
+    struct gm_png_text *texts;
+    size_t text_count;
+};
+
+struct gm_sink {
+    const struct gm_sink_kind *kind;
+    void *self;
+    size_t frame_size;
+    pthread_mutex_t lock;
+    pthread_cond_t work;   /* for workers: a job, or the end */
+    pthread_cond_t vacant; /* for gm_sink_frame: an idle frame, or a failure */
+    size_t limit, made, idle_count, queued, head;
+    unsigned char **frames, **idle; /* all that were made; those that are free */
+    struct job *queue;              /* a ring of `limit` */
+    bool closing, dropping, failed;
+    int worker_count;
+    pthread_t *workers;
+    char message[GM_MESSAGE];
+};
+
+void gm_texts_free(struct gm_png_text *texts, size_t count)
+{
+    for (size_t i = 0; texts && i < count; i++) {
+        free((char *)texts[i].key);
+        free((char *)texts[i].text);
+    }
+    free(texts);
+}
+
+struct gm_png_text *gm_texts_copy(const struct gm_png_text *texts, size_t count)
+{
+    struct gm_png_text *copy = calloc(count ? count : 1, sizeof *copy);
+    for (size_t i = 0; copy && i < count; i++) {
+        copy[i].key = strdup(texts[i].key);
+        copy[i].text = strdup(texts[i].text);
+        if (!copy[i].key || !copy[i].text) {
+            gm_texts_free(copy, count);
+            return NULL;
+        }
+    }
+    return copy;
+}
+
+/* The first failure is the one that is told. Called with the lock held. */
+static void note_failure(struct gm_sink *sink, const char *message)
+{
+    if (!sink->failed) {
+        sink->failed = true;
+        snprintf(sink->message, sizeof sink->message, "%s", message);
+    }
+    pthread_cond_broadcast(&sink->vacant);
+}
+
+static void *work(void *argument)
+{
+    struct gm_sink *sink = argument;
+    pthread_mutex_lock(&sink->lock);
+    for (;;) {
+        while (sink->queued == 0 && !sink->closing) {
+            pthread_cond_wait(&sink->work, &sink->lock);
+        }
+        if (sink->queued == 0) {
+            break;
+        }
+        struct job job = sink->queue[sink->head];
+        sink->head = (sink->head + 1) % sink->limit;
+        sink->queued--;
+        bool wanted = !sink->failed && !sink->dropping;
+        pthread_mutex_unlock(&sink->lock);
+
+        char message[GM_MESSAGE] = "";
+        bool done = !wanted ||
+                    sink->kind->frame(sink->self, job.frame, job.number, job.texts, job.text_count, message);
+        gm_texts_free(job.texts, job.text_count);
+
+        pthread_mutex_lock(&sink->lock);
+        sink->idle[sink->idle_count++] = job.frame;
+        pthread_cond_signal(&sink->vacant);
+        if (!done) {
+            note_failure(sink, message);
+        }
+    }
+    pthread_mutex_unlock(&sink->lock);
+    return NULL;
+}
+
+static void release(struct gm_sink *sink)
+{
+    for (size_t i = 0; i < sink->made; i++) {
+        free(sink->frames[i]);
+    }
+    free(sink->frames);
+    free(sink->idle);
+    free(sink->queue);
+    free(sink->workers);
+    pthread_mutex_destroy(&sink->lock);
+    pthread_cond_destroy(&sink->work);
+    pthread_cond_destroy(&sink->vacant);
+    free(sink);
+}
+
+static void end_workers(struct gm_sink *sink, bool drop)
+{
+    pthread_mutex_lock(&sink->lock);
+    sink->closing = true;
+    sink->dropping = drop;
+    pthread_cond_broadcast(&sink->work);
+    pthread_mutex_unlock(&sink->lock);
+    for (int i = 0; i < sink->worker_count; i++) {
+        pthread_join(sink->workers[i], NULL);
+    }
+}
+
+static bool start_workers(struct gm_sink *sink, int workers)
+{
+    while (sink->worker_count < workers &&
+           gm_thread_start(&sink->workers[sink->worker_count], work, sink) == 0) {
+        sink->worker_count++;
+    }
+    return sink->worker_count > 0;
+}
+
+struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int workers, size_t frame_size,
+                              char *message)
+{
+    struct gm_sink *sink = calloc(1, sizeof *sink);
+    if (sink) {
+        pthread_mutex_init(&sink->lock, NULL);
+        pthread_cond_init(&sink->work, NULL);
+        pthread_cond_init(&sink->vacant, NULL);
+        sink->kind = kind;
+        sink->self = self;
+        sink->frame_size = frame_size;
+        sink->limit = (size_t)workers + 2;
+        sink->frames = calloc(sink->limit, sizeof *sink->frames);
+        sink->idle = calloc(sink->limit, sizeof *sink->idle);
+        sink->queue = calloc(sink->limit, sizeof *sink->queue);
+        sink->workers = calloc((size_t)workers, sizeof *sink->workers);
+        if (sink->frames && sink->idle && sink->queue && sink->workers && start_workers(sink, workers)) {
+            return sink;
+        }
+        release(sink);
+    }
+    kind->close(self, false, message);
+    snprintf(message, GM_MESSAGE, "not enough memory or threads to write frames");
+    return NULL;
+}
+
+unsigned char *gm_sink_frame(struct gm_sink *sink)
+{
+    unsigned char *frame = NULL;
+    pthread_mutex_lock(&sink->lock);
+    while (!sink->failed && sink->idle_count == 0 && sink->made == sink->limit) {
+        pthread_cond_wait(&sink->vacant, &sink->lock);
+    }
+    if (!sink->failed && sink->idle_count == 0) {
+        frame = malloc(sink->frame_size);
+        if (frame) {
+            sink->frames[sink->made++] = frame;
+        } else {
+            note_failure(sink, "not enough memory for a frame");
+        }
+    } else if (!sink->failed) {
+        frame = sink->idle[--sink->idle_count];
+    }
+    pthread_mutex_unlock(&sink->lock);
+    return frame;
+}
+
+bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const struct gm_png_text *texts,
+                 size_t count)
+{
+    struct gm_png_text *copy = gm_texts_copy(texts, count);
+    pthread_mutex_lock(&sink->lock);
+    if (!copy) {
+        note_failure(sink, "not enough memory for a frame's texts");
+    }
+    bool taken = !sink->failed;
+    if (taken) {
+        sink->queue[(sink->head + sink->queued) % sink->limit] =
+            (struct job){.frame = frame, .number = number, .texts = copy, .text_count = count};
+        sink->queued++;
+        pthread_cond_signal(&sink->work);
+    } else {
+        sink->idle[sink->idle_count++] = frame;
+    }
+    pthread_mutex_unlock(&sink->lock);
+    if (!taken) {
+        gm_texts_free(copy, count);
+    }
+    return taken;
+}
+
+bool gm_sink_flush(struct gm_sink *sink)
+{
+    pthread_mutex_lock(&sink->lock);
+    while (!sink->failed && sink->idle_count < sink->made) {
+        pthread_cond_wait(&sink->vacant, &sink->lock);
+    }
+    const bool good = !sink->failed;
+    pthread_mutex_unlock(&sink->lock);
+    return good;
+}
+
+bool gm_sink_close(struct gm_sink *sink, bool keep, char *message)
+{
+    end_workers(sink, !keep);
+    char late[GM_MESSAGE] = "";
+    if (!sink->kind->close(sink->self, keep && !sink->failed, late)) {
+        note_failure(sink, late);
+    }
+    bool good = !sink->failed;
+    if (!good) {
+        snprintf(message, GM_MESSAGE, "%s", sink->message);
+    }
+    release(sink);
+    return good;
+}

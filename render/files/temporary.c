@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/files/temporary.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+bool gm_temporary_fits(const char *path)
+{
+    struct stat status;
+    return lstat(path, &status) != 0 || S_ISREG(status.st_mode);
+}
+
+enum { NAME_SHOWN = 180 }; /* the name is cut, as it may be as long as the file system allows already */
+
+char *gm_temporary_name(const char *path, const char *ending)
+{
+    static atomic_uint counter;
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    int folder = (int)(name - path);
+    char *temporary = NULL;
+    /* a leading "./" keeps other programs from seeing an option in "-a" or a protocol in "a:b" */
+    if (asprintf(&temporary, "%s%.*s.%.*s.%ld.%u%s", path[0] == '/' ? "" : "./", folder, path, NAME_SHOWN,
+                 name, (long)getpid(), atomic_fetch_add(&counter, 1), ending) < 0) {
+        return NULL;
+    }
+    return temporary;
+}
+
+bool gm_temporary_is_stale(const char *name)
+{
+    /* .NAME.PID.COUNTER.ENDING */
+    const char *dots[3] = {NULL};
+    for (const char *at = strchr(name, '.'); at; at = strchr(at + 1, '.')) {
+        dots[0] = dots[1];
+        dots[1] = dots[2];
+        dots[2] = at;
+    }
+    long pid = 0;
+    unsigned counter = 0;
+    return name[0] == '.' && dots[0] > name && sscanf(dots[0], ".%ld.%u.", &pid, &counter) == 2 && pid > 0 &&
+           kill((pid_t)pid, 0) != 0 && errno == ESRCH;
+}
+
+void gm_temporary_sweep(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash ? slash + 1 : path;
+    char *folder = slash ? strndup(path, (size_t)(name - path)) : strdup(".");
+    DIR *entries = folder ? opendir(folder) : NULL;
+    const size_t length = strnlen(name, NAME_SHOWN);
+    const struct dirent *entry = NULL;
+    while (entries && (entry = readdir(entries)) != NULL) {
+        const char *file = entry->d_name;
+        if (file[0] == '.' && strncmp(file + 1, name, length) == 0 && file[1 + length] == '.' &&
+            gm_temporary_is_stale(file)) {
+            unlinkat(dirfd(entries), file, 0);
+        }
+    }
+    if (entries) {
+        closedir(entries);
+    }
+    free(folder);
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_FILES_TEMPORARY_H
+#define GM_RENDER_FILES_TEMPORARY_H
+
+#include <stdbool.h>
+
+/* Files are written beside their place and renamed when complete, so that a killed program leaves no half
+   file under a name that anybody asked for. */
+
+/* True if path is free or an ordinary file. Devices, pipes and symbolic links (of which /dev/stdout is one)
+   are not: renaming would put a file in their place. */
+bool gm_temporary_fits(const char *path);
+
+/* A name in path's folder that no other thread or process uses, ending in `ending`; malloc'ed. */
+char *gm_temporary_name(const char *path, const char *ending);
+
+/* Removes the temporaries of path that processes left which are gone. */
+void gm_temporary_sweep(const char *path);
+
+/* Whether a file's name is such a name, of a process that is gone (of this machine's processes). */
+bool gm_temporary_is_stale(const char *name);
+
+#endif

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_GL_BATCH_H
+#define GM_RENDER_GL_BATCH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "render/gl/gl.h"
+#include "render/layout/theme.h"
+
+/* A frame as one stream of vertices and a short list of draw calls: marks are appended in painting order,
+   neighbours of equal state share a call, and everything is sent to GL at the end. Buffers grow and stay. */
+
+/* Ink covers a pixel by clamp(half + 1/2 - |(across, along)|), the distances in pixels: a stroke's body has
+   along = 0, its round cap counts along from its end, a disc has both from its centre. Text: (across,
+   along) is a place in the glyph atlas, in texels. Fields: across is the value from 0 to 1, half the alpha.
+   Images: (across, along) is the place in the image, from 0 to 1, half the alpha. */
+struct gm_vertex {
+    float x, y; /* in pixels, downwards */
+    float across, along, half;
+    uint8_t colour[4]; /* of fields and images: the first is the row of the colour map, 0 or 255 */
+};
+
+enum gm_program {
+    GM_PROGRAM_INK,
+    GM_PROGRAM_CORE, /* ink where it covers pixels wholly */
+    GM_PROGRAM_TEXT,
+    GM_PROGRAM_FIELD,
+    GM_PROGRAM_IMAGE,
+    GM_PROGRAM_COUNT,
+};
+
+enum gm_stencil {
+    GM_STENCIL_NONE,
+    GM_STENCIL_ONCE,    /* a pixel is painted once since gm_batch_once */
+    GM_STENCIL_INVERT,  /* no colour: each triangle turns inside to outside and back */
+    GM_STENCIL_OUTSIDE, /* paints where the inversions left the outside */
+    GM_STENCIL_INSIDE,  /* paints the inside and forgets it */
+};
+
+struct gm_command;
+
+struct gm_batch {
+    const struct gm_gl *gl;
+    struct gm_vertex *vertices;
+    size_t vertex_count, vertex_capacity;
+    uint32_t *indices;
+    size_t index_count, index_capacity;
+    struct gm_command *commands;
+    size_t command_count, command_capacity;
+    size_t join; /* where a strip's first vertex is to be doubled; 0: nowhere */
+    int scissor[4];
+    int once; /* number of the present group of GM_STENCIL_ONCE */
+    enum gm_program program;
+    enum gm_stencil stencil;
+    GLuint texture; /* of images */
+    bool short_of_memory;
+    GLuint programs[GM_PROGRAM_COUNT], array, buffer, index_buffer;
+};
+
+/* Needs a current context. False, with a sentence in message, when shaders do not compile. */
+bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, char *message, size_t size);
+void gm_batch_close(struct gm_batch *batch);
+
+void gm_batch_clear(struct gm_batch *batch);
+/* The state of what follows. */
+void gm_batch_scissor(struct gm_batch *batch, int x, int y, int width, int height);
+void gm_batch_state(struct gm_batch *batch, enum gm_program program, enum gm_stencil stencil);
+void gm_batch_texture(struct gm_batch *batch, GLuint texture);
+void gm_batch_once(struct gm_batch *batch);
+
+/* Room for a strip of at most count vertices, not connected to the strip before; NULL when memory is short.
+   The strip ends with gm_batch_end, which says how many there are. */
+struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count);
+void gm_batch_end(struct gm_batch *batch, size_t unused);
+
+/* Room for vertices and the triangles among them (numbers count from the first of these vertices). */
+struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t index_count, uint32_t **indices);
+
+/* Draws everything into the bound framebuffer of width x height pixels. The glyph atlas is bound to texture
+   unit 0, the colour maps to unit 1. */
+bool gm_batch_draw(struct gm_batch *batch, int width, int height);
+
+#endif

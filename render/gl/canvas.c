@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/gl/canvas.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/gl/painter.h"
+
+enum { MAP_STEPS = 256, MAP_ROWS = 2 };
+
+struct gm_ink gm_canvas_ink(const struct gm_canvas *canvas, enum gm_role role, double alpha)
+{
+    const struct gm_rgb rgb = gm_theme_colour(canvas->theme, role);
+    const double clamped = alpha > 0.0 ? (alpha < 1.0 ? alpha : 1.0) : 0.0;
+    return (struct gm_ink){{rgb.r, rgb.g, rgb.b, (uint8_t)(255.0 * clamped + 0.5)}};
+}
+
+static bool framebuffer_open(struct gm_canvas *canvas, char *message)
+{
+    const struct gm_gl *gl = &canvas->gl;
+    GLint most = 0, viewport[2] = {0, 0};
+    gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
+    gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    most = most < viewport[0] ? most : viewport[0];
+    if (canvas->width < 1 || canvas->height < 1 || canvas->width > most || canvas->height > most) {
+        snprintf(message, GM_MESSAGE, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
+                 canvas->width, canvas->height, most);
+        return false;
+    }
+    gl->GenFramebuffers(1, &canvas->framebuffer);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    gl->GenRenderbuffers(1, &canvas->colour_buffer);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, canvas->colour_buffer);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, canvas->width, canvas->height);
+    gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, canvas->colour_buffer);
+    gl->GenRenderbuffers(1, &canvas->stencil_buffer);
+    gl->BindRenderbuffer(GL_RENDERBUFFER, canvas->stencil_buffer);
+    static const struct {
+        GLenum format, attachment;
+    } stencils[] = {{GL_STENCIL_INDEX8, GL_STENCIL_ATTACHMENT},
+                    {GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT}};
+    for (int i = 0; i < 2; i++) {
+        gl->RenderbufferStorage(GL_RENDERBUFFER, stencils[i].format, canvas->width, canvas->height);
+        gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, stencils[i].attachment, GL_RENDERBUFFER,
+                                    canvas->stencil_buffer);
+        if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE &&
+            gl->GetError() == GL_NO_ERROR) {
+            return true;
+        }
+    }
+    snprintf(message, GM_MESSAGE, "This OpenGL gives no framebuffer of %d x %d pixels.", canvas->width,
+             canvas->height);
+    return false;
+}
+
+static void texture_parameters(const struct gm_gl *gl, GLint filter)
+{
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+static void textures_open(struct gm_canvas *canvas)
+{
+    const struct gm_gl *gl = &canvas->gl;
+    unsigned char texels[MAP_ROWS][MAP_STEPS][4];
+    for (int map = 0; map < MAP_ROWS; map++) {
+        for (int i = 0; i < MAP_STEPS; i++) {
+            const struct gm_rgb rgb =
+                gm_map_colour((enum gm_map)map, canvas->theme, (double)i / (MAP_STEPS - 1));
+            memcpy(texels[map][i], (const unsigned char[]){rgb.r, rgb.g, rgb.b, 255}, 4);
+        }
+    }
+    gl->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl->GenTextures(1, &canvas->atlas);
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D, canvas->atlas);
+    texture_parameters(gl, GL_NEAREST);
+    gl->GenTextures(1, &canvas->maps);
+    gl->ActiveTexture(GL_TEXTURE1);
+    gl->BindTexture(GL_TEXTURE_2D, canvas->maps);
+    texture_parameters(gl, GL_LINEAR);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, MAP_STEPS, MAP_ROWS, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+}
+
+/* Letters and strokes follow the height, on narrow surfaces the width. */
+static void set_sizes(struct gm_canvas *canvas)
+{
+    static const double shares[GM_TEXT_SIZE_COUNT] = {0.036, 0.025, 0.022, 0.021};
+    const int smallest = 9;
+    const double by_width = canvas->width / 960.0, by_height = canvas->height / 720.0;
+    canvas->scale = by_height < by_width ? by_height : by_width;
+    for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++) {
+        const int letters = (int)(720.0 * canvas->scale * shares[i] + 0.5);
+        canvas->letters[i] = letters > smallest ? letters : smallest;
+    }
+}
+
+static bool gl_open(struct gm_canvas *canvas, char *message)
+{
+    canvas->context = gm_context_open(message, GM_MESSAGE);
+    if (canvas->context == NULL) {
+        return false;
+    }
+    const char *missing = gm_gl_load(&canvas->gl, canvas->context);
+    if (missing != NULL) {
+        snprintf(message, GM_MESSAGE, "This OpenGL lacks the function %s.", missing);
+        return false;
+    }
+    const char *version = (const char *)canvas->gl.GetString(GL_VERSION);
+    const char *renderer = (const char *)canvas->gl.GetString(GL_RENDERER);
+    const char *mesa = strstr(version, "Mesa");
+    snprintf(canvas->backend, sizeof canvas->backend, "%s, OpenGL %.3s, %s%s%s",
+             gm_context_name(canvas->context), version, renderer, mesa != NULL ? ", " : "",
+             mesa != NULL ? mesa : "");
+    return framebuffer_open(canvas, message) &&
+           gm_batch_open(&canvas->batch, &canvas->gl, message, GM_MESSAGE);
+}
+
+static void close_alone(struct gm_canvas *canvas)
+{
+    if (canvas == NULL) {
+        return;
+    }
+    if (canvas->context != NULL && canvas->gl.Viewport != NULL && gm_context_use(canvas->context)) {
+        const struct gm_gl *gl = &canvas->gl;
+        gm_batch_close(&canvas->batch);
+        gl->DeleteTextures(1, &canvas->atlas);
+        gl->DeleteTextures(1, &canvas->maps);
+        gl->DeleteTextures((GLsizei)canvas->image_count, canvas->images);
+        gl->DeleteFramebuffers(1, &canvas->framebuffer);
+        gl->DeleteRenderbuffers(1, &canvas->colour_buffer);
+        gl->DeleteRenderbuffers(1, &canvas->stencil_buffer);
+    }
+    gm_glyphs_close(canvas->glyphs);
+    gm_polyline_free(&canvas->line);
+    gm_polyline_free(&canvas->piece);
+    gm_polyline_free(&canvas->dash);
+    free(canvas->images);
+    free(canvas->texels);
+    free(canvas->pixels);
+    gm_context_close(canvas->context);
+    free(canvas);
+}
+
+static struct gm_canvas *open_alone(int width, int height, enum gm_theme theme, char *message)
+{
+    struct gm_canvas *canvas = calloc(1, sizeof *canvas);
+    if (canvas != NULL) {
+        *canvas = (struct gm_canvas){.width = width, .height = height, .theme = theme};
+    }
+    if (canvas == NULL) {
+        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture.");
+        return NULL;
+    }
+    if (!gl_open(canvas, message)) {
+        close_alone(canvas);
+        return NULL;
+    }
+    set_sizes(canvas);
+    textures_open(canvas);
+    canvas->glyphs = gm_glyphs_open(message, GM_MESSAGE);
+    canvas->pixels = malloc((size_t)width * (size_t)height * 4);
+    if (canvas->glyphs != NULL && canvas->pixels == NULL) {
+        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture of %d x %d pixels.", width,
+                 height);
+    }
+    if (canvas->glyphs == NULL || canvas->pixels == NULL) {
+        close_alone(canvas);
+        return NULL;
+    }
+    return canvas;
+}
+
+const char *gm_canvas_backend(const struct gm_canvas *canvas)
+{
+    return canvas->backend;
+}
+
+static void update_atlas(struct gm_canvas *canvas)
+{
+    const struct gm_gl *gl = &canvas->gl;
+    const struct gm_atlas atlas = gm_glyphs_atlas(canvas->glyphs);
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D, canvas->atlas);
+    if (atlas.height != canvas->atlas_height) {
+        gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R8, atlas.width, atlas.height, 0, GL_RED, GL_UNSIGNED_BYTE,
+                       atlas.pixels);
+    } else if (atlas.changed < atlas.used) {
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, atlas.changed, atlas.width, atlas.used - atlas.changed, GL_RED,
+                          GL_UNSIGNED_BYTE, atlas.pixels + (size_t)atlas.changed * (size_t)atlas.width);
+    }
+    canvas->atlas_height = atlas.height;
+}
+
+static void clear(const struct gm_canvas *canvas)
+{
+    const struct gm_gl *gl = &canvas->gl;
+    const struct gm_rgb paper = gm_theme_colour(canvas->theme, GM_PAPER);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
+    gl->Viewport(0, 0, canvas->width, canvas->height);
+    gl->ClearColor(paper.r / 255.0f, paper.g / 255.0f, paper.b / 255.0f, 1.0f);
+    gl->ClearStencil(0);
+    gl->Clear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
+/* Reading 4 bytes a pixel is a plain copy for GL; reading 3 is not. */
+static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
+{
+    const struct gm_gl *gl = &canvas->gl;
+    const size_t count = (size_t)canvas->width * (size_t)canvas->height;
+    gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl->ReadPixels(0, 0, canvas->width, canvas->height, GL_RGBA, GL_UNSIGNED_BYTE, canvas->pixels);
+    const unsigned char *restrict from = canvas->pixels;
+    for (size_t i = 0; i < count; i++, from += 4, rgb += 3) {
+        rgb[0] = from[0];
+        rgb[1] = from[1];
+        rgb[2] = from[2];
+    }
+}
+
+static bool paint_alone(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
+{
+    const struct gm_metrics metrics = gm_canvas_metrics(canvas);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    if (layout == NULL || !gm_context_use(canvas->context)) {
+        return false;
+    }
+    gm_batch_clear(&canvas->batch);
+    canvas->images_used = 0;
+    for (size_t i = 0; i < layout->frame_count; i++) {
+        gm_canvas_frame(canvas, &layout->frames[i]);
+    }
+    gm_canvas_labels(canvas, layout);
+    update_atlas(canvas);
+    clear(canvas);
+    const bool drawn = gm_batch_draw(&canvas->batch, canvas->width, canvas->height);
+    read_back(canvas, rgb);
+    return drawn;
+}
+
+/* Mesa's software contexts of one process are not safe from each other: two threads that paint at once crash
+   in libOSMesa 22.3. So all canvases take turns. */
+static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+
+static void take_turn(void)
+{
+    pthread_mutex_lock(&turn);
+    gm_context_guard();
+}
+
+static void end_turn(void)
+{
+    gm_context_unguard();
+    pthread_mutex_unlock(&turn);
+}
+
+struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message)
+{
+    take_turn();
+    struct gm_canvas *canvas = open_alone(width, height, theme, message);
+    end_turn();
+    return canvas;
+}
+
+void gm_canvas_close(struct gm_canvas *canvas)
+{
+    take_turn();
+    close_alone(canvas);
+    end_turn();
+}
+
+bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
+{
+    take_turn();
+    const bool painted = paint_alone(canvas, picture, rgb);
+    end_turn();
+    return painted;
+}
+
+const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
+                                        double down, double *x, double *y)
+{
+    const struct gm_metrics metrics = gm_canvas_metrics(canvas);
+    return gm_layout_locate(gm_layout_make(picture, &metrics), across, down, x, y);
+}

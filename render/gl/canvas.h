@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_GL_CANVAS_H
+#define GM_RENDER_GL_CANVAS_H
+
+#include "render/layout/theme.h"
+#include "render/message.h"
+
+/* The GL painter: pictures to pixels, without a screen. One canvas has one size and one theme and is used
+   by one thread at a time; canvases of several threads take turns. The context comes from OSMesa or from EGL
+   without a surface (render/gl/context.h). */
+
+struct gm_canvas;
+
+/* NULL on failure, with one sentence in message (GM_MESSAGE bytes). */
+struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message);
+void gm_canvas_close(struct gm_canvas *canvas);
+
+/* Paints the picture into rgb: height rows of width * 3 bytes, top row first. False when memory is short. */
+bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb);
+
+/* The panel of a state that a pixel is in, as gm_layout_locate. */
+const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
+                                        double down, double *x, double *y);
+
+/* What paints: "OSMesa, OpenGL 4.5, llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6". */
+const char *gm_canvas_backend(const struct gm_canvas *canvas);
+
+#endif

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/gl/context.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "render/gl/context_kind.h"
+#include "render/message.h"
+
+static const struct gm_context_kind *const kinds[] = {
+#ifdef GM_HAVE_OSMESA
+    &gm_context_osmesa,
+#endif
+#ifdef GM_HAVE_EGL
+    &gm_context_egl,
+#endif
+    NULL,
+};
+
+struct gm_context {
+    const struct gm_context_kind *kind;
+    void *self;
+};
+
+void *gm_context_library(const char *const *names, char *message, size_t size)
+{
+    snprintf(message, size, "%s is not installed", names[0]);
+    for (size_t i = 0; names[i] != NULL; i++) {
+        void *library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
+        if (library != NULL) {
+            return library;
+        }
+        /* "NAME: cannot open shared object file: No such file or directory"; of a library that it needs, or
+           with another reason, it is there and of no use */
+        const char *reason = dlerror();
+        const bool missing =
+            strncmp(reason, names[i], strlen(names[i])) == 0 && strstr(reason, strerror(ENOENT)) != NULL;
+        if (!missing) {
+            snprintf(message, size, "%s", reason);
+            return NULL;
+        }
+    }
+    return NULL;
+}
+
+static struct gm_context *open_kind(const struct gm_context_kind *kind, char *message, size_t size)
+{
+    struct gm_context *context = malloc(sizeof *context);
+    if (context == NULL) {
+        snprintf(message, size, "There is not enough memory for an OpenGL context.");
+        return NULL;
+    }
+    *context = (struct gm_context){.kind = kind, .self = kind->open(message, size)};
+    if (context->self == NULL) {
+        free(context);
+        return NULL;
+    }
+    return context;
+}
+
+static void unknown_kind(const char *wanted, char *message, size_t size)
+{
+    char known[64] = "";
+    for (size_t i = 0; kinds[i] != NULL; i++) {
+        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i > 0 ? " and " : "",
+                 kinds[i]->key);
+    }
+    snprintf(message, size, "GEOMINT_GL is \"%.40s\", but this geomint knows only %s.", wanted,
+             known[0] != '\0' ? known : "none");
+}
+
+struct gm_context *gm_context_open(char *message, size_t size)
+{
+    const char *wanted = getenv("GEOMINT_GL");
+    char reasons[2][192] = {"", ""};
+    size_t tried = 0;
+    for (size_t i = 0; kinds[i] != NULL; i++) {
+        if (wanted != NULL && wanted[0] != '\0' && strcmp(wanted, kinds[i]->key) != 0) {
+            continue;
+        }
+        struct gm_context *context = open_kind(kinds[i], reasons[tried], sizeof reasons[tried]);
+        if (context != NULL) {
+            return context;
+        }
+        tried++;
+    }
+    if (tried == 0 && wanted != NULL && wanted[0] != '\0') {
+        unknown_kind(wanted, message, size);
+    } else if (tried == 0) {
+        snprintf(message, size,
+                 "This geomint was built without OSMesa and EGL, so it cannot paint pictures.");
+    } else {
+        snprintf(message, size, "No OpenGL context could be opened: %s%s%s.", reasons[0],
+                 tried > 1 ? "; " : "", reasons[1]);
+    }
+    return NULL;
+}
+
+void gm_context_close(struct gm_context *context)
+{
+    if (context == NULL) {
+        return;
+    }
+    context->kind->close(context->self);
+    free(context);
+}
+
+bool gm_context_use(const struct gm_context *context)
+{
+    return context->kind->use(context->self);
+}
+
+gm_context_function gm_context_find(const struct gm_context *context, const char *name)
+{
+    return context->kind->find(context->self, name);
+}
+
+const char *gm_context_name(const struct gm_context *context)
+{
+    return context->kind->name;
+}
+
+static const int crashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};
+enum { CRASHES = sizeof crashes / sizeof crashes[0], CRASHED = 3 /* the exit status */ };
+static char sentence[GM_MESSAGE]; /* made before it is needed: a crash is no time to format */
+
+static void end(int number)
+{
+    (void)number;
+    const ssize_t written = write(STDERR_FILENO, sentence, strlen(sentence));
+    (void)written;
+    _exit(CRASHED);
+}
+
+static void make_sentence(void)
+{
+    const char *driver = getenv("GALLIUM_DRIVER");
+    struct rlimit space;
+    const bool limited = getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY;
+    const int length =
+        snprintf(sentence, sizeof sentence, "geomint: Mesa, which paints the pictures, crashed");
+    const size_t used = (size_t)length;
+    if (driver != NULL) {
+        snprintf(sentence + used, sizeof sentence - used,
+                 "; the environment variable GALLIUM_DRIVER asks for its driver \"%.60s\".\n", driver);
+    } else if (limited) {
+        snprintf(sentence + used, sizeof sentence - used, "; its address space is limited to %.0f MB.\n",
+                 (double)space.rlim_cur / 1e6);
+    } else {
+        snprintf(sentence + used, sizeof sentence - used, ".\n");
+    }
+}
+
+void gm_context_guard(void)
+{
+    make_sentence();
+    for (size_t i = 0; i < CRASHES; i++) {
+        struct sigaction ours = {.sa_handler = end, .sa_flags = (int)SA_RESETHAND}, before;
+        sigemptyset(&ours.sa_mask);
+        if (sigaction(crashes[i], NULL, &before) == 0 && before.sa_handler == SIG_DFL) {
+            sigaction(crashes[i], &ours, NULL);
+        }
+    }
+}
+
+void gm_context_unguard(void)
+{
+    for (size_t i = 0; i < CRASHES; i++) {
+        struct sigaction now;
+        if (sigaction(crashes[i], NULL, &now) == 0 && now.sa_handler == end) {
+            signal(crashes[i], SIG_DFL);
+        }
+    }
+}

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Without the window system's headers. */
+#define EGL_NO_X11
+#define MESA_EGL_NO_X11_HEADERS
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include "render/gl/context_kind.h"
+
+/* EGL on Mesa's surfaceless platform: no screen, no window, no X server is asked. */
+
+struct egl {
+    EGLDisplay display;
+    EGLContext context;
+    PFNEGLGETPROCADDRESSPROC get_proc_address;
+    PFNEGLQUERYSTRINGPROC query_string;
+    PFNEGLINITIALIZEPROC initialize;
+    PFNEGLTERMINATEPROC terminate;
+    PFNEGLBINDAPIPROC bind_api;
+    PFNEGLCHOOSECONFIGPROC choose_config;
+    PFNEGLCREATECONTEXTPROC create_context;
+    PFNEGLDESTROYCONTEXTPROC destroy_context;
+    PFNEGLMAKECURRENTPROC make_current;
+    PFNEGLRELEASETHREADPROC release_thread;
+};
+
+static bool find_symbol(void *library, const char *name, void *function)
+{
+    *(void **)function = dlsym(library, name);
+    return *(void **)function != NULL;
+}
+
+static bool find_symbols(struct egl *egl, void *library)
+{
+    return find_symbol(library, "eglGetProcAddress", &egl->get_proc_address) &&
+           find_symbol(library, "eglQueryString", &egl->query_string) &&
+           find_symbol(library, "eglInitialize", &egl->initialize) &&
+           find_symbol(library, "eglTerminate", &egl->terminate) &&
+           find_symbol(library, "eglBindAPI", &egl->bind_api) &&
+           find_symbol(library, "eglChooseConfig", &egl->choose_config) &&
+           find_symbol(library, "eglCreateContext", &egl->create_context) &&
+           find_symbol(library, "eglDestroyContext", &egl->destroy_context) &&
+           find_symbol(library, "eglMakeCurrent", &egl->make_current) &&
+           find_symbol(library, "eglReleaseThread", &egl->release_thread);
+}
+
+static bool egl_use(void *self)
+{
+    struct egl *egl = self;
+    return egl->bind_api(EGL_OPENGL_API) &&
+           egl->make_current(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, egl->context);
+}
+
+static void egl_close(void *self)
+{
+    struct egl *egl = self;
+    if (egl->context != EGL_NO_CONTEXT) {
+        egl->make_current(egl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        egl->destroy_context(egl->display, egl->context);
+    }
+    /* The display is not terminated: EGL shares it between all contexts of the process. */
+    if (egl->release_thread != NULL) {
+        egl->release_thread();
+    }
+    free(egl);
+}
+
+/* Which call failed, or NULL. */
+static const char *context_create(struct egl *egl)
+{
+    const char *extensions = egl->query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    if (extensions == NULL || strstr(extensions, "EGL_MESA_platform_surfaceless") == NULL) {
+        return "has no surfaceless platform";
+    }
+    const PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
+        (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->get_proc_address("eglGetPlatformDisplayEXT");
+    if (get_platform_display == NULL) {
+        return "has no eglGetPlatformDisplayEXT";
+    }
+    egl->display = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    if (egl->display == EGL_NO_DISPLAY || !egl->initialize(egl->display, NULL, NULL)) {
+        return "gives no surfaceless display";
+    }
+    static const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    static const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                        3,
+                                        EGL_CONTEXT_MINOR_VERSION,
+                                        3,
+                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                        EGL_NONE};
+    EGLConfig config = NULL;
+    EGLint count = 0;
+    if (!egl->bind_api(EGL_OPENGL_API) || !egl->choose_config(egl->display, wanted, &config, 1, &count) ||
+        count < 1) {
+        return "offers no configuration for OpenGL";
+    }
+    egl->context = egl->create_context(egl->display, config, EGL_NO_CONTEXT, attributes);
+    if (egl->context == EGL_NO_CONTEXT || !egl_use(egl)) {
+        return "gives no OpenGL 3.3 context";
+    }
+    return NULL;
+}
+
+static void *egl_open(char *message, size_t size)
+{
+    static const char *const names[] = {"libEGL.so.1", NULL};
+    void *library = gm_context_library(names, message, size); /* never unloaded, as with OSMesa */
+    if (library == NULL) {
+        return NULL;
+    }
+    struct egl *egl = calloc(1, sizeof *egl);
+    if (egl == NULL) {
+        snprintf(message, size, "there is not enough memory for EGL");
+        return NULL;
+    }
+    const char *reason = find_symbols(egl, library) ? context_create(egl) : "is too old";
+    if (reason != NULL) {
+        snprintf(message, size, "EGL %s", reason);
+        egl_close(egl);
+        return NULL;
+    }
+    return egl;
+}
+
+static gm_context_function egl_find(void *self, const char *name)
+{
+    struct egl *egl = self;
+    return (gm_context_function)egl->get_proc_address(name);
+}
+
+const struct gm_context_kind gm_context_egl = {
+    .key = "egl",
+    .name = "EGL",
+    .open = egl_open,
+    .close = egl_close,
+    .use = egl_use,
+    .find = egl_find,
+};

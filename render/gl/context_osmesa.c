@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <dlfcn.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <GL/gl.h>
+#include <GL/osmesa.h>
+
+#include "render/gl/context_kind.h"
+
+/* OSMesa: Mesa's renderer into memory. Mesa 25.1 was the last to ship it. */
+
+enum { SIDE = 16 }; /* of the buffer that a context must have; nothing is drawn there */
+
+struct osmesa {
+    OSMesaContext context;
+    OSMesaContext (*create)(const int *attributes, OSMesaContext shared);
+    void (*destroy)(OSMesaContext context);
+    GLboolean (*make_current)(OSMesaContext context, void *buffer, GLenum type, GLsizei width,
+                              GLsizei height);
+    OSMESAproc (*get_proc_address)(const char *name);
+    unsigned char buffer[SIDE * SIDE * 4];
+};
+
+/* Function pointers come out of dlsym as data pointers; POSIX lets their representation be copied. */
+static bool find_symbol(void *library, const char *name, void *function)
+{
+    *(void **)function = dlsym(library, name);
+    return *(void **)function != NULL;
+}
+
+static bool osmesa_use(void *self)
+{
+    struct osmesa *osmesa = self;
+    return osmesa->make_current(osmesa->context, osmesa->buffer, GL_UNSIGNED_BYTE, SIDE, SIDE);
+}
+
+static void osmesa_close(void *self)
+{
+    struct osmesa *osmesa = self;
+    if (osmesa->context != NULL) {
+        osmesa->make_current(NULL, NULL, 0, 0, 0);
+        osmesa->destroy(osmesa->context);
+    }
+    free(osmesa);
+}
+
+static void *osmesa_open(char *message, size_t size)
+{
+    /* The library is never unloaded: Mesa and LLVM leave threads' destructors and exit handlers behind. */
+    static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL};
+    void *library = gm_context_library(names, message, size);
+    if (library == NULL) {
+        return NULL;
+    }
+    struct osmesa *osmesa = calloc(1, sizeof *osmesa);
+    if (osmesa == NULL) {
+        snprintf(message, size, "there is not enough memory for OSMesa");
+        return NULL;
+    }
+    if (!find_symbol(library, "OSMesaCreateContextAttribs", &osmesa->create) ||
+        !find_symbol(library, "OSMesaDestroyContext", &osmesa->destroy) ||
+        !find_symbol(library, "OSMesaMakeCurrent", &osmesa->make_current) ||
+        !find_symbol(library, "OSMesaGetProcAddress", &osmesa->get_proc_address)) {
+        snprintf(message, size, "libOSMesa is too old");
+        osmesa_close(osmesa);
+        return NULL;
+    }
+    static const int attributes[] = {OSMESA_FORMAT,
+                                     OSMESA_RGBA,
+                                     OSMESA_PROFILE,
+                                     OSMESA_CORE_PROFILE,
+                                     OSMESA_CONTEXT_MAJOR_VERSION,
+                                     3,
+                                     OSMESA_CONTEXT_MINOR_VERSION,
+                                     3,
+                                     0};
+    osmesa->context = osmesa->create(attributes, NULL);
+    if (osmesa->context == NULL || !osmesa_use(osmesa)) {
+        snprintf(message, size, "OSMesa gives no OpenGL 3.3 context");
+        osmesa_close(osmesa);
+        return NULL;
+    }
+    return osmesa;
+}
+
+static gm_context_function osmesa_find(void *self, const char *name)
+{
+    struct osmesa *osmesa = self;
+    return (gm_context_function)osmesa->get_proc_address(name);
+}
+
+const struct gm_context_kind gm_context_osmesa = {
+    .key = "osmesa",
+    .name = "OSMesa",
+    .open = osmesa_open,
+    .close = osmesa_close,
+    .use = osmesa_use,
+    .find = osmesa_find,
+};

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_GL_GLYPHS_H
+#define GM_RENDER_GL_GLYPHS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Letters: fonts found by fontconfig, drawn by FreeType into one growing image of coverages (the atlas). */
+
+enum gm_font { GM_FONT_SANS, GM_FONT_BOLD, GM_FONT_MONO, GM_FONT_COUNT };
+
+struct gm_glyphs;
+
+/* NULL on failure, with one sentence in message. */
+struct gm_glyphs *gm_glyphs_open(char *message, size_t size);
+void gm_glyphs_close(struct gm_glyphs *glyphs);
+
+/* Width of a text, and distances of a font's baseline from the top and bottom of its line; in pixels, for
+   letters of `height` pixels (the em). */
+double gm_glyphs_width(struct gm_glyphs *glyphs, enum gm_font font, int height, const char *text);
+double gm_glyphs_ascent(struct gm_glyphs *glyphs, enum gm_font font, int height);
+double gm_glyphs_descent(struct gm_glyphs *glyphs, enum gm_font font, int height);
+
+/* Letters of a text one by one, from `pen` (which moves on) on a baseline at 0. */
+struct gm_letter {
+    int x, y, width, height; /* of its image, relative to the baseline's start; y downwards */
+    int atlas_x, atlas_y;
+};
+/* False at the end of the text; a letter without an image has width 0. */
+bool gm_glyphs_next(struct gm_glyphs *glyphs, enum gm_font font, int height, const char **text, double *pen,
+                    struct gm_letter *letter);
+
+/* The atlas: rows of `width` bytes. Rows from `changed` on have changed since the last call. It only grows
+   downwards, so that places in it stay valid. */
+struct gm_atlas {
+    const unsigned char *pixels;
+    int width, height, changed, used;
+};
+struct gm_atlas gm_glyphs_atlas(struct gm_glyphs *glyphs);
+
+#endif

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/gl/shaders.h"
+
+#include <stdio.h>
+
+#include "render/gl/batch.h"
+
+/* The first row of pixels in memory is the top of the picture, so y is not turned round. */
+static const char vertex_source[] = "#version 330 core\n"
+                                    "uniform vec2 scale;\n"
+                                    "in vec2 place;\n"
+                                    "in vec3 shape;\n"
+                                    "in vec4 colour;\n"
+                                    "out vec3 edge;\n"
+                                    "out vec4 ink;\n"
+                                    "void main() {\n"
+                                    "    gl_Position = vec4(place * scale - 1.0, 0.0, 1.0);\n"
+                                    "    edge = shape;\n"
+                                    "    ink = colour;\n"
+                                    "}\n";
+
+static const char fragment_head[] =
+    "#version 330 core\n"
+    "uniform sampler2D glyphs, maps, image;\n"
+    "in vec3 edge;\n"
+    "in vec4 ink;\n"
+    "out vec4 pixel;\n"
+    "vec3 mapped(float value) {\n"
+    "    float inside = clamp(value, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0;\n"
+    "    return texture(maps, vec2(inside, 0.25 + 0.5 * ink.r)).rgb;\n"
+    "}\n"
+    "float covered() { return clamp(edge.z + 0.5 - length(edge.xy), 0.0, 1.0); }\n";
+
+static const char *const fragment_sources[GM_PROGRAM_COUNT] = {
+    [GM_PROGRAM_INK] = "void main() { pixel = vec4(ink.rgb, ink.a * covered()); }\n",
+    [GM_PROGRAM_CORE] = "void main() { if (covered() < 1.0) discard; pixel = ink; }\n",
+    [GM_PROGRAM_TEXT] =
+        "void main() { pixel = vec4(ink.rgb, ink.a * texelFetch(glyphs, ivec2(edge.xy), 0).r); }\n",
+    [GM_PROGRAM_FIELD] = "void main() { pixel = vec4(mapped(edge.x), edge.z); }\n",
+    [GM_PROGRAM_IMAGE] = "void main() { pixel = vec4(mapped(texture(image, edge.xy).r), edge.z); }\n",
+};
+
+static GLuint compile(const struct gm_gl *gl, GLenum kind, const char *head, const char *body)
+{
+    const GLuint shader = gl->CreateShader(kind);
+    const char *sources[] = {head, body};
+    gl->ShaderSource(shader, 2, sources, NULL);
+    gl->CompileShader(shader);
+    return shader;
+}
+
+static bool link_program(const struct gm_gl *gl, GLuint program, const char *fragment_body)
+{
+    const GLuint vertex = compile(gl, GL_VERTEX_SHADER, vertex_source, "");
+    const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, fragment_head, fragment_body);
+    gl->AttachShader(program, vertex);
+    gl->AttachShader(program, fragment);
+    gl->BindAttribLocation(program, 0, "place");
+    gl->BindAttribLocation(program, 1, "shape");
+    gl->BindAttribLocation(program, 2, "colour");
+    gl->LinkProgram(program);
+    gl->DeleteShader(vertex);
+    gl->DeleteShader(fragment);
+    GLint linked = GL_FALSE;
+    gl->GetProgramiv(program, GL_LINK_STATUS, &linked);
+    return linked;
+}
+
+bool gm_shaders_open(const struct gm_gl *gl, GLuint *programs, char *message, size_t size)
+{
+    static const char *const samplers[] = {"glyphs", "maps", "image"}; /* in order of texture units */
+    for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
+        programs[i] = gl->CreateProgram();
+        if (!link_program(gl, programs[i], fragment_sources[i])) {
+            snprintf(message, size, "This OpenGL cannot compile the painter's shader %d.", i);
+            return false;
+        }
+        gl->UseProgram(programs[i]);
+        for (int unit = 0; unit < 3; unit++) {
+            const GLint location = gl->GetUniformLocation(programs[i], samplers[unit]);
+            if (location >= 0) {
+                gl->Uniform1i(location, unit);
+            }
+        }
+    }
+    return true;
+}
+
+void gm_shaders_close(const struct gm_gl *gl, GLuint *programs)
+{
+    for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
+        gl->DeleteProgram(programs[i]);
+    }
+}
+
+void gm_shaders_resize(const struct gm_gl *gl, const GLuint *programs, int width, int height)
+{
+    for (int i = 0; i < GM_PROGRAM_COUNT; i++) {
+        gl->UseProgram(programs[i]);
+        gl->Uniform2f(gl->GetUniformLocation(programs[i], "scale"), 2.0f / (float)width,
+                      2.0f / (float)height);
+    }
+}

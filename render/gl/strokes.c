@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/gl/strokes.h"
+
+#include <math.h>
+#include <string.h>
+
+/* How far beyond half its width a stroke's triangles reach, for the fading edge. */
+static const float fringe = 0.75f;
+
+/* Sharper turns than this cosine are not mitred. */
+static const float sharpest = 0.35f;
+
+static struct gm_point minus(struct gm_point a, struct gm_point b)
+{
+    return (struct gm_point){a.x - b.x, a.y - b.y};
+}
+
+static float dot(struct gm_point a, struct gm_point b)
+{
+    return a.x * b.x + a.y * b.y;
+}
+
+/* The direction of a segment, and its length. */
+static struct gm_point direction(struct gm_point from, struct gm_point to, float *length)
+{
+    const struct gm_point way = minus(to, from);
+    *length = sqrtf(dot(way, way));
+    return *length > 0.0f ? (struct gm_point){way.x / *length, way.y / *length}
+                          : (struct gm_point){1.0f, 0.0f};
+}
+
+static struct gm_vertex vertex(struct gm_point place, float across, float along, float half,
+                               struct gm_ink ink)
+{
+    struct gm_vertex made = {place.x, place.y, across, along, half, {0}};
+    memcpy(made.colour, ink.colour, sizeof made.colour);
+    return made;
+}
+
+struct joint {
+    struct gm_point before, after; /* directions */
+    bool mitred;
+};
+
+static struct joint joint_at(const struct gm_polyline *line, size_t i, float reach)
+{
+    const size_t n = line->count;
+    const struct gm_point *p = line->points;
+    float length, next;
+    struct joint joint;
+    joint.before = direction(p[(i + n - 1) % n], p[i], &length);
+    joint.after = direction(p[i], p[(i + 1) % n], &next);
+    const float cosine = dot(joint.before, joint.after);
+    /* The inner side of the mitre must not eat up half of a neighbouring segment. */
+    const float inner = reach * reach * (1.0f - cosine), shorter = 0.5f * fminf(length, next);
+    joint.mitred = cosine > sharpest && inner <= shorter * shorter * (1.0f + cosine);
+    return joint;
+}
+
+size_t gm_stroke_breaks(const struct gm_polyline *line, float half)
+{
+    size_t breaks = 0;
+    const size_t ends = line->closed ? 0 : 1;
+    for (size_t i = ends; i + ends < line->count; i++) {
+        breaks += !joint_at(line, i, half + fringe).mitred;
+    }
+    return breaks;
+}
+
+/* The two sides of the strip at a point; `slant` is along the normal of one direction or between two. */
+static void put_sides(struct gm_vertex *strip, struct gm_point p, struct gm_point slant, float reach,
+                      float along, float half, struct gm_ink ink)
+{
+    const struct gm_point left = {p.x + reach * slant.x, p.y + reach * slant.y};
+    const struct gm_point right = {p.x - reach * slant.x, p.y - reach * slant.y};
+    strip[0] = vertex(left, reach, along, half, ink);
+    strip[1] = vertex(right, -reach, along, half, ink);
+}
+
+static struct gm_point normal(struct gm_point way)
+{
+    return (struct gm_point){-way.y, way.x};
+}
+
+/* From a mitred joint's two normals to the vector whose projection on either is 1. */
+static struct gm_point mitre(struct joint joint)
+{
+    const struct gm_point a = normal(joint.before), b = normal(joint.after);
+    const float scale = 1.0f / (1.0f + dot(a, b));
+    return (struct gm_point){scale * (a.x + b.x), scale * (a.y + b.y)};
+}
+
+static struct gm_point beyond(struct gm_point p, struct gm_point way, float distance)
+{
+    return (struct gm_point){p.x + distance * way.x, p.y + distance * way.y};
+}
+
+/* A run of mitred segments from point `first` over `segments` segments, round at both ends. */
+static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size_t first, size_t segments,
+                    float half, struct gm_ink ink)
+{
+    const float reach = half + fringe;
+    const size_t n = line->count;
+    struct gm_vertex *strip = gm_batch_strip(batch, 2 * (segments + 3));
+    if (strip == NULL) {
+        return;
+    }
+    const struct gm_point *p = line->points, start = p[first % n], end = p[(first + segments) % n];
+    float length;
+    struct gm_point way = direction(start, p[(first + 1) % n], &length);
+    put_sides(strip, beyond(start, way, -reach), normal(way), reach, reach, half, ink);
+    put_sides(strip + 2, start, normal(way), reach, 0.0f, half, ink);
+    strip += 4;
+    for (size_t i = 1; i < segments; i++, strip += 2) {
+        put_sides(strip, p[(first + i) % n], mitre(joint_at(line, (first + i) % n, reach)), reach, 0.0f, half,
+                  ink);
+    }
+    way = direction(p[(first + segments - 1) % n], end, &length);
+    put_sides(strip, end, normal(way), reach, 0.0f, half, ink);
+    put_sides(strip + 2, beyond(end, way, reach), normal(way), reach, reach, half, ink);
+    gm_batch_end(batch, 0);
+}
+
+/* A closed line all of whose joints are mitred. */
+static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_ink ink)
+{
+    const float reach = half + fringe;
+    struct gm_vertex *strip = gm_batch_strip(batch, 2 * (line->count + 1));
+    if (strip == NULL) {
+        return;
+    }
+    for (size_t i = 0; i <= line->count; i++) {
+        const size_t k = i % line->count;
+        put_sides(strip + 2 * i, line->points[k], mitre(joint_at(line, k, reach)), reach, 0.0f, half, ink);
+    }
+    gm_batch_end(batch, 0);
+}
+
+void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_ink ink)
+{
+    const float reach = half + fringe;
+    const size_t n = line->count;
+    if (n == 0) {
+        return;
+    }
+    if (n == 1) {
+        gm_stroke_disc(batch, line->points[0], half, ink);
+        return;
+    }
+    size_t first = 0, segments = n - 1;
+    if (line->closed) {
+        while (first < n && joint_at(line, first, reach).mitred) {
+            first++;
+        }
+        if (first == n && n > 2) {
+            put_loop(batch, line, half, ink);
+            return;
+        }
+        segments = n;
+    }
+    size_t begin = 0;
+    for (size_t i = 1; i <= segments; i++) {
+        if (i == segments || !joint_at(line, (first + i) % n, reach).mitred) {
+            put_run(batch, line, first + begin, i - begin, half, ink);
+            begin = i;
+        }
+    }
+}
+
+void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_ink ink)
+{
+    struct gm_vertex *strip = gm_batch_strip(batch, 4);
+    if (strip == NULL) {
+        return;
+    }
+    const float reach = radius + fringe;
+    for (int i = 0; i < 4; i++) {
+        const float x = i % 2 == 0 ? -reach : reach, y = i < 2 ? -reach : reach;
+        strip[i] = vertex((struct gm_point){centre.x + x, centre.y + y}, x, y, radius, ink);
+    }
+    gm_batch_end(batch, 0);
+}
+
+void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, float bottom,
+                   struct gm_ink ink)
+{
+    struct gm_vertex *strip = gm_batch_strip(batch, 4);
+    if (strip == NULL) {
+        return;
+    }
+    for (int i = 0; i < 4; i++) {
+        strip[i] =
+            vertex((struct gm_point){i % 2 == 0 ? left : right, i < 2 ? top : bottom}, 0.0f, 0.0f, 1.0f, ink);
+    }
+    gm_batch_end(batch, 0);
+}
+
+/* Convex: every turn has one sign, and they add up to one round, so that x rises and falls once. */
+static bool convex(const struct gm_polyline *line)
+{
+    const size_t n = line->count;
+    const struct gm_point *p = line->points;
+    bool left = false, right = false;
+    int reversals = 0;
+    struct gm_point before = minus(p[0], p[n - 1]);
+    for (size_t i = 0; i < n; i++) {
+        const struct gm_point after = minus(p[(i + 1) % n], p[i]);
+        const float turn = before.x * after.y - before.y * after.x;
+        left |= turn > 0.0f;
+        right |= turn < 0.0f;
+        reversals += (before.x < 0.0f) != (after.x < 0.0f);
+        if ((left && right) || reversals > 2) {
+            return false;
+        }
+        before = after;
+    }
+    return left || right;
+}
+
+static float area_of(const struct gm_polyline *line)
+{
+    float area = 0.0f;
+    for (size_t i = 0; i < line->count; i++) {
+        const struct gm_point p = minus(line->points[i], line->points[0]);
+        const struct gm_point q = minus(line->points[(i + 1) % line->count], line->points[0]);
+        area += 0.5f * (p.x * q.y - p.y * q.x);
+    }
+    return area;
+}
+
+static float perimeter_of(const struct gm_polyline *line)
+{
+    struct gm_polyline closed = *line;
+    closed.closed = true;
+    return gm_polyline_length(&closed);
+}
+
+/* The corners in the order 0, 1, n-1, 2, n-2, ...: as a strip they cover a convex polygon once, and the
+   inside of any polygon an odd number of times. */
+static size_t zigzag(size_t i, size_t n)
+{
+    return i == 0 ? 0 : i % 2 == 1 ? (i + 1) / 2 : n - i / 2;
+}
+
+/* Moves a corner along the bisector by `distance` from both of its sides. */
+static struct gm_point shifted(const struct gm_polyline *line, size_t i, float distance)
+{
+    const struct joint joint = joint_at(line, i, 0.0f);
+    const struct gm_point a = normal(joint.before), b = normal(joint.after);
+    const float scale = distance / fmaxf(0.25f, 1.0f + dot(a, b));
+    return (struct gm_point){line->points[i].x + scale * (a.x + b.x),
+                             line->points[i].y + scale * (a.y + b.y)};
+}
+
+static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, float outwards,
+                        struct gm_ink ink)
+{
+    /* First the fading rim, a ring of corners half a pixel inside and outside; then the inside. */
+    const size_t n = line->count;
+    struct gm_vertex *ring = gm_batch_strip(batch, 2 * (n + 1));
+    if (ring == NULL) {
+        return;
+    }
+    for (size_t i = 0; i <= n; i++) {
+        const size_t k = i % n;
+        ring[2 * i] = vertex(shifted(line, k, -0.5f * outwards), 0.0f, 0.0f, 0.5f, ink);
+        ring[2 * i + 1] = vertex(shifted(line, k, 0.5f * outwards), 1.0f, 0.0f, 0.5f, ink);
+    }
+    gm_batch_end(batch, 0);
+    struct gm_vertex *strip = gm_batch_strip(batch, n);
+    if (strip == NULL) {
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const struct gm_point corner = shifted(line, zigzag(i, n), -0.5f * outwards);
+        strip[i] = vertex(corner, 0.0f, 0.0f, 0.5f, ink);
+    }
+    gm_batch_end(batch, 0);
+}
+
+static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
+{
+    const size_t n = line->count;
+    struct gm_vertex *strip = gm_batch_strip(batch, n);
+    if (strip == NULL) {
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        strip[i] = vertex(line->points[zigzag(i, n)], 0.0f, 0.0f, 1.0f, ink);
+    }
+    gm_batch_end(batch, 0);
+}
+
+static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
+{
+    struct gm_polyline rim = *line;
+    struct gm_bounds bounds = {line->points[0].x, line->points[0].y, line->points[0].x, line->points[0].y};
+    for (size_t i = 1; i < line->count; i++) {
+        bounds.left = fminf(bounds.left, line->points[i].x);
+        bounds.right = fmaxf(bounds.right, line->points[i].x);
+        bounds.top = fminf(bounds.top, line->points[i].y);
+        bounds.bottom = fmaxf(bounds.bottom, line->points[i].y);
+    }
+    gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_INVERT);
+    put_polygon(batch, line, ink);
+    gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_OUTSIDE);
+    rim.closed = true;
+    gm_stroke_line(batch, &rim, 0.0f, ink);
+    gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_INSIDE);
+    gm_stroke_box(batch, bounds.left - 1.0f, bounds.top - 1.0f, bounds.right + 1.0f, bounds.bottom + 1.0f,
+                  ink);
+    gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+}
+
+void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
+{
+    if (line->count < 3) {
+        return;
+    }
+    const float area = area_of(line);
+    /* Where the rim would be most of it, half a pixel inwards is already beyond the middle. */
+    const bool thick = fabsf(area) > 2.0f * perimeter_of(line);
+    if (convex(line) && thick) {
+        fill_convex(batch, line, area > 0.0f ? -1.0f : 1.0f, ink);
+    } else if (convex(line)) {
+        put_polygon(batch, line, ink);
+    } else {
+        fill_any(batch, line, ink);
+    }
+}

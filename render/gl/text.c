@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <string.h>
+
+#include "render/gl/painter.h"
+
+/* The font of a label, and what the layout measures it with: titles are bold, and the clock, in letters of
+   equal width, is as large as the title. */
+static double measure(const void *self, enum gm_text_size size, const char *text)
+{
+    const struct gm_canvas *canvas = self;
+    const int height = canvas->letters[size];
+    switch (size) {
+    case GM_TEXT_TITLE:
+        return fmax(gm_glyphs_width(canvas->glyphs, GM_FONT_BOLD, height, text),
+                    gm_glyphs_width(canvas->glyphs, GM_FONT_MONO, height, text));
+    case GM_TEXT_PANEL:
+        return gm_glyphs_width(canvas->glyphs, GM_FONT_BOLD, height, text);
+    default:
+        return gm_glyphs_width(canvas->glyphs, GM_FONT_SANS, height, text);
+    }
+}
+
+static double line_height(struct gm_canvas *canvas, int letters)
+{
+    return ceil(gm_glyphs_ascent(canvas->glyphs, GM_FONT_SANS, letters) +
+                gm_glyphs_descent(canvas->glyphs, GM_FONT_SANS, letters));
+}
+
+struct gm_metrics gm_canvas_metrics(struct gm_canvas *canvas)
+{
+    const int roomy = 540;
+    struct gm_metrics metrics = {
+        .width = canvas->width,
+        .height = canvas->height,
+        .measure = measure,
+        .self = canvas,
+        .scale = canvas->scale,
+        .terse = canvas->height < roomy,
+    };
+    for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++) {
+        metrics.line[i] = line_height(canvas, canvas->letters[i]);
+    }
+    return metrics;
+}
+
+struct writing {
+    enum gm_font font;
+    int letters;
+    double x, y; /* of the baseline's start */
+    bool upwards;
+    struct gm_ink ink;
+};
+
+static void put_letter(struct gm_batch *batch, const struct writing *writing, double x, double y,
+                       const struct gm_letter *letter)
+{
+    struct gm_vertex *strip = gm_batch_strip(batch, 4);
+    if (strip == NULL) {
+        return;
+    }
+    for (int i = 0; i < 4; i++) {
+        const int u = i % 2 == 0 ? 0 : letter->width, v = i < 2 ? 0 : letter->height;
+        const double along = letter->x + u, down = letter->y + v;
+        strip[i] = (struct gm_vertex){
+            .x = (float)(writing->upwards ? x + down : x + along),
+            .y = (float)(writing->upwards ? y - along : y + down),
+            .across = (float)(letter->atlas_x + u),
+            .along = (float)(letter->atlas_y + v),
+        };
+        memcpy(strip[i].colour, writing->ink.colour, sizeof strip[i].colour);
+    }
+    gm_batch_end(batch, 0);
+}
+
+static void write_text(struct gm_canvas *canvas, const struct writing *writing, const char *text)
+{
+    /* Baselines stand on whole pixels; letters find their place along them to a quarter. */
+    const double x = writing->upwards ? floor(writing->x + 0.5) : floor(writing->x);
+    const double y = writing->upwards ? ceil(writing->y) : floor(writing->y + 0.5);
+    double pen = writing->upwards ? y - writing->y : writing->x - x;
+    struct gm_letter letter;
+    while (gm_glyphs_next(canvas->glyphs, writing->font, writing->letters, &text, &pen, &letter)) {
+        if (letter.width > 0) {
+            put_letter(&canvas->batch, writing, x, y, &letter);
+        }
+    }
+}
+
+static double anchor_share(enum gm_anchor anchor)
+{
+    return anchor == GM_ANCHOR_LEFT ? 0.0 : anchor == GM_ANCHOR_CENTRE ? 0.5 : 1.0;
+}
+
+static void draw_label(struct gm_canvas *canvas, const struct gm_label *label)
+{
+    struct writing writing = {.font = label->mono   ? GM_FONT_MONO
+                                      : label->bold ? GM_FONT_BOLD
+                                                    : GM_FONT_SANS,
+                              .letters = canvas->letters[label->size],
+                              .upwards = label->vertical,
+                              .ink = gm_canvas_ink(canvas, label->role, 1.0)};
+    const double width = gm_glyphs_width(canvas->glyphs, writing.font, writing.letters, label->text);
+    const double ascent = gm_glyphs_ascent(canvas->glyphs, GM_FONT_SANS, writing.letters);
+    if (label->vertical) {
+        writing.x = label->x + ascent;
+        writing.y = label->y + 0.5 * width;
+    } else {
+        writing.x = label->x - anchor_share(label->anchor) * width;
+        writing.y = label->y + ascent;
+    }
+    write_text(canvas, &writing, label->text);
+}
+
+/* A plate of translucent paper, so that a text among the marks can be read on anything. */
+static void draw_plate(struct gm_canvas *canvas, const struct gm_label *label)
+{
+    const int letters = canvas->letters[label->size];
+    const double width = gm_glyphs_width(canvas->glyphs, GM_FONT_SANS, letters, label->text);
+    const double line = line_height(canvas, letters);
+    const float half = (float)(0.5 * line), middle = (float)(label->y + 0.5 * line);
+    const float left = (float)label->x + 0.25f * half, right = (float)(label->x + width) - 0.25f * half;
+    struct gm_point ends[2] = {{left, middle}, {fmaxf(left + 1.0f, right), middle}};
+    const struct gm_polyline axis = {.points = ends, .count = 2};
+    gm_stroke_line(&canvas->batch, &axis, half, gm_canvas_ink(canvas, GM_PAPER, 0.6));
+}
+
+void gm_canvas_labels(struct gm_canvas *canvas, const struct gm_layout *layout)
+{
+    gm_batch_scissor(&canvas->batch, 0, 0, canvas->width, canvas->height);
+    gm_batch_state(&canvas->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    for (size_t i = 0; i < layout->label_count; i++) {
+        if (layout->labels[i].among_marks) {
+            draw_plate(canvas, &layout->labels[i]);
+        }
+    }
+    gm_batch_state(&canvas->batch, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
+    for (size_t i = 0; i < layout->label_count; i++) {
+        draw_label(canvas, &layout->labels[i]);
+    }
+}

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <threads.h>
+
+#include "render/layout/theme.h"
+
+/* Colour maps are smooth curves through a few points of the OKLab space (B. Ottosson, A perceptual color
+   space for image processing, 2020) whose lightness is linear along the map, so that equal steps of the
+   value look equal and a printout in grey keeps their order. */
+
+enum { TABLE_SIZE = 256, KNOTS = 7 };
+
+struct knot {
+    double lightness, chroma, hue; /* hue in degrees */
+};
+
+/* From black through violet, red and orange to a pale yellow. */
+static const struct knot sequential[KNOTS] = {
+    {0.130, 0.020, 285.0}, {0.270, 0.120, 290.0}, {0.410, 0.170, 322.0}, {0.550, 0.195, 358.0},
+    {0.690, 0.185, 25.0},  {0.830, 0.135, 65.0},  {0.970, 0.085, 102.0},
+};
+
+/* Blue and orange about a middle that recedes into the paper of either theme. */
+static const struct knot diverging[GM_THEME_COUNT][KNOTS] = {
+    [GM_THEME_LIGHT] = {{0.370, 0.130, 262.0},
+                        {0.560, 0.125, 250.0},
+                        {0.760, 0.085, 238.0},
+                        {0.960, 0.000, 0.0},
+                        {0.760, 0.115, 55.0},
+                        {0.560, 0.150, 40.0},
+                        {0.370, 0.125, 28.0}},
+    [GM_THEME_DARK] = {{0.860, 0.085, 225.0},
+                       {0.660, 0.130, 240.0},
+                       {0.445, 0.125, 255.0},
+                       {0.225, 0.000, 0.0},
+                       {0.445, 0.125, 30.0},
+                       {0.660, 0.160, 45.0},
+                       {0.860, 0.115, 75.0}},
+};
+
+static struct gm_rgb tables[2][GM_THEME_COUNT][TABLE_SIZE];
+static once_flag tables_made = ONCE_FLAG_INIT;
+
+static uint8_t encode(double linear)
+{
+    const double c = fmin(fmax(linear, 0.0), 1.0);
+    const double srgb = c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055;
+    return (uint8_t)lround(255.0 * srgb);
+}
+
+static struct gm_rgb rgb_of_oklab(double lightness, double a, double b)
+{
+    const double l = pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3.0);
+    const double m = pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3.0);
+    const double s = pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3.0);
+    return (struct gm_rgb){
+        encode(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
+        encode(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
+        encode(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s),
+    };
+}
+
+/* Cubic through the knots (Catmull-Rom), ends repeated by reflection. */
+static double curve(const double *knots, double position)
+{
+    int i = (int)position;
+    i = i > KNOTS - 2 ? KNOTS - 2 : i;
+    const double t = position - i;
+    const double p1 = knots[i], p2 = knots[i + 1];
+    const double p0 = i > 0 ? knots[i - 1] : 2.0 * p1 - p2;
+    const double p3 = i + 2 < KNOTS ? knots[i + 2] : 2.0 * p2 - p1;
+    return p1 +
+           0.5 * t * (p2 - p0 + t * (2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3 + t * (3.0 * (p1 - p2) + p3 - p0)));
+}
+
+static double between(const double *knots, double position)
+{
+    int i = (int)position;
+    i = i > KNOTS - 2 ? KNOTS - 2 : i;
+    return knots[i] + (position - i) * (knots[i + 1] - knots[i]);
+}
+
+static void table_make(const struct knot *knots, struct gm_rgb *table)
+{
+    double lightness[KNOTS], a[KNOTS], b[KNOTS];
+    for (int i = 0; i < KNOTS; i++) {
+        const double hue = knots[i].hue * 3.14159265358979323846 / 180.0;
+        lightness[i] = knots[i].lightness;
+        a[i] = knots[i].chroma * cos(hue);
+        b[i] = knots[i].chroma * sin(hue);
+    }
+    for (int i = 0; i < TABLE_SIZE; i++) {
+        const double position = (double)i * (KNOTS - 1) / (TABLE_SIZE - 1);
+        table[i] = rgb_of_oklab(between(lightness, position), curve(a, position), curve(b, position));
+    }
+}
+
+static void make_tables(void)
+{
+    for (int theme = 0; theme < GM_THEME_COUNT; theme++) {
+        table_make(sequential, tables[GM_MAP_SEQUENTIAL][theme]);
+        table_make(diverging[theme], tables[GM_MAP_DIVERGING][theme]);
+    }
+}
+
+struct gm_rgb gm_map_colour(enum gm_map map, enum gm_theme theme, double x)
+{
+    call_once(&tables_made, make_tables);
+    const double clamped = x > 0.0 ? fmin(x, 1.0) : 0.0; /* also for a NaN */
+    return tables[map][theme][(int)(clamped * (TABLE_SIZE - 1) + 0.5)];
+}

@@ -1,0 +1,443 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/layout/frame.h"
+
+#include <math.h>
+
+/* Distances in pixels of a picture 720 high. */
+static const double tick_gap = 9.0, label_gap = 3.0, title_gap = 7.0, bar_gap = 16.0, bar_width = 14.0;
+
+enum { FEWEST_TICKS = 3, MOST_TICKS = 6 };
+
+static const struct gm_mark *field_of(const struct gm_panel *panel)
+{
+    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
+        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
+            return mark;
+        }
+    }
+    return NULL;
+}
+
+static struct gm_axis bar_axis(const struct gm_mark *field)
+{
+    return (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = field->low, .high = field->high};
+}
+
+void gm_axis_range(const struct gm_axis *axis, double *low, double *high)
+{
+    const bool log = axis->scale == GM_LOG;
+    const bool good = isfinite(axis->low) && isfinite(axis->high) && axis->high > axis->low &&
+                      isfinite(axis->high - axis->low) && (!log || axis->low > 0.0);
+    *low = good ? axis->low : log ? 0.1 : 0.0;
+    *high = good ? axis->high : 1.0;
+    if (log) {
+        *low = log10(*low);
+        *high = log10(*high);
+    }
+}
+
+static double step_of(enum gm_scale scale, const double *values, size_t count)
+{
+    if (count < 2) {
+        return scale == GM_LOG ? 1.0 : 0.0;
+    }
+    return scale == GM_LOG ? log10(values[1] / values[0]) : values[1] - values[0];
+}
+
+/* The widest tick label an axis may get, whatever number of ticks it will have room for. */
+static double widest_tick(const struct gm_label_list *list, const struct gm_axis *axis, bool calm)
+{
+    if (calm) {
+        return gm_labels_width(list, GM_TEXT_TICK, axis->scale == GM_LINEAR ? "−0.05" : "10⁻¹⁰");
+    }
+    double widest = 0.0;
+    for (size_t max = FEWEST_TICKS; max <= MOST_TICKS; max++) {
+        double values[GM_TICK_MAX];
+        const size_t count = gm_ticks(axis, max, values);
+        for (size_t i = 0; i < count; i++) {
+            char text[64];
+            gm_tick_format(axis->scale, values[i], step_of(axis->scale, values, count), text, sizeof text);
+            widest = fmax(widest, gm_labels_width(list, GM_TEXT_TICK, text));
+        }
+    }
+    return widest;
+}
+
+static bool has(const char *text)
+{
+    return text != NULL && text[0] != '\0';
+}
+
+static enum gm_text_size title_size(const struct gm_panel *panel)
+{
+    return panel->place == GM_PLACE_STATE ? GM_TEXT_PANEL : GM_TEXT_LABEL;
+}
+
+struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_panel *panel,
+                              enum gm_detail detail, bool x_label, bool calm)
+{
+    const struct gm_metrics *metrics = list->metrics;
+    const double scale = metrics->scale;
+    struct gm_border border = {0};
+    if (detail < GM_DETAIL_DATA && has(panel->title)) {
+        border.top += metrics->line[title_size(panel)];
+    }
+    if (detail < GM_DETAIL_NO_NOTE && (has(panel->note) || panel->first_key != NULL)) {
+        border.top += metrics->line[GM_TEXT_LABEL];
+    }
+    if (border.top > 0.0) {
+        border.top += title_gap * scale;
+    }
+    if (panel->axes && detail < GM_DETAIL_NO_TICKS) {
+        border.left = widest_tick(list, &panel->y, calm) + tick_gap * scale;
+        border.right = 0.5 * widest_tick(list, &panel->x, calm);
+        border.bottom = metrics->line[GM_TEXT_TICK] + tick_gap * scale;
+        border.top = fmax(border.top, 0.5 * metrics->line[GM_TEXT_TICK]);
+        if (detail < GM_DETAIL_NO_AXIS_LABELS && has(panel->y.label)) {
+            border.left += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
+        }
+        if (detail < GM_DETAIL_NO_AXIS_LABELS && x_label && has(panel->x.label)) {
+            border.bottom += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
+        }
+    }
+    const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
+    if (field != NULL && detail < GM_DETAIL_NO_TICKS) {
+        const struct gm_axis axis = bar_axis(field);
+        double right = (bar_gap + bar_width + tick_gap) * scale + widest_tick(list, &axis, calm);
+        if (has(panel->colour_bar_label)) {
+            right += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
+        }
+        border.bar = fmax(0.0, right - border.right);
+        border.top = fmax(border.top, 0.5 * metrics->line[GM_TEXT_TICK]);
+        border.bottom = fmax(border.bottom, 0.5 * metrics->line[GM_TEXT_TICK]);
+    }
+    return border;
+}
+
+/* Room a label takes along an axis. */
+static double extent(const struct gm_label_list *list, bool across, const char *text)
+{
+    return across ? gm_labels_width(list, GM_TEXT_TICK, text) + 8.0 * list->metrics->scale
+                  : 1.2 * list->metrics->line[GM_TEXT_TICK];
+}
+
+/* As many ticks as there is room for, with their labels. surface = origin + factor * value. */
+static size_t place_ticks(struct gm_label_list *list, const struct gm_axis *axis, double origin,
+                          double factor, bool across, struct gm_tick *ticks)
+{
+    for (size_t max = MOST_TICKS; max > 0; max--) {
+        double values[GM_TICK_MAX], end = -INFINITY;
+        const size_t count = gm_ticks(axis, max, values);
+        const double step = step_of(axis->scale, values, count);
+        bool fits = count > 0;
+        for (size_t k = 0; k < count; k++) {
+            const size_t i = factor > 0.0 ? k : count - 1 - k; /* along the surface */
+            char text[64];
+            gm_tick_format(axis->scale, values[i], step, text, sizeof text);
+            const double value = axis->scale == GM_LOG ? log10(values[i]) : values[i];
+            ticks[i] = (struct gm_tick){.position = origin + factor * value,
+                                        .value = values[i],
+                                        .label = gm_picture_text(list->picture, "%s", text)};
+            const double half = 0.5 * extent(list, across, text);
+            fits = fits && ticks[i].position - half >= end;
+            end = ticks[i].position + half;
+        }
+        if (fits) {
+            return count;
+        }
+    }
+    return 0;
+}
+
+static void label_ticks(struct gm_label_list *list, const struct gm_tick *ticks, size_t count, bool across,
+                        double at, enum gm_anchor anchor)
+{
+    const double half = 0.5 * list->metrics->line[GM_TEXT_TICK];
+    for (size_t i = 0; i < count; i++) {
+        gm_labels_add(list, (struct gm_label){.text = ticks[i].label,
+                                              .size = GM_TEXT_TICK,
+                                              .role = GM_SECONDARY,
+                                              .x = across ? ticks[i].position : at,
+                                              .y = across ? at : ticks[i].position - half,
+                                              .anchor = anchor});
+    }
+}
+
+/* Where a title begins that is so wide: with the box, or as far before it as its room needs. */
+static double title_start(const struct gm_fill *fill, double width)
+{
+    return fmax(fill->title_left, fmin(fill->box.x, fill->title_left + fill->title_width - width));
+}
+
+static const char *key_text(const struct gm_label_list *list, const struct gm_key *key)
+{
+    static const char *const samples[GM_DASH_COUNT] = {"───", "╌╌", "···", "─·", "╴╴╴", "─··"};
+    return gm_picture_text(list->picture, "%s %s", samples[key->style.dash], key->name);
+}
+
+/* The distance of keys in a line: a smaller one where all of them then fit into it. */
+static double key_gap(const struct gm_label_list *list, const struct gm_panel *panel, double width)
+{
+    const double gap = 1.2 * list->metrics->line[GM_TEXT_LABEL];
+    double all = -gap;
+    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+        all += gm_labels_width(list, GM_TEXT_LABEL, key_text(list, key)) + gap;
+    }
+    return all > width ? 0.5 * gap : gap;
+}
+
+/* Keys side by side, each behind a piece of its line, from (x, y) on in as many lines as they take, which is
+   returned; a name that is longer than a line is shortened. Without `out` they are only counted. */
+static size_t set_keys(const struct gm_label_list *list, const struct gm_panel *panel, double x, double y,
+                       double width, struct gm_label_list *out)
+{
+    const double gap = key_gap(list, panel, width);
+    double at = 0.0;
+    size_t lines = 1;
+    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+        const char *text = key_text(list, key);
+        const double wide = gm_labels_width(list, GM_TEXT_LABEL, text);
+        if (at > 0.0 && at + wide > width) {
+            lines++;
+            at = 0.0;
+        }
+        if (out != NULL) {
+            gm_labels_add(
+                out, (struct gm_label){.text = gm_labels_shorten(out, GM_TEXT_LABEL, text, width),
+                                       .size = GM_TEXT_LABEL,
+                                       .role = key->style.role,
+                                       .x = x + at,
+                                       .y = y + (double)(lines - 1) * list->metrics->line[GM_TEXT_LABEL]});
+        }
+        at += wide + gap;
+    }
+    return lines;
+}
+
+size_t gm_key_lines(const struct gm_label_list *list, const struct gm_panel *panel, double width)
+{
+    return set_keys(list, panel, 0.0, 0.0, width, NULL);
+}
+
+/* How wide the keys are in one line, or the line that they fill. */
+static double keys_width(const struct gm_label_list *list, const struct gm_panel *panel, double width)
+{
+    const double gap = key_gap(list, panel, width);
+    double all = -gap;
+    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+        all += gm_labels_width(list, GM_TEXT_LABEL, key_text(list, key)) + gap;
+    }
+    return fmin(all, width);
+}
+
+static void label_panel(struct gm_label_list *list, const struct gm_panel *panel, const struct gm_fill *fill)
+{
+    const struct gm_metrics *metrics = list->metrics;
+    const bool state = panel->place == GM_PLACE_STATE;
+    const enum gm_text_size size = fill->small_title ? GM_TEXT_TICK : title_size(panel);
+    const size_t most = fill->title_lines > 1 ? fill->title_lines : 1;
+    const char *lines[GM_TITLE_LINES];
+    const size_t count =
+        gm_labels_wrap(list, size, panel->title + fill->title_skip, fill->title_width, most, lines);
+    const char *note = gm_labels_shorten_number(list, GM_TEXT_LABEL, panel->note, fill->title_width);
+    double wider = fill->detail < GM_DETAIL_NO_NOTE ? gm_labels_width(list, GM_TEXT_LABEL, note) : 0.0;
+    for (size_t i = 0; i < count; i++) {
+        wider = fmax(wider, gm_labels_width(list, size, lines[i]));
+    }
+    const double x = title_start(fill, wider);
+    double y = fill->box.y - title_gap * metrics->scale;
+    if (fill->detail < GM_DETAIL_NO_NOTE) {
+        y -= (double)fill->note_lines * metrics->line[GM_TEXT_LABEL];
+    }
+    if (fill->detail < GM_DETAIL_NO_NOTE && has(panel->note)) {
+        gm_labels_add(list, (struct gm_label){
+                                .text = note, .size = GM_TEXT_LABEL, .role = GM_SECONDARY, .x = x, .y = y});
+    } else if (fill->detail < GM_DETAIL_NO_NOTE && panel->first_key != NULL) {
+        const double width = fill->title_width;
+        set_keys(list, panel, title_start(fill, keys_width(list, panel, width)), y, width, list);
+    }
+    for (size_t i = 0; fill->detail < GM_DETAIL_DATA && i < count; i++) {
+        gm_labels_add(list, (struct gm_label){.text = lines[i],
+                                              .size = size,
+                                              .role = state ? panel->title_role : GM_INK,
+                                              .bold = state && !fill->small_title,
+                                              .x = x,
+                                              .y = y - (double)(most - i) * metrics->line[size]});
+    }
+}
+
+static void label_axes(struct gm_label_list *list, struct gm_frame *frame, enum gm_detail detail,
+                       bool x_label, double left)
+{
+    const struct gm_metrics *metrics = list->metrics;
+    const double scale = metrics->scale;
+    const struct gm_panel *panel = frame->panel;
+    const struct gm_box box = frame->box;
+    const double below = box.y + box.height + tick_gap * scale;
+    label_ticks(list, frame->y_ticks, frame->y_tick_count, false, box.x - tick_gap * scale, GM_ANCHOR_RIGHT);
+    label_ticks(list, frame->x_ticks, frame->x_tick_count, true, below, GM_ANCHOR_CENTRE);
+    if (detail >= GM_DETAIL_NO_AXIS_LABELS) {
+        return;
+    }
+    if (x_label) {
+        gm_labels_add(
+            list, (struct gm_label){.text = gm_labels_whole(list, GM_TEXT_LABEL, panel->x.label, box.width),
+                                    .size = GM_TEXT_LABEL,
+                                    .role = GM_INK,
+                                    .x = box.x + 0.5 * box.width,
+                                    .y = below + metrics->line[GM_TEXT_TICK] + label_gap * scale,
+                                    .anchor = GM_ANCHOR_CENTRE});
+    }
+    gm_labels_add(list,
+                  (struct gm_label){.text = gm_labels_whole(list, GM_TEXT_LABEL, panel->y.label, box.height),
+                                    .size = GM_TEXT_LABEL,
+                                    .role = GM_INK,
+                                    .x = box.x - left,
+                                    .y = box.y + 0.5 * box.height,
+                                    .anchor = GM_ANCHOR_CENTRE,
+                                    .vertical = true});
+}
+
+/* Whether values lie beyond the ends of the bar: those of any panel, for one bar may speak for all. */
+static void find_beyond(const struct gm_picture *picture, const struct gm_mark *field, bool beyond[2])
+{
+    for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next) {
+        const struct gm_mark *other = field_of(panel);
+        if (other != NULL && other->map == field->map && other->low == field->low &&
+            other->high == field->high) {
+            beyond[0] = beyond[0] || other->below;
+            beyond[1] = beyond[1] || other->above;
+        }
+    }
+}
+
+static void place_colour_bar(struct gm_label_list *list, struct gm_frame *frame, const struct gm_mark *field)
+{
+    const double scale = list->metrics->scale;
+    const struct gm_panel *panel = frame->panel;
+    const struct gm_box box = frame->box;
+    const struct gm_axis axis = bar_axis(field);
+    frame->colour_bar =
+        (struct gm_box){box.x + box.width + bar_gap * scale, box.y, bar_width * scale, box.height};
+    bool beyond[2] = {false, false};
+    find_beyond(list->picture, field, beyond);
+    for (int end = 0; end < 2; end++) {
+        frame->bar_tip[end] = beyond[end] ? fmin(bar_width * scale, 0.1 * box.height) : 0.0;
+    }
+    struct gm_box *bar = &frame->colour_bar;
+    bar->y += frame->bar_tip[1];
+    bar->height -= frame->bar_tip[0] + frame->bar_tip[1];
+    const double factor = -bar->height / (axis.high - axis.low);
+    frame->bar_tick_count =
+        place_ticks(list, &axis, bar->y + bar->height - factor * axis.low, factor, false, frame->bar_ticks);
+    const double right = frame->colour_bar.x + frame->colour_bar.width + tick_gap * scale;
+    label_ticks(list, frame->bar_ticks, frame->bar_tick_count, false, right, GM_ANCHOR_LEFT);
+    gm_labels_add(list, (struct gm_label){
+                            .text = gm_labels_whole(list, GM_TEXT_LABEL, panel->colour_bar_label, box.height),
+                            .size = GM_TEXT_LABEL,
+                            .role = GM_INK,
+                            .x = right + widest_tick(list, &axis, false) + label_gap * scale,
+                            .y = box.y + 0.5 * box.height,
+                            .anchor = GM_ANCHOR_CENTRE,
+                            .vertical = true});
+}
+
+void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const struct gm_panel *panel,
+                   const struct gm_fill *fill)
+{
+    const struct gm_box box = fill->box;
+    double x_low, x_high, y_low, y_high;
+    gm_axis_range(&panel->x, &x_low, &x_high);
+    gm_axis_range(&panel->y, &y_low, &y_high);
+    *frame = (struct gm_frame){.panel = panel, .box = box};
+    frame->x_factor = box.width / (x_high - x_low);
+    frame->y_factor = -box.height / (y_high - y_low);
+    /* The middle of the range is the middle of the box, also where equal axes show more than the range. */
+    if (panel->equal) {
+        frame->x_factor = fmin(frame->x_factor, -frame->y_factor);
+    }
+    if (panel->equal) {
+        frame->y_factor = -frame->x_factor;
+    }
+    frame->x_origin = box.x + 0.5 * box.width - frame->x_factor * 0.5 * (x_low + x_high);
+    frame->y_origin = box.y + 0.5 * box.height - frame->y_factor * 0.5 * (y_low + y_high);
+
+    label_panel(list, panel, fill);
+    if (panel->axes && fill->detail < GM_DETAIL_NO_TICKS) {
+        frame->x_tick_count =
+            place_ticks(list, &panel->x, frame->x_origin, frame->x_factor, true, frame->x_ticks);
+        frame->y_tick_count =
+            place_ticks(list, &panel->y, frame->y_origin, frame->y_factor, false, frame->y_ticks);
+        label_axes(list, frame, fill->detail, fill->x_label,
+                   gm_border_of(list, panel, fill->detail, fill->x_label, false).left);
+    }
+    const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
+    if (field != NULL && fill->detail < GM_DETAIL_NO_TICKS && box.width > 0.0) {
+        place_colour_bar(list, frame, field);
+    }
+}
+
+/* Whether a box stands on the data or the colour bar of a frame. */
+static bool stands_on(const struct gm_box *box, const struct gm_frame *frame)
+{
+    return gm_boxes_overlap(box, &frame->box, 0.0) || gm_boxes_overlap(box, &frame->colour_bar, 0.0);
+}
+
+static bool is_free(const struct gm_layout *layout, const struct gm_frame *frame, const struct gm_box *box)
+{
+    bool is_free = !gm_boxes_overlap(box, &frame->colour_bar, 0.0);
+    for (size_t i = 0; i < layout->frame_count; i++) {
+        is_free = is_free && (&layout->frames[i] == frame || !stands_on(box, &layout->frames[i]));
+    }
+    return is_free;
+}
+
+void gm_frame_note(struct gm_label_list *list, const struct gm_layout *layout, const struct gm_frame *frame,
+                   const struct gm_mark *mark)
+{
+    static const double shares[] = {
+        [GM_ANCHOR_LEFT] = 0.0, [GM_ANCHOR_CENTRE] = 0.5, [GM_ANCHOR_RIGHT] = 1.0};
+    static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0}; /* in lines */
+    const struct gm_metrics *metrics = list->metrics;
+    const struct gm_box *data = &frame->box;
+    const double x = gm_frame_x(frame, mark->points[0]), y = gm_frame_y(frame, mark->points[1]);
+    if (!(x >= data->x - 1.0 && x <= data->x + data->width + 1.0 && y >= data->y - 1.0 &&
+          y <= data->y + data->height + 1.0)) {
+        return;
+    }
+    const double line = metrics->line[GM_TEXT_TICK], width = gm_labels_width(list, GM_TEXT_TICK, mark->text);
+    const double air = 0.3 * line; /* to the edge of the surface */
+    const double left = fmax(air, fmin(x - shares[mark->anchor] * width, metrics->width - width - air));
+    const double within = fmax(data->x, fmin(left, data->x + data->width - width));
+    for (size_t k = 0; k < 2 * sizeof shifts / sizeof *shifts; k++) {
+        const double top = y + (shifts[k / 2] - 0.5) * line;
+        const struct gm_box box = {k % 2 == 0 ? left : within, fmax(0.0, fmin(top, metrics->height - line)),
+                                   width, line};
+        if (is_free(layout, frame, &box) && gm_labels_add(list, (struct gm_label){.text = mark->text,
+                                                                                  .size = GM_TEXT_TICK,
+                                                                                  .role = mark->style.role,
+                                                                                  .x = box.x,
+                                                                                  .y = box.y,
+                                                                                  .among_marks = true})) {
+            return;
+        }
+    }
+}
+
+static double frame_coordinate(const struct gm_axis *axis, double origin, double factor, double value)
+{
+    if (axis->scale == GM_LOG) {
+        value = value > 0.0 ? log10(value) : -400.0;
+    }
+    return origin + factor * value;
+}
+
+double gm_frame_x(const struct gm_frame *frame, double value)
+{
+    return frame_coordinate(&frame->panel->x, frame->x_origin, frame->x_factor, value);
+}
+
+double gm_frame_y(const struct gm_frame *frame, double value)
+{
+    return frame_coordinate(&frame->panel->y, frame->y_origin, frame->y_factor, value);
+}

@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/layout/labels.h"
+
+#include <string.h>
+
+bool gm_labels_open(struct gm_label_list *list, struct gm_picture *picture, const struct gm_metrics *metrics,
+                    size_t capacity)
+{
+    *list = (struct gm_label_list){.picture = picture, .metrics = metrics, .capacity = capacity};
+    list->labels = gm_picture_memory(picture, capacity * sizeof *list->labels);
+    list->boxes = gm_picture_memory(picture, capacity * sizeof *list->boxes);
+    return list->labels != NULL && list->boxes != NULL;
+}
+
+double gm_labels_width(const struct gm_label_list *list, enum gm_text_size size, const char *text)
+{
+    return list->metrics->measure(list->metrics->self, size, text);
+}
+
+static struct gm_box box_of(const struct gm_label_list *list, const struct gm_label *label)
+{
+    const double width = gm_labels_width(list, label->size, label->text);
+    const double line = list->metrics->line[label->size];
+    if (label->vertical) {
+        return (struct gm_box){label->x, label->y - 0.5 * width, line, width};
+    }
+    const double shift = label->anchor == GM_ANCHOR_LEFT     ? 0.0
+                         : label->anchor == GM_ANCHOR_CENTRE ? 0.5
+                                                             : 1.0;
+    return (struct gm_box){label->x - shift * width, label->y, width, line};
+}
+
+bool gm_boxes_overlap(const struct gm_box *a, const struct gm_box *b, double air)
+{
+    const double touch = 1e-6;
+    return a->width > 0.0 && b->width > 0.0 && a->x < b->x + b->width + air && b->x < a->x + a->width + air &&
+           a->y < b->y + b->height - touch && b->y < a->y + a->height - touch;
+}
+
+bool gm_labels_add(struct gm_label_list *list, struct gm_label label)
+{
+    if (label.text == NULL || label.text[0] == '\0' || list->count == list->capacity) {
+        return false;
+    }
+    const struct gm_metrics *metrics = list->metrics;
+    const struct gm_box box = box_of(list, &label);
+    const double rounding = 1e-6;
+    if (!(box.x >= -rounding && box.y >= -rounding && box.x + box.width <= metrics->width + rounding &&
+          box.y + box.height <= metrics->height + rounding)) {
+        return false;
+    }
+    /* what runs along an axis is no neighbour in the line of its ticks */
+    const double air = label.vertical ? 0.0 : 4.0 * metrics->scale;
+    for (size_t i = 0; i < list->count; i++) {
+        if (gm_boxes_overlap(&box, &list->boxes[i], air)) {
+            return false;
+        }
+    }
+    list->labels[list->count] = label;
+    list->boxes[list->count] = box;
+    list->count++;
+    return true;
+}
+
+static bool continues_character(char byte)
+{
+    return ((unsigned char)byte & 0xc0) == 0x80;
+}
+
+/* The first `length` bytes of text, shortened with an ellipsis. */
+static const char *ellipsised(struct gm_label_list *list, const char *text, size_t length)
+{
+    while (length > 0 && (continues_character(text[length]) || text[length - 1] == ' ')) {
+        length--;
+    }
+    return gm_picture_text(list->picture, "%.*s…", (int)length, text);
+}
+
+/* The longest front of a text that fits and says something whole: a sentence or a name before its formula, or
+   up to a comma or a bracket what is at least so wide. NULL if there is none. */
+static const char *whole_front(const struct gm_label_list *list, enum gm_text_size size, const char *text,
+                               double least, double width)
+{
+    static const struct {
+        const char *text;
+        size_t kept;    /* bytes of it */
+        bool short_too; /* what stands before it says enough, however short it is */
+    } breaks[] = {{"  ", 0, true},  {". ", 1, true},  {"; ", 0, true},
+                  {", ", 0, false}, {" (", 0, false}, {": ", 0, false}};
+    const char *longest = NULL;
+    for (size_t i = 0; i < sizeof breaks / sizeof *breaks; i++) {
+        for (const char *at = strstr(text, breaks[i].text); at; at = strstr(at + 1, breaks[i].text)) {
+            const char *front =
+                gm_picture_text(list->picture, "%.*s", (int)((size_t)(at - text) + breaks[i].kept), text);
+            const double wide = gm_labels_width(list, size, front);
+            if (*front != '\0' && wide <= width && (breaks[i].short_too || wide >= least) &&
+                (longest == NULL || strlen(front) > strlen(longest))) {
+                longest = front;
+            }
+        }
+    }
+    return longest;
+}
+
+static bool is_digit(char byte)
+{
+    return byte >= '0' && byte <= '9';
+}
+
+/* A word with a figure in it is not cut: its start says something else. */
+static size_t before_cut_number(const char *text, size_t length)
+{
+    size_t start = length, end = length;
+    while (start > 0 && text[start - 1] != ' ') {
+        start--;
+    }
+    while (text[end] != '\0' && text[end] != ' ') {
+        end++;
+    }
+    bool number = false;
+    for (size_t i = start; i < end; i++) {
+        number = number || is_digit(text[i]);
+    }
+    return number && length < end ? start : length;
+}
+
+/* As many letters of a text as fit with an ellipsis; "" if none do. */
+static const char *cut(struct gm_label_list *list, enum gm_text_size size, const char *text, double width)
+{
+    size_t fits = 0, too_long = strlen(text);
+    while (too_long - fits > 1) {
+        const size_t middle = fits + (too_long - fits) / 2;
+        if (gm_labels_width(list, size, ellipsised(list, text, middle)) <= width) {
+            fits = middle;
+        } else {
+            too_long = middle;
+        }
+    }
+    fits = before_cut_number(text, fits);
+    return fits > 0 ? ellipsised(list, text, fits) : "";
+}
+
+const char *gm_labels_shorten(struct gm_label_list *list, enum gm_text_size size, const char *text,
+                              double width)
+{
+    if (text == NULL || gm_labels_width(list, size, text) <= width) {
+        return text != NULL ? text : "";
+    }
+    const char *front = whole_front(list, size, text, 0.5 * width, width);
+    return front != NULL ? front : cut(list, size, text, width);
+}
+
+const char *gm_labels_whole(struct gm_label_list *list, enum gm_text_size size, const char *text,
+                            double width)
+{
+    if (text == NULL || gm_labels_width(list, size, text) <= width) {
+        return text != NULL ? text : "";
+    }
+    const char *front = whole_front(list, size, text, 0.0, width);
+    return front != NULL ? front : "";
+}
+
+/* Whether the first word of a text tells a number. */
+static bool is_number(const char *text)
+{
+    static const char minus[] = "−";
+    text += strncmp(text, minus, sizeof minus - 1) == 0 ? sizeof minus - 1 : 0;
+    return is_digit(*text) || (*text == '.' && is_digit(text[1]));
+}
+
+const char *gm_labels_shorten_number(struct gm_label_list *list, enum gm_text_size size, const char *text,
+                                     double width)
+{
+    if (text == NULL || gm_labels_width(list, size, text) <= width) {
+        return text != NULL ? text : "";
+    }
+    const char *when = strstr(text, " at t = "), *number = text;
+    while (number != NULL && !is_number(number)) {
+        const char *blank = strchr(number, ' ');
+        number = blank != NULL ? blank + 1 : NULL;
+    }
+    if (when != NULL || number == NULL) {
+        const size_t length = when != NULL ? (size_t)(when - text) : strlen(text);
+        return gm_labels_shorten(list, size, gm_picture_text(list->picture, "%.*s", (int)length, text),
+                                 width);
+    }
+    /* what follows the number goes before what stands ahead of it */
+    const char *end = strchr(number, ' ');
+    const char *whole =
+        gm_picture_text(list->picture, "%.*s", (int)(end ? (size_t)(end - text) : strlen(text)), text);
+    for (size_t at = 0; at <= (size_t)(number - text); at += strcspn(whole + at, " ") + 1) {
+        if (gm_labels_width(list, size, whole + at) <= width) {
+            return whole + at;
+        }
+    }
+    return "";
+}
+
+size_t gm_labels_wrap(struct gm_label_list *list, enum gm_text_size size, const char *text, double width,
+                      size_t most, const char **lines)
+{
+    size_t count = 0;
+    while (text != NULL && *text != '\0' && count < most) {
+        if (count + 1 == most || gm_labels_width(list, size, text) <= width) {
+            lines[count++] = gm_labels_shorten(list, size, text, width);
+            break;
+        }
+        const char *end = NULL; /* of the longest line that fits */
+        for (const char *blank = strchr(text, ' '); blank != NULL; blank = strchr(blank + 1, ' ')) {
+            const char *line = gm_picture_text(list->picture, "%.*s", (int)(blank - text), text);
+            if (gm_labels_width(list, size, line) > width) {
+                break;
+            }
+            end = blank;
+            lines[count] = line;
+        }
+        if (end == NULL) {
+            lines[count++] = gm_labels_shorten(list, size, text, width);
+            break;
+        }
+        count++;
+        text = end + 1;
+    }
+    return count;
+}

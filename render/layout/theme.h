@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_LAYOUT_THEME_H
+#define GM_RENDER_LAYOUT_THEME_H
+
+#include <stdint.h>
+
+#include "render/picture/picture.h"
+
+enum gm_theme { GM_THEME_LIGHT, GM_THEME_DARK, GM_THEME_COUNT };
+
+struct gm_rgb {
+    uint8_t r, g, b;
+};
+
+/* What a role looks like in a theme (render/layout/theme.c says how the lane colours were chosen). */
+struct gm_rgb gm_theme_colour(enum gm_theme theme, enum gm_role role);
+
+/* A colour map at position 0 <= x <= 1; clamped. */
+struct gm_rgb gm_map_colour(enum gm_map map, enum gm_theme theme, double x);
+
+#endif

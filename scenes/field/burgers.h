@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_FIELD_BURGERS_H
+#define GM_SCENES_FIELD_BURGERS_H
+
+#include "core/field/families/burgers.h"
+#include "scenes/frame/lane.h"
+
+/* What scenes/field/burgers.c and its pictures, scenes/field/burgers_draw.c, share. */
+
+struct gm_burgers_scene {
+    struct gm_timing timing;
+    struct gm_burgers burgers;
+    double dx, courant, offset;
+};
+
+void gm_burgers_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+
+#endif

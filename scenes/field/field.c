@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "scenes/field/field.h"
+
+#include <math.h>
+
+enum { DRAWN = 1600 /* most points of a profile */ };
+
+static size_t columns_of(const struct gm_problem *problem)
+{
+    return problem->line.points < GM_SURFACE_COLUMNS ? problem->line.points : GM_SURFACE_COLUMNS;
+}
+
+size_t gm_surface_width(const struct gm_view *view)
+{
+    return columns_of(view->problem);
+}
+
+double gm_surface_interval(const void *parameters)
+{
+    const struct gm_timing *timing = parameters;
+    return fmax(timing->until / 200, fabs(timing->dt));
+}
+
+void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
+                       double *entry)
+{
+    const size_t points = view->problem->line.points, columns = columns_of(view->problem);
+    for (size_t k = 0; k < columns; k++) {
+        entry[k] = value(view, k * points / columns);
+    }
+}
+
+static double end_of(const struct gm_line *line)
+{
+    return line->first + line->dx * (double)line->points;
+}
+
+/* A panel for every lane: the surface so far. */
+static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                          const struct gm_field_look *look)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_lane *lane = lanes[i];
+        const struct gm_entries *rows = &lane->entries[0];
+        const struct gm_timing *timing = lane->parameters;
+        const struct gm_line *line = &lane->problem.line;
+        const char *name =
+            lane->shown.colour_name[0]
+                ? gm_picture_text(picture, "%s, %s", gm_lane_title(lane), lane->shown.colour_name)
+                : gm_lane_title(lane);
+        struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, name);
+        panel->axes = true;
+        panel->title_role = gm_lane_role(lane->shown.colour);
+        panel->x =
+            (struct gm_axis){.label = "x", .scale = look->x_scale, .low = line->first, .high = end_of(line)};
+        panel->y = (struct gm_axis){.label = "t", .low = lane->t0, .high = fmax(timing->until, lane->run->t)};
+        if (!(panel->y.high > panel->y.low)) {
+            panel->y.high = panel->y.low + 1;
+        }
+        panel->note = gm_lane_failure(picture, lane);
+        if (rows->count == 0) {
+            continue;
+        }
+        panel->colour_bar = i + 1 == count;
+        panel->colour_bar_label = look->name;
+        /* what is there at the start is seen as a thin strip */
+        const double thin = (panel->y.high - panel->y.low) / 200;
+        const double reached = rows->times[rows->count - 1];
+        const double corners[] = {line->first, lane->t0, end_of(line),
+                                  reached > lane->t0 ? reached : lane->t0 + thin};
+        gm_mark_image(picture, panel, look->map, look->low, look->high, corners, rows->values, rows->count,
+                      rows->width);
+        gm_mark_switches(picture, panel, lane, true);
+    }
+}
+
+static void hold(struct gm_axis *axis, const double *points, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        gm_range_add(&axis->low, &axis->high, points[2 * i + 1]);
+    }
+}
+
+/* The profile of a lane, closed by its first point a period later. */
+static size_t profile(const struct gm_lane *lane, const struct gm_field_look *look, double *points)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_line *line = &lane->problem.line;
+    const size_t stride = (line->points + DRAWN - 1) / DRAWN;
+    size_t count = 0;
+    for (size_t i = 0; i < line->points; i += stride, count++) {
+        points[2 * count] = line->first + line->dx * (double)i;
+        points[2 * count + 1] = look->value(&view, i);
+    }
+    return count;
+}
+
+static size_t exact_profile(const struct gm_lane *lane, const struct gm_field_look *look, double *points)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_line *line = &lane->problem.line;
+    const size_t count = 800;
+    for (size_t i = 0; i < count; i++) {
+        points[2 * i] = line->first + (end_of(line) - line->first) * (double)i / (double)count;
+        points[2 * i + 1] = look->exact(&view, points[2 * i]);
+    }
+    return count;
+}
+
+/* The lane whose time the clock shows. */
+static const struct gm_lane *farthest(const struct gm_lane *const *lanes, size_t count)
+{
+    const struct gm_lane *ahead = lanes[0];
+    for (size_t i = 1; i < count; i++) {
+        ahead = lanes[i]->run->t > ahead->run->t ? lanes[i] : ahead;
+    }
+    return ahead;
+}
+
+/* Whether a profile goes far beyond what is shown at least. Where it does so, others have the graph first. */
+static bool is_wild(const struct gm_field_look *look, const double *points, size_t count)
+{
+    const double most = 0.5 * (look->high - look->low);
+    bool wild = false;
+    for (size_t i = 0; i < count; i++) {
+        const double value = points[2 * i + 1];
+        wild |= !(value >= look->low - most && value <= look->high + most);
+    }
+    return wild;
+}
+
+/* A profile that jumps from point to point as the band that it sweeps: its line would hide all others. */
+static void draw_band(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
+                      const double *points, size_t count)
+{
+    enum { PLACES = 160 };
+    double band[4 * PLACES];
+    const size_t places = count / 2 < PLACES ? count / 2 : PLACES;
+    for (size_t p = 0; p < places; p++) {
+        const size_t first = p * (count - 1) / places, last = (p + 1) * (count - 1) / places;
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = first; i <= last; i++) {
+            gm_range_add(&low, &high, points[2 * i + 1]);
+        }
+        const double x = 0.5 * (points[2 * first] + points[2 * last]);
+        double *above = &band[2 * p], *below = &band[2 * (2 * places - 1 - p)];
+        above[0] = below[0] = x;
+        above[1] = fmin(high, panel->y.high);
+        below[1] = fmax(low, panel->y.low);
+    }
+    gm_mark_polygon(picture, panel, style, band, 2 * places);
+}
+
+/* One graph: the profiles of all lanes now, over the exact one. A lane that froze is not there any more. */
+static void draw_profiles(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                          const struct gm_field_look *look)
+{
+    const struct gm_lane *ahead = farthest(lanes, count);
+    const struct gm_line *line = &ahead->problem.line;
+    double *points = gm_picture_memory(picture, 2 * (DRAWN + 1) * sizeof *points);
+    if (!points) {
+        return;
+    }
+    struct gm_panel *panel =
+        gm_panel_add(picture, GM_PLACE_GRAPH,
+                     gm_picture_text(picture, "%s at t = %s%s", look->name,
+                                     gm_time_text(picture, ahead->run->t, ahead->run->dt),
+                                     look->exact ? ", exact in grey" : ""));
+    panel->axes = true;
+    panel->title_role = GM_INK;
+    panel->x =
+        (struct gm_axis){.label = "x", .scale = look->x_scale, .low = line->first, .high = end_of(line)};
+    panel->y = (struct gm_axis){.label = "", .low = look->low, .high = look->high};
+    const double most = 0.5 * (look->high - look->low);
+    for (size_t i = 0; i < count; i++) {
+        if (lanes[i]->run->status == GM_OK || lanes[i] == ahead) {
+            hold(&panel->y, points, profile(lanes[i], look, points));
+        }
+    }
+    /* of what goes wild, enough to see that it does: it does not flatten the others */
+    panel->y.low = fmax(panel->y.low, look->low - most);
+    panel->y.high = fmin(panel->y.high, look->high + most);
+    gm_range_round(&panel->y.low, &panel->y.high, GM_LINEAR);
+    if (look->exact) {
+        const size_t made = exact_profile(ahead, look, points);
+        gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 0.9, 4, GM_SOLID}, points, made, false);
+    }
+    for (int tame = 0; tame <= 1; tame++) {
+        for (size_t i = 0; i < count; i++) {
+            const size_t made = profile(lanes[i], look, points);
+            const bool here = lanes[i]->run->status == GM_OK || lanes[i] == ahead;
+            if (here && !is_wild(look, points, made) == tame) {
+                if (tame) {
+                    gm_mark_line(picture, panel, gm_lane_style(lanes[i], 1, 2), points, made, false);
+                } else {
+                    draw_band(picture, panel, gm_lane_style(lanes[i], 0.3, 1), points, made);
+                }
+            }
+        }
+    }
+}
+
+void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                   const struct gm_field_look *look, const struct gm_graph *graphs, size_t graph_count)
+{
+    picture->graphs_below = true;
+    gm_draw_clock(picture, lanes, count);
+    draw_surfaces(picture, lanes, count, look);
+    draw_profiles(picture, lanes, count, look);
+    for (size_t i = 0; i < graph_count; i++) {
+        gm_draw_graph(picture, lanes, count, &graphs[i], -1, false);
+    }
+}
+
+const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    const double dt = lanes[0]->run->dt;
+    for (size_t i = 1; i < count; i++) {
+        if (lanes[i]->run->dt != dt) {
+            return "";
+        }
+    }
+    return gm_picture_text(picture, ",  Δt = %s", gm_step_text(picture, dt));
+}

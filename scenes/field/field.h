@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_FIELD_FIELD_H
+#define GM_SCENES_FIELD_FIELD_H
+
+#include "scenes/frame/graph.h"
+
+/* What the scenes of fields on a line have in common: the profile now, and the field so far over space and
+ * time. */
+
+/* A row of the surface: the field at so many points, every two hundredth of the run. */
+enum { GM_SURFACE_COLUMNS = 240, GM_SURFACE_ROWS = 256 };
+
+/* Why there is no residual of a law. */
+#define GM_NO_LAW "the scheme has no such law, or the step from here is not solved"
+
+/* What of a lane is drawn. */
+struct gm_field_look {
+    double (*value)(const struct gm_view *view, size_t node);
+    double (*exact)(const struct gm_view *view, double x); /* NULL: not drawn */
+    const char *name;                                      /* of the value, for axes: "u" */
+    double low, high;                                      /* the values that are shown at least */
+    enum gm_map map;
+    enum gm_scale x_scale; /* GM_PI where the ring is a circle */
+};
+
+/* Rows of a parameter table: the ring, and the points of its grid, in members of the scene's own struct. */
+#define GM_HALF_LENGTH(own, member, standard_text, help_text)                                                \
+    {                                                                                                        \
+        .key = "half_length", .unit = "", .help = help_text, .type = GM_REAL,                                \
+        .offset = offsetof(own, member), .standard = standard_text, .lowest = 0.1, .highest = 1e5,           \
+        .logarithmic = true,                                                                                 \
+    }
+#define GM_POINTS(own, member, standard_text, least, help_text)                                              \
+    {                                                                                                        \
+        .key = "points", .unit = "", .help = help_text, .type = GM_INTEGER, .offset = offsetof(own, member), \
+        .standard = standard_text, .lowest = least, .highest = 1e7, .logarithmic = true,                     \
+    }
+
+/* The track of the surface; `record_row` fills a row by gm_surface_record. */
+#define GM_SURFACE_TRACK(record_row)                                                                         \
+    {                                                                                                        \
+        .key = "surface", .width = gm_surface_width, .interval = gm_surface_interval,                        \
+        .bound = GM_SURFACE_ROWS, .record = record_row,                                                      \
+    }
+
+size_t gm_surface_width(const struct gm_view *view);
+double gm_surface_interval(const void *parameters);
+/* Fills one row of the surface. */
+void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
+                       double *entry);
+
+/* The whole picture but its titles: the clock, the surfaces from track 0, the profiles and `graph_count`
+   graphs over time. */
+void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                   const struct gm_field_look *look, const struct gm_graph *graphs, size_t graph_count);
+
+/* The Delta t that all lanes share, as ",  dt = 0.05"; "" where they differ. */
+const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count);
+
+#endif

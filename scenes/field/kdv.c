@@ -1,0 +1,351 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solitons of the Korteweg-de Vries equation u_t + eta u u_x + mu u_xxx = 0 on a ring.
+   Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic integrators"; Zabusky & Kruskal (1965).
+ */
+#include <math.h>
+#include <string.h>
+
+#include "core/field/multisymplectic.h"
+#include "core/field/problems/dispersive.h"
+#include "scenes/field/field.h"
+
+struct scene {
+    struct gm_timing timing;
+    struct gm_kdv kdv;
+    double half_length;
+    long points;
+};
+
+static const char *const initials[] = {"soliton", "two-solitons", "cosine", NULL};
+
+static const struct gm_parameter parameters[] = {
+    GM_DT("0.05", 1e-9, 10),
+    GM_UNTIL("40"),
+    {
+        .key = "initial",
+        .unit = "",
+        .help =
+            "one soliton; two that overtake; cos πx, which breaks up into solitons (half_length 1, mu 0.022², "
+            "until 3.6/π unless given)",
+        .type = GM_CHOICE,
+        .offset = offsetof(struct scene, kdv.initial),
+        .standard = "two-solitons",
+        .choices = initials,
+    },
+    {
+        .key = "velocity",
+        .unit = "",
+        .help = "of the one soliton, c",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, kdv.velocity),
+        .standard = "1",
+        .lowest = 1e-3,
+        .highest = 100,
+        .logarithmic = true,
+    },
+    {
+        .key = "position",
+        .unit = "",
+        .help = "of the one soliton at t = 0",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, kdv.position),
+        .standard = "-5",
+        .lowest = -1e4,
+        .highest = 1e4,
+    },
+    {
+        .key = "eta",
+        .unit = "",
+        .help = "coefficient of u uₓ",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, kdv.eta),
+        .standard = "1",
+        .lowest = 1e-6,
+        .highest = 1e3,
+        .logarithmic = true,
+    },
+    {
+        .key = "mu",
+        .unit = "",
+        .help = "coefficient of uₓₓₓ",
+        .type = GM_REAL,
+        .offset = offsetof(struct scene, kdv.mu),
+        .standard = "1",
+        .lowest = 1e-9,
+        .highest = 1e3,
+        .logarithmic = true,
+    },
+    GM_HALF_LENGTH(
+        struct scene, half_length, "50",
+        "half the length of the ring (50 for two solitons, 20 for one, 1 for the cosine, unless given)"),
+    GM_POINTS(struct scene, points, "1001", 5, "of the grid"),
+};
+
+static bool given(const char *key, const char *const *keys, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(keys[i], key) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The ring, the dispersion and the end that belong to a start. */
+static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    struct scene *scene = own;
+    if (!given("initial", keys, count)) {
+        return true;
+    }
+    const bool cosine = scene->kdv.initial == GM_KDV_COSINE;
+    if (!given("half_length", keys, count)) {
+        scene->half_length = cosine ? 1 : scene->kdv.initial == GM_KDV_TWO ? 50 : 20;
+    }
+    if (!given("mu", keys, count)) {
+        scene->kdv.mu = cosine ? 0.022 * 0.022 : 1;
+    }
+    if (cosine && !given("until", keys, count)) {
+        scene->timing.until = 3.6 / M_PI;
+    }
+    if (cosine && !given("dt", keys, count)) {
+        scene->timing.dt = 1e-3;
+    }
+    return true;
+}
+
+static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+{
+    (void)sentence;
+    const struct scene *scene = own;
+    *problem = gm_problem_kdv;
+    problem->parameters = &scene->kdv;
+    problem->parameters = &scene->kdv;
+    problem->line = (struct gm_line){
+        .points = (size_t)scene->points,
+        .dx = 2 * scene->half_length / (double)scene->points,
+        .first = scene->kdv.initial == GM_KDV_COSINE ? 0 : -scene->half_length,
+    };
+    problem->n = gm_wave_size(problem->line.points);
+    return true;
+}
+
+static void start(const void *own, const struct gm_problem *problem, double *y)
+{
+    gm_kdv_levels(problem, ((const struct gm_timing *)own)->dt, y);
+}
+
+static double value(const struct gm_view *view, size_t node)
+{
+    return view->state[node];
+}
+
+/* NaN where it is not known. */
+static double exact(const struct gm_view *view, double x)
+{
+    const struct gm_kdv *kdv = gm_kdv_of(view->problem);
+    if (!gm_kdv_is_known(kdv, &view->problem->line, view->t)) {
+        return NAN;
+    }
+    return gm_kdv_exact(kdv, &view->problem->line, x, view->t);
+}
+
+static double mass(const struct gm_view *view)
+{
+    return gm_kdv_mass(view->problem, view->state);
+}
+
+static double square(const struct gm_view *view)
+{
+    return gm_kdv_square(view->problem, view->state);
+}
+
+static double energy(const struct gm_view *view)
+{
+    return gm_kdv_energy(view->problem, view->state);
+}
+
+static double solution_error(const struct gm_view *view)
+{
+    double largest = 0;
+    for (size_t i = 0; i < view->problem->line.points; i++) {
+        const double error = fabs(view->state[i] - exact(view, gm_line_node(&view->problem->line, i)));
+        largest = error > largest || isnan(error) ? error : largest;
+    }
+    return largest;
+}
+
+static double form_residual(const struct gm_view *view)
+{
+    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
+}
+
+/* The halves of the cosine cancel in u and in u³: the integrals of |u| and η|u|³/6 over its period. */
+static double mass_of_cosine(const void *own)
+{
+    return ((const struct scene *)own)->kdv.initial == GM_KDV_COSINE ? 4 / M_PI : 0;
+}
+static double energy_of_cosine(const void *own)
+{
+    const struct gm_kdv *kdv = &((const struct scene *)own)->kdv;
+    return kdv->initial == GM_KDV_COSINE ? 4 * kdv->eta / (9 * M_PI) : 0;
+}
+
+static const struct gm_observable observables[] = {
+    {.key = "mass_error",
+     .title = "error of the mass ∫u",
+     .unit = "",
+     .evaluate = mass,
+     .error = true,
+     .symbol = "M",
+     .scale = mass_of_cosine,
+     .scale_text = "4/π for the cosine",
+     .kept = true,
+     .logarithmic = true},
+    {.key = "square_error",
+     .title = "error of ∫u²",
+     .unit = "",
+     .evaluate = square,
+     .error = true,
+     .symbol = "S",
+     .kept = true,
+     .logarithmic = true},
+    {.key = "energy_error",
+     .title = "energy error",
+     .unit = "",
+     .evaluate = energy,
+     .error = true,
+     .symbol = "H",
+     .scale = energy_of_cosine,
+     .scale_text = "4η/9π for the cosine",
+     .kept = true,
+     .logarithmic = true},
+    {.key = "solution_error",
+     .title = "largest error of u",
+     .unit = "",
+     .evaluate = solution_error,
+     .missing = "no exact solution is known of the cosine, nor of solitons whose tails meet on a short ring",
+     .logarithmic = true},
+    {.key = "multisymplectic_residual",
+     .title = "residual of the multisymplectic law",
+     .missing = GM_NO_LAW,
+     .unit = "",
+     .evaluate = form_residual,
+     .logarithmic = true},
+};
+
+static void record(const struct gm_view *view, double *entry)
+{
+    gm_surface_record(view, value, entry);
+}
+
+static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
+
+/* The one soliton starts there. */
+static size_t point(const void *own, double x, double u, struct gm_choice *choices)
+{
+    (void)u;
+    gm_choose(&choices[0], "position", x);
+    return ((const struct scene *)own)->kdv.initial == GM_KDV_SOLITON ? 1 : 0;
+}
+
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct scene *scene = lanes[0]->parameters;
+    static const char *const titles[] = {"A soliton of the Korteweg-de Vries equation",
+                                         "One Korteweg-de Vries soliton overtakes another",
+                                         "A cosine breaks up into Korteweg-de Vries solitons"};
+    const bool cosine = scene->kdv.initial == GM_KDV_COSINE;
+    const double highest = cosine                             ? 2.5
+                           : scene->kdv.initial == GM_KDV_TWO ? 5 * scene->kdv.mu / scene->kdv.eta
+                                                              : 3.2 * scene->kdv.velocity / scene->kdv.eta;
+    const struct gm_field_look look = {.value = value,
+                                       .exact = cosine ? NULL : exact,
+                                       .name = "u",
+                                       .low = cosine ? -1 : 0,
+                                       .high = highest,
+                                       .map = GM_MAP_SEQUENTIAL};
+    picture->title = titles[scene->kdv.initial];
+    picture->subtitle = gm_picture_text(picture, "η = %g,  μ = %.3g,  %ld points%s", scene->kdv.eta,
+                                        scene->kdv.mu, scene->points, gm_shared_step(picture, lanes, count));
+    const struct gm_graph graphs[] = {
+        {.observable = "solution_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
+        {.observable = "square_error",
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = 1e-12,
+         .calm_high = 1e-2},
+    };
+    /* the cosine has no exact solution */
+    gm_draw_field(picture, lanes, count, &look, cosine ? graphs + 1 : graphs, cosine ? 1 : 2);
+}
+
+static const char *const schemes[] = {"box", "zabusky-kruskal", "euler-box", "midpoint-box", NULL};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* The error of the mesh hides that of the step, and the other way round: both are refined. */
+static const double mesh_points[] = {101, 201, 401, 801};
+static const double compared[] = {1e-1, 1e-2, 1e-3};
+static const struct gm_work work = {.arguments = "initial=soliton until=4",
+                                    .measure = "solution_error",
+                                    .coarsest = 0.2,
+                                    .halvings = 7,
+                                    .resolution = "points",
+                                    .resolutions = mesh_points,
+                                    .resolution_count = sizeof mesh_points / sizeof mesh_points[0],
+                                    .errors = compared};
+
+/* What leapfrog can take: 0.385 dx^3/mu (Zabusky & Kruskal). */
+static double dispersion_time(const void *own)
+{
+    const struct scene *scene = own;
+    const double dx = 2 * scene->half_length / (double)scene->points;
+    return dx * dx * dx / scene->kdv.mu;
+}
+
+/* The amplitude of a soliton is 3 times its velocity. */
+static const double velocities[] = {0.25, 0.5, 1, 2};
+static const double steps[] = {0.1, 0.2, 0.3, 0.37, 0.4, 0.5, 1, 4, 16};
+
+static const struct gm_stability stability = {
+    .arguments = "initial=soliton points=101 until=10",
+    .parameter = "velocity",
+    .values = velocities,
+    .value_count = COUNT(velocities),
+    .label = "Δt μ / Δx³",
+    .unit = dispersion_time,
+    .steps = steps,
+    .step_count = COUNT(steps),
+    .kept = "square_error",
+};
+
+const struct gm_scene gm_scene_kdv = {
+    .name = "kdv",
+    .title = "Solitons of the Korteweg-de Vries equation",
+    .blurb =
+        "One soliton, two, or Zabusky's and Kruskal's cosine, by the multisymplectic box and by leapfrog, whose step "
+        "is bound by 0.385 Δx³/μ; the Euler box and the midpoint box are explicit and multisymplectic, bound by "
+        "Δx³/4μ and Δx³/μ.",
+    .watch =
+        "Watch what a step costs: at Δx = 0.2 leapfrog blows up beyond Δt = 0.003, the box runs with 0.05; at "
+        "equal Δt and Δx its error is the larger one, by a factor of 1.5, so the box gains its step and nothing else.",
+    .time = "that in which the equation has η and μ as given",
+    .size = sizeof(struct scene),
+    .parameters = parameters,
+    .parameter_count = COUNT(parameters),
+    .schemes = schemes,
+    .lanes = "scheme=box,zabusky-kruskal dt=0.05,0.0025 points=501 zip=yes",
+    .observables = observables,
+    .observable_count = COUNT(observables),
+    .tracks = tracks,
+    .track_count = COUNT(tracks),
+    .work = &work,
+    .stability = &stability,
+    .settle = settle,
+    .setup = setup,
+    .start = start,
+    .draw = draw,
+    .point = point,
+};

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A channel with a hot upper wall: a parabolic flow that carries heat. Razafindralandy, Hamdouni & Chhay
+   (2018), figures 30 and 31. Length 2 pi H; lengths in H, velocities in the centreline's, time in H^2 / nu.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/flow/shear.h"
+
+static const double hot = 20;
+
+static const struct gm_parameter parameters[] = {
+    GM_DT("0.01", 1e-7, 10),
+    GM_UNTIL("5"),
+    GM_FLOWS_NUMBER(viscosity, "kinematic viscosity ν", "1", 1e-5, 1e3, true),
+    GM_FLOWS_NUMBER(schmidt, "Prandtl number ν / κ", "1", 1e-3, 1e4, true),
+    GM_FLOWS_WHOLE(rows, "edges on each of the walls x = 0 and x = L", "14", 3, 1000),
+    GM_FLOWS_WHOLE(columns, "strips of triangles along x; 0: the best", "98", 0, 6000),
+    GM_FLOWS_IRREGULAR,
+    GM_FLOWS_WORD(outlet, "soft, dirichlet or free", "free", gm_flows_outlets),
+    GM_FLOWS_TRACERS("150"),
+    GM_FLOWS_LOOKS("scalar", "yes"),
+};
+
+static double velocity(double y)
+{
+    return 4 * y * (1 - y);
+}
+
+static double theta(double y)
+{
+    return hot * y;
+}
+
+static double psi(double y)
+{
+    return 2 * y * y - 4.0 / 3 * y * y * y;
+}
+
+static const struct gm_shear shear = {.velocity = velocity, .psi = psi, .theta = theta};
+
+static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
+{
+    const struct gm_flows *own = parameters_of;
+    enum gm_vertex_kind outlet = GM_VERTEX_OPEN;
+    char group[GM_TEXT_SIZE];
+    if (!gm_flows_outlet(own->outlet, GM_VERTEX_OPEN, &outlet, group, sentence)) {
+        return false;
+    }
+    if (strcmp(group, "outlet") != 0) {
+        snprintf(sentence, GM_SENTENCE, "outlet=%.60s is none of: soft, dirichlet, free", own->outlet);
+        return false;
+    }
+    const double length = 2 * M_PI;
+    struct gm_rectangle rectangle = {.width = length,
+                                     .height = 1,
+                                     .edges = own->rows,
+                                     .strips = own->columns,
+                                     .transposed = true,
+                                     .irregular = own->irregular};
+    struct gm_complex *complex = gm_flows_rectangle(&rectangle, sentence);
+    struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
+    unsigned char *sides = flow ? calloc(complex->boundary, 1) : NULL;
+    for (size_t b = 0; sides && b < complex->boundary; b++) {
+        double middle[2];
+        gm_flows_middle(complex, b, middle);
+        sides[b] = middle[0] == 0 ? GM_SIDE_INLET : middle[0] == length ? GM_SIDE_OUTLET : GM_SIDE_WALL;
+    }
+    if (complex && !sides) {
+        snprintf(sentence, GM_SENTENCE, "not enough memory");
+    }
+    const bool good = sides && gm_flows_boundary(gm_flow_set_boundary(flow, sides, 1, outlet, 0), sentence);
+    free(sides);
+    if (!good) {
+        gm_flow_close(flow);
+        return false;
+    }
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const int v = complex->boundary_vertex[b];
+        flow->theta[v] = flow->theta_fixed[v] && complex->point[2 * v + 1] == 1 ? hot : 0;
+    }
+    flow->viscosity = own->viscosity;
+    flow->diffusivity = own->viscosity / own->schmidt;
+    flow->reynolds = 1 / own->viscosity;
+    flow->time_unit = 1 / own->viscosity;
+    flow->scalar = true;
+    flow->tracers = (size_t)own->tracers;
+    gm_flows_problem(problem, flow, "channel");
+    return true;
+}
+
+static const struct gm_profile line = {"three-quarters", {1.5 * M_PI, 0}, {1.5 * M_PI, 1}, 101, NULL};
+
+/* The mean of |u - exact|, or of |theta - exact|, at fifty places across the channel at 3 L / 4, from .02 H
+   to .98 H: on the walls velocity and temperature are given, and a polynomial fitted to one side says nothing
+   of the flow. */
+static double profile_error(const struct gm_view *view, bool scalar)
+{
+    enum { PLACES = 50 };
+    const double margin = 0.02;
+    double sum = 0;
+    for (size_t i = 0; i < PLACES; i++) {
+        const double z = margin + (1 - 2 * margin) * (double)i / (PLACES - 1);
+        struct gm_sample sample = {0};
+        gm_flow_sample(gm_flow_of(view->problem), view->state, line.a[0], z, &sample);
+        sum += fabs(scalar ? sample.theta - theta(z) : sample.u - velocity(z));
+    }
+    return sum / PLACES;
+}
+
+static double u_error(const struct gm_view *view)
+{
+    return profile_error(view, false);
+}
+
+static double theta_error(const struct gm_view *view)
+{
+    return profile_error(view, true);
+}
+
+static double solution_error(const struct gm_view *view)
+{
+    return gm_shear_solution_error(&shear, view);
+}
+
+static const struct gm_observable observables[] = {
+    {.key = "u_error",
+     .title = "mean error of u at 3 L/4",
+     .unit = "",
+     .evaluate = u_error,
+     .logarithmic = true},
+    {.key = "theta_error",
+     .title = "mean error of θ at 3 L/4",
+     .unit = "",
+     .evaluate = theta_error,
+     .logarithmic = true},
+    {.key = "solution_error",
+     .title = "error of ψ",
+     .unit = "",
+     .evaluate = solution_error,
+     .logarithmic = true},
+    {.key = "scalar_total", .title = "heat in the channel", .unit = "", .evaluate = gm_flows_scalar_total},
+    {.key = "scalar_outflow", .title = "outflow of heat", .unit = "", .evaluate = gm_flows_scalar_outflow},
+    {.key = "budget_defect",
+     .title = "defect of the heat's budget",
+     .unit = "",
+     .evaluate = gm_flows_budget_defect,
+     .logarithmic = true},
+    GM_FLOWS_DIVERGENCE,
+    GM_FLOWS_ENERGY,
+    GM_FLOWS_SPEED,
+    GM_FLOWS_CHANGE,
+    GM_FLOWS_TRIANGLES,
+};
+
+static double reference(const struct gm_view *view, double s)
+{
+    return (void)view, velocity(s);
+}
+
+static void profile(const struct gm_view *view, const char *front, FILE *stream)
+{
+    struct gm_profile whole = line;
+    whole.reference = reference;
+    gm_flows_write_profile(view, front, &whole, stream);
+}
+
+static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                     enum gm_place place)
+{
+    gm_shear_draw_profiles(lanes, count, picture, place, &line, velocity, theta);
+}
+
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    return gm_picture_text(
+        picture, "%s%s,  profiles at x = 3 L/4",
+        gm_flows_common(picture, lanes, count, "viscosity", offsetof(struct gm_flows, viscosity)),
+        gm_flows_mesh_and_scheme(picture, lanes, count));
+}
+
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct gm_look look = {
+        .title = "A channel with a hot wall",
+        .subtitle = subtitle,
+        .clock_unit = "H²/ν",
+        .scalar_high = hot,
+        .vorticity_range = 4,
+        .speed_high = 1,
+        .scalar_name = "temperature θ",
+        .profiles = profiles,
+        .profiles_below = true,
+    };
+    gm_flows_draw(lanes, count, picture, &look);
+}
+
+static const char *const schemes[] = {"semi-implicit", NULL};
+
+static const struct gm_figure figures[] = {
+    {
+        .name = "razafindralandy-30",
+        .statement = "at 3 L/4 the velocity differs by 2.4e-4 on average from the parabola, θ is linear",
+        .arguments = "until=5 tracers=0 show=profiles",
+    },
+    {
+        .name = "razafindralandy-31",
+        .statement = "θ becomes linear across the channel downstream",
+        .arguments = "until=5 tracers=0 show=scalar",
+    },
+};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+const struct gm_scene gm_scene_channel = {
+    .name = "channel",
+    .title = "A channel with a hot wall",
+    .blurb =
+        "A parabolic flow through a channel whose upper wall is hot: velocity and temperature find the profiles "
+        "that are known exactly.",
+    .watch = "Watch the budget of heat: it closes to the last digit.",
+    .time = "H²/ν, the height squared over the viscosity",
+    .size = sizeof(struct gm_flows),
+    .parameters = parameters,
+    .parameter_count = COUNT(parameters),
+    .schemes = schemes,
+    .observables = observables,
+    .observable_count = COUNT(observables),
+    .figures = figures,
+    .figure_count = COUNT(figures),
+    .setup = setup,
+    .close = gm_flows_close,
+    .start = gm_flows_start,
+    .draw = draw,
+    .profile = profile,
+};

@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From parameters to flows: meshes made or read, boundaries named; and what went wrong, in a sentence. */
+#include "scenes/flow/flows.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/files/regular_file.h"
+
+const char *const gm_flows_shows[] = {"scalar",   "vorticity",   "speed",      "pressure", "none",
+                                      "profiles", "convergence", "divergence", NULL};
+
+static bool refuse(char *sentence, const char *text)
+{
+    snprintf(sentence, GM_SENTENCE, "%s", text);
+    return false;
+}
+
+/* The sentence for a mesh that was refused; `what` is "the mesh" or the file's name. */
+static void explain(const char *what, const struct gm_mesh_fault *fault, char *sentence)
+{
+    char where[48] = "";
+    if (fault->line > 0) {
+        snprintf(where, sizeof where, ", line %ld", fault->line);
+    }
+    const long *n = fault->nodes;
+    switch (fault->kind) {
+    case GM_MESH_OK:
+    case GM_MESH_MEMORY:
+        snprintf(sentence, GM_SENTENCE, "not enough memory");
+        return;
+    case GM_MESH_NOT_GMSH:
+        snprintf(sentence, GM_SENTENCE, "%.100s is no Gmsh file: it does not begin with $MeshFormat", what);
+        return;
+    case GM_MESH_VERSION:
+        snprintf(
+            sentence, GM_SENTENCE,
+            "%.100s is of version %.12s; Gmsh files of version 4.1 are read (save with Mesh.MshFileVersion = 4.1)",
+            what, fault->text);
+        return;
+    case GM_MESH_BINARY:
+        snprintf(sentence, GM_SENTENCE, "%.100s is binary; save it as ASCII (Mesh.Binary = 0)", what);
+        return;
+    case GM_MESH_SYNTAX:
+        snprintf(sentence, GM_SENTENCE, "%.100s%s: expected %s", what, where, fault->text);
+        return;
+    case GM_MESH_TRUNCATED:
+        snprintf(sentence, GM_SENTENCE, "%.100s%s: the file ends within its section %s", what, where,
+                 fault->text);
+        return;
+    case GM_MESH_HUGE:
+        snprintf(sentence, GM_SENTENCE, "%.100s%s: %s is more than 5000000", what, where, fault->text);
+        return;
+    case GM_MESH_REPEATED_NODE:
+        snprintf(sentence, GM_SENTENCE, "%.100s%s: node %ld is there twice", what, where, n[0]);
+        return;
+    case GM_MESH_UNKNOWN_NODE:
+        snprintf(sentence, GM_SENTENCE, "%.100s%s: there is no node %ld", what, where, n[0]);
+        return;
+    case GM_MESH_ELEMENT:
+        snprintf(
+            sentence, GM_SENTENCE,
+            "%.100s%s: elements of type %ld; only triangles with three nodes (type 2) and their sides are read",
+            what, where, n[0]);
+        return;
+    case GM_MESH_THREE_D:
+        snprintf(sentence, GM_SENTENCE,
+                 "%.100s%s: node %ld lies off the plane of the others; the mesh must be flat", what, where,
+                 n[0]);
+        return;
+    case GM_MESH_EMPTY:
+        snprintf(sentence, GM_SENTENCE, "%.100s has no triangle", what);
+        return;
+    case GM_MESH_DEGENERATE:
+        snprintf(sentence, GM_SENTENCE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) has no area", what, where,
+                 fault->triangle, n[0], n[1], n[2]);
+        return;
+    case GM_MESH_OVERLAP:
+        snprintf(sentence, GM_SENTENCE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) lies over its neighbour",
+                 what, where, fault->triangle, n[0], n[1], n[2]);
+        return;
+    case GM_MESH_EDGE_OF_THREE:
+        snprintf(sentence, GM_SENTENCE,
+                 "%.100s: the edge between nodes %ld and %ld belongs to three triangles", what, n[0], n[1]);
+        return;
+    case GM_MESH_PINCHED:
+        snprintf(sentence, GM_SENTENCE, "%.100s: at node %ld the mesh hangs together by a point", what, n[0]);
+        return;
+    case GM_MESH_PIECES:
+        snprintf(sentence, GM_SENTENCE, "%.100s is in several pieces", what);
+        return;
+    case GM_MESH_NOT_DELAUNAY:
+        snprintf(
+            sentence, GM_SENTENCE,
+            "%.80s%s: triangle %ld (nodes %ld %ld %ld) has an angle of %.1f degrees and a dual edge that is not "
+            "positive; the mesh must be Delaunay",
+            what, where, fault->triangle, n[0], n[1], n[2], fault->value);
+        return;
+    case GM_MESH_DUAL_CELL:
+        snprintf(sentence, GM_SENTENCE, "%.100s: the dual cell of node %ld has no positive area", what, n[0]);
+        return;
+    }
+}
+
+struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
+{
+    const long best =
+        gm_rectangle_strips(rectangle->width, rectangle->height, rectangle->edges, rectangle->transposed);
+    rectangle->strips = rectangle->strips == 0 ? best : rectangle->strips;
+    if (rectangle->strips % 2 != 0) {
+        snprintf(sentence, GM_SENTENCE, "the number of strips of triangles must be even; %ld is a good one",
+                 best);
+        return NULL;
+    }
+    if (!gm_rectangle_is_acute(rectangle)) {
+        snprintf(
+            sentence, GM_SENTENCE,
+            "%ld edges and %ld strips do not make acute triangles: the height of a strip must lie between half an "
+            "edge and an edge; %ld strips are best",
+            rectangle->edges, rectangle->strips, best);
+        return NULL;
+    }
+    struct gm_mesh_fault fault;
+    struct gm_complex *complex = gm_rectangle_open(rectangle, &fault);
+    if (!complex) {
+        explain("the mesh", &fault, sentence);
+    }
+    return complex;
+}
+
+bool gm_flows_file(const char *path, struct gm_mesh *mesh, char *sentence)
+{
+    enum { LARGEST = 1 << 29 };
+    size_t size = 0;
+    char reason[GM_REGULAR_REASON];
+    char *text = gm_regular_read(path, LARGEST, &size, reason);
+    if (!text) {
+        snprintf(sentence, GM_SENTENCE, "%.130s could not be read: %s", path, reason);
+        return false;
+    }
+    struct gm_mesh_fault fault;
+    const bool good = gm_mesh_read(text, size, mesh, &fault);
+    free(text);
+    if (!good) {
+        explain(path, &fault, sentence);
+    }
+    return good;
+}
+
+bool gm_flows_readable(const void *parameters, char *sentence)
+{
+    const struct gm_flows *own = parameters;
+    struct gm_mesh mesh;
+    if (strcmp(own->mesh, "none") == 0) {
+        return true;
+    }
+    const bool good = gm_flows_file(own->mesh, &mesh, sentence);
+    if (good) {
+        gm_mesh_close(&mesh);
+    }
+    return good;
+}
+
+long gm_flows_group(const struct gm_mesh *mesh, const char *key, const char *name, char *sentence)
+{
+    const long tag = gm_mesh_group(mesh, name);
+    if (tag != 0) {
+        return tag;
+    }
+    char names[128] = "none";
+    size_t used = 0;
+    for (size_t i = 0; i < mesh->groups && used + 70 < sizeof names; i++) {
+        used +=
+            (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", mesh->group[i].name);
+    }
+    snprintf(sentence, GM_SENTENCE,
+             "the mesh has no physical group \"%.40s\" of curves; name one with %s= (there are: %s)", name,
+             key, names);
+    return 0;
+}
+
+const char *const gm_flows_outlets[] = {"soft", "dirichlet", "free", NULL};
+
+bool gm_flows_outlet(const char *text, enum gm_vertex_kind standard, enum gm_vertex_kind *kind, char *group,
+                     char *sentence)
+{
+    static const enum gm_vertex_kind kinds[] = {GM_VERTEX_SOFT, GM_VERTEX_FIXED, GM_VERTEX_OPEN};
+    const char *colon = strrchr(text, ':'), *name = colon ? colon + 1 : text;
+    snprintf(group, GM_TEXT_SIZE, "%s", "outlet");
+    *kind = standard;
+    for (size_t i = 0; gm_flows_outlets[i]; i++) {
+        if (strcmp(name, gm_flows_outlets[i]) == 0) {
+            *kind = kinds[i];
+            if (colon) {
+                snprintf(group, GM_TEXT_SIZE, "%.*s", (int)(colon - text), text);
+            }
+            return true;
+        }
+    }
+    if (colon) {
+        snprintf(sentence, GM_SENTENCE,
+                 "outlet=%.60s: what follows the colon is none of: soft, dirichlet, free", text);
+        return false;
+    }
+    snprintf(group, GM_TEXT_SIZE, "%s", text);
+    return true;
+}
+
+bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
+{
+    switch (fault) {
+    case GM_BOUNDARY_OK:
+        return true;
+    case GM_BOUNDARY_MEMORY:
+        return refuse(sentence, "not enough memory");
+    case GM_BOUNDARY_LOOPS:
+        return refuse(sentence, "the mesh has a hole: the flow around it is not determined by its walls");
+    case GM_BOUNDARY_NO_INLET:
+        return refuse(sentence, "the mesh has an outlet but no inlet");
+    case GM_BOUNDARY_NO_OUTLET:
+        return refuse(sentence, "the mesh has an inlet but no outlet");
+    case GM_BOUNDARY_SEVERAL:
+        return refuse(sentence, "the inlet or the outlet is in several pieces; each must be one");
+    case GM_BOUNDARY_SHORT:
+        return refuse(sentence, "the inlet or the outlet is a single edge; it needs two at least");
+    case GM_BOUNDARY_WHOLE:
+        return refuse(sentence, "the whole boundary is inlet or outlet");
+    }
+    return false;
+}
+
+void gm_flows_problem(struct gm_problem *problem, struct gm_flow *flow, const char *name)
+{
+    *problem = (struct gm_problem){
+        .name = name, .n = gm_flow_size(flow), .m = 1, .kind = &gm_kind_flow, .parameters = flow};
+}
+
+void gm_flows_close(struct gm_problem *problem)
+{
+    gm_flow_close((struct gm_flow *)(uintptr_t)gm_flow_of(problem));
+    problem->parameters = NULL;
+}
+
+double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters)
+{
+    struct gm_problem problem = {0};
+    char sentence[GM_SENTENCE];
+    if (!setup(parameters, &problem, sentence)) {
+        return NAN;
+    }
+    const double time = gm_flow_of(&problem)->complex->mean_edge / gm_flow_of(&problem)->time_unit;
+    gm_flows_close(&problem);
+    return time;
+}
+
+bool gm_flows_idle(const void *parameters, const char *key)
+{
+    static const char *const made[] = {"rows", "columns", "irregular"}, *const named[] = {"inlet", "lid"};
+    const bool from_file = strcmp(((const struct gm_flows *)parameters)->mesh, "none") != 0;
+    bool idle = false;
+    for (size_t i = 0; i < sizeof made / sizeof made[0]; i++) {
+        idle = idle || (from_file && strcmp(key, made[i]) == 0);
+    }
+    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
+        idle = idle || (!from_file && strcmp(key, named[i]) == 0);
+    }
+    return idle;
+}
+
+void gm_flows_middle(const struct gm_complex *complex, size_t boundary_edge, double middle[2])
+{
+    const int *edge = complex->edge + 2 * complex->boundary_edge[boundary_edge];
+    for (int c = 0; c < 2; c++) {
+        middle[c] = (complex->point[2 * edge[0] + c] + complex->point[2 * edge[1] + c]) / 2;
+    }
+}
+
+void gm_flows_start(const void *parameters, const struct gm_problem *problem, double *y)
+{
+    (void)parameters;
+    if (!gm_flow_start_irrotational(gm_flow_of(problem), y)) {
+        memset(y, 0, problem->n * sizeof *y);
+    }
+}

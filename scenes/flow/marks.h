@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_FLOW_MARKS_H
+#define GM_SCENES_FLOW_MARKS_H
+
+#include "scenes/flow/flows.h"
+#include "scenes/flow/sheet.h"
+
+/* Parts of the pictures of flows. `over`: what is drawn lies over a field of colours. `size`: the longer side
+   of the domain. */
+
+/* Whether what is shown has colours of both signs. */
+bool gm_flow_is_signed(int show);
+
+/* Whether all lanes look for a steady state, so that there is no time. */
+bool gm_flow_is_steady(const struct gm_lane *const *lanes, size_t count);
+
+/* Level lines of psi: equal parts of the flow that passes through; the same distance in what turns on its
+   own. */
+void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                              const struct gm_flow_sheet *sheet, const struct gm_look *look);
+/* Walls, bold; openings are left open. */
+void gm_flow_draw_walls(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow);
+/* The edges of the mesh. */
+void gm_flow_draw_grid(struct gm_picture *picture, struct gm_panel *panel, const struct gm_complex *complex,
+                       bool over);
+/* Tracers: a dot each, and a tail where it was a short time ago. */
+void gm_flow_draw_tracers(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                          bool over, double size);
+/* Arrows of velocity; one of `speed` is as long as their distance. */
+void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                         bool over, double speed);
+/* "inlet" and "outlet" outside the walls, where they are on the left and on the right. */
+void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow,
+                           double size);
+
+/* Errors against the mean edge length, a point for each lane. */
+void gm_flow_draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                              const struct gm_look *look);
+/* The look's graphs over time; of errors, logarithmic ones. */
+void gm_flow_draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                         const struct gm_look *look);
+
+#endif

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The polluted room: air enters top left with a parabolic profile and carries a pollutant, and leaves bottom
+   right. Razafindralandy, Hamdouni & Chhay (2018), figures 35 to 37. Lengths in inlet heights h, velocities
+   in the inlet's centre speed U; time in return periods, perimeter / U. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/flow/flows.h"
+
+static const double side = 5; /* of the room, in inlet heights */
+
+static const struct gm_parameter parameters[] = {
+    GM_DT("0.002", 1e-7, 10),
+    GM_UNTIL("3"),
+    GM_FLOWS_NUMBER(reynolds, "Reynolds number U h / ν", "100", 0.01, 1e5, true),
+    GM_FLOWS_NUMBER(schmidt, "Schmidt number ν / κ", "1", 1e-3, 1e4, true),
+    GM_FLOWS_WHOLE(rows, "edges on each of the walls x = 0 and x = 5", "50", 10, 1000),
+    GM_FLOWS_WHOLE(columns, "strips of triangles along x; 0: the best", "66", 0, 2000),
+    GM_FLOWS_IRREGULAR,
+    GM_FLOWS_WORD(outlet, "soft, dirichlet or free; of a mesh also GROUP or GROUP:free", "soft",
+                  gm_flows_outlets),
+    GM_FLOWS_WORD(inlet, "name or tag of the mesh's inlet", "inlet", NULL),
+    GM_FLOWS_MESH("a Gmsh file (4.1, ASCII) of another room; none: the square one"),
+    GM_FLOWS_NUMBER(inlet_scalar, "concentration that enters", "1000", -1e300, 1e300, false),
+    GM_FLOWS_TRACERS("350"),
+    GM_FLOWS_LOOKS("scalar", "yes"),
+};
+
+static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **sides, char *sentence)
+{
+    if (own->rows % 5 != 0) {
+        snprintf(
+            sentence, GM_SENTENCE,
+            "rows=%ld: the lips of inlet and outlet are vertices only if rows is a multiple of 5; the nearest is %ld",
+            own->rows, 5 * ((own->rows + 2) / 5));
+        return NULL;
+    }
+    const double lips[] = {0, side - 1, side, 1};
+    struct gm_rectangle rectangle = {.width = side,
+                                     .height = side,
+                                     .edges = own->rows,
+                                     .strips = own->columns,
+                                     .transposed = true,
+                                     .irregular = own->irregular,
+                                     .fixed = lips,
+                                     .fixed_count = 2};
+    struct gm_complex *complex = gm_flows_rectangle(&rectangle, sentence);
+    struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
+    *sides = flow ? calloc(complex->boundary, 1) : NULL;
+    for (size_t b = 0; *sides && b < complex->boundary; b++) {
+        double middle[2];
+        gm_flows_middle(complex, b, middle);
+        (*sides)[b] = middle[0] == 0 && middle[1] > side - 1 ? GM_SIDE_INLET
+                      : middle[0] == side && middle[1] < 1   ? GM_SIDE_OUTLET
+                                                             : GM_SIDE_WALL;
+    }
+    if (complex && !*sides) {
+        snprintf(sentence, GM_SENTENCE, "not enough memory");
+    }
+    return flow;
+}
+
+static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet, unsigned char **sides,
+                                 char *sentence)
+{
+    struct gm_mesh mesh;
+    if (!gm_flows_file(own->mesh, &mesh, sentence)) {
+        return NULL;
+    }
+    const long in = gm_flows_group(&mesh, "inlet", own->inlet, sentence);
+    long out = in ? gm_flows_group(&mesh, "outlet", outlet, sentence) : 0;
+    if (in && in == out) {
+        snprintf(sentence, GM_SENTENCE, "inlet and outlet are one group, \"%.60s\"", outlet);
+        out = 0;
+    }
+    struct gm_flow *flow = NULL;
+    if (in && out) {
+        const struct gm_complex *complex = mesh.complex;
+        *sides = calloc(complex->boundary, 1);
+        for (size_t b = 0; *sides && b < complex->boundary; b++) {
+            const long group = mesh.edge_group[complex->boundary_edge[b]];
+            (*sides)[b] = group == in ? GM_SIDE_INLET : group == out ? GM_SIDE_OUTLET : GM_SIDE_WALL;
+        }
+        flow = gm_flow_open(mesh.complex);
+        mesh.complex = NULL;
+    }
+    gm_mesh_close(&mesh);
+    return flow;
+}
+
+static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
+{
+    const struct gm_flows *own = parameters_of;
+    const bool from_file = strcmp(own->mesh, "none") != 0;
+    enum gm_vertex_kind outlet = GM_VERTEX_SOFT;
+    char group[GM_TEXT_SIZE];
+    unsigned char *sides = NULL;
+    if (!gm_flows_outlet(own->outlet, GM_VERTEX_SOFT, &outlet, group, sentence)) {
+        return false;
+    }
+    if (!from_file && (strcmp(group, "outlet") != 0 || strcmp(own->inlet, "inlet") != 0)) {
+        snprintf(sentence, GM_SENTENCE,
+                 "inlet= and the outlet's name are for a mesh=FILE; here outlet is soft, dirichlet or free");
+        return false;
+    }
+    struct gm_flow *flow =
+        from_file ? open_file(own, group, &sides, sentence) : open_square(own, &sides, sentence);
+    bool good = flow && sides;
+    if (good) {
+        good = gm_flows_boundary(gm_flow_set_boundary(flow, sides, 1, outlet, own->inlet_scalar), sentence);
+    }
+    free(sides);
+    if (!good) {
+        gm_flow_close(flow);
+        return false;
+    }
+    const struct gm_complex *complex = flow->complex;
+    double perimeter = 0, inlet = 0;
+    for (size_t b = 0; b < complex->boundary; b++) {
+        perimeter += complex->length[complex->boundary_edge[b]];
+    }
+    for (size_t i = 0; i + 1 < flow->inflow.count; i++) {
+        const double *p = flow->inflow.point + 2 * i;
+        inlet += hypot(p[2] - p[0], p[3] - p[1]);
+    }
+    flow->viscosity = inlet / own->reynolds;
+    flow->diffusivity = flow->viscosity / own->schmidt;
+    flow->reynolds = own->reynolds;
+    flow->time_unit = perimeter;
+    flow->scalar = true;
+    flow->tracers = (size_t)own->tracers;
+    gm_flows_problem(problem, flow, "room");
+    return true;
+}
+
+static const struct gm_observable observables[] = {
+    {.key = "scalar_total", .title = "pollutant in the room", .unit = "", .evaluate = gm_flows_scalar_total},
+    {.key = "scalar_outflow",
+     .title = "outflow of pollutant",
+     .unit = "",
+     .evaluate = gm_flows_scalar_outflow},
+    {.key = "budget_defect",
+     .title = "defect of the pollutant's budget",
+     .unit = "",
+     .evaluate = gm_flows_budget_defect,
+     .logarithmic = true},
+    GM_FLOWS_DIVERGENCE,
+    GM_FLOWS_ENERGY,
+    GM_FLOWS_ENSTROPHY,
+    GM_FLOWS_SPEED,
+    GM_FLOWS_CHANGE,
+    GM_FLOWS_TRIANGLES,
+};
+
+static void profile(const struct gm_view *view, const char *front, FILE *stream)
+{
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (size_t i = 0; i < 2 * complex->vertices; i++) {
+        low[i % 2] = fmin(low[i % 2], complex->point[i]);
+        high[i % 2] = fmax(high[i % 2], complex->point[i]);
+    }
+    const double middle[2] = {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2};
+    const struct gm_profile lines[] = {
+        {"vertical", {middle[0], low[1]}, {middle[0], high[1]}, 101, NULL},
+        {"horizontal", {low[0], middle[1]}, {high[0], middle[1]}, 101, NULL},
+    };
+    for (size_t i = 0; i < 2; i++) {
+        gm_flows_write_profile(view, front, &lines[i], stream);
+    }
+}
+
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    return gm_picture_text(
+        picture, "%s%s%s;  τ = %.4g h/U, the perimeter / U",
+        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
+        gm_flows_common(picture, lanes, count, "Schmidt number", offsetof(struct gm_flows, schmidt)),
+        gm_flows_mesh_and_scheme(picture, lanes, count), gm_flow_of(&lanes[0]->problem)->time_unit);
+}
+
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct gm_flows *own = lanes[0]->parameters;
+    /* about half of the room fills, and what enters at the mean of a parabola leaves again */
+    const struct gm_flow *flow = gm_flow_of(&lanes[0]->problem);
+    const double scalar = fmax(own->inlet_scalar, 0), inlet = flow->viscosity * flow->reynolds;
+    double area = 0;
+    for (size_t k = 0; k < flow->complex->triangles; k++) {
+        area += flow->complex->area[k];
+    }
+    const struct gm_look look = {
+        .title = "A polluted room",
+        .subtitle = subtitle,
+        .clock_unit = "τ",
+        .axes = {"x / h", "y / h"},
+        .vorticity_range = 6,
+        .speed_high = 1.2,
+        .graphs = {"scalar_total", "scalar_outflow"},
+        .graph_high = {0.48 * area * scalar, 0.4 * inlet * scalar},
+    };
+    gm_flows_draw(lanes, count, picture, &look);
+}
+
+static const char *const schemes[] = {"semi-implicit", NULL};
+
+static const struct gm_figure figures[] = {
+    {
+        .name = "razafindralandy-35",
+        .statement = "a square room, its inlet and outlet a fifth of its height",
+        .arguments = "until=0.002 show=none streamlines=no tracers=0",
+    },
+    {
+        .name = "razafindralandy-36",
+        .statement = "the grid, of 3436 vertices and 6670 acute triangles",
+        .arguments = "until=0.002 irregular=0.25 show=none streamlines=no grid=yes tracers=0",
+    },
+    {
+        .name = "razafindralandy-37",
+        .statement = "streamlines and pollutant after half, one and two return periods",
+        .arguments = "until=0.5,1,2 irregular=0.25 tracers=0",
+    },
+};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+static double courant_time(const void *own)
+{
+    return gm_flows_courant_time(setup, own);
+}
+
+static const double reynolds_numbers[] = {10, 30, 100, 300, 1000};
+static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
+static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
+
+static const struct gm_stability stability = {
+    .arguments = "rows=30 columns=0 tracers=0 until=2",
+    .parameter = "reynolds",
+    .values = reynolds_numbers,
+    .value_count = COUNT(reynolds_numbers),
+    .label = "Courant number",
+    .unit = courant_time,
+    .steps = courant_numbers,
+    .step_count = COUNT(courant_numbers),
+    .kept = "speed_max",
+    .schemes = marching,
+};
+
+const struct gm_scene gm_scene_room = {
+    .name = "room",
+    .title = "A polluted room",
+    .blurb =
+        "Polluted air enters a room top left and leaves it bottom right. Discrete exterior calculus makes no mass, "
+        "not even by round-off, and the pollutant's budget closes to the last digit.",
+    .watch = "Watch the vortex fill with pollutant long after the jet has found the outlet.",
+    .time = "τ = 4H/U, once around the room at the speed of the inlet’s centre",
+    .size = sizeof(struct gm_flows),
+    .parameters = parameters,
+    .parameter_count = COUNT(parameters),
+    .schemes = schemes,
+    .observables = observables,
+    .observable_count = COUNT(observables),
+    .figures = figures,
+    .figure_count = COUNT(figures),
+    .stability = &stability,
+    .idle = gm_flows_idle,
+    .setup = setup,
+    .readable = gm_flows_readable,
+    .close = gm_flows_close,
+    .start = gm_flows_start,
+    .draw = draw,
+    .profile = profile,
+};

@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stdio.h>
+#include <string.h>
+
+#include "scenes/frame/scene.h"
+
+#define GM_SCENE(name) extern const struct gm_scene gm_scene_##name;
+#include "scenes/scenes.def"
+#undef GM_SCENE
+
+static const struct gm_scene *const scenes[] = {
+#define GM_SCENE(name) &gm_scene_##name,
+#include "scenes/scenes.def"
+#undef GM_SCENE
+};
+
+size_t gm_scene_count(void)
+{
+    return sizeof scenes / sizeof scenes[0];
+}
+
+const struct gm_scene *gm_scene_at(size_t index)
+{
+    return scenes[index];
+}
+
+const struct gm_scene *gm_scene_find(const char *name)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        if (strcmp(scenes[i]->name, name) == 0) {
+            return scenes[i];
+        }
+    }
+    return NULL;
+}
+
+const char *gm_observable_title(const struct gm_observable *observable, char *text, size_t size)
+{
+    const char *x = observable->symbol, *scale = observable->scale_text;
+    if (!observable->error) {
+        snprintf(text, size, "%s", observable->title);
+    } else {
+        snprintf(text, size, scale ? "%s  |%s − %s₀| / max(|%s₀|, %s)" : "%s  |%s − %s₀| / |%s₀|",
+                 observable->title, x, x, x, scale);
+    }
+    return text;
+}
+
+double gm_scene_t0(const struct gm_scene *scene, const void *parameters)
+{
+    return scene->t0 ? scene->t0(parameters) : 0;
+}
+
+const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key)
+{
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        if (strcmp(scene->parameters[i].key, key) == 0) {
+            return &scene->parameters[i];
+        }
+    }
+    return NULL;
+}
+
+int gm_scene_observable(const struct gm_scene *scene, const char *key)
+{
+    for (size_t i = 0; i < scene->observable_count; i++) {
+        if (strcmp(scene->observables[i].key, key) == 0) {
+            return (int)i;
+        }
+    }
+    return -1;
+}
+
+void gm_choose(struct gm_choice *choice, const char *key, double value)
+{
+    choice->key = key;
+    snprintf(choice->value, sizeof choice->value, "%.3g", value == 0 ? 0.0 : value);
+}

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_FRAME_SCENE_H
+#define GM_SCENES_FRAME_SCENE_H
+
+#include "core/run.h"
+#include "render/picture/picture.h"
+
+struct gm_lane;
+struct gm_entries;
+
+/* Every scene's own struct of parameters begins with this. */
+struct gm_timing {
+    double dt;    /* time step */
+    double until; /* where `run` and `render` stop */
+};
+
+/* The end of a run that is told by its steps alone. */
+#define GM_NEVER 1e12
+
+/* The rows of the two, for a scene's parameter table. */
+#define GM_DT(standard_text, low, high)                                                                      \
+    {                                                                                                        \
+        .key = "dt", .unit = "", .help = "time step", .type = GM_REAL,                                       \
+        .offset = offsetof(struct gm_timing, dt), .standard = standard_text, .lowest = low, .highest = high, \
+        .logarithmic = true, .live = true,                                                                   \
+    }
+#define GM_UNTIL(standard_text)                                                                              \
+    {                                                                                                        \
+        .key = "until", .unit = "", .help = "time at which run and render stop", .type = GM_REAL,            \
+        .offset = offsetof(struct gm_timing, until), .standard = standard_text, .lowest = 0,                 \
+        .highest = GM_NEVER, .logarithmic = true, .live = true,                                              \
+    }
+
+/* What may be looked at of one lane. */
+struct gm_view {
+    const void *parameters; /* the scene's own struct */
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    const double *start; /* the state at t0, [component * m + member] */
+    const double *state; /* the present state */
+    double t0, t, dt;
+    const double *memory;            /* the scheme's own; NULL if it has none */
+    const struct gm_entries *tracks; /* the scene's, as recorded so far; NULL while a lane is opened */
+    const struct gm_run *run;        /* for what a scheme says of itself */
+};
+
+/* A number per step. With `error` the number printed is |x - x0| / max(|x0|, scale), x = evaluate, and
+   |x - x0| where both are 0. */
+struct gm_observable {
+    const char *key;
+    const char *title; /* as a graph's title; of an error without its formula */
+    const char *unit;
+    double (*evaluate)(const struct gm_view *view);
+    bool error;
+    const char *symbol;                      /* of x, in the formula of an error: "H" */
+    double (*scale)(const void *parameters); /* natural scale of an error; NULL: 0 */
+    const char *scale_text;                  /* as it is written: "1 for the pendulum" */
+    bool kept;                               /* the exact motion keeps x */
+    const char *missing;                     /* why there may be no value (NaN); NULL: there always is one */
+    double period;                           /* of an angle, which is printed unwrapped; 0: none */
+    bool logarithmic;                        /* drawn on a log axis */
+};
+
+/* A bounded record of the past: an entry of `width` numbers every `interval` of model time; or, with
+   `section`, one wherever that function of the state passes zero upwards between two steps, at the state
+   interpolated there. When `bound` entries are full every other one is dropped, or, of a `recent` track, the
+   older half. Entry 0 of a track by intervals that is not recent is the start. */
+struct gm_track {
+    const char *key;
+    size_t (*width)(const struct gm_view *view);
+    double (*interval)(const void *parameters);
+    double (*section)(const struct gm_view *view); /* looks at active components only; m is 1 */
+    size_t bound;
+    bool recent;
+    void (*record)(const struct gm_view *view, double *entry);
+};
+
+/* How `geomint work-precision` measures a scene; without it the scene's defaults and every scheme that fits.
+ */
+struct gm_work {
+    const char *arguments; /* key=value that differ from the defaults, separated by blanks; "" */
+    const char *measure;   /* key of the observable that is the error, at the end; NULL: the distance of the
+                              state from the exact one, or from that of a reference run */
+    double coarsest;       /* the largest step of the ladder, */
+    int halvings;          /* halved so many times */
+    const char *const *schemes; /* the entrants, NULL-terminated; NULL: every scheme that fits */
+    const char *reference;  /* the scheme of the reference run, where the problem has no exact solution; NULL:
+                               the highest order that fits */
+    const char *is_exact;   /* name of a scheme that solves the scene exactly where it has an exact solution,
+                               and is no  entrant then; NULL: none */
+    const char *resolution; /* key of a parameter that is measured at `resolution_count` values beside the
+                               steps: each scheme is judged by its best pairs; NULL: none */
+    const double *resolutions; /* from coarse to fine */
+    size_t resolution_count;
+    const char *ratio; /* key of a parameter with which the step follows the resolution (settle); typed, its
+                          values take the place of the ladder; NULL: none */
+    const double *errors; /* three, falling, at which prices are compared; NULL: 1e-3, 1e-6, 1e-9 */
+};
+
+/* What `geomint stability` does with a scene: a grid of time steps and of one parameter. */
+struct gm_stability {
+    const char *arguments; /* key=value that differ from the defaults, separated by blanks; "" */
+    const char *parameter; /* its key */
+    const double *values;  /* value_count of them */
+    size_t value_count;
+    const char *label;                      /* of the time step in units of `unit`: "h ω" */
+    double (*unit)(const void *parameters); /* of the time step: the shortest time there is */
+    const double *steps;                    /* step_count of them, in that unit */
+    size_t step_count;
+    const char *kept; /* key of the observable that is lost below half of its start, gained above twice */
+    long settle; /* where that swings by itself: the largest value of so many first steps is compared to that
+                    of so many last ones; 0: the end to the start */
+    const char *error;          /* key of the observable that is wrong above 0.1; NULL: none */
+    const char *const *schemes; /* NULL-terminated; NULL: the scene's */
+};
+
+/* A published figure: the arguments that redo it. */
+struct gm_figure {
+    const char *name;      /* "razafindralandy-1" */
+    const char *statement; /* what the document says it shows */
+    const char *arguments; /* of `geomint render SCENE`, separated by blanks */
+};
+
+/* A value for one of the scene's parameters, as it would be typed. */
+struct gm_choice {
+    const char *key;
+    char value[40];
+};
+enum { GM_CHOICES = 4 };
+
+/* Bytes of a sentence that a scene writes. */
+enum { GM_SENTENCE = 256 };
+
+struct gm_scene {
+    const char *name, *title, *blurb, *watch;
+    const char *time; /* what a time of 1 is: "H²/ν" */
+    size_t size;      /* of the scene's own struct, which begins with struct gm_timing */
+    const struct gm_parameter *parameters;
+    size_t parameter_count;
+    const char *const *schemes; /* in preferred order, NULL-terminated; further ones may fit */
+    /* What is shown where nothing is asked for: key=value with lists, by blanks; NULL: the first schemes. */
+    const char *lanes;
+    const struct gm_observable *observables;
+    size_t observable_count;
+    const struct gm_track *tracks;
+    size_t track_count;
+    const struct gm_figure *figures;
+    size_t figure_count;
+    const struct gm_work *work;
+    const struct gm_stability *stability; /* NULL: the scene has no such map */
+    long
+        follow; /* 0, or: between two looks there are at most so many steps, for what an observable recalls */
+
+    /* The time at the start; NULL: 0. */
+    double (*t0)(const void *parameters);
+    /* Whether the parameter of that key has no effect with these; NULL: all have one. */
+    bool (*idle)(const void *parameters, const char *key);
+    /* Makes parameters agree that follow from others, after those of these keys were set; false with a
+       sentence if they contradict. NULL: none do. */
+    bool (*settle)(void *parameters, const char *const *keys, size_t count, char *sentence);
+    /* Settles, in the lane's own copy, the parameters that were left to it ("auto"); NULL: there are none. */
+    void (*resolve)(void *parameters);
+    /* Fills the problem (n, m, facets) for these parameters; false with a sentence if they contradict. */
+    bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);
+    /* Whether the files that the parameters name can be read; a sentence if not. NULL: they name none. */
+    bool (*readable)(const void *parameters, char *sentence);
+    /* Frees what setup made for the problem; NULL if it makes nothing. */
+    void (*close)(struct gm_problem *problem);
+    /* Writes the canonical state at t0 (n * m). */
+    void (*start)(const void *parameters, const struct gm_problem *problem, double *y);
+    /* Instead of start, where the state depends on the scheme, or may not exist: false with a sentence then.
+     */
+    bool (*start_with)(const void *parameters, const struct gm_problem *problem,
+                       const struct gm_scheme *scheme, double *y, char *sentence);
+    /* Draws the lanes, count >= 1, into an empty picture; looks only. */
+    void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+    /* The parameters, at most GM_CHOICES, with which a run starts at the point (x, y) of a state's panel; 0
+       where it cannot. NULL: the scene has no such points. */
+    size_t (*point)(const void *parameters, double x, double y, struct gm_choice *choices);
+    /* Writes profiles of a state as rows of CSV, each beginning with `front`; NULL if there are none. The
+       columns are GM_PROFILE_COLUMNS. */
+    void (*profile)(const struct gm_view *view, const char *front, FILE *stream);
+};
+
+#define GM_PROFILE_COLUMNS "profile,x,y,psi,u,v,theta,omega,reference"
+
+/* Writes the title, of an error with its formula: "energy error  |H − H₀| / max(|H₀|, 1/2)". */
+const char *gm_observable_title(const struct gm_observable *observable, char *text, size_t size);
+
+/* A choice of three digits, which is what a place in a picture tells. */
+void gm_choose(struct gm_choice *choice, const char *key, double value);
+
+size_t gm_scene_count(void);
+const struct gm_scene *gm_scene_at(size_t index);
+const struct gm_scene *gm_scene_find(const char *name);
+double gm_scene_t0(const struct gm_scene *scene, const void *parameters);
+/* The number of the observable of that key; -1 if there is none. */
+int gm_scene_observable(const struct gm_scene *scene, const char *key);
+/* NULL if there is none of that key */
+const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key);
+
+#endif

@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pictures of the soliton scene: the field with its nodes over the exact solution, the paths of the
+   nodes, the energy; or the error over the number of nodes. */
+#include <math.h>
+#include <string.h>
+
+#include "scenes/frame/graph.h"
+#include "scenes/mesh/soliton.h"
+
+enum { EXACT_POINTS = 1500 };
+
+static void field_axes(struct gm_panel *panel, const struct gm_soliton_scene *soliton,
+                       const struct gm_mesh *mesh)
+{
+    const double low = fmin(mesh->left, mesh->right);
+    const double high = soliton->own.field == GM_PHI4 ? 1 : fmax(mesh->left, mesh->right);
+    const double room = 0.16 * (high - low);
+    panel->axes = true;
+    panel->x = (struct gm_axis){.label = "X", .scale = GM_LINEAR, .low = 0, .high = mesh->length};
+    panel->y = (struct gm_axis){.label = "φ",
+                                .scale = soliton->own.field == GM_PHI4 ? GM_LINEAR : GM_PI,
+                                .low = low - room,
+                                .high = high + room};
+}
+
+static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, const struct gm_view *view)
+{
+    const struct gm_soliton_scene *soliton = view->parameters;
+    double *points = gm_picture_memory(picture, 2 * EXACT_POINTS * sizeof *points);
+    if (!points) {
+        return;
+    }
+    for (size_t i = 0; i < EXACT_POINTS; i++) {
+        const double x = soliton->own.length * (double)i / (EXACT_POINTS - 1);
+        points[2 * i] = x;
+        points[2 * i + 1] = gm_soliton_exact(&soliton->own, x, view->t);
+    }
+    gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 2.4, GM_SOLID}, points, EXACT_POINTS, false);
+}
+
+/* The nodes with both ends, as points of a line. */
+static double *nodes_of(struct gm_picture *picture, const struct gm_mesh *mesh, const double *state)
+{
+    const size_t points = mesh->points;
+    double *nodes = gm_picture_memory(picture, 2 * (points + 2) * sizeof *nodes);
+    if (!nodes) {
+        return NULL;
+    }
+    nodes[0] = 0;
+    nodes[1] = mesh->left;
+    for (size_t k = 0; k < points; k++) {
+        nodes[2 * k + 2] = state[points + k];
+        nodes[2 * k + 3] = state[k];
+    }
+    nodes[2 * points + 2] = mesh->length;
+    nodes[2 * points + 3] = mesh->right;
+    return nodes;
+}
+
+static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_mesh mesh = gm_soliton_mesh(&view);
+    const enum gm_role role = gm_lane_role(lane->shown.colour);
+    double *nodes = nodes_of(picture, &mesh, view.start);
+    if (nodes && view.t != view.t0) {
+        gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.35, 1.2, GM_SOLID}, nodes,
+                     mesh.points + 2, false);
+    }
+    nodes = nodes_of(picture, &mesh, view.state);
+    if (!nodes) {
+        return;
+    }
+    gm_mark_line(picture, panel, (struct gm_style){role, 1, 1.6, GM_SOLID}, nodes, mesh.points + 2, false);
+    if (mesh.points <= 400) {
+        const double size = mesh.points <= 40 ? 6 : mesh.points <= 130 ? 4.5 : 3;
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = size}, nodes,
+                       mesh.points + 2);
+    }
+}
+
+/* How a lane stands: failed, or its error. */
+static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const char *failure = gm_lane_failure(picture, lane);
+    const double error = gm_soliton_error(&view);
+    return failure[0]        ? failure
+           : isfinite(error) ? gm_picture_text(picture, "solution error %.3f", error)
+                             : "";
+}
+
+static void draw_fields(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
+        struct gm_panel *panel = NULL;
+        for (size_t i = 0; i < count; i++) {
+            if (lanes[i]->shown.panel != p) {
+                continue;
+            }
+            if (!panel) {
+                const struct gm_view view = gm_lane_view(lanes[i]);
+                const struct gm_mesh mesh = gm_soliton_mesh(&view);
+                panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lanes[i]));
+                field_axes(panel, view.parameters, &mesh);
+                panel->title_role = gm_lane_role(lanes[i]->shown.colour);
+                panel->note = note_of(picture, lanes[i]);
+                gm_name_lanes(picture, panel, lanes, count, p);
+                draw_exact(picture, panel, &view);
+            }
+            draw_field(picture, panel, lanes[i]);
+        }
+    }
+}
+
+static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                       bool crowded)
+{
+    const struct gm_entries *entries = &lane->entries[0];
+    const struct gm_view view = gm_lane_view(lane);
+    const size_t points = view.problem->n / 4, stride = gm_soliton_path_stride(points),
+                 rows = entries->count + 1;
+    const struct gm_style style = {gm_lane_role(lane->shown.colour), crowded ? 0.6 : 0.9, crowded ? 0.8 : 1.2,
+                                   GM_SOLID};
+    double *path = gm_picture_memory(picture, 2 * rows * sizeof *path);
+    for (size_t k = 0; path && k < entries->width; k++) {
+        for (size_t i = 0; i < entries->count; i++) {
+            path[2 * i] = entries->values[i * entries->width + k];
+            path[2 * i + 1] = entries->times[i];
+        }
+        path[2 * rows - 2] = view.state[points + k * stride];
+        path[2 * rows - 1] = view.t;
+        gm_mark_line(picture, panel, style, path, rows, false);
+    }
+}
+
+static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        bool named)
+{
+    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
+        struct gm_panel *panel = NULL;
+        for (size_t i = 0; i < count; i++) {
+            if (lanes[i]->shown.panel != p) {
+                continue;
+            }
+            const struct gm_soliton_scene *soliton = lanes[i]->parameters;
+            if (!panel) {
+                panel = gm_panel_add(picture, GM_PLACE_STATE, named ? gm_lane_title(lanes[i]) : "");
+                panel->axes = true;
+                panel->title_role = gm_lane_role(lanes[i]->shown.colour);
+                panel->x =
+                    (struct gm_axis){.label = "X", .scale = GM_LINEAR, .low = 0, .high = soliton->own.length};
+                panel->y = (struct gm_axis){.label = "t", .scale = GM_LINEAR, .low = 0, .high = 0};
+                panel->note = named ? note_of(picture, lanes[i]) : "";
+                if (named) {
+                    gm_name_lanes(picture, panel, lanes, count, p);
+                }
+            }
+            const double *times = lanes[i]->entries[0].times;
+            panel->y.low = fmin(panel->y.low, fmin(times[0], lanes[i]->run->t));
+            panel->y.high = fmax(panel->y.high, fmax(soliton->timing.until, lanes[i]->run->t));
+            draw_paths(picture, panel, lanes[i], lanes[i]->entries[0].width > 40);
+        }
+        if (panel && !(panel->y.high > panel->y.low)) {
+            panel->y.high = panel->y.low + 1; /* nothing is asked to pass */
+        }
+    }
+}
+
+/* The largest error so far against the number of elements, a line for each scheme. */
+static void draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, "largest error at any node and step");
+    double low_x = 1, high_x = 0, low_y = 1, high_y = 0;
+    double *largest = gm_picture_memory(picture, count * sizeof *largest);
+    double *points = gm_picture_memory(picture, 2 * count * sizeof *points);
+    if (!largest || !points) {
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_history *history = &lanes[i]->history;
+        const struct gm_soliton_scene *soliton = lanes[i]->parameters;
+        largest[i] = lanes[i]->run->status == GM_OK ? 0 : NAN;
+        for (size_t b = 0; b < history->count; b++) {
+            largest[i] = fmax(history->bins[b * history->series].high, largest[i]);
+        }
+        largest[i] = lanes[i]->run->status == GM_OK ? largest[i] : NAN;
+        gm_range_add(&low_x, &high_x, (double)(soliton->own.points + 1));
+        gm_range_add(&low_y, &high_y, largest[i]);
+    }
+    gm_range_round(&low_y, &high_y, GM_LOG);
+    panel->axes = true;
+    panel->title_role = GM_INK;
+    panel->x =
+        (struct gm_axis){.label = "elements", .scale = GM_LOG, .low = low_x / 1.3, .high = high_x * 1.3};
+    panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = low_y, .high = high_y};
+    size_t series = 0;
+    for (size_t i = 0; i < count; i++) {
+        bool first = true;
+        for (size_t k = 0; k < i; k++) {
+            first &= lanes[k]->scheme != lanes[i]->scheme;
+        }
+        if (!first) {
+            continue;
+        }
+        size_t made = 0;
+        for (size_t k = i; k < count; k++) {
+            if (lanes[k]->scheme == lanes[i]->scheme && isfinite(largest[k])) {
+                const struct gm_soliton_scene *soliton = lanes[k]->parameters;
+                points[2 * made] = (double)(soliton->own.points + 1);
+                points[2 * made + 1] = largest[k];
+                made++;
+            }
+        }
+        const enum gm_role role = gm_lane_role(series);
+        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, gm_lane_dash(series)}, points, made,
+                     false);
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 7}, points, made);
+        if (made > 0) {
+            gm_mark_text(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 1}, points[0],
+                         points[1] * pow(high_y / low_y, 0.03), GM_ANCHOR_LEFT, lanes[i]->scheme->title);
+        }
+        series++;
+    }
+}
+
+static const char *step_text(struct gm_picture *picture, double dt)
+{
+    return fabs(dt) < 1e-4 ? gm_power_text(picture, dt) : gm_picture_text(picture, "%.6g", dt);
+}
+
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    const struct gm_soliton_scene *soliton = lanes[0]->parameters;
+    const bool named = soliton->show != GM_SOLITON_CONVERGENCE;
+    bool one_step = true, one_size = true, one_scheme = lanes[0]->shown.panel_name[0] && named;
+    for (size_t i = 1; i < count; i++) {
+        const struct gm_soliton_scene *other = lanes[i]->parameters;
+        one_step &= lanes[i]->run->dt == lanes[0]->run->dt;
+        one_size &= other->own.points == soliton->own.points;
+        one_scheme &= strcmp(lanes[i]->schemes, lanes[0]->schemes) == 0;
+    }
+    const bool fields = soliton->show == GM_SOLITON_ALL || soliton->show == GM_SOLITON_FIELD;
+    return gm_picture_text(picture, "%s,  velocity %g%s%s%s%s%s%s",
+                           soliton->own.field == GM_PHI4 ? "φ⁴" : "sine-Gordon", soliton->own.velocity,
+                           one_size ? gm_picture_text(picture, ",  %ld node%s", soliton->own.points,
+                                                      soliton->own.points == 1 ? "" : "s")
+                                    : "",
+                           one_step ? ",  Δt = " : "", one_step ? step_text(picture, lanes[0]->run->dt) : "",
+                           one_scheme ? ",  " : "", one_scheme ? lanes[0]->schemes : "",
+                           !fields                            ? ""
+                           : lanes[0]->run->t != lanes[0]->t0 ? ";  grey: exact,  red: at the start"
+                                                              : ";  grey: exact");
+}
+
+/* How far a lane's energy has gone from its start so far. */
+static double largest_change(const struct gm_lane *lane, size_t series)
+{
+    const struct gm_history *history = &lane->history;
+    struct gm_view view = gm_lane_view(lane);
+    view.state = view.start;
+    const double initial = lane->scene->observables[series].evaluate(&view);
+    double largest = 0;
+    for (size_t b = 0; b < history->count; b++) {
+        const struct gm_bin *bin = &history->bins[b * history->series + series];
+        largest = fmax(largest, fmax(bin->high - initial, initial - bin->low));
+    }
+    return largest;
+}
+
+/* Each panel's lanes in a graph of their own, one above another and all on one scale. */
+static void draw_energies(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    const int energy = gm_asked_series(picture, lanes[0]->scene, "energy");
+    if (energy < 0) {
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (i > 0 && lanes[i]->shown.panel == lanes[i - 1]->shown.panel) {
+            continue;
+        }
+        const struct gm_graph graph = {.observable = "energy", .title = gm_lane_title(lanes[i])};
+        gm_draw_graph(picture, lanes, count, &graph, (long)lanes[i]->shown.panel, false);
+        struct gm_panel *panel = picture->last;
+        panel->place = GM_PLACE_STATE;
+        panel->title_role = gm_lane_role(lanes[i]->shown.colour);
+        panel->note = lanes[i]->run->status == GM_OK
+                          ? gm_picture_text(picture, "changes by at most %s",
+                                            gm_power_text(picture, largest_change(lanes[i], (size_t)energy)))
+                          : gm_lane_failure(picture, lanes[i]);
+    }
+    picture->state_columns = gm_panel_count(lanes, count) > 3 ? 2 : 1;
+}
+
+void gm_soliton_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct gm_soliton_scene *soliton = lanes[0]->parameters;
+    const bool two = soliton->own.solitons == 2;
+    const char *who = two ? "two solitons" : "a soliton";
+    switch (soliton->show) {
+    case GM_SOLITON_MESH:
+        picture->title = gm_picture_text(picture, "The paths of mesh points that follow %s", who);
+        break;
+    case GM_SOLITON_ENERGY:
+        picture->title = gm_picture_text(picture, "The energy of %s on a moving mesh", who);
+        break;
+    case GM_SOLITON_CONVERGENCE:
+        picture->title = gm_picture_text(picture, "What moving the mesh gains: %s", who);
+        break;
+    default:
+        picture->title = gm_picture_text(picture, "Mesh points that follow %s", who);
+    }
+    picture->subtitle = subtitle(picture, lanes, count);
+    gm_draw_clock(picture, lanes, count);
+    const size_t panels = gm_panel_count(lanes, count);
+    if (soliton->show == GM_SOLITON_CONVERGENCE) {
+        draw_convergence(picture, lanes, count);
+        return;
+    }
+    /* of many lanes the paths alone are shown, which are what the scene is about */
+    const bool all = soliton->show == GM_SOLITON_ALL, both = all && panels <= 4;
+    if (both || soliton->show == GM_SOLITON_FIELD) {
+        draw_fields(picture, lanes, count);
+    }
+    if (all || soliton->show == GM_SOLITON_MESH) {
+        draw_meshes(picture, lanes, count, !both);
+    }
+    /* three side by side leave no hole */
+    if (both || (panels == 3 && !all)) {
+        picture->state_columns = panels;
+    }
+    if (soliton->show == GM_SOLITON_ENERGY) {
+        draw_energies(picture, lanes, count);
+    }
+    if (all) {
+        picture->graphs_below = true;
+        const struct gm_graph kept = {.observable = "energy",
+                                      .title = "energy / initial energy",
+                                      .relative = true,
+                                      .calm_low = 0.99,
+                                      .calm_high = 1.01};
+        gm_draw_graph(picture, lanes, count, &kept, -1, false);
+        const struct gm_graph error = {.observable = "solution_error",
+                                       .scale = GM_LOG,
+                                       .calm_low = 1e-4,
+                                       .calm_high = 10,
+                                       .floor = 1e-4};
+        gm_draw_graph(picture, lanes, count, &error, -1, false);
+    }
+}

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Henon & Heiles (Astron. J. 69 (1964) 73): a star in a galaxy's plane. In the section q1 = 0, p1 > 0 a
+   quasi-periodic orbit draws a curve and a chaotic one fills an area. A few orbits of one energy are
+   followed. */
+#include <math.h>
+#include <stdio.h>
+
+#include "core/ode/problems/problems.h"
+#include "scenes/frame/graph.h"
+
+enum { Q1, Q2, P1, P2 };
+enum { CROSSINGS = 1 << 14 };
+
+struct henon_heiles {
+    struct gm_timing timing;
+    double energy, q2, p2;
+};
+
+static const struct gm_parameter parameters[] = {
+    GM_DT("0.1", 1e-7, 10),
+    GM_UNTIL("20000"),
+    {
+        .key = "energy",
+        .unit = "",
+        .help = "1/12: nearly all orbits are regular; 1/8: part of them; 1/6: nearly none (escape beyond)",
+        .type = GM_REAL,
+        .offset = offsetof(struct henon_heiles, energy),
+        .standard = "1/12",
+        .lowest = 1e-6,
+        .highest = 1. / 6,
+    },
+    {
+        .key = "q2",
+        .unit = "",
+        .help = "start in the section: q1 = 0, p1 > 0 follows from the energy",
+        .type = GM_REAL,
+        .offset = offsetof(struct henon_heiles, q2),
+        .standard = "0.1",
+        .lowest = -0.5,
+        .highest = 1,
+    },
+    {
+        .key = "p2",
+        .unit = "",
+        .help = "start in the section",
+        .type = GM_REAL,
+        .offset = offsetof(struct henon_heiles, p2),
+        .standard = "0.1",
+        .lowest = -0.6,
+        .highest = 0.6,
+    },
+};
+
+static double potential(double q1, double q2)
+{
+    return (q1 * q1 + q2 * q2) / 2 + q1 * q1 * q2 - q2 * q2 * q2 / 3;
+}
+
+static bool setup(const void *own, struct gm_problem *problem, char *sentence)
+{
+    const struct henon_heiles *orbit = own;
+    if (!(orbit->energy - potential(0, orbit->q2) - orbit->p2 * orbit->p2 / 2 >= 0)) {
+        snprintf(sentence, GM_SENTENCE, "with the energy %.4g there is no orbit through q2=%.4g, p2=%.4g",
+                 orbit->energy, orbit->q2, orbit->p2);
+        return false;
+    }
+    *problem = gm_problem_henon_heiles;
+    return true;
+}
+
+static void start(const void *own, const struct gm_problem *problem, double *y)
+{
+    (void)problem;
+    const struct henon_heiles *orbit = own;
+    y[Q1] = 0;
+    y[Q2] = orbit->q2;
+    y[P2] = orbit->p2;
+    y[P1] = sqrt(2 * (orbit->energy - potential(0, orbit->q2)) - orbit->p2 * orbit->p2);
+}
+
+static double energy(const struct gm_view *view)
+{
+    double value = 0;
+    gm_ode_of(view->problem)->hamiltonian->energy(view->problem, view->state, &value, 1);
+    return value;
+}
+
+static const struct gm_observable observables[] = {
+    {.key = "energy_error",
+     .title = "energy error",
+     .unit = "",
+     .evaluate = energy,
+     .error = true,
+     .symbol = "H",
+     .kept = true,
+     .logarithmic = true},
+};
+
+static double first_coordinate(const struct gm_view *view)
+{
+    return view->state[Q1];
+}
+
+static size_t two(const struct gm_view *view)
+{
+    return (void)view, 2;
+}
+
+static void record_crossing(const struct gm_view *view, double *entry)
+{
+    entry[0] = view->state[Q2];
+    entry[1] = view->state[P2];
+}
+
+static const struct gm_track tracks[] = {
+    {.key = "section",
+     .width = two,
+     .section = first_coordinate,
+     .bound = CROSSINGS,
+     .record = record_crossing},
+};
+
+/* The ends in q2 of what an energy allows in the section: V(0, q2) rises to it on both sides of 0. */
+static void ends_of(double level, double ends[2])
+{
+    for (int side = 0; side < 2; side++) {
+        double inside = 0, outside = side == 0 ? -1 : 1;
+        for (int i = 0; i < 60; i++) {
+            const double middle = (outside + inside) / 2;
+            *(potential(0, middle) > level ? &outside : &inside) = middle;
+        }
+        ends[side] = inside;
+    }
+}
+
+/* Where p1 = 0 in the section: nothing of this energy lies outside. */
+static void draw_border(struct gm_picture *picture, struct gm_panel *panel, double level)
+{
+    enum { POINTS = 200 };
+    double points[4 * POINTS + 4], ends[2];
+    ends_of(level, ends);
+    for (size_t i = 0; i <= POINTS; i++) {
+        const double q2 = (ends[0] + ends[1]) / 2 - (ends[1] - ends[0]) / 2 * cos(M_PI * (double)i / POINTS);
+        const double p2 = sqrt(fmax(0, 2 * (level - potential(0, q2))));
+        points[2 * i] = points[2 * (2 * POINTS + 1 - i)] = q2;
+        points[2 * i + 1] = p2;
+        points[2 * (2 * POINTS + 1 - i) + 1] = -p2;
+    }
+    gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, points, 2 * POINTS + 2, true);
+}
+
+/* The orbit through that point of the section; there is none where the energy does not reach. */
+static size_t point(const void *own, double x, double y, struct gm_choice *choices)
+{
+    const struct henon_heiles *parameters = own;
+    if (!(y * y / 2 + potential(0, x) < parameters->energy) || fabs(x) > 1) {
+        return 0;
+    }
+    gm_choose(&choices[0], "q2", x);
+    gm_choose(&choices[1], "p2", y);
+    return 2;
+}
+
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct henon_heiles *orbit = lanes[0]->parameters;
+    const double dt = lanes[0]->run->dt;
+    bool one_step = true, one_energy = true;
+    double widest = 0;
+    for (size_t i = 0; i < count; i++) {
+        const struct henon_heiles *other = lanes[i]->parameters;
+        one_step &= lanes[i]->run->dt == dt;
+        one_energy &= other->energy == orbit->energy;
+        widest = fmax(widest, other->energy);
+    }
+    bool one_scheme = true;
+    for (size_t i = 1; i < count; i++) {
+        one_scheme &= lanes[i]->scheme == lanes[0]->scheme;
+    }
+    picture->title = gm_picture_text(picture, "A star in a galaxy: Poincaré section by %s",
+                                     one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count));
+    picture->subtitle = gm_picture_text(
+        picture, "q₂ and p₂ whenever q₁ = 0, p₁ > 0%s%s;  grey: the border of what this energy allows",
+        one_energy ? gm_picture_text(picture, ",  energy 1/%.4g", 1 / orbit->energy) : "",
+        one_step ? gm_picture_text(picture, ",  Δt = %.4g", dt) : "");
+    picture->caption =
+        "A regular orbit draws a curve, a chaotic one fills an area; an integrator that gains or loses energy "
+        "smears the curve.";
+    picture->graphs_below = true;
+    gm_draw_clock(picture, lanes, count);
+    const double tall = 1.08 * sqrt(2 * widest);
+    double ends[2];
+    ends_of(widest, ends);
+    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
+        struct gm_panel *panel = NULL;
+        for (size_t i = 0; i < count; i++) {
+            const struct gm_lane *lane = lanes[i];
+            if (lane->shown.panel != p) {
+                continue;
+            }
+            const enum gm_role role = gm_lane_role(lane->shown.colour);
+            if (!panel) {
+                const bool of_all = one_scheme && gm_panel_count(lanes, count) == 1;
+                panel =
+                    gm_panel_add(picture, GM_PLACE_STATE, of_all ? lane->scheme->title : gm_lane_title(lane));
+                panel->x = (struct gm_axis){
+                    .label = "q₂", .scale = GM_LINEAR, .low = 1.1 * ends[0], .high = 1.08 * ends[1]};
+                panel->y = (struct gm_axis){.label = "p₂", .scale = GM_LINEAR, .low = -tall, .high = tall};
+                panel->axes = true;
+                panel->equal = true;
+                panel->title_role = role;
+                panel->note = gm_lane_failure(picture, lane);
+                gm_name_lanes(picture, panel, lanes, count, p);
+                draw_border(picture, panel, ((const struct henon_heiles *)lane->parameters)->energy);
+            }
+            const struct gm_entries *section = &lane->entries[0];
+            gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.75, .width = 2.2},
+                           section->values, section->count);
+        }
+    }
+    gm_draw_graph(
+        picture, lanes, count,
+        &(const struct gm_graph){
+            .observable = "energy_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-6, .calm_high = 1},
+        -1, false);
+}
+
+static const char *const schemes[] = {"verlet", "rk4",      "rk2",      "gauss4",
+                                      "kahan2", "yoshida4", "midpoint", NULL};
+
+static const struct gm_work work = {
+    .arguments = "until=100", .coarsest = 0.5, .halvings = 8, .reference = "gauss8"};
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+/* Small oscillations turn by a radian in it. */
+static double radian_time(const void *own)
+{
+    return (void)own, 1;
+}
+
+static const double energies[] = {1. / 24, 1. / 12, 1. / 8, 0.16};
+static const double steps[] = {0.1, 0.2, 0.5, 0.8, 1.2, 1.6, 1.95, 2.05};
+static const char *const mapped[] = {"verlet", "rk4", "rk4sym", "gauss4", "kahan2", "yoshida4", NULL};
+
+static const struct gm_stability stability = {
+    .arguments = "until=500",
+    .parameter = "energy",
+    .values = energies,
+    .value_count = COUNT(energies),
+    .label = "h ω",
+    .unit = radian_time,
+    .steps = steps,
+    .step_count = COUNT(steps),
+    .kept = "energy_error",
+    .schemes = mapped,
+};
+
+const struct gm_scene gm_scene_henon_heiles = {
+    .name = "henon-heiles",
+    .title = "Hénon-Heiles",
+    .blurb =
+        "The orbit of a star in a galaxy's potential, seen through a Poincaré section. Energy 1/12, 1/8, 1/6: from "
+        "order to chaos.",
+    .watch =
+        "Watch the section: is it a curve, islands, or dust? An integrator that is not symplectic thickens curves.",
+    .time = "1/2π of the period of a small oscillation",
+    .size = sizeof(struct henon_heiles),
+    .parameters = parameters,
+    .parameter_count = COUNT(parameters),
+    .schemes = schemes,
+    .lanes = "scheme=verlet q2=0,.1,.2,.3 energy=1/8 overlay=yes",
+    .observables = observables,
+    .observable_count = COUNT(observables),
+    .tracks = tracks,
+    .track_count = COUNT(tracks),
+    .work = &work,
+    .stability = &stability,
+    .follow = 1,
+    .setup = setup,
+    .start = start,
+    .draw = draw,
+    .point = point,
+};

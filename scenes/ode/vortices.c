@@ -1,0 +1,525 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Point vortices of equal strength in the plane, and passive tracers that they carry.
+   Razafindralandy, Hamdouni & Chhay (2018), section "Vortex dynamic", figures 7 to 10; with the factor and
+   the sense of rotation of Kirchhoff's equations mended. In `reduced` z3 = -z1 and z4 = -z2 are built in, so
+   that rounding cannot break the symmetry; beyond a turn of 35.12 degrees it does so in the full system,
+   whatever the scheme. */
+#include "scenes/ode/vortices.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "core/ode/problems/problems.h"
+
+extern const struct gm_scene gm_scene_vortices;
+
+static const char *const configurations[] = {"reduced", "square",    "two-turned", "one-turned",
+                                             "random",  "collision", NULL};
+
+static const struct gm_parameter parameters[] = {
+    GM_DT("5e-3", 1e-9, 100),
+    GM_UNTIL("25"),
+    {
+        .key = "configuration",
+        .unit = "",
+        .help =
+            "start: reduced (two-turned with its symmetry built in), square, two-turned, one-turned, random, "
+            "collision (with strength 2*pi and dt .5/800, unless given)",
+        .type = GM_CHOICE,
+        .offset = offsetof(struct gm_vortices, configuration),
+        .standard = "reduced",
+        .choices = configurations,
+    },
+    {
+        .key = "angle",
+        .unit = "rad",
+        .help = "by which one or two vortices are turned from the square",
+        .type = GM_REAL,
+        .offset = offsetof(struct gm_vortices, angle),
+        .standard = "pi/5",
+        .lowest = -3.1415926535897932,
+        .highest = 3.1415926535897932,
+    },
+    {
+        .key = "count",
+        .unit = "",
+        .help = "number of vortices, for square (a regular polygon) and random",
+        .type = GM_INTEGER,
+        .offset = offsetof(struct gm_vortices, count),
+        .standard = "4",
+        .lowest = 2,
+        .highest = 1e4,
+        .logarithmic = true,
+    },
+    {
+        .key = "strength",
+        .unit = "",
+        .help = "of every vortex: its circulation",
+        .type = GM_REAL,
+        .offset = offsetof(struct gm_vortices, strength),
+        .standard = "150",
+        .lowest = -1e6,
+        .highest = 1e6,
+    },
+    {
+        .key = "distance",
+        .unit = "",
+        .help = "of the close pair, for collision",
+        .type = GM_REAL,
+        .offset = offsetof(struct gm_vortices, distance),
+        .standard = "0.05",
+        .lowest = 0,
+        .highest = 1,
+    },
+    {
+        .key = "tracers",
+        .unit = "",
+        .help = "passive particles, half of them dyed",
+        .type = GM_INTEGER,
+        .offset = offsetof(struct gm_vortices, tracers),
+        .standard = "0",
+        .lowest = 0,
+        .highest = 1e6,
+        .logarithmic = true,
+    },
+    {
+        .key = "seed",
+        .unit = "",
+        .help = "of the random start",
+        .type = GM_INTEGER,
+        .offset = offsetof(struct gm_vortices, seed),
+        .standard = "1",
+        .lowest = 0,
+        .highest = 1e9,
+    },
+};
+
+/* A regular polygon turns as a whole. */
+static void turn_polygon(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
+{
+    (void)m;
+    const size_t count = problem->n / 2;
+    const double strength = *(const double *)problem->parameters;
+    const double radius = hypot(y0[0], y0[count]);
+    const double turn = (double)(count - 1) * strength / (4 * M_PI * radius * radius) * t;
+    for (size_t i = 0; i < count; i++) {
+        y[i] = cos(turn) * y0[i] - sin(turn) * y0[count + i];
+        y[count + i] = sin(turn) * y0[i] + cos(turn) * y0[count + i];
+    }
+}
+
+static const struct gm_exact polygon = {.solution = turn_polygon};
+
+static bool is_given(const char *key, const char *const *keys, size_t count)
+{
+    bool given = false;
+    for (size_t i = 0; i < count; i++) {
+        given |= strcmp(keys[i], key) == 0;
+    }
+    return given;
+}
+
+/* A configuration comes with a strength and a step that show its point, unless they are given. */
+static bool settle(void *parameters_, const char *const *keys, size_t count, char *sentence)
+{
+    (void)sentence;
+    struct gm_vortices *own = parameters_;
+    static const struct {
+        const char *key, *in_collision;
+    } follow[] = {{"strength", "2*pi"}, {"dt", ".5/800"}};
+    for (size_t i = 0; i < sizeof follow / sizeof follow[0] && is_given("configuration", keys, count); i++) {
+        const struct gm_parameter *row = gm_scene_parameter(&gm_scene_vortices, follow[i].key);
+        if (!is_given(row->key, keys, count)) {
+            gm_parameter_set(row, own,
+                             own->configuration == GM_COLLISION ? follow[i].in_collision : row->standard);
+        }
+    }
+    return true;
+}
+
+static bool setup(const void *parameters_, struct gm_problem *problem, char *sentence)
+{
+    const struct gm_vortices *own = parameters_;
+    const bool any_count = own->configuration == GM_SQUARE || own->configuration == GM_RANDOM;
+    const size_t carried = gm_vortices_carried(own), tracers = (size_t)own->tracers;
+    if (own->strength == 0) {
+        snprintf(sentence, GM_SENTENCE, "strength=0: vortices without strength do not move");
+        return false;
+    }
+    if (!any_count && own->count != 4) {
+        snprintf(sentence, GM_SENTENCE,
+                 "configuration=%s has four vortices; count goes with square and random",
+                 configurations[own->configuration]);
+        return false;
+    }
+    if (gm_vortices_coincide(own)) {
+        snprintf(sentence, GM_SENTENCE, "two vortices coincide at the start: another %s is needed",
+                 own->configuration == GM_COLLISION ? "distance" : "angle");
+        return false;
+    }
+    if (own->configuration == GM_REDUCED) {
+        *problem = tracers == 0 ? gm_problem_vortices_reduced : gm_problem_vortices_reduced_carrying;
+    } else {
+        *problem = tracers == 0 && carried == 4 ? gm_problem_vortices_four : gm_problem_vortices;
+    }
+    problem->n = 2 * carried + 2 * tracers;
+    problem->passive = tracers;
+    problem->parameters = &own->strength;
+    problem->exact = own->configuration == GM_SQUARE && tracers == 0 ? &polygon : NULL;
+    return true;
+}
+
+static double energy(const struct gm_view *view)
+{
+    double value = 0;
+    gm_ode_of(view->problem)->hamiltonian->energy(view->problem, view->state, &value, 1);
+    return value;
+}
+
+/* Sums over the vortices, images included; of the reduced system each stands for two. */
+static double mean_of(const struct gm_view *view, bool squares, size_t side)
+{
+    const struct gm_vortices *own = view->parameters;
+    const size_t count = gm_vortices_carried(own);
+    const double *x = view->state, *y = x + count;
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        sum += squares ? x[i] * x[i] + y[i] * y[i] : view->state[side * count + i];
+    }
+    return !squares && own->configuration == GM_REDUCED ? 0 : sum / (double)count;
+}
+
+/* Impulses are divided by the sum of the strengths: their natural scale, times the radius 1. */
+static double impulse_x(const struct gm_view *view)
+{
+    return mean_of(view, false, 0);
+}
+static double impulse_y(const struct gm_view *view)
+{
+    return mean_of(view, false, 1);
+}
+static double angular_impulse(const struct gm_view *view)
+{
+    return mean_of(view, true, 0);
+}
+
+static double symmetry_defect(const struct gm_view *view)
+{
+    const struct gm_vortices *own = view->parameters;
+    const double *s = view->state;
+    if (own->count != 4 || own->configuration == GM_RANDOM) {
+        return NAN;
+    }
+    return own->configuration == GM_REDUCED
+               ? 0
+               : fmax(hypot(s[0] + s[2], s[4] + s[6]), hypot(s[1] + s[3], s[5] + s[7]));
+}
+
+static double pair_distance(const struct gm_view *view)
+{
+    const struct gm_vortices *own = view->parameters;
+    const size_t count = gm_vortices_carried(own);
+    if (own->configuration != GM_COLLISION) {
+        return NAN;
+    }
+    return hypot(view->state[0] - view->state[1], view->state[count] - view->state[count + 1]);
+}
+
+static double position_error(const struct gm_view *view)
+{
+    const struct gm_problem *problem = view->problem;
+    if (!problem->exact || view->state == view->start) {
+        return problem->exact ? 0 : NAN;
+    }
+    /* the first vortex: the others are where it is, turned */
+    const size_t count = problem->n / 2;
+    const double turn =
+        (double)(count - 1) * *(const double *)problem->parameters / (4 * M_PI) * (view->t - view->t0);
+    return hypot(view->state[0] - cos(turn), view->state[count] - sin(turn));
+}
+
+static double tracers_lost(const struct gm_view *view)
+{
+    const struct gm_problem *problem = view->problem;
+    const double *x = view->state + (problem->n - 2 * problem->passive);
+    double lost = 0;
+    for (size_t k = 0; k < problem->passive; k++) {
+        lost += !isfinite(x[k]);
+    }
+    return lost;
+}
+
+/* -cos of the angle from z1 to z2, where that is a positive one: passes zero upwards at a quarter turn. */
+static double quarter_turn(const struct gm_view *view)
+{
+    const size_t count = gm_vortices_carried(view->parameters);
+    const double *x = view->state, *y = x + count;
+    const double along = x[0] * x[1] + y[0] * y[1], across = x[0] * y[1] - y[0] * x[1];
+    return across > 0 ? -along : NAN;
+}
+
+static void record_crossing(const struct gm_view *view, double *entry)
+{
+    const size_t count = gm_vortices_carried(view->parameters);
+    entry[0] = hypot(view->state[0], view->state[count]);
+}
+
+static double section_shift(const struct gm_view *view)
+{
+    if (!view->tracks) {
+        return 0;
+    }
+    const struct gm_entries *section = &view->tracks[GM_SECTION];
+    const size_t tenth = section->count / 10;
+    double first = 0, last = 0;
+    for (size_t i = 0; i < tenth; i++) {
+        first += section->values[i];
+        last += section->values[section->count - 1 - i];
+    }
+    return tenth > 0 ? (last - first) / (double)tenth : 0;
+}
+
+/* Vortices that were turned from the square go to where the point is seen from the middle; the close pair is
+   drawn as far apart. */
+static size_t point(const void *parameters_of, double x, double y, struct gm_choice *choices)
+{
+    const struct gm_vortices *own = parameters_of;
+    const double turned = atan2(y, x) - M_PI / 2; /* the first one that is stands at pi/2 in the square */
+    switch (own->configuration) {
+    case GM_REDUCED:
+    case GM_TWO_TURNED: /* and its mirror image is as near */
+        gm_choose(&choices[0], "angle", remainder(turned, M_PI));
+        return 1;
+    case GM_ONE_TURNED:
+        gm_choose(&choices[0], "angle", remainder(turned, 2 * M_PI));
+        return 1;
+    case GM_COLLISION:
+        gm_choose(&choices[0], "distance", fmin(2 * hypot(x, y), 1));
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+/* Of a pair, where a distance grows by the factor e. */
+static double natural_energy(const void *own)
+{
+    const double strength = ((const struct gm_vortices *)own)->strength;
+    return strength * strength / (4 * M_PI);
+}
+
+static double radius(const void *own)
+{
+    return (void)own, 1;
+}
+
+static const struct gm_observable observables[] = {
+    {.key = "energy_error",
+     .title = "energy error",
+     .unit = "",
+     .evaluate = energy,
+     .error = true,
+     .symbol = "H",
+     .scale = natural_energy,
+     .scale_text = "strength²/4π",
+     .kept = true,
+     .logarithmic = true},
+    {.key = "impulse_x_error",
+     .title = "impulse error, x",
+     .unit = "",
+     .evaluate = impulse_x,
+     .error = true,
+     .symbol = "X",
+     .scale = radius,
+     .scale_text = "1",
+     .kept = true,
+     .logarithmic = true},
+    {.key = "impulse_y_error",
+     .title = "impulse error, y",
+     .unit = "",
+     .evaluate = impulse_y,
+     .error = true,
+     .symbol = "Y",
+     .scale = radius,
+     .scale_text = "1",
+     .kept = true,
+     .logarithmic = true},
+    {.key = "angular_impulse_error",
+     .title = "angular impulse error",
+     .unit = "",
+     .evaluate = angular_impulse,
+     .error = true,
+     .symbol = "I",
+     .kept = true,
+     .logarithmic = true},
+    {.key = "section_shift", .title = "shift of the section", .unit = "", .evaluate = section_shift},
+    {.key = "symmetry_defect",
+     .title = "asymmetry  |z₁ + z₃|, |z₂ + z₄|",
+     .missing = "only four vortices that start so have this symmetry",
+     .unit = "",
+     .evaluate = symmetry_defect,
+     .logarithmic = true},
+    {.key = "pair_distance_error",
+     .title = "error of the close pair’s distance",
+     .missing = "only configuration=collision has a close pair",
+     .unit = "",
+     .evaluate = pair_distance,
+     .error = true,
+     .symbol = "d",
+     .logarithmic = true},
+    {.key = "position_error",
+     .title = "distance from the exact position",
+     .missing = "an exact solution is known of configuration=square without tracers",
+     .unit = "",
+     .evaluate = position_error,
+     .logarithmic = true},
+    {.key = "tracers_lost", .title = "tracers lost", .unit = "", .evaluate = tracers_lost},
+};
+
+/* The time in which the regular polygon of these vortices turns once. */
+static double turning_time(const void *parameters_)
+{
+    const struct gm_vortices *own = parameters_;
+    const double count = own->configuration == GM_REDUCED ? 4 : (double)own->count;
+    return 8 * M_PI * M_PI / (fabs(own->strength) * (count - 1));
+}
+
+static size_t one(const struct gm_view *view)
+{
+    return (void)view, 1;
+}
+
+/* Of so many vortices the past is kept. */
+enum { FOLLOWED = 64 };
+
+static size_t followed(const struct gm_view *view)
+{
+    const size_t count = gm_vortices_carried(view->parameters);
+    return 2 * (count < FOLLOWED ? count : FOLLOWED);
+}
+
+static void record_positions(const struct gm_view *view, double *entry)
+{
+    const size_t count = gm_vortices_carried(view->parameters), width = followed(view);
+    for (size_t i = 0; i < width / 2; i++) {
+        entry[2 * i] = view->state[i];
+        entry[2 * i + 1] = view->state[count + i];
+    }
+}
+
+static double short_interval(const void *own)
+{
+    return turning_time(own) / 60;
+}
+/* no fraction of the turn that would show a pattern of its own */
+static double long_interval(const void *own)
+{
+    return turning_time(own) / 7.310;
+}
+
+static const struct gm_track tracks[] = {
+    [GM_SECTION] = {.key = "section",
+                    .width = one,
+                    .section = quarter_turn,
+                    .bound = 1 << 15,
+                    .record = record_crossing},
+    [GM_TRAIL] = {.key = "trail",
+                  .width = followed,
+                  .interval = short_interval,
+                  .bound = 48,
+                  .recent = true,
+                  .record = record_positions},
+    [GM_PAST] = {.key = "past",
+                 .width = followed,
+                 .interval = long_interval,
+                 .bound = 1024,
+                 .record = record_positions},
+};
+
+static const char *const schemes[] = {"rk4",  "rk4sym", "gauss4", "midpoint",           "rk2",
+                                      "tao4", "avf2",   "gauss8", "midpoint-kahan-li8", NULL};
+
+static const struct gm_figure figures[] = {
+    {
+        .name = "razafindralandy-7",
+        .statement = "four vortices on a square move periodically",
+        .arguments = "scheme=gauss4 configuration=square strength=1 dt=0.05 until=100",
+    },
+    {
+        .name = "razafindralandy-8",
+        .statement = "two opposite vortices turned by an angle: a quasi-periodic motion",
+        .arguments = "scheme=gauss4 configuration=two-turned strength=1 dt=0.05 until=1200",
+    },
+    {
+        .name = "razafindralandy-9",
+        .statement = "both integrators reproduce the square's periodic motion over 5e5 steps",
+        .arguments = "scheme=rk4,rk4sym configuration=square strength=1 dt=5e-3 steps=500000",
+    },
+    {
+        .name = "razafindralandy-10",
+        .statement = "with two opposite vortices turned by π/5, RK4 loses quasi-periodicity, RK4sym keeps it",
+        .arguments =
+            "scheme=rk4,rk4sym configuration=two-turned angle=pi/5 strength=150 dt=5e-3 steps=500000",
+    },
+};
+
+static const struct gm_work work = {.arguments = "configuration=reduced strength=1 until=100",
+                                    .coarsest = 2,
+                                    .halvings = 9,
+                                    .reference = "gauss8"};
+
+/* the time in which the close pair turns by a radian: 1/omega, omega = g / (pi d^2) */
+static double pair_time(const void *parameters_)
+{
+    const struct gm_vortices *own = parameters_;
+    return M_PI * own->distance * own->distance / fabs(own->strength);
+}
+
+static const double distances[] = {0.02, 0.05, 0.1, 0.2, 0.5};
+static const double steps[] = {0.05, 0.1, 0.2, 0.5, 1, 1.5, 2, 3};
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+static const char *const mapped[] = {"rk2", "rk4", "midpoint", "rk4sym", "gauss4", "gauss8", NULL};
+
+static const struct gm_stability stability = {
+    .arguments = "configuration=collision strength=2*pi until=0.5",
+    .parameter = "distance",
+    .values = distances,
+    .value_count = COUNT(distances),
+    .label = "h ω of the close pair",
+    .unit = pair_time,
+    .steps = steps,
+    .step_count = COUNT(steps),
+    .kept = "pair_distance_error",
+    .error = "pair_distance_error",
+    .schemes = mapped,
+};
+
+const struct gm_scene gm_scene_vortices = {
+    .name = "vortices",
+    .title = "Point vortices",
+    .blurb =
+        "Point vortices carry one another and whatever floats between them. Their motion is Hamiltonian: energy, "
+        "impulse and angular impulse are kept; with symmetry built in, four of them move quasi-periodically.",
+    .watch =
+        "Watch the Poincaré section: under RK4 the orbit wanders off its curve, under a symplectic method it stays.",
+    .time = "R²/Γ, the circle’s radius squared over a circulation of 1",
+    .size = sizeof(struct gm_vortices),
+    .parameters = parameters,
+    .parameter_count = COUNT(parameters),
+    .schemes = schemes,
+    .observables = observables,
+    .observable_count = COUNT(observables),
+    .tracks = tracks,
+    .track_count = COUNT(tracks),
+    .figures = figures,
+    .figure_count = COUNT(figures),
+    .work = &work,
+    .stability = &stability,
+    .follow = 1,
+    .settle = settle,
+    .setup = setup,
+    .start = gm_vortices_start,
+    .draw = gm_vortices_draw,
+    .point = point,
+};

@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The picture of point vortices: where they are and have been, tracers, the section, what is lost. */
+#include <math.h>
+#include <string.h>
+
+#include "scenes/ode/vortices.h"
+
+/* The greatest distance from the middle that is drawn; and so many tracers become a field. */
+static const double farthest = 4;
+enum { CELLS = 128, FIELD = 4000 };
+
+static double reach_of(const struct gm_lane *const *lanes, size_t count)
+{
+    double reach = 1.15;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_vortices *own = lanes[i]->parameters;
+        const struct gm_entries *past = &lanes[i]->entries[GM_PAST];
+        for (size_t k = 0; k < past->count * past->width; k++) {
+            const double away = fabs(past->values[k]);
+            reach = away < farthest ? fmax(reach, 1.08 * away) : reach;
+        }
+        reach = own->tracers > 0 ? fmax(reach, 1.75) : reach;
+    }
+    /* in rare steps, so that a movie is calm */
+    return 0.25 * ceil(reach / 0.25 - 1e-9);
+}
+
+/* Half of the tracers, those that started above the axis, are dyed: where is the dye now? */
+static void draw_tracers(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                         double reach)
+{
+    const struct gm_problem *problem = &lane->problem;
+    const size_t tracers = problem->passive, active = problem->n - 2 * tracers;
+    const double *x = gm_run_state(lane->run) + active, *y = x + tracers,
+                 *dye = lane->start + active + tracers;
+    if (tracers < FIELD) {
+        double *points = gm_picture_memory(picture, 2 * tracers * sizeof *points);
+        for (int dyed = 0; points && dyed < 2; dyed++) {
+            size_t count = 0;
+            for (size_t k = 0; k < tracers; k++) {
+                if ((dye[k] > 0) == (dyed == 1)) {
+                    points[2 * count] = x[k];
+                    points[2 * count + 1] = y[k];
+                    count++;
+                }
+            }
+            const enum gm_role role = dyed ? gm_lane_role(lane->shown.colour) : GM_SECONDARY;
+            gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.8, .width = 2.4},
+                           points, count);
+        }
+        return;
+    }
+    double *values = gm_picture_memory(picture, (size_t)CELLS * CELLS * sizeof *values);
+    double *there = gm_picture_memory(picture, (size_t)CELLS * CELLS * sizeof *there);
+    if (!values || !there) {
+        return;
+    }
+    memset(values, 0, (size_t)CELLS * CELLS * sizeof *values);
+    memset(there, 0, (size_t)CELLS * CELLS * sizeof *there);
+    for (size_t k = 0; k < tracers; k++) {
+        const double column = (x[k] + reach) / (2 * reach) * CELLS,
+                     row = (y[k] + reach) / (2 * reach) * CELLS;
+        if (column >= 0 && column < CELLS && row >= 0 && row < CELLS) {
+            const size_t cell = (size_t)row * CELLS + (size_t)column;
+            values[cell] += dye[k] > 0 ? 1 : -1;
+            there[cell] += 1;
+        }
+    }
+    for (size_t cell = 0; cell < (size_t)CELLS * CELLS; cell++) {
+        values[cell] = there[cell] > 0 ? values[cell] / there[cell] : 0;
+    }
+    const double corners[] = {-reach, -reach, reach, reach};
+    gm_mark_image(picture, panel, GM_MAP_DIVERGING, -1, 1, corners, values, CELLS, CELLS);
+}
+
+static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
+{
+    const struct gm_vortices *own = lane->parameters;
+    const enum gm_role role = gm_lane_role(lane->shown.colour);
+    const struct gm_entries *trail = &lane->entries[GM_TRAIL], *past = &lane->entries[GM_PAST];
+    const size_t followed = trail->width / 2, carried = gm_vortices_carried(own);
+    const bool images = own->configuration == GM_REDUCED;
+    const size_t most = past->count > trail->count ? past->count : trail->count;
+    const double *state = gm_run_state(lane->run);
+    double *points = gm_picture_memory(picture, 2 * (most + carried + 1) * sizeof *points);
+    if (!points) {
+        return;
+    }
+    for (int sign = 1; sign >= (images ? -1 : 1); sign -= 2) {
+        for (size_t i = 0; i < followed && own->tracers == 0; i++) {
+            for (size_t k = 0; k < past->count && followed <= 8; k++) {
+                points[2 * k] = sign * past->values[k * past->width + 2 * i];
+                points[2 * k + 1] = sign * past->values[k * past->width + 2 * i + 1];
+            }
+            if (followed <= 8) {
+                gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.22, .width = 2},
+                               points, past->count);
+            }
+        }
+        for (size_t i = 0; i < followed; i++) {
+            for (size_t k = 0; k < trail->count; k++) {
+                points[2 * k] = sign * trail->values[k * trail->width + 2 * i];
+                points[2 * k + 1] = sign * trail->values[k * trail->width + 2 * i + 1];
+            }
+            points[2 * trail->count] = sign * state[i];
+            points[2 * trail->count + 1] = sign * state[carried + i];
+            gm_draw_trail(picture, panel, (struct gm_style){role, 0.9, 1.8, GM_SOLID}, points,
+                          trail->count + 1);
+        }
+        for (size_t i = 0; i < carried; i++) {
+            points[2 * i] = sign * state[i];
+            points[2 * i + 1] = sign * state[carried + i];
+        }
+        const double width = carried <= 16 ? 10 : carried <= 200 ? 6 : 3;
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = width}, points,
+                       carried);
+    }
+}
+
+/* How a lane stands: failed, its energy lost, or gone where nothing is drawn. */
+static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane, double reach)
+{
+    const size_t carried = gm_vortices_carried(lane->parameters);
+    const double *state = gm_run_state(lane->run);
+    size_t gone = 0;
+    for (size_t i = 0; i < carried; i++) {
+        gone += fmax(fabs(state[i]), fabs(state[carried + i])) > reach;
+    }
+    const char *failure = gm_lane_failure(picture, lane);
+    return failure[0]        ? failure
+           : gone == 0       ? ""
+           : gone == carried ? "out of the picture"
+                             : gm_picture_text(picture, "%zu of %zu out of the picture", gone, carried);
+}
+
+static void draw_plane(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    const double reach = reach_of(lanes, count);
+    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
+        struct gm_panel *panel = NULL;
+        for (size_t i = 0; i < count; i++) {
+            const struct gm_lane *lane = lanes[i];
+            if (lane->shown.panel != p) {
+                continue;
+            }
+            if (!panel) {
+                panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
+                panel->x = panel->y =
+                    (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = -reach, .high = reach};
+                panel->equal = true;
+                panel->title_role = gm_lane_role(lane->shown.colour);
+                panel->note = note_of(picture, lane, reach);
+                gm_name_lanes(picture, panel, lanes, count, p);
+            }
+            if (lane->problem.passive > 0) {
+                draw_tracers(picture, panel, lane, reach);
+            }
+            draw_positions(picture, panel, lane);
+        }
+    }
+}
+
+/* How far the radius of vortex 1, whenever vortex 2 stands a quarter turn ahead, has come from where it was
+   the first time: on its curve it is one number. */
+static void draw_section(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    enum { SHOWN = 700 };
+    struct gm_panel *panel =
+        gm_panel_add(picture, GM_PLACE_GRAPH, "Poincaré section: shift of the radius r₁");
+    panel->axes = true;
+    panel->title_role = GM_INK;
+    gm_time_axis(&panel->x, lanes, count);
+    panel->y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = -1e-6, .high = 1e-6};
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_entries *section = &lanes[i]->entries[GM_SECTION];
+        for (size_t k = 0; k < section->count; k++) {
+            if (section->values[k] < 2 * farthest) {
+                gm_range_add(&panel->y.low, &panel->y.high, section->values[k] - section->values[0]);
+            }
+        }
+    }
+    gm_range_round(&panel->y.low, &panel->y.high, GM_LINEAR);
+    double points[2 * SHOWN];
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_entries *section = &lanes[i]->entries[GM_SECTION];
+        const size_t stride = (section->count + SHOWN - 1) / SHOWN;
+        size_t shown = 0;
+        for (size_t k = 0; stride > 0 && k < section->count && shown < SHOWN; k += stride, shown++) {
+            points[2 * shown] = section->times[k];
+            points[2 * shown + 1] = section->values[k] - section->values[0];
+        }
+        gm_mark_points(
+            picture, panel,
+            (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 0.8, .width = 2.6},
+            points, shown);
+    }
+}
+
+static void draw_log(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                     const char *key)
+{
+    gm_draw_graph(
+        picture, lanes, count,
+        &(const struct gm_graph){
+            .observable = key, .highest = true, .scale = GM_LOG, .calm_low = 1e-15, .calm_high = 1e-2},
+        -1, false);
+}
+
+/* 35.12 degrees: beyond, the centrally symmetric motion of two-turned vortices is unstable */
+static const double threshold = 0.61296;
+
+static const char *caption_of(const struct gm_vortices *own)
+{
+    switch (own->configuration) {
+    case GM_REDUCED:
+        return "With the symmetry built in the motion has one curve to stay on: a symplectic method stays, RK4 leaves it.";
+    case GM_TWO_TURNED:
+        return fabs(own->angle) > threshold
+                   ? "Turned by more than 35.12° this motion is unstable: rounding breaks its symmetry under every scheme, "
+                     "at about the same time. The published contrast of two schemes is not reproduced here."
+                   : "The symmetric motion is stable at this angle; what sets schemes apart is the angular impulse.";
+    case GM_ONE_TURNED:
+        return "This motion is chaotic itself: only its invariants tell schemes apart.";
+    case GM_COLLISION:
+        return "A pair this close turns faster than the rest: a step that is too long for it goes wrong without a sound.";
+    default:
+        return "";
+    }
+}
+
+void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    static const char *const starts[] = {
+        "two turned, symmetry built in", "a regular polygon", "two of a square turned",
+        "one of a square turned",        "a random disc",     "a close pair and two more"};
+    const struct gm_vortices *own = lanes[0]->parameters;
+    const double dt = lanes[0]->run->dt;
+    bool one_step = true, one_start = true;
+    for (size_t i = 1; i < count; i++) {
+        const struct gm_vortices *other = lanes[i]->parameters;
+        one_step &= lanes[i]->run->dt == dt;
+        one_start &= other->configuration == own->configuration && other->angle == own->angle;
+    }
+    const long vortices = own->configuration == GM_REDUCED ? 4 : own->count;
+    const char *number = vortices == 4 ? "Four" : gm_picture_text(picture, "%ld", vortices);
+    picture->title = own->tracers > 0 ? gm_picture_text(picture, "%s vortices stir a dye, by %s", number,
+                                                        gm_counted_schemes(lanes, count))
+                                      : gm_picture_text(picture, "%s vortices, followed by %s", number,
+                                                        gm_counted_schemes(lanes, count));
+    const bool turned = own->configuration == GM_REDUCED || own->configuration == GM_TWO_TURNED ||
+                        own->configuration == GM_ONE_TURNED;
+    picture->subtitle = gm_picture_text(
+        picture, "%s%s%sstrength %.6g%s%s", one_start ? starts[own->configuration] : "",
+        one_start ? ",  " : "",
+        one_start && turned ? gm_picture_text(picture, "angle %.4g°,  ", own->angle * 180 / M_PI) : "",
+        own->strength, one_step ? ",  Δt = " : "", one_step ? gm_step_text(picture, dt) : "");
+    picture->caption = one_start ? caption_of(own) : "";
+    picture->graphs_below = true;
+    gm_draw_clock(picture, lanes, count);
+    draw_plane(picture, lanes, count);
+    if (one_start && own->configuration == GM_REDUCED) {
+        draw_section(picture, lanes, count);
+    }
+    if (own->configuration == GM_TWO_TURNED) {
+        draw_log(picture, lanes, count, "symmetry_defect");
+    }
+    if (own->configuration == GM_COLLISION) {
+        draw_log(picture, lanes, count, "pair_distance_error");
+    }
+    if (own->configuration == GM_SQUARE && own->tracers == 0) {
+        draw_log(picture, lanes, count, "position_error");
+    }
+    if (own->configuration == GM_RANDOM || own->configuration == GM_ONE_TURNED) {
+        draw_log(picture, lanes, count, "energy_error");
+    }
+    draw_log(picture, lanes, count, "angular_impulse_error");
+}

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where point vortices and their tracers start. */
+#include <math.h>
+#include <stdint.h>
+
+#include "scenes/ode/vortices.h"
+
+/* splitmix64 (Steele, Lea & Flood 2014): a number in [0, 1) */
+static double next_random(uint64_t *state)
+{
+    *state += 0x9e3779b97f4a7c15u;
+    uint64_t z = *state;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+static void place(const struct gm_vortices *own, size_t count, double *x, double *y)
+{
+    uint64_t random = (uint64_t)own->seed;
+    static const double pair_x[] = {0.5, -0.5, 1, -1.2}, pair_y[] = {0, 0, 0.3, 0.1};
+    for (size_t i = 0; i < count; i++) {
+        double turn = 2 * M_PI * (double)i / (double)count, radius = 1;
+        switch (own->configuration) {
+        case GM_REDUCED:
+            turn = i == 0 ? 0 : M_PI / 2 + own->angle;
+            break;
+        case GM_TWO_TURNED:
+            turn += i % 2 == 1 ? own->angle : 0;
+            break;
+        case GM_ONE_TURNED:
+            turn += i == 1 ? own->angle : 0;
+            break;
+        case GM_RANDOM:
+            radius = sqrt(next_random(&random));
+            turn = 2 * M_PI * next_random(&random);
+            break;
+        default:
+            break;
+        }
+        x[i] = radius * cos(turn);
+        y[i] = radius * sin(turn);
+        if (own->configuration == GM_COLLISION) {
+            x[i] = i < 2 ? own->distance * pair_x[i] : pair_x[i];
+            y[i] = pair_y[i];
+        }
+    }
+}
+
+size_t gm_vortices_carried(const struct gm_vortices *own)
+{
+    return own->configuration == GM_REDUCED ? 2 : (size_t)own->count;
+}
+
+/* Random ones are never so close. */
+bool gm_vortices_coincide(const struct gm_vortices *own)
+{
+    double x[4], y[4];
+    if (own->configuration == GM_RANDOM || own->configuration == GM_SQUARE) {
+        return false;
+    }
+    const size_t carried = gm_vortices_carried(own);
+    place(own, carried, x, y);
+    if (own->configuration == GM_REDUCED) {
+        for (size_t i = 0; i < 2; i++) {
+            x[2 + i] = -x[i];
+            y[2 + i] = -y[i];
+        }
+    }
+    bool close = false;
+    for (size_t i = 0; i < 4; i++) {
+        for (size_t j = i + 1; j < 4; j++) {
+            close |= hypot(x[i] - x[j], y[i] - y[j]) < 1e-9;
+        }
+    }
+    return close;
+}
+
+/* Tracers fill a disc evenly: the golden angle. */
+void gm_vortices_start(const void *parameters_, const struct gm_problem *problem, double *y)
+{
+    const struct gm_vortices *own = parameters_;
+    const size_t carried = gm_vortices_carried(own), tracers = problem->passive;
+    place(own, carried, y, y + carried);
+    for (size_t k = 0; k < tracers; k++) {
+        const double radius = 1.6 * sqrt(((double)k + 0.5) / (double)tracers),
+                     turn = 2.3999632297286533 * (double)k;
+        y[2 * carried + k] = radius * cos(turn);
+        y[2 * carried + tracers + k] = radius * sin(turn);
+    }
+}

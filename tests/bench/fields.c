@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nanoseconds a point and step of the schemes for fields, beside a bare loop over libm's sin: no test, ratios
+   to read. Every figure is the median of several runs. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "core/field/families/burgers.h"
+#include "core/field/problems/dispersive.h"
+#include "core/field/problems/sine_gordon.h"
+#include "core/field/problems/wave.h"
+#include "core/ode/problems/problems.h"
+#include "core/run.h"
+#include "core/schemes.h"
+
+enum { REPEATS = 7 };
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int in_order(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *values)
+{
+    qsort(values, REPEATS, sizeof *values, in_order);
+    return values[REPEATS / 2];
+}
+
+static double bare_sine(size_t points, long steps)
+{
+    double *x = malloc(points * sizeof *x), *y = malloc(points * sizeof *y), taken[REPEATS], sum = 0;
+    for (size_t i = 0; i < points; i++) {
+        x[i] = 4 * sin(0.01 * (double)i);
+    }
+    for (int r = 0; r < REPEATS; r++) {
+        const double start = seconds();
+        for (long n = 0; n < steps; n++) {
+            for (size_t i = 0; i < points; i++) {
+                y[i] = sin(x[i]);
+            }
+            sum += y[(size_t)n % points];
+            x[(size_t)n % points] += 1e-9;
+        }
+        taken[r] = (seconds() - start) * 1e9 / (double)steps / (double)points;
+    }
+    free(x);
+    free(y);
+    return sum < INFINITY ? median(taken) : 0;
+}
+
+static double time_of(const struct gm_problem *problem, const char *scheme, double dt, long steps,
+                      const double *y)
+{
+    static const struct gm_settings no_settings;
+    double taken[REPEATS];
+    for (int r = 0; r < REPEATS; r++) {
+        struct gm_run *run =
+            gm_run_open(problem, gm_scheme_find_for(scheme, problem), &no_settings, 0, dt, y);
+        gm_run_advance(run, 10);
+        const double start = seconds();
+        gm_run_advance(run, steps);
+        taken[r] = (seconds() - start) * 1e9 / (double)steps / (double)problem->line.points;
+        if (run->status != GM_OK) {
+            printf("%s: %s\n", scheme, gm_status_name(run->status));
+        }
+        gm_run_close(run);
+    }
+    return median(taken);
+}
+
+static void tell(const char *what, double time, double line, double sine)
+{
+    printf("%-34s %7.2f ns a point and step   %5.2f of a bare sin", what, time, time / sine);
+    if (line > 0) {
+        printf("   %4.0f %% of the line at %g ns", 100 * time / line, line);
+    }
+    printf("\n");
+}
+
+static void waves(size_t points, double half_length, double dt, long steps, double sine)
+{
+    static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.5};
+    struct gm_problem problem = gm_problem_sine_gordon;
+    problem.parameters = &breather;
+    problem.line = (struct gm_line){points, 2 * half_length / (double)points, -half_length, 0};
+    problem.n = gm_wave_size(points);
+    double *y = malloc(problem.n * sizeof *y);
+    gm_sine_gordon_levels(&problem, 0, dt, y);
+    printf("sine-Gordon, %zu points\n", points);
+    tell("  leapfrog", time_of(&problem, "leapfrog", 0.9 * problem.line.dx, steps, y), 8, sine);
+    tell("  energy-conserving",
+         time_of(&problem, "energy-conserving", 0.9 * problem.line.dx, steps / 8 + 1, y), 0, sine);
+    tell("  box", time_of(&problem, "box", dt, steps / 4 + 1, y), 150, sine);
+    free(y);
+}
+
+/* The implicit schemes at steps from small to large: the iteration, and Newton's method where it is slow. */
+static void larger_steps(struct gm_problem *problem, const double *ratios, size_t count, double unit,
+                         long steps, void (*levels)(const struct gm_problem *, double, double *))
+{
+    double *y = malloc(problem->n * sizeof *y);
+    printf("%s, box, %zu points\n", problem->name, problem->line.points);
+    for (size_t i = 0; i < count; i++) {
+        static const struct gm_settings no_settings;
+        const double dt = ratios[i] * unit;
+        levels(problem, dt, y);
+        struct gm_run *run = gm_run_open(problem, gm_scheme_find_for("box", problem), &no_settings, 0, dt, y);
+        gm_run_advance(run, steps);
+        const double iterations = (double)run->iterations / (double)(run->steps > 0 ? run->steps : 1);
+        gm_run_close(run);
+        printf("  dt %-8.3g dt/dx %-7.3g %9.2f ns a point and step   %5.1f iterations\n", dt,
+               dt / problem->line.dx, time_of(problem, "box", dt, steps, y), iterations);
+    }
+    free(y);
+}
+
+static void breather_levels(const struct gm_problem *problem, double dt, double *y)
+{
+    gm_sine_gordon_levels(problem, 0, dt, y);
+}
+
+static void nls_levels(const struct gm_problem *problem, double dt, double *y)
+{
+    (void)dt;
+    const size_t points = problem->line.points;
+    for (size_t i = 0; i < points; i++) {
+        gm_nls_exact(gm_nls_of(problem), &problem->line, gm_line_node(&problem->line, i), 0, &y[i],
+                     &y[points + i]);
+    }
+}
+
+static void boxes(size_t points, double half_length, long steps)
+{
+    static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.5};
+    static const struct gm_kdv soliton = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1};
+    static const struct gm_nls bright = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
+    static const double ratios[] = {0.5, 2, 10, 20, 40};
+    enum { COUNT = sizeof ratios / sizeof ratios[0] };
+    const struct gm_line line = {points, 2 * half_length / (double)points, -half_length, 0};
+    struct gm_problem problem = gm_problem_sine_gordon;
+    problem.parameters = &breather;
+    problem.line = line;
+    problem.n = gm_wave_size(points);
+    larger_steps(&problem, ratios, COUNT, 0.05, steps, breather_levels);
+    problem = gm_problem_kdv;
+    problem.parameters = &soliton;
+    problem.line = line;
+    problem.n = gm_wave_size(points);
+    larger_steps(&problem, ratios, COUNT, 0.05, steps, gm_kdv_levels);
+    problem = gm_problem_nls;
+    problem.parameters = &bright;
+    problem.line = line;
+    problem.n = 2 * points;
+    larger_steps(&problem, ratios, COUNT, 0.01, steps, nls_levels);
+}
+
+static void burgers(size_t points, long steps, double sine)
+{
+    static const char *const names[] = {
+        "ftcs",           "lax-wendroff",           "crank-nicolson",
+        "ftcs-invariant", "lax-wendroff-invariant", "crank-nicolson-invariant"};
+    const double dx = 4.0 / (double)(points - 1);
+    const struct gm_burgers front = {.viscosity = dx / 2};
+    struct gm_problem problem = gm_problem_burgers;
+    problem.parameters = &front;
+    problem.line = (struct gm_line){.points = points, .dx = dx, .first = -2};
+    problem.n = gm_burgers_size(&front, points);
+    double *y = malloc(problem.n * sizeof *y);
+    for (size_t j = 0; j < points; j++) {
+        y[j] = gm_burgers_exact(&front, true, gm_line_node(&problem.line, j), 0);
+    }
+    printf("Burgers, %zu points\n", points);
+    for (size_t s = 0; s < 6; s++) {
+        char what[48];
+        snprintf(what, sizeof what, "  %s", names[s]);
+        const bool implicit = s % 3 == 2;
+        tell(what, time_of(&problem, names[s], dx / 4, implicit ? steps / 8 + 1 : steps, y), implicit ? 0 : 4,
+             sine);
+    }
+    free(y);
+}
+
+int main(void)
+{
+    setvbuf(stdout, NULL, _IOLBF, 0); /* it takes minutes */
+    const double sine = bare_sine(801, 4000);
+    printf("a bare loop over libm's sin          %.2f ns\n", sine);
+    waves(801, 20, 0.05, 4000, sine);
+    waves(1000000, 20000, 0.04, 8, sine);
+    boxes(801, 20, 100);
+    boxes(10001, 250, 4);
+    burgers(801, 8000, sine);
+    burgers(1000000, 8, sine);
+    return 0;
+}

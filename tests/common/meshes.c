@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tests/common/meshes.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static void require(bool good)
+{
+    if (!good) {
+        abort();
+    }
+}
+
+char *mesh_text(const char *name, size_t *size)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s", GM_MESHES, name);
+    FILE *file = fopen(path, "rb");
+    require(file != NULL);
+    char *text = malloc(1 << 20);
+    require(text != NULL);
+    *size = fread(text, 1, 1 << 20, file);
+    fclose(file);
+    return text;
+}
+
+struct gm_mesh mesh_of(const char *name)
+{
+    struct gm_mesh mesh;
+    struct gm_mesh_fault fault;
+    size_t size = 0;
+    char *text = mesh_text(name, &size);
+    require(gm_mesh_read(text, size, &mesh, &fault));
+    free(text);
+    return mesh;
+}
+
+unsigned char *sides_of(const struct gm_mesh *mesh)
+{
+    const struct gm_complex *complex = mesh->complex;
+    const long lid = gm_mesh_group(mesh, "lid"), inlet = gm_mesh_group(mesh, "inlet"),
+               outlet = gm_mesh_group(mesh, "outlet");
+    unsigned char *sides = calloc(complex->boundary, 1);
+    require(sides != NULL);
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const long group = mesh->edge_group[complex->boundary_edge[b]];
+        sides[b] = group && group == lid      ? GM_SIDE_LID
+                   : group && group == inlet  ? GM_SIDE_INLET
+                   : group && group == outlet ? GM_SIDE_OUTLET
+                                              : GM_SIDE_WALL;
+    }
+    return sides;
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_TESTS_COMMON_MESHES_H
+#define GM_TESTS_COMMON_MESHES_H
+
+#include "core/flow/boundary.h"
+#include "core/flow/gmsh/gmsh.h"
+
+/* Files of tests/meshes. GM_MESHES, that folder, comes from the build. */
+
+/* The whole text of a file, malloc'ed. */
+char *mesh_text(const char *name, size_t *size);
+
+/* The mesh of a file that is known to be good. */
+struct gm_mesh mesh_of(const char *name);
+
+/* The sides of its boundary edges, by the names inlet, outlet and lid; malloc'ed. */
+unsigned char *sides_of(const struct gm_mesh *mesh);
+
+#endif

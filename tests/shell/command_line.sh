@@ -1,0 +1,408 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The command line: what it prints, its exit statuses, and bad input. command_line.sh GEOMINT
+set -u
+geomint=$1
+meshes=$(cd "$(dirname "$0")/../reference/meshes" && pwd) || exit 1
+folder=$(mktemp -d) || exit 1
+trap 'chmod -R u+w "$folder"; rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+unset DISPLAY
+failures=0
+
+fail() {
+    printf 'FAILED: %s\n' "$1"
+    failures=$((failures + 1))
+}
+
+# status STATUS WORDS...: the exit status, and that whatever is said is one sentence without a sign of a crash
+status() {
+    wanted=$1
+    shift
+    timeout 60 "$geomint" "$@" >out 2>err </dev/null
+    got=$?
+    [ "$got" = "$wanted" ] || fail "geomint $*: exit $got, not $wanted: $(head -c 200 err)"
+    grep -qiE 'sanitizer|assert|segmentation' err && fail "geomint $*: $(head -n 3 err)"
+    return 0
+}
+
+# refused STATUS PATTERN WORDS...: one sentence on standard error that holds the pattern
+refused() {
+    wanted=$1
+    pattern=$2
+    shift 2
+    status "$wanted" "$@"
+    [ "$(wc -l <err)" = 1 ] || fail "geomint $*: not one sentence: $(cat err)"
+    grep -q -- "$pattern" err || fail "geomint $*: says \"$(cat err)\", not \"$pattern\""
+}
+
+# what OSMesa crashes of is told, where a sanitizer does not look after that itself
+GALLIUM_DRIVER=xyz GEOMINT_GL=osmesa ASAN_OPTIONS=handle_segv=0:handle_abort=0 \
+    refused 3 'GALLIUM_DRIVER\|OpenGL' render disc until=1 --out .
+
+# what is refused, and the nearest valid thing it names
+refused 1 'did you mean disc' run dics
+refused 1 'did you mean radius' run disc raduis=1
+refused 1 'did you mean rk4' run disc scheme=rk44
+refused 1 'did you mean render' rendr disc
+refused 1 'did you mean --frames' render disc --frame 3
+refused 1 'no option --state; it has --every, --frames' render disc --state
+# beginnings and abbreviations before slips; what is far from everything is not guessed at
+refused 1 'did you mean eccentricity$' run kepler ecc=0.5
+refused 1 'did you mean eccentricity$' run kepler ecty=0.5
+refused 1 'did you mean explicit-euler$' run disc scheme=euler
+refused 1 'did you mean kepler$' keplar
+refused 1 'did you mean --theme$' render disc --thm
+refused 1 '"nope"; see geomint --help$' nope
+refused 1 'no option --vtk; there are --json, --state, --max, --csv' run disc --vtk a
+refused 1 'no option --save; there are --json, --state, --max, --csv' run disc --save=a.npz
+# a comma where the decimal point belongs
+refused 1 'dt=0,01: the decimal mark is a point (0.01)' run kepler dt=0,01
+refused 1 'the decimal mark is a point (0.1)' run kepler dt=0,1
+refused 1 'the decimal mark is a point (0.5)' run kepler eccentricity=0,5
+refused 1 'the decimal mark is a point (1.05)' run kepler dt=1,05
+status 0 run kepler eccentricity=0,0.5 until=1
+refused 1 'the nearest is 1e-7$' run kepler dt=0,2e9,1
+# parameters that schemes bring
+refused 1 'no scheme that fits scene disc takes tau0=' run disc tau0=0.1
+refused 1 'those that do: tao2, tao4$' run disc binding=3
+refused 1 'which scene' run
+refused 1 'not of the form key=value' run disc verlet
+refused 1 'twice' run disc dt=1 dt=2
+refused 1 'empty value' run disc dt=
+refused 1 'empty value' run disc scheme=,rk4
+refused 1 'is not a number' run disc dt=nan
+refused 1 'is not a number' run disc dt=abc
+refused 1 'the nearest is 1e-6' run disc dt=0
+refused 1 'the nearest is 1e-6' run disc dt=-1
+refused 1 'the nearest is 100' run disc dt=1e308
+refused 1 'out of range' run disc dt=1e308*1e308
+refused 1 'the nearest is 3' run disc points=0
+refused 1 'the nearest is 1e6' run disc points=1e12
+refused 1 'whole number' run disc points=3.5
+refused 1 'none of: oscillator, pendulum' run disc system=spring
+refused 1 'one of them follows' run disc steps=3 until=4
+refused 1 'whole number' run disc steps=-1
+refused 1 'equal length' run disc scheme=rk2,rk4 dt=1,2,3 zip=yes
+refused 1 'one of: no, yes' run disc zip=maybe
+refused 1 'one of: no, yes' run disc zip=yes,no
+refused 1 'empty value' run disc zip=
+refused 1 'none of: no, yes' run disc compensated=maybe
+refused 1 'more than' run disc dt=1,2,3,4,5,6,7,8,9 radius=1,2,3,4,5,6,7,8,9
+refused 1 'needs a value' render disc --size
+refused 1 'WIDTHxHEIGHT' render disc --size 10x10
+refused 1 'light, dark' render disc --theme blue
+refused 1 'after the end' render disc --from 100 --frames 3
+refused 1 'no scheme' certify nothing
+refused 1 'no figure' figures razafindralandy-99
+refused 1 'needs --json' run disc --state
+refused 3 'not tell how it was made\|could not be read\|No such file' again nothing.png
+
+# output that cannot be written: one sentence, no half file
+mkdir closed && chmod a-w closed
+if [ "$(id -u)" != 0 ]; then
+    refused 3 'closed' render disc --out closed
+    refused 3 'closed' run disc --csv closed/a.csv
+fi
+refused 3 'could not be made\|not a directory\|Not a directory' render disc --out out/there
+refused 3 'could not be written: Not a directory' run disc --csv out/a.csv
+refused 3 'could not be made: Not a directory' run disc --csv out/there/a.csv
+refused 3 'No space left' run disc --csv /dev/full steps=100000
+timeout 60 "$geomint" run disc >/dev/full 2>err
+[ $? = 3 ] || fail 'run to a full disk is not exit 3'
+grep -q 'No space left' err || fail "a full disk is not told: $(cat err)"
+(
+    ulimit -f 8
+    timeout 60 "$geomint" render disc --out limited 2>err
+    [ $? = 3 ] || exit 1
+) || fail 'a file-size limit is not exit 3'
+[ "$(ls -A limited | wc -l)" = 0 ] || fail "a file-size limit left $(ls -A limited)"
+
+# a broken pipe ends silently with 141
+{
+    timeout 60 "$geomint" run disc scheme=verlet --csv - steps=100000 2>err
+    echo $? >code
+} | head -n 1 >/dev/null
+[ "$(cat code)" = 141 ] || fail "a broken pipe is exit $(cat code), not 141"
+[ -s err ] && fail "a broken pipe is not silent: $(cat err)"
+
+# SIGINT in the middle of frames: what is finished stays whole, exit 130
+"$geomint" render disc --frames 100000 --size 320x200 --out frames 2>err &
+pid=$!
+tries=0
+while [ "$(ls frames 2>/dev/null | wc -l)" -lt 5 ] && [ $tries -lt 200 ]; do
+    sleep 0.05
+    tries=$((tries + 1))
+done
+# a background job of a shell without job control ignores SIGINT; SIGTERM takes the same path
+kill -TERM $pid
+wait $pid
+[ $? = 130 ] || fail 'an interrupted render is not exit 130'
+[ "$(ls frames | wc -l)" -ge 5 ] || fail 'an interrupted render kept no frames'
+ls -A frames | grep -vE '^disc-render(-[0-9]*\.png|\.checkpoint)$' && fail 'an interrupted render left a temporary file'
+for file in $(ls frames/*.png | tail -n 3); do
+    [ "$(tail -c 8 "$file" | od -An -tx1 | tr -d ' \n')" = 49454e44ae426082 ] || fail "$file is cut off"
+done
+
+# an interrupted run says so, with the state and the time that it had come to
+for how in --json "--csv -"; do
+    rm -f interrupted.csv out
+    # shellcheck disable=SC2086
+    "$geomint" run disc scheme=verlet steps=1e12 --every 100 $([ "$how" = --json ] && echo --csv interrupted.csv) $how >out 2>err &
+    pid=$!
+    tries=0
+    while [ "$(cat interrupted.csv out 2>/dev/null | wc -l)" -lt 10 ] && [ $tries -lt 200 ]; do
+        sleep 0.05
+        tries=$((tries + 1))
+    done
+    kill -INT $pid
+    wait $pid
+    [ $? = 130 ] || fail "an interrupted run $how is not exit 130"
+    if [ "$how" = --json ]; then
+        python3 - <<'END' || fail "an interrupted run: $(cat out)"
+import csv, json
+lane = json.loads(open("out").read())
+assert lane["status"] == "interrupted" and "interrupted" in lane["message"], lane
+assert 0 < lane["steps"] < 1e12 and abs(lane["t"] / (lane["steps"] * lane["parameters"]["dt"]) - 1) < 1e-12, lane
+last = list(csv.DictReader(open("interrupted.csv")))[-1]
+assert last["status"] == "interrupted" and float(last["t"]) == lane["t"], last
+assert float(last["energy"]) == lane["observables"]["energy"], last
+END
+    else
+        [ "$(tail -n 1 out | cut -d, -f 5)" = interrupted ] || fail "an interrupted CSV: $(tail -n 1 out)"
+        grep -q 'interrupted after t = ' err || fail "an interrupted CSV says nothing: $(cat err)"
+    fi
+done
+
+# equal=cost: as many evaluations for every scheme, each row of dt by itself; the first scheme keeps its step
+status 0 run kepler scheme=verlet,rk4,kahan-li6 dt=0.05,0.1 equal=cost until=100 --json
+python3 - out <<'END' || fail "equal=cost: $(cat out)"
+import json, sys
+lanes = [json.loads(line) for line in open(sys.argv[1])]
+by_step = [[lane for lane in lanes[k::2]] for k in (0, 1)]
+assert [group[0]["parameters"]["dt"] for group in by_step] == [0.05, 0.1]
+for group in by_step:
+    assert len(group) == 3
+    for lane in group:
+        assert abs(lane["evaluations"] / group[0]["evaluations"] - 1) < 0.02, lane
+        assert abs(lane["t"] - 100) <= lane["parameters"]["dt"], lane
+END
+refused 1 'steps= cannot be given with it' run kepler equal=cost steps=3
+refused 1 'one of: no, cost' run kepler equal=yes
+
+# numbers
+status 0 run disc scheme=explicit-euler dt=0.02 until=5 --json
+grep -q '"scene":"disc","scheme":"explicit-euler"' out || fail 'JSON names scene and scheme'
+grep -q '"status":"ok","message":"","warning":"","t":5,"steps":250,"evaluations":250,"solves":0' out || fail "JSON counts: $(cat out)"
+grep -q '"energy_error":0.10514882077' out || fail "energy error: $(cat out)"
+status 0 run disc steps=3 points=3 --json --state --max
+grep -q '"area_max":' out || fail '--max gives NAME_max'
+grep -q '"layout":' out && grep -q '"state":\[' out || fail '--state gives state and layout'
+
+# a run that is ok and yet lost what it should keep, or ends elsewhere, says so
+warns()
+{
+    part=$1
+    shift
+    status 0 run "$@" --json
+    grep -q "\"status\":\"ok\",\"message\":\"\",\"warning\":\"[^\"]*$part" out || fail "$*: no warning: $(cat out)"
+}
+warns 'energy_error is 9.87e+12' kepler scheme=verlet eccentricity=0.9999 steps=30
+warns 'energy_error is' stiff system=spring-pendulum scheme=tao4 steps=1
+warns 'energy_error is' kepler scheme=lobatto4 dt=10 steps=300
+warns 'energy_error is' wave scheme=gauss-box2 dt=100 steps=10
+warns 'the run ends at t = 0.6 and not at until = 0.5' disc until=0.5 dt=0.3
+warns 'the run ends at t = 0 and not at until = 0.1' disc until=0.1 dt=0.3
+warns 'not at until = 20: the scheme chooses' oscillator scheme=variational-midpoint until=20
+status 0 run kepler scheme=verlet eccentricity=0.9999 steps=30
+grep -q '^  status  *ok (with a warning)$' out && grep -q '^  warning  *energy_error is' out || fail "$(cat out)"
+status 2 run kepler scheme=verlet eccentricity=0.9999 steps=30 --strict
+status 0 run kepler scheme=verlet steps=30 --strict
+for quiet in 'stiff' 'wave' 'wave courant=.5' 'disc until=0.6 dt=0.3' 'disc steps=7 dt=0.3' 'kepler scheme=rk2'; do
+    # shellcheck disable=SC2086
+    status 0 run $quiet --json
+    grep -q '"warning":"",' out || fail "$quiet: a warning: $(cat out)"
+done
+status 0 render kepler scheme=verlet eccentricity=0.9999 steps=30 --size 300x200 --out warned
+grep -q 'verlet: warning: energy_error is 9.87e+12' err || fail "render tells the warning: $(cat err)"
+
+# what is signed has its largest magnitude as its maximum; what is not there has a reason
+status 0 run kepler scheme=verlet steps=2000 --json --max
+python3 - out <<'END' || fail "--max of lrl_angle: $(cat out)"
+import json, sys
+lane = json.load(open(sys.argv[1]))["observables"]
+assert lane["lrl_angle_max"] <= lane["lrl_angle"] < -0.3, lane
+END
+status 0 run vortices steps=3 --json
+grep -q '"pair_distance_error":null' out || fail "pair distance without a pair: $(cat out)"
+grep -q '"reasons":{[^}]*"pair_distance_error":"only configuration=collision' out || fail "the reason: $(cat out)"
+status 0 run vortices configuration=collision steps=3 --json
+grep -q '"pair_distance_error":[0-9]' out || fail "pair distance of a pair: $(cat out)"
+status 0 run sine-gordon half_length=3 steps=2
+grep -q '^  solution_error  *none: no exact solution' out || fail "a short ring: $(cat out)"
+
+# titles say what is divided by, and what the unit of time is
+status 0 list disc
+grep -q '^  energy_error  *energy error  *|H − H₀| / max(|H₀|, 1 for the pendulum)$' out || fail 'what an error is divided by'
+grep -q '^  area_tangent .* mean over the edge and the centre$' out || fail 'of what it is the mean'
+status 0 list room
+grep -q '^The unit of time is τ = 4H/U,' out || fail 'the unit of time of the room'
+status 0 list abc
+grep -q '^  log_volume  *ln(volume / initial volume)$' out || fail 'the title of a signed observable'
+status 0 run disc scheme=rk2,rk4 dt=0.1,0.2 --json
+[ "$(wc -l <out)" = 4 ] || fail 'lanes are the product of the lists'
+status 0 run disc scheme=rk2,rk4 dt=0.1,0.2 zip=yes --json
+[ "$(wc -l <out)" = 2 ] || fail 'zip=yes pairs lists'
+status 2 run disc scheme=explicit-euler dt=2 until=1000 --json
+grep -q '"status":"blow-up"' out || fail "a blow-up is a status: $(cat out)"
+status 2 run disc scheme=explicit-euler dt=2 until=1000
+grep -q '^  message  *the step after t = ' out || fail "a blow-up tells its reason: $(cat out)"
+status 0 run disc --csv history.csv steps=10 --every 5
+[ "$(wc -l <history.csv)" = 4 ] || fail "--every 5 of 10 steps is a head and three rows: $(wc -l <history.csv)"
+head -n 1 history.csv | grep -q '^scene,lane,scheme,t,status,area,' || fail 'the head of a CSV'
+[ "$(cut -d, -f 5 history.csv | sort -u | tr '\n' ' ')" = 'ok status ' ] || fail "the status of rows: $(cat history.csv)"
+
+# JSON is UTF-8 whatever a file's name is
+cp "$meshes/room-small.msh" "$(printf 'room\377.msh')"
+status 0 run room mesh="$(printf 'room\377.msh')" steps=0 --json
+python3 -c 'import json; assert json.load(open("out", encoding="utf-8"))["parameters"]["mesh"] == "room\ufffd.msh"' ||
+    fail "JSON of a name that is no UTF-8: $(cat out)"
+
+# standard output for the CSV alone; a column for every key that differs, empty where a scheme does not take it
+status 0 run kepler scheme=tao2,verlet binding=1,2 dt=pi/10,0.1 zip=yes steps=2 --csv -
+python3 - <<'END' || fail "a CSV of lanes that differ: $(cat out)"
+import csv, math
+rows = list(csv.DictReader(open("out")))
+assert list(rows[0])[:8] == ["scene", "lane", "scheme", "dt", "until", "binding", "t", "status"], rows[0]
+assert len(rows) == 6 and all(row["status"] == "ok" for row in rows)
+first, last = rows[0], rows[-1]
+assert float(first["dt"]) == math.pi / 10 and first["binding"] == "1" and first["lane"] == "0"
+assert float(last["dt"]) == 0.1 and last["binding"] == "" and float(last["t"]) == float(last["until"]) == 0.2
+END
+status 2 run disc scheme=explicit-euler dt=2 until=1000 --csv -
+grep -q '^geomint: explicit-euler: blow-up: the step after' err || fail "--csv - hides a failure: $(cat err)"
+[ "$(cut -d, -f 5 out | uniq | tr '\n' ' ')" = 'status ok blow-up ' ] || fail "a CSV without its failure: $(tail -n 2 out)"
+status 0 run cavity columns=4 rows=0 steps=1 scheme=semi-implicit,crank-nicolson --profile -
+head -n 1 out | grep -q '^scene,lane,scheme,t,profile,' || fail "--profile - is not alone: $(head -n 1 out)"
+refused 1 'standard output takes one of' run disc --csv - --json
+refused 1 'standard output takes one of' run cavity --csv - --profile -
+
+# the folders of what is written are made, and it is said what was
+status 0 run cavity columns=4 rows=0 steps=1 --csv new/one/a.csv --profile new/two/b.csv
+[ -s new/one/a.csv ] && [ -s new/two/b.csv ] || fail 'run does not make folders'
+[ "$(cat err)" = 'geomint: wrote new/one/a.csv
+geomint: wrote new/two/b.csv' ] || fail "run does not say what it wrote: $(cat err)"
+cp out first
+status 0 certify all
+tail -n 1 out | grep -q ', 0 broken$' || fail "certify all: $(tail -n 1 out)"
+status 0 certify rk4 --json
+# JSON has no infinity, and rows of one name differ in their family or in what they were measured on
+status 0 certify all --json
+python3 - out <<'END' || fail 'certify all --json'
+import json, sys
+rows = [json.loads(line, parse_constant=lambda word: sys.exit(word + " is no JSON")) for line in open(sys.argv[1])]
+names = [(row["scheme"], row["family"], row["order_problem"]) for row in rows]
+if len(rows) < 90 or len(set(names)) != len(names):
+    sys.exit("rows that cannot be told apart")
+END
+for what in '' scenes schemes figures disc 'schemes --long' 'disc --json'; do
+    # shellcheck disable=SC2086
+    status 0 list $what
+    [ -s out ] || fail "list $what prints nothing"
+done
+
+# list names the parameters that something takes, and what is taken by default; as wide as it is told
+status 0 list scenes --json
+python3 - "$geomint" <<'END' || fail 'list SCENE'
+import json, os, re, subprocess, sys
+
+def listed(*words, columns=None):
+    surroundings = {key: value for key, value in os.environ.items() if key != "COLUMNS"}
+    if columns:
+        surroundings["COLUMNS"] = str(columns)
+    done = subprocess.run([sys.argv[1], *words], env=surroundings, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+brought = ["compensated", "binding", "tau0", "tolerance"]
+standard = {"compensated": "yes", "binding": "1", "tau0": "0.01", "tolerance": "1e-6"}
+for scene in [json.loads(line)["scene"] for line in open("out")]:
+    told = json.loads(listed("list", scene, "--json")[1])
+    keys = [row["key"] for row in told["parameters"]]
+    text = listed("list", scene)[1]
+    for key in brought:
+        # a parameter is listed exactly where some scheme that fits takes it; elsewhere it is refused and says so
+        status, out, err = listed("run", scene, f"{key}={standard[key]}", "steps=0", "--json")
+        nobody = f"no scheme that fits scene {scene} takes {key}=" in err
+        own = status == 0 and key in json.loads(out)["parameters"]
+        elsewhere = "; those that do: " in err
+        assert nobody + own + elsewhere == 1, (scene, key, err)
+        assert (key in keys) == (not nobody) == bool(re.search(f"^  {key} ", text, re.M)), (scene, key)
+    # the lanes that are named are those that are run
+    assert f"\n  run     {told['run']}\n" in text and f"\n  render  {told['render']}\n" in text, text
+    lanes = [json.loads(line) for line in listed("run", scene, "steps=0", "--json")[1].splitlines()]
+    assert told["run"] == "scheme=" + ",".join(lane["scheme"] for lane in lanes), (scene, told["run"])
+    for line in listed("list", scene, columns=80)[1].splitlines():
+        assert len(line) <= 80 or re.match("  render  [^ ]*$", line), line  # a word to type is not cut
+assert "scheme=box,zabusky-kruskal dt=0.05,0.0025 points=501 zip=yes" in listed("list", "kdv")[1]
+for words in (["scenes", "--long"], ["schemes"], ["figures"]):
+    for line in listed("list", *words, columns=80)[1].splitlines():
+        assert len(line) <= 80, line
+schemes = listed("list", "schemes")[1]
+assert "claims: S symplectic, = symmetric, R reversible, " in schemes
+rows = [line.split() for line in schemes.split("\n\n")[0].splitlines()]
+names = [row[0] for row in rows]
+several = [" ".join(row) for row in rows if names.count(row[0]) > 1]
+assert len(several) > 5 and all(", for " in row for row in several), several
+assert len({(row.split()[0], row.split(", for ")[1]) for row in several}) == len(several), several
+END
+
+status 0 --help
+cp out help
+for word in -h help; do
+    status 0 $word
+    cmp -s help out || fail "geomint $word is not geomint --help"
+done
+status 0 run --help
+cp out help
+status 0 run disc -h
+cmp -s help out || fail 'geomint run disc -h is not geomint run --help'
+status 0 -V
+cp out version
+status 0 version
+cmp -s version out || fail 'geomint version is not geomint -V'
+status 0 --version
+cmp -s version out || fail 'geomint --version is not geomint -V'
+for word in '^geomint [0-9]' 'OSMesa, OpenGL [0-9]\|EGL, OpenGL [0-9]' 'libpng [0-9]' 'GSL [0-9]'; do
+    grep -q "$word" out || fail "--version does not say $word"
+done
+
+# the same input gives the same output, bit for bit, but for the seconds
+"$geomint" run disc scheme=gauss4 system=pendulum --json --state | sed 's/"seconds":[^,]*//' >one
+"$geomint" run disc scheme=gauss4 system=pendulum --json --state | sed 's/"seconds":[^,]*//' >two
+cmp -s one two || fail 'two runs differ'
+
+# pictures tell how they were made, and can be made again
+status 0 render disc scheme=verlet,rk4 dt=0.1,0.2 --size 320x200 --at 3 --out pictures
+[ "$(cat err)" = 'geomint: wrote pictures/disc-render.png' ] || fail "render does not say what it wrote: $(cat err)"
+status 0 again pictures/disc-render.png --out new/three
+[ "$(cat err)" = 'geomint: wrote new/three/disc-render-again.png' ] || fail "again does not say what it wrote: $(cat err)"
+cmp -s pictures/disc-render.png new/three/disc-render-again.png || fail 'again makes no folder'
+status 0 again pictures/disc-render.png --out pictures
+cmp -s pictures/disc-render.png pictures/disc-render-again.png || fail 'again is another picture'
+status 0 render disc --frames 3 --size 320x200 --out sequence
+[ "$(ls sequence | wc -l)" = 3 ] || fail '--frames 3 makes three files'
+[ "$(cat err)" = 'geomint: wrote 3 frames, sequence/disc-render-*.png' ] || fail "frames are not told: $(cat err)"
+status 0 render disc --frames 2 --size 320x200 --out deep/er/sequence
+[ "$(ls deep/er/sequence | wc -l)" = 2 ] || fail 'the folders of --out are not made'
+if command -v ffmpeg >/dev/null; then
+    status 0 render disc --frames 2 --size 64x64 --movie new/four/disc.gif
+    [ "$(cat err)" = 'geomint: wrote new/four/disc.gif' ] && [ "$(ls new/four)" = disc.gif ] ||
+        fail "a movie in a new folder: $(cat err)"
+fi
+status 0 render disc --every 6 --size 320x200 --out every
+[ "$(ls every | wc -l)" = 4 ] || fail "--every 6 of 18 steps makes four files, not $(ls every | wc -l)"
+status 2 render disc scheme=explicit-euler dt=2 until=1000 --strict --size 320x200
+status 0 render disc scheme=explicit-euler dt=2 until=1000 --size 320x200
+
+[ $failures = 0 ] && echo 'all as it should be'
+exit $failures

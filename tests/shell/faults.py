@@ -1,0 +1,279 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The n-th allocation fails, the n-th file call fails: what comes of it is a sentence on standard error with its
+exit status, or what would have come anyway; never a crash, a hang, a wrong number or a damaged file.
+
+    faults.py GEOMINT FAULTS_LIBRARY [--all] [--only WORDS]
+
+--all takes every n of every command, for some minutes; without it a sample of them. --only: commands that hold
+these words alone."""
+
+import argparse
+import concurrent.futures
+import json
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+LONGEST = 120  # seconds that a command may take before it counts as hanging
+SAMPLE = 12  # values of n in a command
+
+# OUT stands for a folder that is made anew. "timed": holds run times, which differ from run to run; "made": OUT
+# holds a picture of these words; "lost": OUT holds all that the command makes but this file; "usual": the exit
+# status without a fault; "statuses": those that a failing file may have, "short": those that a lack of memory may.
+COMMANDS = [
+    ("run disc scheme=rk4,midpoint points=20 steps=5 --json", {}),
+    ("run kepler steps=20 scheme=gsl-rk8pd --json --max", {}),
+    ("run vortices steps=5 --json", {}),
+    ("run stiff steps=5 --json", {}),
+    ("run henon-heiles steps=5 --json", {}),
+    ("run abc steps=5 --json", {}),
+    ("run oscillator scheme=variational-midpoint steps=5 --json", {}),
+    ("run sine-gordon points=101 steps=3 --json", {}),
+    ("run kdv points=101 steps=3 --json --state", {}),
+    ("run nls points=64 steps=3 --json", {}),
+    ("run wave points=64 steps=3 --json", {}),
+    ("run burgers dx=.05 steps=3 --json --csv OUT/burgers.csv", {}),
+    ("run soliton steps=2 points=21 --json --csv OUT/soliton.csv", {}),
+    ("run room steps=2 --json", {}),
+    ("run room steps=2 --csv OUT/room.csv", {}),
+    ("run cavity steps=2 rows=14 columns=10 --profile OUT/cavity.csv", {}),
+    ("run channel steps=1 outlet=dirichlet --json", {}),
+    ("run room steps=1 mesh=MESHES/room-small.msh --json", {"statuses": (1, 3)}),
+    ("run poiseuille steps=1 --json", {}),
+    ("list scenes --json", {}),
+    ("list schemes --json --long", {}),
+    ("list figures", {}),
+    ("list room --json", {}),
+    ("list schemes --markdown", {}),
+    ("render disc until=1 points=20 --size 200x150 --out OUT", {}),
+    ("render room until=.02 --size 200x150 --out OUT", {}),
+    ("render disc until=1 points=20 --frames 3 --size 128x96 --out OUT", {}),
+    ("render disc until=1 points=20 --frames 3 --size 128x96 --movie OUT/disc.mp4", {}),
+    ("render disc until=1 points=20 --frames 3 --size 128x96 --out OUT", {"lost": "disc-render-000001.png"}),
+    ("render disc until=1 points=20 --frames 3 --size 128x96 --movie OUT/disc.mp4 --out OUT",
+     {"lost": "disc-render-000001.png", "short": (3, 5)}), # libpng's simple reader has memory of its own
+    ("certify rk4 --json", {}),
+    ("certify semi-implicit", {}),
+    ("certify gauss-box2 --json", {}),
+    ("certify multiplier-lobatto4", {}),
+    ("work-precision disc scheme=rk4,verlet until=1 --out OUT", {"timed": True}),
+    ("stability stiff scheme=verlet until=1 --out OUT", {}),
+    ("stability --region rk4 --out OUT", {}),
+    ("figures razafindralandy-2 --quick --out OUT", {"timed": True}),
+    ("again OUT/made.png --out OUT", {"made": "disc until=1 points=20 --size 200x150"}),
+    ("tour", {}),
+    ("tour area --size 128x96 --out OUT", {}),
+    ("run disc steps=3 nosuchkey=1", {"usual": 1}),
+    ("manual", {}),
+    ("--help", {}),
+    ("--version", {}),
+]
+
+
+def png_is_whole(path):
+    with open(path, "rb") as file:
+        data = file.read()
+    at, kind = 8, b""
+    if data[:8] != b"\x89PNG\r\n\x1a\n":
+        return False
+    pixels = b""
+    while at + 12 <= len(data) and kind != b"IEND":
+        (size,) = struct.unpack(">I", data[at : at + 4])
+        kind, body = data[at + 4 : at + 8], data[at + 8 : at + 8 + size]
+        if zlib.crc32(kind + body) != struct.unpack(">I", data[at + 8 + size : at + 12 + size])[0]:
+            return False
+        pixels += body if kind == b"IDAT" else b""
+        at += 12 + size
+    return kind == b"IEND" and at == len(data) and len(zlib.decompress(pixels)) > 0
+
+
+def movie_is_whole(path):
+    probe = ["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames", "-of", "csv=p=0", path]
+    found = subprocess.run(probe, capture_output=True, text=True, check=False)
+    return found.returncode == 0 and not found.stderr
+
+
+def without_times(text):
+    text = re.sub(r'"seconds":[-0-9.e+]+', '"seconds":0', text)
+    return re.sub(r"^(  seconds +).*$", r"\1", text, flags=re.M)
+
+
+class Command:
+    def __init__(self, words, options, arguments, folder):
+        self.words, self.options, self.arguments, self.folder = words, options, arguments, folder
+
+    def run(self, fault):
+        """Exit status, output, complaints, files, calls that were counted."""
+        out = tempfile.mkdtemp(dir=self.folder)
+        count = tempfile.mktemp(dir=self.folder)
+        if "made" in self.options:
+            shutil.copy(os.path.join(self.folder, "made.png"), out)
+        tests = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+        meshes = os.path.join(tests, "reference", "meshes")
+        words = self.words.replace("OUT", out).replace("MESHES", meshes).split()
+        if "lost" in self.options:
+            subprocess.run([self.arguments.geomint] + words, check=True, capture_output=True)
+            os.unlink(os.path.join(out, self.options["lost"]))
+        tours = os.path.join(os.path.dirname(tests), "share", "tours")
+        environment = dict(
+            os.environ, GM_FAULT=fault, GM_FAULT_COUNT=count, LD_PRELOAD=self.arguments.library, GEOMINT_TOURS=tours)
+        try:
+            done = subprocess.run(
+                [self.arguments.geomint] + words, env=environment, capture_output=True, timeout=LONGEST, check=False,
+                cwd=out, stdin=subprocess.DEVNULL)
+            status, output, said = done.returncode, done.stdout, done.stderr
+        except subprocess.TimeoutExpired:
+            status, output, said = None, b"", b""
+        files = {}
+        for place, _, names in os.walk(out):
+            for name in names:
+                path = os.path.join(place, name)
+                with open(path, "rb") as file:
+                    content = file.read()
+                whole = True
+                if name.endswith(".png"):
+                    whole = png_is_whole(path)
+                elif name.endswith(".mp4"):
+                    whole = movie_is_whole(path)
+                files[os.path.relpath(path, out)] = (content.replace(out.encode(), b"OUT"), whole)
+        calls = 0
+        if os.path.exists(count):
+            with open(count, encoding="ascii") as file:
+                calls = int(file.read() or 0)
+            os.unlink(count)
+        shutil.rmtree(out)
+        output = without_times(output.decode(errors="replace").replace(out, "OUT"))
+        return status, output, said.decode(errors="replace"), files, calls
+
+    def numbers_are_right(self, output, whole):
+        """Every line that came is one that would have come anyway, or says that memory was short."""
+        known = set(whole.splitlines())
+        lines = output.splitlines()
+        if not output.endswith("\n") and lines:
+            last = lines.pop()
+            if not any(line.startswith(last) for line in known):
+                return f"half a line that is none: {last[:200]}"
+        for line in lines:
+            if line in known or not re.search(r"\d", line):
+                continue
+            if line.startswith("{") and json.loads(line).get("status") == "out-of-memory":
+                continue
+            if re.search(r"^  status +out-of-memory$", output, re.M):
+                continue
+            return f"a line that should not be: {line[:300]}"
+        return ""
+
+    def judge(self, kind, usual, found):
+        """What is wrong, in words; "" if nothing is."""
+        status, output, said, files, _ = found
+        if status is None:
+            return "it hangs"
+        if status < 0 or status > 130:
+            return f"it was ended by signal {-status if status < 0 else status - 128}: {said[-300:]}"
+        if "Sanitizer" in said:
+            return said
+        for name, (content, whole) in files.items():
+            if not whole:
+                return f"{name} is damaged (exit {status}: {said})"
+            if os.path.basename(name).startswith("."):
+                return f"{name} was left behind (exit {status}: {said})"
+        if status == usual[0]:
+            if self.options.get("timed"):
+                return "" if set(files) == set(usual[3]) else f"other files: {sorted(files)} (exit {status}: {said})"
+            if output != usual[1]:
+                return f"another output with exit {status}: {output[:400]} ({said})"
+            for name, (content, _) in usual[3].items():
+                if name not in files:
+                    return f"{name} is missing with exit {status} ({said})"
+                if name.endswith((".png", ".csv", ".html")) and files[name][0] != content:
+                    return f"{name} differs with exit {status} ({said})"
+            return ""
+        if status not in (self.options.get("short", (5,)) if kind == "memory" else self.options.get("statuses", (3,))):
+            return f"exit {status}: {said} {output[:200]}"
+        if not re.search(r"^geomint: \S+ \S+ \S+", said, re.M):
+            return f"exit {status} without a sentence: {said}"
+        for name, (content, _) in files.items():
+            if name.endswith(".png") and name in usual[3] and not self.options.get("timed"):
+                if content != usual[3][name][0]:
+                    return f"{name} differs (exit {status}: {said})"
+        if kind == "files" or self.options.get("timed"):
+            return "" # standard output may be what failed
+        return self.numbers_are_right(output, usual[1])
+
+
+def sample(count, every):
+    """Which n of count: all, or the first, the last and some between, the same ones every time."""
+    if every or count <= SAMPLE:
+        return range(1, count + 1)
+    between = {1 + k * count // (SAMPLE - 2) + k % 3 for k in range(SAMPLE - 2)}
+    return sorted(n for n in between | {1, 2, count} if n <= count)
+
+
+def sweep(command, kind, every):
+    usual = command.run(kind + ":0")
+    if usual[0] != command.options.get("usual", 0):
+        return 0, [f"{command.words}: exit {usual[0]} without a fault: {usual[2]}"]
+    faults = [f"{kind}:{n}" for n in sample(usual[4], every)]
+    if kind == "memory":
+        faults += [f"{kind}:{n}+" for n in sample(usual[4], every)]
+    wrong = []
+    for fault in faults:
+        reason = command.judge(kind, usual, command.run(fault))
+        if reason:
+            wrong.append(f"GM_FAULT={fault} geomint {command.words}: {reason.strip()}")
+    return len(faults), wrong
+
+
+def limit(arguments, megabytes, folder):
+    """Little address space: Mesa may die of it, but not without a sentence."""
+    words = ["prlimit", f"--as={megabytes * 1000000}", arguments.geomint, "render", "disc", "until=1", "--out", folder]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST, check=False)
+    told = re.search(r"^geomint: \S+ \S+ \S+", done.stderr, re.M) and "not installed" not in done.stderr
+    if done.returncode == 0 or (done.returncode in (3, 5) and told):
+        return []
+    return [f"{' '.join(words)}: exit {done.returncode}: {done.stderr}"]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("geomint")
+    parser.add_argument("library")
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--only", default="")
+    arguments = parser.parse_args()
+    arguments.geomint, arguments.library = os.path.abspath(arguments.geomint), os.path.abspath(arguments.library)
+    runs, wrong = 0, []
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        made = [options["made"] for words, options in COMMANDS if "made" in options][0]
+        subprocess.run([arguments.geomint, "render"] + made.split() + ["--out", folder], check=True)
+        os.rename(os.path.join(folder, "disc-render.png"), os.path.join(folder, "made.png"))
+        jobs = []
+        for words, options in COMMANDS:
+            if arguments.only in words:
+                command = Command(words, options, arguments, folder)
+                jobs += [(words, kind, pool.submit(sweep, command, kind, arguments.all)) for kind in ("memory", "files")]
+        for megabytes in (40, 100, 180, 220, 260, 300, 400) if arguments.only in "prlimit" else ():
+            runs += 1
+            found = limit(arguments, megabytes, folder)
+            print("".join(found), end="", flush=True)
+            wrong += found
+        for words, kind, job in jobs:
+            count, found = job.result()
+            runs += count
+            wrong += found
+            for line in found:
+                print(line, flush=True)
+            if arguments.all:
+                print(f"{words}: {count} faults of {kind}, {len(found)} wrong", flush=True)
+    print(f"{runs} faults, {len(wrong)} answered wrongly")
+    return 1 if wrong or runs == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

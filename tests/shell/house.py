@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The house, by what files include and what their objects call: no circle of files or of folders, the hall of core
+without a wing, wings without each other, every exported name with the project's prefix, every tag unique.
+It fails where more is found than MOST, which only goes down: circles that are opened take their line off it.
+Usage: house.py SOURCE BUILD MOST [--long]   --long: what each circle is made of"""
+import collections
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+
+source, build = os.path.realpath(sys.argv[1]), os.path.realpath(sys.argv[2])
+most = int(sys.argv[3])
+long = "--long" in sys.argv
+LAYERS = ("core", "render", "scenes", "app")
+WINGS = ("core/ode", "core/field", "core/mesh", "core/flow")
+failures = []
+
+
+def fail(sentence):
+    failures.append(sentence)
+    print(sentence)
+
+
+def room(path):
+    """A source and its header are one."""
+    return re.sub(r"\.(c|h|def|loop\.h|kernel\.h|loops\.c)$", "", path)
+
+
+def circles(arrows):
+    """The strongly connected components of more than one node (Tarjan, without recursion)."""
+    index, low, on, stack, found = {}, {}, set(), [], []
+    for root in sorted(arrows):
+        if root in index:
+            continue
+        work = [(root, iter(sorted(arrows[root])))]
+        index[root] = low[root] = len(index)
+        stack.append(root)
+        on.add(root)
+        while work:
+            node, following = work[-1]
+            for other in following:
+                if other not in index:
+                    index[other] = low[other] = len(index)
+                    stack.append(other)
+                    on.add(other)
+                    work.append((other, iter(sorted(arrows.get(other, ())))))
+                    break
+                if other in on:
+                    low[node] = min(low[node], index[other])
+            else:
+                work.pop()
+                if work:
+                    low[work[-1][0]] = min(low[work[-1][0]], low[node])
+                if low[node] == index[node]:
+                    circle = []
+                    while not circle or circle[-1] != node:
+                        circle.append(stack.pop())
+                        on.discard(circle[-1])
+                    if len(circle) > 1:
+                        found.append(sorted(circle))
+    return found
+
+
+files = []
+for layer in LAYERS:
+    for folder, _, names in os.walk(os.path.join(source, layer)):
+        files += [os.path.relpath(os.path.join(folder, n), source) for n in names if n.endswith((".c", ".h", ".def"))]
+text = {f: open(os.path.join(source, f), encoding="utf-8").read() for f in files}
+includes = {f: re.findall(r'^\s*#\s*include\s+"([^"]+)"', text[f], re.M) for f in files}
+
+# who calls whom, from the objects of the build
+commands = json.load(open(os.path.join(build, "compile_commands.json"), encoding="utf-8"))
+defined, wanted = {}, collections.defaultdict(set)
+for command in commands:
+    path = os.path.relpath(os.path.realpath(os.path.join(command["directory"], command["file"])), source)
+    if not path.startswith(LAYERS):
+        continue
+    output = os.path.join(command["directory"], command["output"])
+    if not os.path.exists(output):
+        continue
+    for line in subprocess.run(["nm", output], check=True, capture_output=True, text=True).stdout.splitlines():
+        kind, name = line.split()[-2:]
+        if kind == "U":
+            wanted[path].add(name)
+        elif kind.isupper():
+            defined[name] = path
+            if not name.startswith("gm_") and name != "main" and not re.match(r"_|LLVMFuzzer", name):
+                fail(f"{path} exports {name}, which does not begin with gm_")
+
+arrows = collections.defaultdict(set)
+why = {}
+for f in files:
+    for other in includes[f]:
+        if room(other) != room(f):
+            arrows[room(f)].add(room(other))
+            why.setdefault((room(f), room(other)), "#include")
+# what a list (.def) names is registered by who includes the list: data, no call
+listed = {f: set(re.findall(r"^\w+\((?:\w+, )?(\w+)", text[f], re.M)) for f in files if f.endswith(".def")}
+
+
+def is_registered(path, name):
+    return any(other in listed and name.rsplit("gm_", 1)[-1].split("_", 1)[-1] in listed[other] for other in includes[path])
+
+
+for path, names in wanted.items():
+    for name in names & defined.keys():
+        # a wing's name plate, gm_kind_NAME, is an address that its families and problems carry
+        if is_registered(path, name) or name.startswith("gm_kind_"):
+            continue
+        if room(defined[name]) != room(path):
+            arrows[room(path)].add(room(defined[name]))
+            why[(room(path), room(defined[name]))] = name
+
+for circle in circles(arrows):
+    fail("a circle of files: " + " ".join(circle))
+    if long:
+        for a in circle:
+            for b in sorted(arrows[a] & set(circle)):
+                print(f"    {a} -> {b}: {why[(a, b)]}")
+
+for layer in LAYERS:
+    folders = collections.defaultdict(set)
+    for a in list(arrows):
+        for b in arrows[a]:
+            if a.startswith(layer + "/") and b.startswith(layer + "/"):
+                x, y = os.path.dirname(a), os.path.dirname(b)
+                if x != y:
+                    folders[x].add(y)
+                    folders[y]
+                    if long:
+                        why.setdefault(("folder", x, y), (a, b, why[(a, b)]))
+    for circle in circles(folders):
+        fail("a circle of folders: " + " ".join(circle))
+        if long:
+            for a in circle:
+                for b in sorted(folders[a] & set(circle)):
+                    print(f"    {a} -> {b}: {why[('folder', a, b)]}")
+
+for f in files:
+    if not f.startswith("core/"):
+        continue
+    mine = next((w for w in WINGS if f.startswith(w + "/")), "")
+    for other in includes[f]:
+        if any(other.startswith(w + "/") for w in WINGS if w != mine):
+            fail(f"{f} must not include {other}: " + ("wings do not know each other" if mine else "the hall knows no wing"))
+for a in sorted(arrows):
+    mine = next((w for w in WINGS if a.startswith(w + "/")), "")
+    for b in sorted(arrows[a]):
+        if a.startswith("core/") and why[(a, b)] != "#include" and any(b.startswith(w + "/") for w in WINGS if w != mine):
+            fail(f"{a} must not call {why[(a, b)]} of {b}")
+
+tags = collections.defaultdict(set)
+for f in files:
+    if f.endswith(".h"):
+        for tag in re.findall(r"^\s*(?:typedef\s+)?((?:struct|enum|union)\s+\w+)\s*\{", text[f], re.M):
+            tags[tag].add(f)
+for tag, places in sorted(tags.items()):
+    if len(places) > 1:
+        fail(f"{tag} is two things: " + " ".join(sorted(places)))
+print(f"{len(failures)} found, at most {most} are borne with")
+sys.exit(1 if len(failures) > most else 0)

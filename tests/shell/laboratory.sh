@@ -1,0 +1,217 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# work-precision and stability from the command line: laboratory.sh PROGRAM
+set -u
+program=$1
+folder=$(mktemp -d) || exit 99
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+fail()
+{
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+# refused MESSAGE-PART WORDS...: exit status 1 and one sentence
+refused()
+{
+    part=$1
+    shift
+    "$program" "$@" >"$folder/out" 2>"$folder/err"
+    [ $? -eq 1 ] || fail "$* is not refused"
+    grep -q -- "$part" "$folder/err" || fail "$*: $(cat "$folder/err")"
+    [ "$(wc -l <"$folder/err")" -eq 1 ] || fail "$*: more than a sentence"
+}
+
+refused "which scene" work-precision
+refused "no scene" work-precision keplar
+refused "only scheme and dt" work-precision kepler eccentricity=.1,.2
+refused "no observable" work-precision kepler --measure energy-error
+refused "says nothing" work-precision kepler perturbation=.01 --measure position_error
+refused "nothing to measure" work-precision kepler until=0
+refused "which scene" stability
+refused "no stability map" stability disc
+refused "did you mean" stability --region rk44
+refused "no linear stability region" stability --region logh2
+refused "no scene" stability kepler --region rk4
+
+# a small ladder: files, table, sentence
+"$program" work-precision kepler scheme=rk4,verlet dt=2*pi/50,2*pi/100,2*pi/200 until=2*pi --size 320x180 \
+    --out "$folder" >"$folder/out" 2>"$folder/err" || fail "work-precision: $(cat "$folder/err")"
+[ -s "$folder/kepler-work-precision.png" ] || fail "no PNG"
+[ "$(wc -l <"$folder/kepler-work-precision.csv")" -eq 7 ] || fail "the CSV has other than 6 rows"
+grep -q '^Cheapest by run time: ' "$folder/out" || fail "no sentence"
+grep -q '^kepler,rk4,4,.*,ok,' "$folder/kepler-work-precision.csv" || fail "no row of rk4"
+
+# the error falls by 2^4 with half the step
+awk -F, '$2 == "rk4" { if (before && (before / $8 < 10 || before / $8 > 40)) exit 1; before = $8 }' \
+    "$folder/kepler-work-precision.csv" || fail "rk4 is not of order 4 in the CSV"
+
+# no exact solution: a reference run; any scene has it
+"$program" work-precision disc scheme=verlet,rk4 dt=.1,.05 until=1 points=8 --size 320x180 --out "$folder" \
+    >"$folder/out" 2>&1 || fail "work-precision disc"
+grep -q 'against a run of' "$folder/out" || fail "no reference run is named"
+
+# another measure
+"$program" work-precision vortices scheme=rk4,gauss4 dt=.1,.05 until=1 strength=1 --measure angular_impulse_error \
+    --size 320x180 --out "$folder" >"$folder/out" 2>&1 || fail "work-precision --measure"
+grep -q ',angular_impulse_error,' "$folder/vortices-work-precision.csv" || fail "the measure is not named in the CSV"
+
+# interrupted, it keeps what it has
+"$program" work-precision kepler until=4000*pi --size 320x180 --out "$folder/half" >"$folder/out" 2>&1 &
+running=$!
+sleep 1
+kill -INT $running
+wait $running
+[ $? -eq 130 ] || fail "interrupted work-precision does not exit with 130"
+[ -s "$folder/half/kepler-work-precision.csv" ] || fail "interrupted work-precision keeps nothing"
+
+"$program" stability stiff scheme=verlet until=10 --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
+    fail "stability: $(cat "$folder/err")"
+[ -s "$folder/stiff-stability.png" ] || fail "no PNG of the map"
+grep -q '^stiff,verlet,50,2.0499.*,blow-up,blow-up,' "$folder/stiff-stability.csv" || fail "Verlet is not lost at 2.05"
+grep -q '^stiff,verlet,50,1.95.*,bounded,ok,' "$folder/stiff-stability.csv" || fail "Verlet is not bounded at 1.95"
+grep -q 'bounded for all values up to 1.95' "$folder/out" || fail "no limit in the table"
+
+# JSON says what the CSV says
+for words in 'kepler scheme=rk4,verlet dt=2*pi/50,2*pi/100,2*pi/200 until=2*pi' \
+    'kepler scheme=explicit-euler,gauss4 dt=1,4 until=8' 'wave scheme=leapfrog dt=.01,.005 until=1'; do
+    # shellcheck disable=SC2086
+    "$program" work-precision $words --size 320x180 --out "$folder" --json >"$folder/out" 2>"$folder/err" ||
+        fail "work-precision $words --json: $(cat "$folder/err")"
+    [ "$(cat "$folder/err")" = "geomint: wrote $folder/${words%% *}-work-precision.png and $folder/${words%% *}-work-precision.csv" ] ||
+        fail "work-precision does not say what it wrote: $(cat "$folder/err")"
+    python3 - "$folder/out" "$folder/${words%% *}-work-precision.csv" <<'END' || fail "work-precision $words --json"
+import csv, json, sys
+
+def no_constant(word):
+    raise ValueError(word)
+
+lines = [json.loads(line, parse_constant=no_constant) for line in open(sys.argv[1])]
+rows = list(csv.DictReader(open(sys.argv[2])))
+points = [(line, point) for line in lines for point in line["points"]]
+assert len(points) == len(rows) > 0
+for (line, point), row in zip(points, rows):
+    assert (line["scene"], line["scheme"], str(line["order"])) == (row["scene"], row["scheme"], row["order"])
+    assert point["status"] == row["status"] and float(row["dt"]) == point["dt"]
+    assert row[line["measure"]] == "" and point["error"] is None or float(row[line["measure"]]) == point["error"]
+for line in lines:
+    assert len(line["prices"]) == 3
+    for price in line["prices"]:
+        reached = any(p["error"] is not None and p["error"] <= price["error"] for p in line["points"])
+        assert (price["seconds"] is not None) == reached, price
+END
+done
+"$program" stability stiff scheme=verlet,midpoint until=10 --size 320x180 --out "$folder" --json >"$folder/out" 2>"$folder/err" ||
+    fail "stability --json: $(cat "$folder/err")"
+python3 - "$folder/out" "$folder/stiff-stability.csv" <<'END' || fail "stability --json: $(head -c 300 "$folder/out")"
+import csv, json, sys
+lines = [json.loads(line) for line in open(sys.argv[1])]
+rows = list(csv.DictReader(open(sys.argv[2])))
+assert [line["scheme"] for line in lines] == ["verlet", "midpoint"]
+assert lines[0]["limit"] == 1.95
+cells = [(line, cell) for line in lines for cell in line["cells"]]
+assert len(cells) == len(rows)
+for (line, cell), row in zip(cells, rows):
+    assert float(row[line["parameter"]]) == cell[line["parameter"]] and float(row["step"]) == cell["step"]
+    assert (row["scheme"], row["verdict"], row["status"]) == (line["scheme"], cell["verdict"], cell["status"])
+    assert (row["error"] == "") == (cell["error"] is None)
+END
+"$program" stability --region rk4 --size 320x180 --out "$folder" --json 2>"$folder/err" | python3 -c '
+import json, sys
+told = json.load(sys.stdin)
+assert told["scheme"] == "rk4" and abs(told["imaginary_limit"] - 8 ** .5) < .01 and abs(told["real_limit"] - 2.785) < .01
+' || fail "stability --region --json"
+
+# steady flows: the stream function's error falls with the square of the edge, whatever the step
+"$program" work-precision couette scheme=steady rows=12,24,48 dt=.2,.1 --size 320x180 --out "$folder" >"$folder/out" \
+    2>"$folder/err" || fail "work-precision couette: $(cat "$folder/err")"
+awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i == "rows") r = i; if ($i == "psi_error") e = i } }
+    NR > 1 { error[$r] = $e }
+    END { if (!r || !e || NR < 4) exit 1; p = error[12] / error[24]; q = error[24] / error[48]
+          exit p < 3.4 || p > 4.6 || q < 3.4 || q > 4.6 }' "$folder/couette-work-precision.csv" ||
+    fail "couette is not of order 2 in the edge: $(cat "$folder/couette-work-precision.csv")"
+grep -q 'Fewest rows: ' "$folder/out" || fail "couette: the edges are not compared"
+
+# Taylor-Green vortices against their exact solution: orders 1 and 2 in the step
+"$program" work-precision taylor-green columns=24 viscosity=.2 dt=.25,.125 until=1 --size 320x180 --out "$folder" \
+    >"$folder/out" 2>"$folder/err" || fail "work-precision taylor-green: $(cat "$folder/err")"
+awk -F, '$2 == "semi-implicit" || $2 == "crank-nicolson" { rows++ } END { exit rows != 4 || NR != 5 }' \
+    "$folder/taylor-green-work-precision.csv" || fail "taylor-green: entrants"
+
+# Courant numbers and Reynolds numbers: small steps are bounded, steps a hundred times the edge are not
+for scene in cavity room; do
+    small='columns=10 rows=0 until=2'
+    [ $scene = room ] && small='rows=10 columns=0 until=1'
+    # shellcheck disable=SC2086
+    "$program" stability $scene $small --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
+        fail "stability $scene: $(cat "$folder/err")"
+    [ -s "$folder/$scene-stability.png" ] || fail "no PNG of the map of $scene"
+    [ "$(wc -l <"$folder/$scene-stability.csv")" -eq 81 ] || fail "stability $scene: cells are missing"
+    awk -F, -v s=$scene '$4 <= 1 && $3 <= 100 && $6 != "bounded" { exit 1 }
+        $2 == "crank-nicolson" && $4 == 100 && $3 == 1000 && $6 == "bounded" { exit 1 }' "$folder/$scene-stability.csv" ||
+        fail "stability $scene: $(cat "$folder/out")"
+done
+
+"$program" stability --region rk4 --size 320x180 --out "$folder" >"$folder/out" 2>&1 || fail "stability --region"
+grep -q 'imaginary z up to 2.82' "$folder/out" || fail "the region of rk4: $(cat "$folder/out")"
+[ -s "$folder/rk4-stability.png" ] || fail "no PNG of the region"
+"$program" stability --region rk2 --size 320x180 --out "$folder" >"$folder/out" || fail "the region of rk2"
+grep -q 'real z from -2, for imaginary z up to 0;' "$folder/out" || fail "the region of rk2: $(cat "$folder/out")"
+"$program" stability --region verlet --size 320x180 --out "$folder" | grep -q 'up to h ω = 2$' || fail "Verlet's limit"
+
+# fields on a line: every scene has both, and the limits are the known ones
+for scene in sine-gordon kdv nls wave burgers; do
+    "$program" stability $scene --size 320x180 --out "$folder" >"$folder/$scene.txt" 2>"$folder/err" ||
+        fail "stability $scene: $(cat "$folder/err")"
+    [ -s "$folder/$scene-stability.png" ] || fail "no PNG of the map of $scene"
+done
+# limit SCENE SCHEME: the largest step that is bounded throughout
+limit()
+{
+    awk -v scheme="$2" '$1 == scheme { found = 1 } found && /bounded for all/ { print $NF; exit }' "$folder/$1.txt"
+}
+[ "$(limit sine-gordon leapfrog)" = 0.99 ] || fail "leapfrog is not lost at a Courant number of 1"
+[ "$(limit sine-gordon energy-conserving)" = 1 ] || fail "energy-conserving is not lost above 1"
+[ "$(limit sine-gordon box)" = 8 ] || fail "the box is lost"
+[ "$(limit kdv zabusky-kruskal)" = 0.37 ] || fail "Zabusky-Kruskal is not lost above 0.385"
+[ "$(limit wave leapfrog)" = 1 ] || fail "leapfrog for the wave equation is not lost above 1"
+for words in 'sine-gordon scheme=leapfrog,box dt=.04,.02 until=1' 'kdv scheme=box dt=.1,.05 until=1' \
+    'nls scheme=box,split-step2 dt=.04,.02 until=1' 'wave scheme=leapfrog dt=.01,.005 until=1' \
+    'burgers scheme=ftcs,crank-nicolson dt=.004,.002 until=.2'; do
+    # shellcheck disable=SC2086
+    "$program" work-precision $words --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
+        fail "work-precision $words: $(cat "$folder/err")"
+    grep -q '^Cheapest by run time: ' "$folder/out" || fail "work-precision $words: no sentence"
+done
+
+# Burgers: the Courant numbers typed are those measured at every distance of the nodes; a shock begins at t = 1
+"$program" work-precision burgers scheme=ftcs,crank-nicolson dx=.04,.02,.01 courant=.5,.25 --size 320x180 \
+    --out "$folder" >"$folder/out" 2>"$folder/err" || fail "work-precision burgers courant: $(cat "$folder/err")"
+awk -F, 'NR > 1 { ratio = $5 / $4; rows++; if (ratio != .5 && ratio != .25) wrong++
+        if ($2 == "crank-nicolson" && ratio == .5) error[$4 + 0] = $9 }
+    END { exit !(rows == 12 && !wrong && error[.02] / error[.01] > 3 && error[.02] / error[.01] < 5) }' \
+    "$folder/burgers-work-precision.csv" || fail "Courant numbers: $(cat "$folder/burgers-work-precision.csv")"
+"$program" work-precision burgers test=shock until=2 scheme=ftcs dx=.02 dt=.002 --size 320x180 --out "$folder" \
+    >"$folder/out" 2>"$folder/err" || fail "work-precision of the shock: $(cat "$folder/err")"
+grep -q ',500,2,ok,' "$folder/burgers-work-precision.csv" || fail "the shock's runs do not end at t = 2"
+
+# charts tell how they were made, and are measured again
+for chart in kepler-work-precision vortices-work-precision stiff-stability rk4-stability; do
+    "$program" again "$folder/$chart.png" --out "$folder/again" >"$folder/out" 2>&1 || fail "again $chart"
+    [ -s "$folder/again/$chart-again.png" ] || fail "again makes no PNG of $chart"
+    [ "$(wc -l <"$folder/$chart.csv")" -eq "$(wc -l <"$folder/again/$chart-again.csv")" ] ||
+        fail "again measures something else than $chart"
+done
+cmp -s "$folder/stiff-stability.csv" "$folder/again/stiff-stability-again.csv" || fail "again is another map"
+cmp -s "$folder/stiff-stability.png" "$folder/again/stiff-stability-again.png" || fail "again paints another map"
+head -1 "$folder/again/vortices-work-precision-again.csv" | grep -q angular_impulse_error ||
+    fail "again forgets the measure"
+
+# a step that ends at the first t after until
+"$program" run kepler scheme=logh2 dt=2*pi/60 eccentricity=.9 until=10 --json >"$folder/out" || fail "logh2"
+grep -Eq '"t":10\.[0-9]+' "$folder/out" || fail "logh2 does not end just after until: $(cat "$folder/out")"
+
+[ $failures -eq 0 ] && echo "all well"
+exit $((failures > 0))

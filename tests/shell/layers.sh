@@ -1,0 +1,44 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The layers by what files include: core sees only core, render only render, scenes everything but app and
+# the painters. Linking alone would not notice a type or a macro. Usage: layers.sh SOURCE_FOLDER
+cd "$1" || exit 1
+status=0
+include='^[[:space:]]*#[[:space:]]*include[[:space:]]*'
+
+# forbid FOLDER PATTERN: no file below FOLDER includes what matches
+forbid() {
+    found=$(grep -rnE --include='*.[ch]' --include='*.def' "${include}[<\"]$2" "$1")
+    if [ -n "$found" ]; then
+        printf '%s must not include %s:\n%s\n' "$1" "$2" "$found"
+        status=1
+    fi
+}
+
+forbid core '(render|scenes|app|tests)/'
+forbid core '(curses|ncurses|png|GL|EGL)'
+forbid render '(core|scenes|app|tests)/'
+forbid render '(curses|ncurses)'
+forbid scenes '(app|tests)/'
+forbid scenes 'render/(canvas|context|cells|png|sink|temporary)'
+forbid app 'tests/'
+
+# the hall of core includes no wing, and no wing another one
+found=$(grep -nE "${include}\"core/(ode|field|mesh|flow)/" core/*.[ch] core/linear/*.[ch])
+for wing in ode field mesh flow; do
+    found="$found$(grep -rnE --include='*.[ch]' --include='*.def' "${include}\"core/(ode|field|mesh|flow)/" core/$wing |
+        grep -vE "\"core/$wing/")"
+done
+if [ -n "$found" ]; then
+    printf 'a wing of core is seen from outside of it:\n%s\n' "$found"
+    status=1
+fi
+
+# every include of the project's own names its folder
+found=$(grep -rnE --include='*.[ch]' "${include}\"" core render scenes app tests |
+    grep -vE '"(core|render|scenes|app|tests)/')
+if [ -n "$found" ]; then
+    printf 'includes are rooted at the top folder:\n%s\n' "$found"
+    status=1
+fi
+exit $status

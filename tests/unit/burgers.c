@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Burgers' equation: every scheme, form and frame against values computed elsewhere; its symmetries. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/field/families/burgers.h"
+#include "core/run.h"
+#include "core/schemes.h"
+#include "tests/reference/burgers.h"
+
+enum { CASES = sizeof reference_burgers / sizeof reference_burgers[0], MOST = 102, STEPS = 10 };
+
+static const struct gm_settings no_settings;
+
+static void values_agree(void **unused)
+{
+    (void)unused;
+    for (size_t c = 0; c < CASES; c++) {
+        const struct reference_burgers *reference = &reference_burgers[c];
+        const size_t points = reference->points;
+        const bool fixed = strcmp(reference->frame, "fixed") == 0;
+        const bool shock = strcmp(reference->test, "shock") == 0;
+        const struct gm_burgers burgers = {
+            .test = shock ? GM_BURGERS_SHOCK : GM_BURGERS_FRONT,
+            .frame = fixed ? GM_FRAME_FIXED : GM_FRAME_MOVING,
+            .printed = strcmp(reference->form, "printed") == 0,
+            .viscosity = 0.05,
+            .lambda = reference->lambda,
+        };
+        struct gm_problem problem = gm_problem_burgers;
+        problem.parameters = &burgers;
+        problem.line = (struct gm_line){.points = points, .dx = 0.04, .first = shock ? -1 : -2};
+        problem.n = gm_burgers_size(&burgers, points);
+        double y[2 * MOST + 1];
+        memcpy(y, reference->start, points * sizeof *y);
+        for (size_t j = 0; j < points; j++) {
+            y[points + j] = reference->start[j] - reference->lambda;
+        }
+        y[2 * points] = 1;
+        const double t0 = gm_burgers_t0(&burgers);
+        struct gm_run *run = gm_run_open(&problem, gm_scheme_find_for(reference->scheme, &problem),
+                                         &no_settings, t0, 0.008, y);
+        assert_non_null(run);
+        assert_int_equal(gm_run_advance(run, STEPS), GM_OK);
+        const double *u = gm_run_state(run);
+        double largest = 0, error = 0, sup = 0, sum = 0;
+        for (size_t j = 0; j < points; j++) {
+            largest = fmax(largest, fabs(reference->u[j]));
+            error = fmax(error, fabs(u[j] - reference->u[j]));
+            const double exact = gm_burgers_exact(&burgers, fixed, gm_line_node(&problem.line, j), run->t);
+            sup = fmax(sup, fabs(u[j] - exact));
+            sum += 0.04 * fabs(u[j] - exact);
+        }
+        const double tolerance = 1e-12 + 100 * (reference->conditioning + reference->agreement);
+        if (!(error <= tolerance * largest)) {
+            fail_msg("%s, %s, %s, %s, lambda %g: error %.2e", reference->test, reference->scheme,
+                     reference->form, reference->frame, reference->lambda, error);
+        }
+        assert_true(fabs(sup - reference->sup_error) < 1e-9);
+        assert_true(fabs(sum - reference->l1_error) < 1e-9);
+        gm_run_close(run);
+    }
+}
+
+/* Three nodes, dx = dt = 0.01: values 0.4, 0.3, 0.15 around x = 0.3, projected with a4 = 0.5. */
+static void projections_commute_or_not(void **unused)
+{
+    (void)unused;
+    static const double u[3] = {0.4, 0.3, 0.15};
+    static const struct {
+        const char *name;
+        bool commutes;
+    } schemes[] = {
+        {"ftcs", false}, {"lax-wendroff", false}, {"ftcs-invariant", true}, {"lax-wendroff-invariant", true}};
+    for (size_t s = 0; s < 4; s++) {
+        const double defect =
+            gm_burgers_projection_defect(gm_scheme_find(schemes[s].name), 0.005, 0.01, 0.01, 0.5, 0.3, u);
+        if (schemes[s].commutes ? !(defect < 1e-15) : !(defect > 1e-6)) {
+            fail_msg("%s: defect %.2e", schemes[s].name, defect);
+        }
+    }
+}
+
+/* Steps made one by one and all at once are the same bits; so are those after a copy of the state. */
+static void bits_do_not_depend_on_bursts(void **unused)
+{
+    (void)unused;
+    const struct gm_burgers burgers = {.frame = GM_FRAME_FIXED, .viscosity = 0.005, .lambda = 0.7};
+    struct gm_problem problem = gm_problem_burgers;
+    problem.parameters = &burgers;
+    problem.line = (struct gm_line){.points = 161, .dx = 0.025, .first = -2};
+    problem.n = gm_burgers_size(&burgers, problem.line.points);
+    double *y = malloc(problem.n * sizeof *y);
+    for (size_t j = 0; j < 161; j++) {
+        y[j] = gm_burgers_exact(&burgers, true, gm_line_node(&problem.line, j), 0);
+        y[161 + j] = y[j] - 0.7;
+    }
+    y[322] = 1;
+    struct gm_run *one =
+        gm_run_open(&problem, gm_scheme_find_for("crank-nicolson", &problem), &no_settings, 0, 0.01, y);
+    struct gm_run *all =
+        gm_run_open(&problem, gm_scheme_find_for("crank-nicolson", &problem), &no_settings, 0, 0.01, y);
+    assert_int_equal(gm_run_advance(all, 30), GM_OK);
+    for (int k = 0; k < 30; k++) {
+        assert_int_equal(gm_run_advance(one, 1), GM_OK);
+    }
+    assert_memory_equal(gm_run_state(one), gm_run_state(all), problem.n * sizeof *y);
+    gm_run_close(one);
+    gm_run_close(all);
+    free(y);
+}
+
+static void exact_solutions_survive_extremes(void **unused)
+{
+    (void)unused;
+    static const double viscosities[] = {0, 1e-300, 1e-6, 1, 10};
+    for (size_t i = 0; i < 5; i++) {
+        for (int test = 0; test < 2; test++) {
+            const struct gm_burgers burgers = {.test = test, .viscosity = viscosities[i], .lambda = 1e3};
+            for (int k = -10; k <= 10; k++) {
+                assert_true(
+                    fabs(gm_burgers_exact(&burgers, true, k / 10.0 + 1e3, gm_burgers_t0(&burgers) + 1) -
+                         1e3) <= 1);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(values_agree),
+        cmocka_unit_test(projections_commute_or_not),
+        cmocka_unit_test(bits_do_not_depend_on_bursts),
+        cmocka_unit_test(exact_solutions_survive_extremes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,440 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The GL painter by its pixels. Their exact values change with Mesa's version, so that only what must be true
+   of any good painting is asked. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "render/gl/canvas.h"
+#include "render/layout/layout.h"
+
+enum { WIDTH = 640, HEIGHT = 600 };
+
+static const char *const backends[] = {"osmesa", "egl"};
+enum { BACKENDS = sizeof backends / sizeof *backends };
+
+/* A state panel alone, whose box is found from a painted frame: the range is shown around its middle. */
+static struct gm_picture *plain_picture(struct gm_panel **panel)
+{
+    struct gm_picture *picture = gm_picture_open();
+    assert_non_null(picture);
+    *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+    (*panel)->x = (struct gm_axis){"", GM_LINEAR, -1, 1};
+    (*panel)->y = (struct gm_axis){"", GM_LINEAR, -1, 1};
+    return picture;
+}
+
+static unsigned char *paint(struct gm_picture *picture, const char *backend, int width, int height)
+{
+    char message[GM_MESSAGE] = "";
+    setenv("GEOMINT_GL", backend, 1);
+    struct gm_canvas *canvas = gm_canvas_open(width, height, GM_THEME_DARK, message);
+    if (canvas == NULL) {
+        fail_msg("%s", message);
+    }
+    unsigned char *rgb = malloc((size_t)width * (size_t)height * 3);
+    assert_non_null(rgb);
+    assert_true(gm_canvas_paint(canvas, picture, rgb));
+    gm_canvas_close(canvas);
+    return rgb;
+}
+
+static struct gm_rgb pixel(const unsigned char *rgb, int x, int y)
+{
+    const unsigned char *p = rgb + ((size_t)y * WIDTH + (size_t)x) * 3;
+    return (struct gm_rgb){p[0], p[1], p[2]};
+}
+
+static int distance(struct gm_rgb a, struct gm_rgb b)
+{
+    return abs(a.r - b.r) + abs(a.g - b.g) + abs(a.b - b.b);
+}
+
+static struct gm_rgb role_colour(enum gm_role role)
+{
+    return gm_theme_colour(GM_THEME_DARK, role);
+}
+
+/* How far a pixel is from paper to the role's colour: 0 to 1, by the channel that differs most. */
+static double share_of(struct gm_rgb seen, enum gm_role role)
+{
+    const struct gm_rgb paper = role_colour(GM_PAPER), ink = role_colour(role);
+    return (double)distance(seen, paper) / distance(ink, paper);
+}
+
+/* Ink in a column of pixels between two rows. */
+static double ink_of_column(const unsigned char *rgb, int x, int top, int bottom, enum gm_role role)
+{
+    double sum = 0.0;
+    for (int y = top; y < bottom; y++) {
+        sum += share_of(pixel(rgb, x, y), role);
+    }
+    return sum;
+}
+
+static double ink_of_all(const unsigned char *rgb, enum gm_role role)
+{
+    double sum = 0.0;
+    for (int x = 0; x < WIDTH; x++) {
+        sum += ink_of_column(rgb, x, 0, HEIGHT, role);
+    }
+    return sum;
+}
+
+/* Pixels for a pixel of a picture 720 high. */
+static double scale_of(void)
+{
+    return fmin(WIDTH / 960.0, HEIGHT / 720.0);
+}
+
+static void strokes_have_their_width_colour_and_place(void **state)
+{
+    (void)state;
+    for (int b = 0; b < BACKENDS; b++) {
+        double ink[2];
+        for (int k = 0; k < 2; k++) {
+            struct gm_panel *panel;
+            struct gm_picture *picture = plain_picture(&panel);
+            const struct gm_style style = {GM_INITIAL, 1.0, 6.0 * (k + 1), GM_SOLID};
+            gm_mark_line(picture, panel, style, (const double[]){-1, 0, 1, 0}, 2, false);
+            unsigned char *rgb = paint(picture, backends[b], WIDTH, HEIGHT);
+            ink[k] = ink_of_column(rgb, WIDTH / 2, 0, HEIGHT, GM_INITIAL);
+            /* In the middle of the surface there is the line's own colour, and it is level. */
+            int row = 0;
+            while (row < HEIGHT && share_of(pixel(rgb, WIDTH / 2, row), GM_INITIAL) < 0.99) {
+                row++;
+            }
+            assert_in_range(row, HEIGHT / 2 - 20, HEIGHT / 2 + 20);
+            assert_true(distance(pixel(rgb, WIDTH / 2, row), role_colour(GM_INITIAL)) <= 3);
+            assert_true(distance(pixel(rgb, WIDTH / 4, row), role_colour(GM_INITIAL)) <= 3);
+            assert_int_equal(distance(pixel(rgb, WIDTH / 2, HEIGHT / 4), role_colour(GM_PAPER)), 0);
+            free(rgb);
+            gm_picture_close(picture);
+        }
+        assert_float_equal(ink[0], 6.0 * scale_of(), 0.1);
+        assert_float_equal(ink[1], 12.0 * scale_of(), 0.1);
+    }
+}
+
+static void thin_and_slanting_strokes_have_their_width_too(void **state)
+{
+    (void)state;
+    struct gm_panel *panel;
+    struct gm_picture *picture = plain_picture(&panel);
+    gm_mark_line(picture, panel, (struct gm_style){GM_INK, 1.0, 0.75, GM_SOLID},
+                 (const double[]){-1, 0, 1, 0}, 2, false);
+    unsigned char *rgb = paint(picture, "osmesa", WIDTH, HEIGHT);
+    assert_float_equal(ink_of_column(rgb, WIDTH / 2, 0, HEIGHT, GM_INK), 0.5, 0.03);
+    free(rgb);
+    gm_picture_close(picture);
+
+    picture = plain_picture(&panel);
+    panel->equal = true;
+    gm_mark_line(picture, panel, (struct gm_style){GM_INK, 1.0, 6.0, GM_SOLID},
+                 (const double[]){-1, -1, 1, 1}, 2, false);
+    rgb = paint(picture, "osmesa", WIDTH, HEIGHT);
+    assert_float_equal(ink_of_column(rgb, WIDTH / 2, 0, HEIGHT, GM_INK), 4.0 * sqrt(2.0), 0.15);
+    free(rgb);
+    gm_picture_close(picture);
+}
+
+static void discs_and_polygons_have_their_area(void **state)
+{
+    (void)state;
+    const double pi = 3.14159265358979;
+    double circle[2 * 256], hook[2 * 256];
+    for (int i = 0; i < 256; i++) {
+        const double x = 0.5 * cos(i * pi / 128), y = 0.5 * sin(i * pi / 128);
+        circle[2 * i] = x;
+        circle[2 * i + 1] = y;
+        hook[2 * i] = x; /* the same area, not convex */
+        hook[2 * i + 1] = y + 3.0 * x * x - 0.4;
+    }
+    double area[2];
+    for (int b = 0; b < BACKENDS; b++) {
+        for (int k = 0; k < 2; k++) {
+            struct gm_panel *panel;
+            struct gm_picture *picture = plain_picture(&panel);
+            panel->equal = true;
+            gm_mark_polygon(picture, panel, (struct gm_style){GM_LANE, 1.0, 0.0, GM_SOLID},
+                            k == 0 ? circle : hook, 256);
+            unsigned char *rgb = paint(picture, backends[b], WIDTH, HEIGHT);
+            area[k] = ink_of_all(rgb, GM_LANE);
+            free(rgb);
+            gm_picture_close(picture);
+        }
+        assert_true(area[0] > 10000.0);
+        assert_float_equal(area[1], area[0],
+                           0.01 * area[0]); /* edges fade outside by half a pixel on average */
+    }
+    struct gm_panel *panel;
+    struct gm_picture *picture = plain_picture(&panel);
+    gm_mark_points(picture, panel, (struct gm_style){GM_LANE, 1.0, 30.0, GM_SOLID},
+                   (const double[]){0.1, 0.1}, 1);
+    unsigned char *rgb = paint(picture, "osmesa", WIDTH, HEIGHT);
+    const double radius = 15.0 * scale_of();
+    assert_float_equal(ink_of_all(rgb, GM_LANE), pi * radius * radius, 0.01 * pi * radius * radius);
+    free(rgb);
+    gm_picture_close(picture);
+}
+
+static void polygons_are_even_odd(void **state)
+{
+    (void)state;
+    /* A pentagram: its middle lies outside. */
+    double star[10];
+    for (int i = 0; i < 5; i++) {
+        star[2 * i] = 0.9 * sin(i * 4.0 * 3.14159265358979 / 5.0);
+        star[2 * i + 1] = 0.9 * cos(i * 4.0 * 3.14159265358979 / 5.0);
+    }
+    for (int b = 0; b < BACKENDS; b++) {
+        struct gm_panel *panel;
+        struct gm_picture *picture = plain_picture(&panel);
+        gm_mark_polygon(picture, panel, (struct gm_style){GM_LANE, 1.0, 0.0, GM_SOLID}, star, 5);
+        unsigned char *rgb = paint(picture, backends[b], WIDTH, HEIGHT);
+        assert_int_equal(distance(pixel(rgb, WIDTH / 2, HEIGHT / 2), role_colour(GM_PAPER)), 0);
+        int filled = 0; /* the upper ray, above the middle */
+        for (int y = 0; y < HEIGHT / 2; y++) {
+            filled += distance(pixel(rgb, WIDTH / 2, y), role_colour(GM_LANE)) <= 3;
+        }
+        assert_true(filled > 50);
+        free(rgb);
+        gm_picture_close(picture);
+    }
+}
+
+static void translucent_lines_have_no_knots(void **state)
+{
+    (void)state;
+    /* Sharp and gentle turns, and a crossing: nowhere darker than the line itself. */
+    double zigzag[2 * 60];
+    for (int i = 0; i < 60; i++) {
+        zigzag[2 * i] = -0.9 + 0.03 * i;
+        zigzag[2 * i + 1] = 0.8 * sin(2.1 * i);
+    }
+    for (int dash = GM_SOLID; dash <= GM_LONG_DASH; dash++) {
+        struct gm_panel *panel;
+        struct gm_picture *picture = plain_picture(&panel);
+        gm_mark_line(picture, panel, (struct gm_style){GM_INK, 0.4, 8.0, (enum gm_dash)dash}, zigzag, 60,
+                     false);
+        unsigned char *rgb = paint(picture, "osmesa", WIDTH, HEIGHT);
+        double most = 0.0;
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            most = fmax(most, share_of(pixel(rgb, i % WIDTH, i / WIDTH), GM_INK));
+        }
+        assert_true(most > 0.38 && most < 0.42);
+        free(rgb);
+        gm_picture_close(picture);
+    }
+}
+
+static void dashes_leave_out_what_they_say(void **state)
+{
+    (void)state;
+    double inks[GM_DASH_COUNT];
+    int gaps[GM_DASH_COUNT], row = 0;
+    for (int dash = 0; dash < GM_DASH_COUNT; dash++) { /* the solid one first: it tells the row */
+        struct gm_panel *panel;
+        struct gm_picture *picture = plain_picture(&panel);
+        gm_mark_line(picture, panel, (struct gm_style){GM_INK, 1.0, 6.0, (enum gm_dash)dash},
+                     (const double[]){-1, 0, 1, 0}, 2, false);
+        unsigned char *rgb = paint(picture, "osmesa", WIDTH, HEIGHT);
+        inks[dash] = ink_of_all(rgb, GM_INK);
+        while (dash == GM_SOLID && row < HEIGHT - 2 && share_of(pixel(rgb, WIDTH / 2, row), GM_INK) < 0.9) {
+            row++;
+        }
+        gaps[dash] = 0;
+        for (int x = 60; x < WIDTH - 60; x++) {
+            gaps[dash] += share_of(pixel(rgb, x, row + 1), GM_INK) < 0.5 &&
+                          share_of(pixel(rgb, x - 1, row + 1), GM_INK) >= 0.5;
+        }
+        free(rgb);
+        gm_picture_close(picture);
+    }
+    assert_in_range(row, HEIGHT / 3, 2 * HEIGHT / 3);
+    assert_int_equal(gaps[GM_SOLID], 0);
+    for (int dash = 1; dash < GM_DASH_COUNT; dash++) {
+        assert_true(gaps[dash] > 8);
+        assert_true(inks[dash] < 0.85 * inks[GM_SOLID] && inks[dash] > 0.25 * inks[GM_SOLID]);
+    }
+    assert_true(gaps[GM_DOTS] > 2 * gaps[GM_LONG_DASH]);
+}
+
+static void marks_stay_in_their_panel(void **state)
+{
+    (void)state;
+    struct gm_panel *panel;
+    struct gm_picture *picture = plain_picture(&panel);
+    gm_mark_line(picture, panel, (struct gm_style){GM_INK, 1.0, 3.0, GM_SOLID},
+                 (const double[]){-1e300, -1e300, 1e300, 1e300, 0, 1e9, 0, -1e9}, 4, false);
+    gm_mark_polygon(picture, panel, (struct gm_style){GM_LANE, 1.0, 0.0, GM_SOLID},
+                    (const double[]){-50, -50, 50, -50, 50, 50, -50, 50}, 4);
+    unsigned char *rgb = paint(picture, "osmesa", WIDTH, HEIGHT);
+    for (int x = 0; x < WIDTH; x++) {
+        assert_int_equal(distance(pixel(rgb, x, 2), role_colour(GM_PAPER)), 0);
+        assert_int_equal(distance(pixel(rgb, x, HEIGHT - 3), role_colour(GM_PAPER)), 0);
+    }
+    assert_true(distance(pixel(rgb, WIDTH / 2, HEIGHT / 2), role_colour(GM_LANE)) <= 3);
+    free(rgb);
+    gm_picture_close(picture);
+}
+
+static void fields_are_mapped_at_every_pixel(void **state)
+{
+    (void)state;
+    const double corners[] = {-1, -1, 1, -1, 1, 1, -1, 1}, values[] = {0, 1, 1, 0};
+    for (int b = 0; b < BACKENDS; b++) {
+        for (int image = 0; image < 2; image++) {
+            struct gm_panel *panel;
+            struct gm_picture *picture = plain_picture(&panel);
+            if (image) {
+                gm_mark_image(picture, panel, GM_MAP_SEQUENTIAL, 0, 1, (const double[]){-1, -1, 1, 1},
+                              (const double[]){-0.5, 1.5}, 1, 2);
+            } else {
+                gm_mark_mesh(picture, panel, GM_MAP_SEQUENTIAL, 0, 1, corners, values, 4,
+                             (const int[]){0, 1, 2, 0, 2, 3}, 2);
+            }
+            unsigned char *rgb = paint(picture, backends[b], WIDTH, HEIGHT);
+            /* Half way it has the map's middle colour, not the mean of its ends. */
+            const struct gm_rgb middle = gm_map_colour(GM_MAP_SEQUENTIAL, GM_THEME_DARK, 0.5);
+            assert_true(distance(pixel(rgb, WIDTH / 2, HEIGHT / 2), middle) <= 12);
+            assert_true(distance(pixel(rgb, WIDTH / 2, HEIGHT / 3), middle) <= 12);
+            assert_true(distance(pixel(rgb, 40, HEIGHT / 2),
+                                 gm_map_colour(GM_MAP_SEQUENTIAL, GM_THEME_DARK, 0.0)) <= 60);
+            free(rgb);
+            gm_picture_close(picture);
+        }
+    }
+}
+
+static struct gm_picture *full_picture(void)
+{
+    struct gm_picture *picture = gm_picture_open();
+    picture->title = "A disc of initial conditions";
+    picture->subtitle = "harmonic oscillator,  Δt = π/12";
+    picture->clock = "t = 3π/2";
+    for (size_t lane = 0; lane < 4; lane++) {
+        struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "midpoint");
+        panel->title_role = gm_lane_role(lane);
+        panel->equal = true;
+        panel->x.low = panel->y.low = -1.0;
+        double circle[2 * 128];
+        for (int i = 0; i < 128; i++) {
+            circle[2 * i] = 0.6 * cos(i * 3.14159265358979 / 64);
+            circle[2 * i + 1] =
+                0.6 * sin(i * 3.14159265358979 / 64) + 0.6 * (double)lane * circle[2 * i] * circle[2 * i];
+        }
+        gm_mark_polygon(picture, panel, (struct gm_style){gm_lane_role(lane), 0.3, 0, GM_SOLID}, circle, 128);
+        gm_mark_line(picture, panel, (struct gm_style){gm_lane_role(lane), 0.7, 2, gm_lane_dash(lane)},
+                     circle, 128, true);
+        gm_mark_text(picture, panel, (struct gm_style){GM_INK, 1, 1, GM_SOLID}, 0, 0, GM_ANCHOR_CENTRE, "θ");
+    }
+    struct gm_panel *graph = gm_panel_add(picture, GM_PLACE_GRAPH, "energy error");
+    graph->x = (struct gm_axis){"t", GM_PI, 0, 4.8};
+    graph->y = (struct gm_axis){"", GM_LOG, 1e-16, 1};
+    gm_mark_line(picture, graph, (struct gm_style){GM_LANE, 1, 2.4, GM_SOLID},
+                 (const double[]){0, 1e-16, 4.8, 1}, 2, false);
+    return picture;
+}
+
+static void both_contexts_paint_the_same(void **state)
+{
+    (void)state;
+    struct gm_picture *picture = full_picture();
+    unsigned char *painted[BACKENDS];
+    for (int b = 0; b < BACKENDS; b++) {
+        painted[b] = paint(picture, backends[b], WIDTH, HEIGHT);
+    }
+    long different = 0, inked = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const struct gm_rgb a = pixel(painted[0], i % WIDTH, i / WIDTH),
+                            b = pixel(painted[1], i % WIDTH, i / WIDTH);
+        different += distance(a, b) > 24;
+        inked += distance(a, role_colour(GM_PAPER)) > 24;
+    }
+    assert_true(inked > WIDTH * HEIGHT / 50);
+    assert_true(different < inked / 200);
+    for (int b = 0; b < BACKENDS; b++) {
+        free(painted[b]);
+    }
+    gm_picture_close(picture);
+}
+
+static void a_canvas_paints_the_same_twice(void **state)
+{
+    (void)state;
+    unsetenv("GEOMINT_GL");
+    char message[GM_MESSAGE];
+    struct gm_canvas *canvas = gm_canvas_open(WIDTH, HEIGHT, GM_THEME_LIGHT, message);
+    assert_non_null(canvas);
+    assert_non_null(strstr(gm_canvas_backend(canvas), "OpenGL"));
+    const size_t size = (size_t)WIDTH * HEIGHT * 3;
+    unsigned char *first = malloc(size), *second = malloc(size);
+    for (int i = 0; i < 3; i++) {
+        struct gm_picture *picture = full_picture();
+        assert_true(gm_canvas_paint(canvas, picture, i == 0 ? first : second));
+        gm_picture_close(picture);
+        assert_true(i == 0 || memcmp(first, second, size) == 0);
+    }
+    free(first);
+    free(second);
+    gm_canvas_close(canvas);
+}
+
+static void odd_sizes_are_painted(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1}, {64, 64}, {3, 500}, {2000, 7}, {16384, 20}, {100, 900}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        struct gm_picture *picture = full_picture();
+        free(paint(picture, "osmesa", sizes[i][0], sizes[i][1]));
+        gm_picture_close(picture);
+    }
+}
+
+static void what_cannot_be_is_said_in_a_sentence(void **state)
+{
+    (void)state;
+    char message[GM_MESSAGE] = "";
+    setenv("GEOMINT_GL", "vulkan", 1);
+    assert_null(gm_canvas_open(64, 64, GM_THEME_DARK, message));
+    assert_non_null(strstr(message, "vulkan"));
+    assert_int_equal(message[strlen(message) - 1], '.');
+    setenv("GEOMINT_GL", "osmesa", 1);
+    assert_null(gm_canvas_open(1 << 20, 64, GM_THEME_DARK, message));
+    assert_non_null(strstr(message, "1048576 x 64"));
+    assert_null(gm_canvas_open(0, 64, GM_THEME_DARK, message));
+}
+
+static int without_screen(void **state)
+{
+    (void)state;
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(strokes_have_their_width_colour_and_place),
+        cmocka_unit_test(thin_and_slanting_strokes_have_their_width_too),
+        cmocka_unit_test(discs_and_polygons_have_their_area),
+        cmocka_unit_test(polygons_are_even_odd),
+        cmocka_unit_test(translucent_lines_have_no_knots),
+        cmocka_unit_test(dashes_leave_out_what_they_say),
+        cmocka_unit_test(marks_stay_in_their_panel),
+        cmocka_unit_test(fields_are_mapped_at_every_pixel),
+        cmocka_unit_test(both_contexts_paint_the_same),
+        cmocka_unit_test(a_canvas_paints_the_same_twice),
+        cmocka_unit_test(odd_sizes_are_painted),
+        cmocka_unit_test(what_cannot_be_is_said_in_a_sentence),
+    };
+    return cmocka_run_group_tests(tests, without_screen, NULL);
+}

@@ -1,0 +1,434 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every scheme held to its row; and wrong rows, which must be refused. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "core/certify.h"
+#include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
+#include "core/field/problems/burgers.h"
+#include "core/flow/families/families.h"
+#include "core/mesh/families/control.h"
+#include "core/mesh/families/families.h"
+#include "core/ode/families/families.h"
+#include "core/ode/families/implicit_runge_kutta.h"
+#include "core/ode/families/splitting.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/problems/problems.h"
+#include "core/schemes.h"
+
+static void every_row_holds(void **unused)
+{
+    (void)unused;
+    assert_true(gm_scheme_count() >= 57);
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_certificate certificate = gm_certify(gm_scheme_at(i));
+        if (!certificate.holds) {
+            fail_msg("%s breaks a claim; its order is %.3f", gm_scheme_at(i)->name, certificate.order);
+        }
+    }
+}
+
+static struct gm_scheme changed(const char *name)
+{
+    const struct gm_scheme *scheme = gm_scheme_find(name);
+    assert_non_null(scheme);
+    return *scheme;
+}
+
+/* The half and the whole of Verlet exchanged. */
+static void verlet_with_halves_exchanged(void **unused)
+{
+    (void)unused;
+    static const struct gm_splitting exchanged = {3, {{GM_KICK, 1}, {GM_DRIFT, 0.5}, {GM_KICK, 1}}};
+    struct gm_scheme wrong = changed("verlet");
+    wrong.coefficients = &exchanged;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_false(certificate.order_holds);
+    assert_false(certificate.holds);
+    assert_true(certificate.claims[0].holds); /* any composition of shears is symplectic */
+}
+
+static void order_that_is_not_reached(void **unused)
+{
+    (void)unused;
+    struct gm_scheme wrong = changed("rk4");
+    wrong.order = 5;
+    assert_false(gm_certify(&wrong).holds);
+}
+
+static void symplecticity_that_is_false(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"explicit-euler",
+                                 "implicit-euler",
+                                 "trapezoidal",
+                                 "rk2",
+                                 "rk4",
+                                 "radau3",
+                                 "radau5",
+                                 "sdirk2",
+                                 "kahan2",
+                                 "avf2",
+                                 "discrete-gradient2",
+                                 "gautschi2",
+                                 "gsl-rk4"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        struct gm_scheme wrong = changed(names[i]);
+        wrong.claims |= GM_SYMPLECTIC;
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        assert_true(certificate.order_holds);
+        assert_false(certificate.holds);
+        assert_true(certificate.claims[0].defect > 1e-6);
+    }
+}
+
+/* One claim too many, each on a scheme that has not the property. */
+static void properties_that_are_false(void **unused)
+{
+    (void)unused;
+    const struct {
+        const char *scheme;
+        enum gm_claim claim;
+    } wrong[] = {
+        {"symplectic-euler", GM_SYMMETRIC},
+        {"rk4", GM_SYMMETRIC},
+        {"rk4", GM_REVERSIBLE},
+        {"midpoint", GM_KEEPS_ENERGY},
+        {"verlet", GM_KEEPS_ENERGY},
+        {"rk4", GM_KEEPS_QUADRATIC},
+        {"trapezoidal", GM_KEEPS_QUADRATIC},
+        {"lobatto4", GM_KEEPS_QUADRATIC},
+        {"avf2", GM_KEEPS_QUADRATIC},
+        {"discrete-gradient2", GM_KEEPS_QUADRATIC},
+        {"tao2", GM_KEEPS_ENERGY},
+        {"kahan2", GM_KEEPS_ENERGY},
+        {"midpoint", GM_KEEPS_VOLUME},
+        {"rk4", GM_KEEPS_VOLUME},
+        {"gauss4", GM_KEEPS_VOLUME},
+        {"volume-splitting1", GM_SYMMETRIC},
+        {"radau5", GM_SYMMETRIC},
+        {"ruth3", GM_SYMMETRIC},
+        {"ruth3", GM_REVERSIBLE},
+        {"impulse2", GM_KEEPS_ENERGY},
+        {"wisdom-holman2", GM_KEEPS_ENERGY},
+        {"logh2", GM_KEEPS_ENERGY},
+        {"levi-civita", GM_KEEPS_ENERGY},
+        {"variational-midpoint", GM_KEEPS_ENERGY},
+        {"tao2", GM_KEEPS_QUADRATIC},
+        {"energy-conserving", GM_MULTISYMPLECTIC},
+        {"leapfrog", GM_KEEPS_ENERGY},
+        {"box", GM_KEEPS_ENERGY},
+        {"gauss-box2", GM_KEEPS_ENERGY},
+        {"gauss-box3", GM_KEEPS_ENERGY},
+        {"midpoint-box", GM_SYMMETRIC},
+        {"box", GM_KEEPS_QUADRATIC},
+        {"semi-implicit", GM_KEEPS_QUADRATIC},
+        {"steady", GM_KEEPS_LINEAR},
+        {"rk4", GM_KEEPS_BILINEAR},
+        {"trapezoidal", GM_KEEPS_BILINEAR},
+        {"avf2", GM_KEEPS_BILINEAR},
+        {"discrete-gradient2", GM_KEEPS_BILINEAR},
+        {"tao2", GM_KEEPS_BILINEAR},
+        {"gsl-rk4", GM_KEEPS_BILINEAR},
+        {"variational-rectangle", GM_SYMMETRIC},
+        {"variational-rectangle", GM_REVERSIBLE},
+        {"variational-rectangle-restart", GM_SYMMETRIC},
+        {"uniform-gauss4", GM_MULTISYMPLECTIC},
+        {"uniform-lobatto4", GM_MULTISYMPLECTIC},
+        {"control-gauss2", GM_MULTISYMPLECTIC},
+        {"multiplier-adaptive4", GM_SYMPLECTIC},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        struct gm_scheme scheme = changed(wrong[i].scheme);
+        scheme.claims |= wrong[i].claim;
+        assert_false(gm_certify(&scheme).holds);
+    }
+}
+
+/* The Burgers rows, found for that problem where a name has another row too, and caught by their defect. */
+static void equivariance_that_is_false(void **unused)
+{
+    (void)unused;
+    static const struct gm_burgers front = {.viscosity = 0.1};
+    struct gm_problem problem = gm_problem_burgers;
+    problem.parameters = &front;
+    static const char *const names[] = {"ftcs", "lax-wendroff", "crank-nicolson"};
+    for (size_t i = 0; i < 3; i++) {
+        struct gm_scheme wrong = *gm_scheme_find_for(names[i], &problem);
+        assert_ptr_equal(wrong.family, &gm_family_burgers);
+        wrong.claims |= GM_EQUIVARIANT;
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        assert_true(certificate.order_holds);
+        assert_true(certificate.claims[8].measured && certificate.claims[8].defect > 1e-6);
+        assert_false(certificate.holds);
+    }
+}
+
+/* A claim that no problem here can measure is no claim. */
+static void what_cannot_be_measured(void **unused)
+{
+    (void)unused;
+    struct gm_scheme wrong = changed("verlet");
+    wrong.claims |= GM_MULTISYMPLECTIC;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_true(certificate.order_holds);
+    assert_false(certificate.holds);
+}
+
+/* b with 2^(1/2) for 2^(1/3), as printed: symplectic still, but of order 2. */
+static void the_misprint_of_rk4sym(void **unused)
+{
+    (void)unused;
+    const double root = sqrt(2), b = (2 + root + 1 / root) / 3;
+    const struct gm_implicit_row misprint = {
+        .stages = 1, .a = {{0.5}}, .b = {1}, .substeps = 3, .fractions = {b, 1 - 2 * b, b}};
+    struct gm_scheme wrong = changed("rk4sym");
+    wrong.coefficients = &misprint;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_false(certificate.order_holds);
+    assert_true(certificate.claims[0].holds);
+    wrong.order = 2;
+    assert_true(gm_certify(&wrong).order_holds);
+}
+
+/* A wrong digit in Gauss' tableau costs the order or the symplecticity. */
+static void a_wrong_digit_of_gauss4(void **unused)
+{
+    (void)unused;
+    const struct gm_implicit_row *right = gm_scheme_find("gauss4")->coefficients;
+    struct gm_implicit_row digit = *right;
+    digit.a[0][1] += 1e-4;
+    struct gm_scheme wrong = changed("gauss4");
+    wrong.coefficients = &digit;
+    assert_false(gm_certify(&wrong).holds);
+}
+
+/* One order more than it has is found out for every scheme, whatever its family measures it by. */
+static void one_order_too_many(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        struct gm_scheme wrong = *gm_scheme_at(i);
+        if (wrong.order > 0 && wrong.order < 5) {
+            wrong.order++;
+            assert_false(gm_certify(&wrong).order_holds);
+        }
+    }
+}
+
+/* A digit of one fraction changed: the composition stays symplectic and symmetric, and drops to order 2. */
+static void a_wrong_digit_of_a_composition(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {
+        "yoshida4", "suzuki4",   "mclachlan4",    "pefrl4",    "blanes-moan4",
+        "yoshida6", "kahan-li6", "suzuki-umeno8", "kahan-li8", "blanes-moan-nystrom6"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const struct gm_splitting *right = gm_scheme_find(names[i])->coefficients;
+        struct gm_splitting digit = *right;
+        const int last = digit.count - 1;
+        /* a drift and its mirror image grow, the two next ones shrink */
+        const int drift = digit.pieces[0].piece == GM_DRIFT ? 0 : 1;
+        const double change = 1e-4;
+        digit.pieces[drift].fraction += change;
+        digit.pieces[drift + 2].fraction -= change;
+        digit.pieces[last - drift].fraction += change;
+        digit.pieces[last - drift - 2].fraction -= change;
+        struct gm_scheme wrong = changed(names[i]);
+        wrong.coefficients = &digit;
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        if (certificate.order_holds || !certificate.claims[0].holds || !certificate.claims[1].holds) {
+            fail_msg("%s with a wrong digit: order %.2f", names[i], certificate.order);
+        }
+    }
+}
+
+/* The rows of implicit Runge-Kutta methods, each with one wrong digit. */
+static void a_wrong_digit_of_a_tableau(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"gauss6",
+                                 "gauss8",
+                                 "radau3",
+                                 "radau5",
+                                 "sdirk2",
+                                 "midpoint-suzuki4",
+                                 "midpoint-kahan-li6",
+                                 "midpoint-kahan-li8"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        const struct gm_implicit_row *right = gm_scheme_find(names[i])->coefficients;
+        struct gm_implicit_row digit = *right;
+        if (digit.substeps > 1) {
+            digit.fractions[0] += 1e-4;
+            digit.fractions[1] -= 1e-4;
+        } else {
+            digit.a[digit.stages - 1][0] += 1e-3;
+        }
+        struct gm_scheme wrong = changed(names[i]);
+        wrong.coefficients = &digit;
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        if (certificate.order_holds) {
+            fail_msg("%s with a wrong digit: order %.2f", names[i], certificate.order);
+        }
+    }
+}
+
+/* Runge-Kutta-Nystrom coefficients are of no use where T is not quadratic, and are not offered there. */
+static void nystrom_needs_a_quadratic_kinetic_energy(void **unused)
+{
+    (void)unused;
+    const struct gm_split general = {.nystrom = false};
+    struct gm_problem problem = gm_problem_pendulum;
+    struct gm_ode facets = *gm_ode_of(&problem);
+    assert_true(gm_scheme_fits(gm_scheme_find("blanes-moan-nystrom4"), &problem));
+    facets.split = &general;
+    problem.facets = &facets;
+    assert_false(gm_scheme_fits(gm_scheme_find("blanes-moan-nystrom4"), &problem));
+    assert_true(gm_scheme_fits(gm_scheme_find("blanes-moan4"), &problem));
+}
+
+/* One name, one row for each structure; another name for the same row. */
+static void names_find_the_row_that_fits(void **unused)
+{
+    (void)unused;
+    const struct gm_scheme *separable = gm_scheme_find_for("symplectic-euler", &gm_problem_pendulum);
+    const struct gm_scheme *other = gm_scheme_find_for("symplectic-euler", &gm_problem_product);
+    assert_ptr_not_equal(separable, other);
+    assert_true(gm_scheme_fits(separable, &gm_problem_pendulum) &&
+                gm_scheme_fits(other, &gm_problem_product));
+    assert_null(gm_scheme_find_for("symplectic-oyler", &gm_problem_product));
+    assert_false(gm_scheme_fits(gm_scheme_find_for("verlet", &gm_problem_product), &gm_problem_product));
+    assert_ptr_equal(gm_scheme_find("midpoint-yoshida4"), gm_scheme_find("rk4sym"));
+    assert_true(gm_scheme_fits(gm_scheme_find("lobatto2"), &gm_problem_product));
+    assert_false(gm_scheme_fits(gm_scheme_find("lobatto2"), &gm_problem_pendulum));
+}
+
+/* Leapfrog with a little friction, which no law survives. */
+static enum gm_status rubbed(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                             const double *past, const double *now, double *next,
+                             struct gm_progress *progress)
+{
+    const struct gm_two_step_row *leapfrog = gm_scheme_find("leapfrog")->coefficients;
+    const enum gm_status status = leapfrog->step(work, problem, dt, past, now, next, progress);
+    for (size_t i = 0; i < work->points; i++) {
+        next[i] -= 1e-4 * (now[i] - past[i]);
+    }
+    return status;
+}
+
+static void a_wave_with_friction(void **unused)
+{
+    (void)unused;
+    struct gm_two_step_row row = *(const struct gm_two_step_row *)gm_scheme_find("leapfrog")->coefficients;
+    row.step = rubbed;
+    struct gm_scheme wrong = changed("leapfrog");
+    wrong.coefficients = &row;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_false(certificate.holds);
+    assert_false(certificate.claims[7].holds); /* multisymplectic */
+    assert_false(certificate.claims[1].holds); /* symmetric */
+}
+
+/* Leapfrog has a law of nodes, not the box's law of cells. */
+static void the_law_of_another_scheme(void **unused)
+{
+    (void)unused;
+    struct gm_two_step_row row = *(const struct gm_two_step_row *)gm_scheme_find("leapfrog")->coefficients;
+    row.law = GM_LAW_CELLS;
+    struct gm_scheme wrong = changed("leapfrog");
+    wrong.coefficients = &row;
+    assert_false(gm_certify(&wrong).claims[7].holds);
+}
+
+/* The logarithmic Hamiltonian with the whole drift first: symplectic Euler, which no step undoes. */
+static void half_drifts_as_one(const struct gm_problem *problem, double ds, double binding, double *y,
+                               double *t)
+{
+    double f[4], potential;
+    const double d = ds / ((y[2] * y[2] + y[3] * y[3]) / 2 + binding);
+    y[0] += d * y[2];
+    y[1] += d * y[3];
+    *t += d;
+    gm_field(problem, y, f, 1);
+    gm_ode_of(problem)->kepler_split->potential(problem, y, &potential, 1);
+    y[2] -= ds * f[2] / potential;
+    y[3] -= ds * f[3] / potential;
+}
+
+/* The kick of the right scheme, turned a little out of the line to the centre. */
+static void kick_aside(const struct gm_problem *problem, double ds, double binding, double *y, double *t)
+{
+    half_drifts_as_one(problem, ds, binding, y, t);
+    y[2] += 1e-6 * ds * y[1];
+    y[3] -= 1e-6 * ds * y[0];
+}
+
+typedef void fictitious_step(const struct gm_problem *problem, double ds, double binding, double *y,
+                             double *t);
+
+static void a_fictitious_time_gone_wrong(void **unused)
+{
+    (void)unused;
+    fictitious_step *const one_drift = half_drifts_as_one, *const aside = kick_aside;
+    struct gm_scheme wrong = changed("logh2");
+    wrong.order = 1;
+    wrong.coefficients = &one_drift;
+    struct gm_certificate certificate = gm_certify(&wrong);
+    assert_true(certificate.order_holds);
+    assert_true(certificate.claims[12].holds);                                          /* bilinear */
+    assert_true(certificate.claims[1].measured && certificate.claims[1].defect > 1e-6); /* symmetric */
+    assert_false(certificate.claims[2].holds);                                          /* reversible */
+    assert_false(certificate.holds);
+    wrong.coefficients = &aside;
+    certificate = gm_certify(&wrong);
+    assert_true(certificate.claims[12].measured && certificate.claims[12].defect > 1e-9);
+    assert_false(certificate.claims[12].holds);
+}
+
+/* The midpoint rule of a uniform mesh with its stage a little late: no discrete Lagrangian has it. */
+static void a_stage_that_is_late(void **unused)
+{
+    (void)unused;
+    struct gm_tableau late = gm_tableau_gauss2;
+    late.a[0][0] += 1e-4;
+    late.abar[0][0] += 1e-4;
+    struct gm_control row = *(const struct gm_control *)gm_scheme_find("uniform-gauss2")->coefficients;
+    row.tableau = &late;
+    struct gm_scheme wrong = changed("uniform-gauss2");
+    wrong.coefficients = &row;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_true(certificate.claims[7].measured && certificate.claims[7].defect > 1e-7);
+    assert_false(certificate.claims[7].holds);
+    assert_false(certificate.claims[1].holds);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_row_holds),
+        cmocka_unit_test(verlet_with_halves_exchanged),
+        cmocka_unit_test(order_that_is_not_reached),
+        cmocka_unit_test(symplecticity_that_is_false),
+        cmocka_unit_test(properties_that_are_false),
+        cmocka_unit_test(equivariance_that_is_false),
+        cmocka_unit_test(what_cannot_be_measured),
+        cmocka_unit_test(the_misprint_of_rk4sym),
+        cmocka_unit_test(a_wrong_digit_of_gauss4),
+        cmocka_unit_test(one_order_too_many),
+        cmocka_unit_test(a_wrong_digit_of_a_composition),
+        cmocka_unit_test(a_wrong_digit_of_a_tableau),
+        cmocka_unit_test(nystrom_needs_a_quadratic_kinetic_energy),
+        cmocka_unit_test(names_find_the_row_that_fits),
+        cmocka_unit_test(a_wave_with_friction),
+        cmocka_unit_test(the_law_of_another_scheme),
+        cmocka_unit_test(a_fictitious_time_gone_wrong),
+        cmocka_unit_test(a_stage_that_is_late),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is read of Gmsh files, and what is refused and how. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/common/meshes.h"
+
+static struct gm_mesh_fault fault_of(const char *text, size_t size)
+{
+    struct gm_mesh mesh;
+    struct gm_mesh_fault fault;
+    assert_false(gm_mesh_read(text, size, &mesh, &fault));
+    assert_null(mesh.complex);
+    return fault;
+}
+
+static struct gm_mesh_fault fault_in(const char *file)
+{
+    size_t size = 0;
+    char *text = mesh_text(file, &size);
+    const struct gm_mesh_fault fault = fault_of(text, size);
+    free(text);
+    return fault;
+}
+
+static void broken_files(void **unused)
+{
+    (void)unused;
+    struct gm_mesh_fault fault = fault_in("truncated.msh");
+    assert_int_equal(fault.kind, GM_MESH_TRUNCATED);
+    assert_string_equal(fault.text, "$Elements");
+    fault = fault_in("nonmanifold.msh");
+    assert_int_equal(fault.kind, GM_MESH_EDGE_OF_THREE);
+    assert_int_equal(fault.nodes[0], 15);
+    assert_int_equal(fault.nodes[1], 16);
+    fault = fault_in("obtuse.msh");
+    assert_int_equal(fault.kind, GM_MESH_NOT_DELAUNAY);
+    assert_true(fault.value > 117.2829 && fault.value < 117.2830);
+    assert_true(fault.triangle > 0 && fault.line > 0);
+    assert_int_equal(fault.nodes[0] + fault.nodes[1] + fault.nodes[2], 6 + 7 + 17);
+}
+
+static void good_files(void **unused)
+{
+    (void)unused;
+    struct gm_mesh mesh = mesh_of("room-small.msh");
+    assert_int_equal(mesh.complex->vertices, 162);
+    assert_int_equal(mesh.complex->edges, 449);
+    assert_int_equal(mesh.groups, 3);
+    size_t counts[4] = {0};
+    for (size_t e = 0; e < mesh.complex->edges; e++) {
+        counts[mesh.edge_group[e]]++;
+    }
+    assert_int_equal(counts[1], 28);
+    assert_int_equal(counts[2], 3);
+    assert_int_equal(counts[3], 3);
+    gm_mesh_close(&mesh);
+    mesh = mesh_of("lshape.msh"); /* obtuse, but Delaunay */
+    assert_true(mesh.complex->largest_angle > 92);
+    gm_mesh_close(&mesh);
+}
+
+#define HEAD "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+#define SQUARE "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1.1 1 0\n0 1.2 0\n$EndNodes\n"
+#define ELEMENTS(text) "$Elements\n" text "$EndElements\n"
+
+static void sentences(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        enum gm_mesh_fault_kind kind;
+        long line;
+    } cases[] = {
+        {"", GM_MESH_NOT_GMSH, 1},
+        {"solid cube", GM_MESH_NOT_GMSH, 1},
+        {"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", GM_MESH_VERSION, 2},
+        {"$MeshFormat\n4.1 1 8\n", GM_MESH_BINARY, 2},
+        {HEAD, GM_MESH_EMPTY, 0},
+        {HEAD SQUARE, GM_MESH_EMPTY, 0},
+        {HEAD "$Nodes\n1 99999999 1 4\n", GM_MESH_HUGE, 5},
+        {HEAD "$Nodes\n1 4000000 1 4\n", GM_MESH_TRUNCATED, 5},
+        {HEAD "$Nodes\n1 99999999999999999999 1 4\n", GM_MESH_SYNTAX, 5},
+        {HEAD "$Nodes\n1 2 1 4\n2 1 0 2\n1\n1\n0 0 0\n1 1 0\n$EndNodes\n", GM_MESH_REPEATED_NODE, 8},
+        {HEAD "$Nodes\n1 2 1 4\n2 1 0 2\n1\n2\n0 nan 0\n1 1 0\n$EndNodes\n", GM_MESH_SYNTAX, 9},
+        {HEAD "$Nodes\n1 2 1 4\n2 1 0 2\n1\n2\n0 x 0\n1 1 0\n$EndNodes\n", GM_MESH_SYNTAX, 9},
+        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 3 1\n1 1 2 3 4\n"), GM_MESH_ELEMENT, 18},
+        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2 9\n"), GM_MESH_UNKNOWN_NODE, 19},
+        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2 2\n"), GM_MESH_DEGENERATE, 19},
+        {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 2 4\n"), GM_MESH_OVERLAP, 20},
+        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2\n3\n"), GM_MESH_SYNTAX, 20},
+        {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 1\n1 1 2 3\n"), GM_MESH_SYNTAX, 19},
+        {HEAD "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n.5 1 .3\n$EndNodes\n" ELEMENTS(
+             "1 1 1 1\n2 1 2 1\n1 1 2 3\n"),
+         GM_MESH_THREE_D, 9},
+        {HEAD
+         "$Nodes\n1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n.5 1 0\n-1 0 0\n-.5 -1 0\n$EndNodes\n" ELEMENTS(
+             "1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 4 5\n"),
+         GM_MESH_PINCHED, 0},
+        {HEAD
+         "$Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n.5 1 0\n5 0 0\n6 0 0\n5.5 1 0\n$EndNodes\n" ELEMENTS(
+             "1 2 1 2\n2 1 2 2\n1 1 2 3\n2 4 5 6\n"),
+         GM_MESH_PIECES, 0},
+        {HEAD "$Comments\nnever ends\n", GM_MESH_TRUNCATED, 6},
+        {HEAD "Nodes\n", GM_MESH_SYNTAX, 4},
+        {HEAD "$PhysicalNames\n1\n1 1 wall\n", GM_MESH_SYNTAX, 6},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const struct gm_mesh_fault fault = fault_of(cases[i].text, strlen(cases[i].text));
+        if (fault.kind != cases[i].kind || (cases[i].line && fault.line != cases[i].line)) {
+            fail_msg("case %zu: fault %d in line %ld", i, (int)fault.kind, fault.line);
+        }
+    }
+}
+
+/* Cut anywhere, a file is refused or read; never more than that. */
+static void cut_anywhere(void **unused)
+{
+    (void)unused;
+    size_t size = 0, read = 0;
+    char *text = mesh_text("square-small.msh", &size);
+    for (size_t end = 0; end < size; end++) {
+        char *part = malloc(end + 1); /* so that an overrun is seen */
+        struct gm_mesh mesh;
+        struct gm_mesh_fault fault;
+        memcpy(part, text, end);
+        if (gm_mesh_read(part, end, &mesh, &fault)) {
+            read++;
+            gm_mesh_close(&mesh);
+        }
+        free(part);
+    }
+    assert_true(read <= 2); /* without its last line end */
+    free(text);
+}
+
+/* Boundaries that make no room. */
+static void boundaries(void **unused)
+{
+    (void)unused;
+    struct gm_mesh mesh = mesh_of("room-small.msh");
+    const struct gm_complex *complex = mesh.complex;
+    unsigned char *sides = sides_of(&mesh);
+    struct gm_flow *flow = gm_flow_open(mesh.complex);
+    const size_t n = complex->boundary;
+    size_t inlet = 0;
+    while (sides[inlet] != GM_SIDE_INLET || sides[(inlet + n - 1) % n] == GM_SIDE_INLET) {
+        inlet++;
+    }
+    sides[(inlet + 1) % n] = GM_SIDE_WALL;
+    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SEVERAL);
+    sides[(inlet + 2) % n] = GM_SIDE_WALL;
+    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SHORT);
+    sides[inlet] = GM_SIDE_WALL;
+    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_NO_INLET);
+    memset(sides, GM_SIDE_OUTLET, n);
+    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_WHOLE);
+    memset(sides, GM_SIDE_WALL, n);
+    sides[0] = sides[1] = GM_SIDE_INLET;
+    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_NO_OUTLET);
+    free(sides);
+    mesh.complex = NULL;
+    gm_mesh_close(&mesh);
+    gm_flow_close(flow);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(good_files),   cmocka_unit_test(broken_files), cmocka_unit_test(sentences),
+        cmocka_unit_test(cut_anywhere), cmocka_unit_test(boundaries),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

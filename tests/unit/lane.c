@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A lane that was packed and unpacked goes on as if nothing had happened: every scene, every scheme. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "app/request/request.h"
+#include "core/flow/flow.h"
+#include "core/schemes.h"
+#include "scenes/frame/lane_pack.h"
+
+enum { BEFORE = 7, AFTER = 6 };
+
+/* What makes a scene with large meshes small, and what asks of a scene what it does not do by itself. */
+static const char *const arguments[] = {
+    "disc points=12",
+    "disc points=12 scheme=verlet compensated=yes",
+    "kepler",
+    "kepler perturbation=0.01",
+    "vortices",
+    "vortices configuration=random count=12 tracers=50",
+    "stiff",
+    "stiff system=spring-pendulum",
+    "henon-heiles",
+    "oscillator",
+    "abc",
+    "sine-gordon points=100",
+    "burgers",
+    "kdv points=60",
+    "nls points=60",
+    "wave",
+    "soliton points=15",
+    "soliton solitons=2 points=15",
+    "room rows=10 columns=14 tracers=40",
+    "channel columns=40 rows=5",
+    "couette",
+    "poiseuille",
+    "cavity columns=8 rows=10",
+    "taylor-green columns=8 rows=10",
+};
+
+static struct gm_lane *open_lane(const char *text, const char *scheme)
+{
+    char copy[256], message[GM_MESSAGE], *words[16], *rest = NULL;
+    int count = 0;
+    snprintf(copy, sizeof copy, "%s%s%s", text, scheme ? " scheme=" : "", scheme ? scheme : "");
+    for (char *word = strtok_r(copy, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        words[count++] = word;
+    }
+    struct gm_request request;
+    if (!gm_request_parse(&request, count, words, 1, message)) {
+        fail_msg("%s: %s", text, message);
+    }
+    struct gm_lane *lane = gm_request_open_lane(&request, 0, message);
+    gm_request_close(&request);
+    return lane;
+}
+
+static void *packed(const struct gm_lane *lane, size_t *size)
+{
+    *size = gm_lane_pack_size(lane);
+    void *bytes = malloc(*size);
+    assert_non_null(bytes);
+    gm_lane_pack(lane, bytes);
+    return bytes;
+}
+
+static void advance(struct gm_lane *lane, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        gm_run_advance(lane->run, 1);
+        gm_lane_record(lane);
+    }
+}
+
+/* Whether two lanes are the same in every bit that is packed but the pointers of the run's head. */
+static bool same(const struct gm_lane *a, const struct gm_lane *b)
+{
+    size_t size_a = 0, size_b = 0;
+    unsigned char *bytes_a = packed(a, &size_a), *bytes_b = packed(b, &size_b);
+    const size_t head = sizeof(struct gm_run);
+    const bool good = size_a == size_b && memcmp(bytes_a + head, bytes_b + head, size_a - head) == 0 &&
+                      a->run->t == b->run->t && a->run->steps == b->run->steps &&
+                      a->run->status == b->run->status && a->run->evaluations == b->run->evaluations;
+    free(bytes_a);
+    free(bytes_b);
+    return good;
+}
+
+static void packed_lanes_go_on(void **unused)
+{
+    (void)unused;
+    size_t tried = 0;
+    for (size_t i = 0; i < sizeof arguments / sizeof *arguments; i++) {
+        struct gm_lane *first = open_lane(arguments[i], NULL);
+        assert_non_null(first);
+        for (size_t k = 0; k < gm_scheme_count(); k++) {
+            const struct gm_scheme *scheme = gm_scheme_at(k);
+            const bool named = strstr(arguments[i], "scheme=") != NULL;
+            if (!gm_scheme_fits(scheme, &first->problem) || scheme->family->not_resumable ||
+                (named && scheme != first->scheme)) {
+                continue;
+            }
+            const char *name = named ? NULL : scheme->name;
+            struct gm_lane *whole = open_lane(arguments[i], name);
+            struct gm_lane *resumed = whole ? open_lane(arguments[i], name) : NULL;
+            if (!resumed) {
+                continue; /* a start that does not exist for this scheme */
+            }
+            advance(whole, BEFORE);
+            size_t size = 0;
+            void *bytes = packed(whole, &size);
+            size_t taken = size;
+            assert_true(gm_lane_unpack(resumed, bytes, &taken));
+            assert_int_equal(taken, size);
+            struct gm_lane *copy = gm_lane_copy(whole);
+            assert_non_null(copy);
+            free(bytes);
+            advance(whole, AFTER);
+            advance(resumed, AFTER);
+            advance(copy, AFTER);
+            if (!same(whole, resumed) || !same(whole, copy)) {
+                fail_msg("%s, %s: a packed lane goes another way", arguments[i], scheme->name);
+            }
+            gm_lane_close(whole);
+            gm_lane_close(resumed);
+            gm_lane_close(copy);
+            tried++;
+        }
+        gm_lane_close(first);
+    }
+    assert_true(tried > 200);
+}
+
+/* Whatever its rows and columns, a channel has an inlet, an outlet, and a hot wall all along the top. */
+static void channels_have_their_walls(void **unused)
+{
+    (void)unused;
+    static const char *const channels[] = {
+        "channel rows=6 columns=0",   "channel rows=10 columns=0",  "channel rows=12 columns=0",
+        "channel rows=18 columns=0",  "channel rows=23 columns=0",  "channel rows=49 columns=0",
+        "channel rows=7 columns=50",  "channel rows=11 columns=82", "channel rows=14 columns=100",
+        "channel rows=14 columns=98",
+    };
+    for (size_t i = 0; i < sizeof channels / sizeof channels[0]; i++) {
+        struct gm_lane *lane = open_lane(channels[i], NULL);
+        if (!lane) {
+            fail_msg("%s: it could not be opened", channels[i]);
+        }
+        const struct gm_flow *flow = gm_flow_of(&lane->problem);
+        const struct gm_complex *complex = flow->complex;
+        size_t hot = 0, top = 0;
+        for (size_t v = 0; v < complex->vertices; v++) {
+            top += complex->point[2 * v + 1] > 1 - 1e-9;
+            hot += flow->theta_fixed[v] && flow->theta[v] == 20;
+        }
+        assert_true(top > 20);
+        assert_int_equal(hot, top);
+        gm_lane_close(lane);
+    }
+}
+
+/* Bytes that are cut short, or whose counts are nonsense, are refused without a read or write too far. */
+static void damaged_bytes_are_refused(void **unused)
+{
+    (void)unused;
+    struct gm_lane *lane = open_lane("kepler", NULL), *other = open_lane("kepler", NULL);
+    advance(lane, BEFORE);
+    size_t size = 0;
+    unsigned char *bytes = packed(lane, &size);
+    for (size_t less = 1; less < size; less += 97) {
+        size_t taken = size - less;
+        unsigned char *part = malloc(taken);
+        memcpy(part, bytes, taken);
+        assert_false(gm_lane_unpack(other, part, &taken));
+        free(part);
+    }
+    const size_t count_at = gm_run_snapshot_size(lane->run);
+    memset(bytes + count_at, 0x7f, sizeof(size_t));
+    size_t taken = size;
+    assert_false(gm_lane_unpack(other, bytes, &taken));
+    free(bytes);
+    gm_lane_close(lane);
+    gm_lane_close(other);
+}
+
+/* Clocks tell the time with as many decimals as the step moves, in flows with their unit behind it. */
+static void clocks_follow_the_step(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *arguments, *clock;
+    } wanted[] = {
+        {"kepler dt=0.0005", "t = 0.0035"},
+        {"taylor-green columns=8 rows=10 dt=0.0005", "t = 0.0035"},
+        {"channel columns=40 rows=5 dt=0.0005", "t = 0.0035 H²/ν"},
+        {"couette dt=0.0005 scheme=semi-implicit", "t = 0.0035 H²/ν"},
+        {"cavity columns=8 rows=10 dt=0.05 scheme=semi-implicit", "t = 0.35 L/U"},
+        {"room rows=10 columns=14 dt=0.0005", "t = 0.0035 τ"},
+    };
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        struct gm_lane *lane = open_lane(wanted[i].arguments, NULL);
+        struct gm_picture *picture = gm_picture_open();
+        assert_true(lane && picture);
+        advance(lane, BEFORE);
+        lane->scene->draw((const struct gm_lane *const *)&lane, 1, picture);
+        assert_string_equal(picture->clock, wanted[i].clock);
+        gm_picture_close(picture);
+        gm_lane_close(lane);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(clocks_follow_the_step),
+        cmocka_unit_test(packed_lanes_go_on),
+        cmocka_unit_test(channels_have_their_walls),
+        cmocka_unit_test(damaged_bytes_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,439 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "render/layout/labels.h"
+#include "render/layout/layout.h"
+#include "tests/common/layout_faults.h"
+
+static struct gm_picture *picture_of(size_t states, size_t graphs, bool axes, bool bar)
+{
+    struct gm_picture *picture = gm_picture_open();
+    assert_non_null(picture);
+    picture->title = "A title that is long enough to meet the clock on narrow surfaces";
+    picture->subtitle = "with a subtitle,  Δt = π/12";
+    picture->clock = "t = 3π/2";
+    picture->caption =
+        "A sentence along the bottom, which is long enough to be broken where there is little room.";
+    for (size_t i = 0; i < states; i++) {
+        struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "symplectic Euler");
+        panel->note = "area × 1.000";
+        panel->equal = true;
+        panel->axes = axes;
+        panel->x = (struct gm_axis){"q", GM_LINEAR, -2, 2};
+        panel->y = (struct gm_axis){"p", GM_LINEAR, -1.5, 1.5};
+        if (bar) {
+            panel->colour_bar = true;
+            panel->colour_bar_label = "pollutant";
+            gm_mark_image(picture, panel, GM_MAP_SEQUENTIAL, 0, 1000, (const double[]){-2, -1.5, 2, 1.5},
+                          (const double[]){0, 1, 2, 3}, 2, 2);
+        }
+    }
+    for (size_t i = 0; i < graphs; i++) {
+        struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, "energy error  |H − H₀| / |H₀|");
+        panel->x = (struct gm_axis){"t", GM_PI, 0, 1.5 * 3.14159265358979};
+        panel->y = (struct gm_axis){"", i % 2 == 0 ? GM_LOG : GM_LINEAR, 1e-16, 10};
+    }
+    return picture;
+}
+
+static void check_layout(struct gm_picture *picture, struct gm_metrics *metrics)
+{
+    const char *fault = layout_fault(picture, metrics);
+    if (fault) {
+        fail_msg("%s", fault);
+    }
+    metrics->self = metrics;
+    const struct gm_layout *layout = gm_layout_make(picture, metrics);
+    for (size_t i = 0; i < layout->frame_count; i++) {
+        const struct gm_frame *frame = &layout->frames[i];
+        assert_true(frame->x_tick_count <= 6 && frame->y_tick_count <= 6);
+        if (frame->panel->equal) {
+            assert_true(fabs(frame->x_factor + frame->y_factor) <= 1e-9 * fabs(frame->x_factor));
+        }
+    }
+}
+
+static void labels_never_overlap_nor_leave(void **state)
+{
+    (void)state;
+    static const double sizes[][2] = {{1280, 720}, {640, 360},   {1920, 1080}, {3840, 2160}, {800, 600},
+                                      {720, 1280}, {1000, 1000}, {540, 540},   {320, 200},   {64, 64},
+                                      {1, 1},      {16384, 100}, {100, 16384}, {1280, 8},    {40, 700}};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        struct gm_metrics metrics = metrics_of(sizes[s][0], sizes[s][1]);
+        for (size_t states = 0; states <= 24; states += states < 6 ? 1 : 6) {
+            for (size_t graphs = 0; graphs <= 4; graphs++) {
+                for (int kind = 0; kind < 4; kind++) {
+                    struct gm_picture *picture = picture_of(states, graphs, kind & 1, kind & 2);
+                    check_layout(picture, &metrics);
+                    gm_picture_close(picture);
+                }
+            }
+        }
+    }
+}
+
+static const struct gm_label *find_label(const struct gm_layout *layout, const char *text)
+{
+    for (size_t i = 0; i < layout->label_count; i++) {
+        if (strstr(layout->labels[i].text, text) != NULL) {
+            return &layout->labels[i];
+        }
+    }
+    return NULL;
+}
+
+static void a_usual_picture_has_all_its_texts(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(1280, 720);
+    metrics.self = &metrics;
+    struct gm_picture *picture = picture_of(4, 2, false, false);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    assert_non_null(layout);
+    assert_int_equal(layout->frame_count, 6);
+    size_t titles = 0, x_labels = 0;
+    for (size_t i = 0; i < layout->label_count; i++) {
+        titles += strcmp(layout->labels[i].text, "symplectic Euler") == 0;
+        x_labels += strcmp(layout->labels[i].text, "t") == 0;
+    }
+    assert_int_equal(titles, 4);
+    assert_int_equal(x_labels, 1); /* of the lowest graph alone */
+    const struct gm_label *clock = find_label(layout, "t = 3π/2");
+    assert_non_null(clock);
+    assert_true(clock->mono && clock->anchor == GM_ANCHOR_RIGHT && clock->x > 1200.0);
+    assert_non_null(find_label(layout, "with a subtitle"));
+    assert_non_null(find_label(layout, "10⁻¹²"));
+
+    /* Two by two states of one size on the left, graphs in line on the right. */
+    const struct gm_frame *frames = layout->frames;
+    assert_true(frames[1].box.x > frames[0].box.x && frames[2].box.x == frames[0].box.x);
+    assert_true(frames[2].box.y > frames[0].box.y && frames[0].box.width == frames[3].box.width);
+    assert_true(frames[0].x_factor == frames[3].x_factor);
+    assert_true(frames[4].box.x == frames[5].box.x && frames[4].box.width == frames[5].box.width);
+    assert_true(frames[4].box.x > frames[1].box.x + frames[1].box.width);
+    for (int i = 4; i < 6; i++) {
+        assert_true(frames[i].x_tick_count >= 3 && frames[i].y_tick_count >= 3);
+    }
+    gm_picture_close(picture);
+}
+
+static void terse_pictures_keep_one_graph(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(640, 360);
+    metrics.self = &metrics;
+    struct gm_picture *picture = picture_of(2, 2, false, false);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    assert_non_null(layout);
+    assert_int_equal(layout->frame_count, 3);
+    assert_null(find_label(layout, "with a subtitle"));
+    assert_non_null(find_label(layout, "energy"));
+    gm_picture_close(picture);
+}
+
+static void states_or_graphs_alone_take_the_width(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(1280, 720);
+    metrics.self = &metrics;
+    for (int kind = 0; kind < 2; kind++) {
+        struct gm_picture *picture = picture_of(kind == 0 ? 2 : 0, kind == 0 ? 0 : 1, false, false);
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        assert_non_null(layout);
+        const struct gm_box first = layout->frames[0].box, last = layout->frames[layout->frame_count - 1].box;
+        assert_true(first.x < 150.0 && last.x + last.width > 1150.0);
+        gm_picture_close(picture);
+    }
+}
+
+static void coordinates_follow_the_axes(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(1280, 720);
+    metrics.self = &metrics;
+    struct gm_picture *picture = picture_of(1, 1, true, false);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    assert_non_null(layout);
+    const struct gm_frame *state_frame = &layout->frames[0], *graph = &layout->frames[1];
+    assert_float_equal(gm_frame_x(state_frame, -2), state_frame->box.x, 1e-6);
+    assert_float_equal(gm_frame_y(state_frame, -1.5), state_frame->box.y + state_frame->box.height, 1e-6);
+    assert_float_equal(gm_frame_y(graph, 10), graph->box.y, 1e-6);
+    assert_float_equal(gm_frame_y(graph, 1e-16), graph->box.y + graph->box.height, 1e-6);
+    for (size_t i = 0; i < graph->y_tick_count; i++) {
+        assert_float_equal(gm_frame_y(graph, graph->y_ticks[i].value), graph->y_ticks[i].position, 1e-6);
+    }
+    gm_picture_close(picture);
+}
+
+/* A row of three is better than a grid with a hole, flat graphs below it make it larger, and what one panel
+   has to say does not push its title out of line. */
+static void three_states_stand_in_a_row(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(1280, 720);
+    metrics.self = &metrics;
+    struct gm_picture *picture = picture_of(3, 2, false, false);
+    picture->graphs_below = true;
+    picture->first->note = "";
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    assert_non_null(layout);
+    const struct gm_frame *frames = layout->frames;
+    assert_true(frames[0].box.y == frames[1].box.y && frames[1].box.y == frames[2].box.y);
+    assert_true(frames[3].box.y > frames[2].box.y + frames[2].box.height);
+    assert_true(frames[3].box.y == frames[4].box.y);
+    double title = NAN;
+    for (size_t i = 0; i < layout->label_count; i++) {
+        if (strcmp(layout->labels[i].text, "symplectic Euler") == 0) {
+            assert_true(isnan(title) || layout->labels[i].y == title);
+            title = layout->labels[i].y;
+        }
+    }
+    assert_false(isnan(title));
+    gm_picture_close(picture);
+
+    /* also where a grid would make them a little larger */
+    picture = picture_of(3, 1, false, false);
+    for (struct gm_panel *panel = picture->first; panel->place == GM_PLACE_STATE; panel = panel->next) {
+        panel->x.low = -1.6;
+        panel->x.high = 1.6;
+    }
+    layout = gm_layout_make(picture, &metrics);
+    assert_non_null(layout);
+    assert_true(layout->frames[0].box.y == layout->frames[2].box.y);
+    gm_picture_close(picture);
+}
+
+/* One colour bar for all takes its room once. */
+static void a_bar_that_all_share_stands_beside_them(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(1280, 720);
+    metrics.self = &metrics;
+    double width[2];
+    for (int shared = 0; shared < 2; shared++) {
+        struct gm_picture *picture = picture_of(2, 0, true, true);
+        picture->state_columns = 2;
+        picture->first->equal = picture->last->equal = false;
+        picture->first->colour_bar = !shared;
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        assert_non_null(layout);
+        width[shared] = layout->frames[0].box.width;
+        assert_true(layout->frames[0].box.width == layout->frames[1].box.width);
+        const struct gm_box bar = layout->frames[1].colour_bar;
+        assert_true(bar.width > 0.0 && bar.x > layout->frames[1].box.x + layout->frames[1].box.width);
+        gm_picture_close(picture);
+    }
+    assert_true(width[1] > width[0] + 20.0);
+}
+
+/* Lanes that share a panel are all told there, however little room there is. */
+static void every_key_is_told(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"Verlet", "variational, rectangle rule",
+                                        "Δt = 0.1, blow-up at t = 2.5"};
+    for (double width = 480; width <= 1920; width *= 2) {
+        struct gm_metrics metrics = metrics_of(width, 0.5625 * width);
+        struct gm_picture *picture = picture_of(2, 1, true, false);
+        for (struct gm_panel *panel = picture->first; panel; panel = panel->next) {
+            panel->note = panel->place == GM_PLACE_STATE ? "" : panel->note;
+            for (size_t k = 0; k < 3 && panel->place == GM_PLACE_STATE; k++) {
+                const struct gm_style style = {(enum gm_role)(GM_LANE + k), 1, 2, (enum gm_dash)k};
+                gm_panel_key(picture, panel, style, names[k]);
+            }
+        }
+        check_layout(picture, &metrics);
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        size_t told[3] = {0};
+        for (size_t i = 0; i < layout->label_count; i++) {
+            for (size_t k = 0; k < 3; k++) {
+                /* at least the line's sample and a beginning of the name */
+                told[k] += layout->labels[i].role == (enum gm_role)(GM_LANE + k) &&
+                           letters_width(&metrics, GM_TEXT_LABEL, layout->labels[i].text) >
+                               letters_width(&metrics, GM_TEXT_LABEL, "─── Ve");
+            }
+        }
+        for (size_t k = 0; k < 3; k++) {
+            assert_int_equal(told[k], 2);
+        }
+        gm_picture_close(picture);
+    }
+}
+
+/* Names that do not fit side by side stand one below the other, whole. */
+static void keys_take_lines(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"explicit Euler", "implicit Euler", "symplectic Euler", "midpoint"};
+    struct gm_metrics metrics = metrics_of(960, 540);
+    struct gm_picture *picture = picture_of(3, 1, true, false);
+    for (struct gm_panel *panel = picture->first; panel; panel = panel->next) {
+        panel->note = panel->place == GM_PLACE_STATE ? "" : panel->note;
+        for (size_t k = 0; k < 4 && panel->place == GM_PLACE_STATE; k++) {
+            const struct gm_style style = {(enum gm_role)(GM_LANE + k), 1, 2, (enum gm_dash)k};
+            gm_panel_key(picture, panel, style, names[k]);
+        }
+    }
+    check_layout(picture, &metrics);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    for (size_t k = 0; k < 4; k++) {
+        size_t told = 0;
+        for (size_t i = 0; i < layout->label_count; i++) {
+            told += layout->labels[i].role >= GM_LANE && strstr(layout->labels[i].text, names[k]) != NULL;
+        }
+        assert_int_equal(told, 3);
+    }
+    gm_picture_close(picture);
+}
+
+/* The words before a number give way to it; no part of a number is ever shown. */
+static void numbers_are_whole(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *as_long_as, *shown;
+    } cases[] = {
+        {"energy error 4.2·10⁻¹³", "energy error 4.2·10⁻¹³", "energy error 4.2·10⁻¹³"},
+        {"energy error 4.2·10⁻¹³", "error 4.2·10⁻¹³xxxx", "error 4.2·10⁻¹³"},
+        {"energy error 4.2·10⁻¹³", "error 4.2·10⁻", "4.2·10⁻¹³"},
+        {"energy error 4.2·10⁻¹³", "4.2·10⁻", ""},
+        {"angle −0.25", "−0.25", "−0.25"},
+        {"out of the picture, 12.3 from the sun", "the picture, 12.3", "the picture, 12.3"},
+        {"blow-up at t = 597.25", "blow-up at t = 59", "blow-up"},
+        {"converges slowly", "converges", "converge…"},
+    };
+    struct gm_metrics metrics = metrics_of(960, 540);
+    metrics.self = &metrics;
+    struct gm_picture *picture = gm_picture_open();
+    struct gm_label_list list;
+    assert_true(gm_labels_open(&list, picture, &metrics, 8));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double width = letters_width(metrics.self, GM_TEXT_LABEL, cases[i].as_long_as);
+        assert_string_equal(gm_labels_shorten_number(&list, GM_TEXT_LABEL, cases[i].text, width),
+                            cases[i].shown);
+    }
+    gm_picture_close(picture);
+}
+
+/* Titles that share what they begin with are told apart where there is no room for all of them. */
+static void titles_are_told_apart(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(300, 200);
+    metrics.self = &metrics;
+    struct gm_picture *picture = picture_of(3, 1, false, false);
+    static const char *const titles[] = {"variational, rectangle", "variational, midpoint",
+                                         "variational, box"};
+    size_t k = 0;
+    for (struct gm_panel *panel = picture->first; k < 3; panel = panel->next) {
+        panel->title = titles[k++];
+    }
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    assert_non_null(layout);
+    assert_non_null(find_label(layout, "rectangle"));
+    assert_non_null(find_label(layout, "midpoint"));
+    assert_non_null(find_label(layout, "box"));
+    gm_picture_close(picture);
+}
+
+/* Titles of narrow panels go on below, as long as that costs less than cutting them; in line, and whole. */
+static void titles_go_on_below(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(420, 480);
+    metrics.self = &metrics;
+    struct gm_picture *picture = picture_of(3, 0, false, false);
+    picture->state_columns = 3;
+    static const char *const titles[] = {"one", "a Lobatto scheme of seven stages", "the symplectic Euler"};
+    size_t k = 0;
+    for (struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next) {
+        panel->title = titles[k++];
+    }
+    check_layout(picture, &metrics);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    double top = NAN;
+    for (k = 0; k < 3; k++) {
+        const char *rest = titles[k];
+        double y = NAN;
+        for (size_t i = 0; i < layout->label_count; i++) {
+            const struct gm_label *label = &layout->labels[i];
+            const size_t length = strlen(label->text);
+            if (*rest == '\0' || strncmp(rest, label->text, length) != 0) {
+                continue;
+            }
+            assert_true(isnan(y) ? isnan(top) || label->y == top : label->y > y);
+            top = isnan(y) ? label->y : top;
+            y = label->y;
+            rest += length + (rest[length] == ' ');
+        }
+        assert_string_equal(rest, "");
+    }
+    assert_null(find_label(layout, titles[1])); /* it did not fit into one line */
+    gm_picture_close(picture);
+}
+
+/* Texts among the marks are labels: of two at one place the second moves. */
+static void texts_among_marks_part(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(640, 360);
+    struct gm_picture *picture = picture_of(1, 0, true, false);
+    for (int k = 0; k < 2; k++) {
+        gm_mark_text(picture, picture->first, (struct gm_style){GM_INK, 1, 1, GM_SOLID}, 2, 0, GM_ANCHOR_LEFT,
+                     k ? "second name" : "first name");
+    }
+    check_layout(picture, &metrics);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    assert_non_null(find_label(layout, "first name"));
+    assert_non_null(find_label(layout, "second name"));
+    gm_picture_close(picture);
+}
+
+/* A colour bar ends in a point where values lie beyond it. */
+static void bars_point_at_what_is_beyond(void **state)
+{
+    (void)state;
+    struct gm_metrics metrics = metrics_of(1280, 720);
+    metrics.self = &metrics;
+    for (int beyond = 0; beyond < 2; beyond++) {
+        struct gm_picture *picture = picture_of(1, 0, true, false);
+        picture->first->colour_bar = true;
+        gm_mark_image(picture, picture->first, GM_MAP_SEQUENTIAL, 0, 1, (const double[]){-2, -1.5, 2, 1.5},
+                      (const double[]){0, 0.5, 1, beyond ? 1.2 : 1.001}, 2, 2);
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        assert_non_null(layout);
+        const struct gm_frame *frame = &layout->frames[0];
+        assert_true((frame->bar_tip[1] > 0) == (beyond == 1) && frame->bar_tip[0] == 0);
+        assert_float_equal(frame->colour_bar.y - frame->bar_tip[1], frame->box.y, 1e-9);
+        gm_picture_close(picture);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(labels_never_overlap_nor_leave),
+        cmocka_unit_test(a_usual_picture_has_all_its_texts),
+        cmocka_unit_test(terse_pictures_keep_one_graph),
+        cmocka_unit_test(states_or_graphs_alone_take_the_width),
+        cmocka_unit_test(coordinates_follow_the_axes),
+        cmocka_unit_test(three_states_stand_in_a_row),
+        cmocka_unit_test(every_key_is_told),
+        cmocka_unit_test(keys_take_lines),
+        cmocka_unit_test(numbers_are_whole),
+        cmocka_unit_test(titles_are_told_apart),
+        cmocka_unit_test(titles_go_on_below),
+        cmocka_unit_test(texts_among_marks_part),
+        cmocka_unit_test(bars_point_at_what_is_beyond),
+        cmocka_unit_test(a_bar_that_all_share_stands_beside_them),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

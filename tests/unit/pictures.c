@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pictures of all scenes: every observable that they ask for is there, and they can be read at any size.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "app/request/request.h"
+#include "scenes/flow/flows.h"
+#include "scenes/frame/graph.h"
+#include "tests/common/layout_faults.h"
+
+enum { MOST_LANES = 24, SCHEMES = 3 /* without a list, as render shows them */ };
+
+struct drawn {
+    struct gm_request request;
+    struct gm_lane *lanes[MOST_LANES];
+    struct gm_picture *picture;
+};
+
+/* The picture of "SCENE key=value ..." after some steps of every lane; false with a sentence where it cannot
+   be opened. */
+static bool draw(const char *arguments, long steps, struct drawn *drawn, char *message)
+{
+    char text[512], *words[16], *rest = NULL;
+    int count = 0;
+    snprintf(text, sizeof text, "%s", arguments);
+    for (char *word = strtok_r(text, " ", &rest); word && count < 16; word = strtok_r(NULL, " ", &rest)) {
+        words[count++] = word;
+    }
+    *drawn = (struct drawn){.picture = gm_picture_open()};
+    assert_non_null(drawn->picture);
+    if (!gm_request_parse(&drawn->request, count, words, SCHEMES, message)) {
+        return false;
+    }
+    assert_true(drawn->request.count <= MOST_LANES);
+    for (size_t i = 0; i < drawn->request.count; i++) {
+        drawn->lanes[i] = gm_request_open_lane(&drawn->request, i, message);
+        if (!drawn->lanes[i]) {
+            return false;
+        }
+        for (long k = 0; k < steps; k++) {
+            gm_lane_advance(drawn->lanes[i], 1);
+            gm_lane_record(drawn->lanes[i]);
+        }
+    }
+    drawn->request.scene->draw((const struct gm_lane *const *)drawn->lanes, drawn->request.count,
+                               drawn->picture);
+    return true;
+}
+
+static void close_drawn(struct drawn *drawn)
+{
+    for (size_t i = 0; i < MOST_LANES; i++) {
+        gm_lane_close(drawn->lanes[i]);
+    }
+    gm_request_close(&drawn->request);
+    gm_picture_close(drawn->picture);
+}
+
+/* Scenes whose problem is made for each lane take the time of a mesh for every step. */
+static long steps_of(const struct gm_scene *scene)
+{
+    return scene->close ? 2 : 40;
+}
+
+static void check_observables(const char *arguments, const struct gm_picture *picture)
+{
+    for (const struct gm_panel *panel = picture->first; panel; panel = panel->next) {
+        if (strncmp(panel->title, GM_NO_OBSERVABLE, strlen(GM_NO_OBSERVABLE)) == 0) {
+            fail_msg("%s: %s", arguments, panel->title);
+        }
+    }
+}
+
+/* The default picture, and one for every choice of every parameter that has choices. */
+static void pictures_ask_for_observables_that_there_are(void **state)
+{
+    (void)state;
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        const struct gm_scene *scene = gm_scene_at(s);
+        const char *small = gm_scene_parameter(scene, "mesh") || scene->close ? " rows=10 columns=8" : "";
+        for (size_t p = 0; p < scene->parameter_count; p++) {
+            const struct gm_parameter *row = &scene->parameters[p];
+            for (size_t c = 0; row->type == GM_CHOICE && row->choices[c]; c++) {
+                char arguments[256], message[GM_MESSAGE];
+                struct drawn drawn;
+                snprintf(arguments, sizeof arguments, "%s %s=%s%s", scene->name, row->key, row->choices[c],
+                         small);
+                if (draw(arguments, 2, &drawn, message)) { /* some start does not exist for every scheme */
+                    check_observables(arguments, drawn.picture);
+                }
+                close_drawn(&drawn);
+            }
+        }
+    }
+}
+
+static void check_key(const struct gm_scene *scene, const char *key)
+{
+    if (key && gm_scene_observable(scene, key) < 0) {
+        fail_msg("%s: there is no observable %s", scene->name, key);
+    }
+}
+
+static void tables_name_observables_that_there_are(void **state)
+{
+    (void)state;
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        const struct gm_scene *scene = gm_scene_at(s);
+        check_key(scene, scene->work ? scene->work->measure : NULL);
+        check_key(scene, scene->stability ? scene->stability->kept : NULL);
+        check_key(scene, scene->stability ? scene->stability->error : NULL);
+    }
+}
+
+/* The title, whole, in lines one below the other. */
+static bool has_whole_title(const struct gm_layout *layout, const char *title)
+{
+    char told[256] = "";
+    for (size_t i = 0; i < layout->label_count; i++) {
+        const struct gm_label *label = &layout->labels[i];
+        if (label->size == GM_TEXT_TITLE && label->bold) {
+            const size_t length = strlen(told);
+            snprintf(told + length, sizeof told - length, "%s%s", length ? " " : "", label->text);
+        }
+    }
+    return strcmp(told, title) == 0;
+}
+
+/* Whether frames, colour bars and labels leave a third of the surface empty in one piece, from edge to edge.
+ */
+static bool has_empty_third(const struct gm_layout *layout, const struct gm_metrics *metrics)
+{
+    enum { PARTS = 60 };
+    bool full[2][PARTS] = {{false}};
+    for (size_t i = 0; i < layout->frame_count; i++) {
+        const struct gm_box *box = &layout->frames[i].box;
+        for (int k = 0; k < PARTS; k++) {
+            const double x = metrics->width * (k + 0.5) / PARTS, y = metrics->height * (k + 0.5) / PARTS;
+            full[0][k] = full[0][k] || (x >= box->x && x <= box->x + box->width);
+            full[1][k] = full[1][k] || (y >= box->y && y <= box->y + box->height);
+        }
+    }
+    for (int side = 0; side < 2; side++) {
+        int empty = 0;
+        for (int k = 0; k < PARTS; k++) {
+            empty = full[side][k] ? 0 : empty + 1;
+            if (empty >= PARTS / 3) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static void default_pictures_can_be_read_at_any_size(void **state)
+{
+    (void)state;
+    static const double sizes[][2] = {{300, 200},  {1000, 1000}, {2000, 400}, {640, 360},
+                                      {1280, 720}, {1920, 1080}, {720, 1280}};
+    for (size_t s = 0; s < gm_scene_count(); s++) {
+        const struct gm_scene *scene = gm_scene_at(s);
+        char message[GM_MESSAGE];
+        struct drawn drawn;
+        if (!draw(scene->name, steps_of(scene), &drawn, message)) {
+            fail_msg("%s: %s", scene->name, message);
+        }
+        check_observables(scene->name, drawn.picture);
+        for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+            struct gm_metrics metrics = metrics_of(sizes[k][0], sizes[k][1]);
+            const char *fault = layout_fault(drawn.picture, &metrics);
+            if (fault) {
+                fail_msg("%s at %gx%g: %s", scene->name, sizes[k][0], sizes[k][1], fault);
+            }
+            const struct gm_layout *layout = gm_layout_make(drawn.picture, &metrics);
+            if (!has_whole_title(layout, drawn.picture->title)) {
+                fail_msg("%s at %gx%g: the title is cut", scene->name, sizes[k][0], sizes[k][1]);
+            }
+            if (has_empty_third(layout, &metrics)) {
+                fail_msg("%s at %gx%g: a third is empty", scene->name, sizes[k][0], sizes[k][1]);
+            }
+        }
+        close_drawn(&drawn);
+    }
+}
+
+static const struct gm_panel *panel_titled(const struct gm_picture *picture, const char *title)
+{
+    for (const struct gm_panel *panel = picture->first; panel; panel = panel->next) {
+        if (strstr(panel->title, title)) {
+            return panel;
+        }
+    }
+    fail_msg("no panel \"%s\"", title);
+    return NULL;
+}
+
+static void open_drawn(const char *arguments, long steps, struct drawn *drawn)
+{
+    char message[GM_MESSAGE];
+    if (!draw(arguments, steps, drawn, message)) {
+        fail_msg("%s: %s", arguments, message);
+    }
+}
+
+/* Of two lists every curve of the common graph has its own pair of colour and dash, and dashes are named. */
+static void curves_of_a_product_are_told_apart(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("kepler scheme=rk4,verlet dt=.1,.2,.4", 30, &drawn);
+    const struct gm_panel *graph = panel_titled(drawn.picture, "energy error");
+    size_t lines = 0, keys = 0;
+    for (const struct gm_mark *mark = graph->first; mark; mark = mark->next) {
+        if (mark->kind == GM_MARK_LINE && mark->style.role >= GM_LANE) {
+            lines++;
+        }
+        for (const struct gm_mark *other = graph->first; other != mark; other = other->next) {
+            assert_false(mark->style.role >= GM_LANE && mark->style.role == other->style.role &&
+                         mark->style.dash == other->style.dash);
+        }
+    }
+    for (const struct gm_key *key = graph->first_key; key; key = key->next) {
+        keys++;
+    }
+    assert_int_equal(lines, 6);
+    assert_int_equal(keys, 2);
+    close_drawn(&drawn);
+}
+
+/* The graph of the cell's volume ends where it does, not at the end of the run. */
+static void the_volume_fills_its_graph(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("abc", 5000, &drawn);
+    assert_true(panel_titled(drawn.picture, "volume /")->x.high < 120);
+    close_drawn(&drawn);
+}
+
+/* A planet that is thrown out is in its panel, and the others keep their scale. */
+static void an_orbit_that_leaves_is_followed(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("kepler scheme=rk2,verlet until=2000", 30000, &drawn);
+    const struct gm_panel *left = panel_titled(drawn.picture, "RK2"), *other = left->next;
+    const double *at = gm_run_state(drawn.lanes[0]->run);
+    assert_true(hypot(at[0], at[1]) > 3);
+    assert_true(at[0] > left->x.low && at[0] < left->x.high && at[1] > left->y.low && at[1] < left->y.high);
+    assert_true(other->x.high - other->x.low < 8);
+    close_drawn(&drawn);
+}
+
+/* A steady state has corrections and no time; a scheme's own charge is round-off under each. */
+static void graphs_say_what_they_show(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("cavity rows=10 columns=8", 3, &drawn);
+    assert_string_equal(panel_titled(drawn.picture, "kinetic")->x.label, "corrections");
+    assert_string_equal(drawn.picture->clock, "");
+    close_drawn(&drawn);
+    open_drawn("room rows=10 columns=14 tracers=0", 3, &drawn);
+    assert_string_equal(panel_titled(drawn.picture, "pollutant in")->x.label, "t / τ");
+    assert_non_null(strstr(drawn.picture->subtitle, "τ = 20 h/U"));
+    close_drawn(&drawn);
+    open_drawn("nls", 40, &drawn);
+    const int charge = gm_scene_observable(drawn.request.scene, "own_charge_error");
+    panel_titled(drawn.picture, "own charge");
+    for (size_t i = 0; i < drawn.request.count; i++) {
+        assert_true(gm_lane_observe(drawn.lanes[i], (size_t)charge) < 1e-12);
+    }
+    close_drawn(&drawn);
+    open_drawn("couette rows=8", 3, &drawn);
+    panel_titled(drawn.picture, "divergence");
+    close_drawn(&drawn);
+}
+
+/* What makes the square's mesh says nothing of a mesh from a file. */
+static void a_mesh_file_leaves_no_rows(void **state)
+{
+    (void)state;
+    const struct gm_scene *room = gm_scene_find("room");
+    struct gm_flows own = {.mesh = "none"};
+    assert_false(room->idle(&own, "rows"));
+    assert_true(room->idle(&own, "inlet"));
+    snprintf(own.mesh, sizeof own.mesh, "other.msh");
+    assert_true(room->idle(&own, "rows") && room->idle(&own, "columns") && room->idle(&own, "irregular"));
+    assert_false(room->idle(&own, "inlet") || room->idle(&own, "reynolds"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pictures_ask_for_observables_that_there_are),
+        cmocka_unit_test(tables_name_observables_that_there_are),
+        cmocka_unit_test(default_pictures_can_be_read_at_any_size),
+        cmocka_unit_test(curves_of_a_product_are_told_apart),
+        cmocka_unit_test(the_volume_fills_its_graph),
+        cmocka_unit_test(an_orbit_that_leaves_is_followed),
+        cmocka_unit_test(graphs_say_what_they_show),
+        cmocka_unit_test(a_mesh_file_leaves_no_rows),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,294 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every scheme against states computed elsewhere. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/ode/problems/problems.h"
+#include "core/run.h"
+#include "core/schemes.h"
+#include "tests/reference/ode.h"
+
+#define COUNT(array) (sizeof(array) / sizeof(array)[0])
+
+enum { MOST = 12 };
+
+static struct gm_problem problem_of(const char *name)
+{
+    static const double omega = 50, stiffness = 1e4, strength = 2, abc[3] = {1, 1, 1}, perturbation = 1e-3;
+    const struct {
+        const char *name;
+        const struct gm_problem *problem;
+        const void *parameters;
+    } list[] = {
+        {"oscillator", &gm_problem_oscillator, NULL},
+        {"pendulum", &gm_problem_pendulum, NULL},
+        {"kepler-0.5", &gm_problem_kepler, NULL},
+        {"kepler-0.9", &gm_problem_kepler, NULL},
+        {"kepler-0.99", &gm_problem_kepler, NULL},
+        {"kepler-perturbed", &gm_problem_kepler_perturbed, &perturbation},
+        {"henon-heiles", &gm_problem_henon_heiles, NULL},
+        {"fpu", &gm_problem_fpu, &omega},
+        {"spring-pendulum", &gm_problem_spring_pendulum, &stiffness},
+        {"vortices-two-turned", &gm_problem_vortices_four, &strength},
+        {"vortices-reduced", &gm_problem_vortices_reduced, &strength},
+        {"abc", &gm_problem_abc, abc},
+    };
+    for (size_t i = 0; i < COUNT(list); i++) {
+        if (strcmp(list[i].name, name) == 0) {
+            struct gm_problem problem = *list[i].problem;
+            problem.parameters = list[i].parameters;
+            return problem;
+        }
+    }
+    fail_msg("no problem %s", name);
+    return gm_problem_pendulum;
+}
+
+/* relative to the reference's maximum norm */
+static double distance(const double *y, const double *reference, int n)
+{
+    double scale = 0, error = 0;
+    for (int c = 0; c < n; c++) {
+        scale = fmax(scale, fabs(reference[c]));
+        error = fmax(error, fabs(y[c] - reference[c]));
+    }
+    return error / scale;
+}
+
+static struct gm_run *open_run(const struct gm_problem *problem, const char *scheme,
+                               const struct gm_settings *settings, double dt, const double *start)
+{
+    const struct gm_scheme *found = gm_scheme_find_for(scheme, problem);
+    if (!found || !gm_scheme_fits(found, problem)) {
+        fail_msg("no scheme %s for %s", scheme, problem->name);
+    }
+    struct gm_run *run = gm_run_open(problem, found, settings, 0, dt, start);
+    assert_non_null(run);
+    return run;
+}
+
+/* Whether a control's end is a different state at all: schemes of order 8 may come too close to each other.
+ */
+static bool is_telling(size_t control)
+{
+    for (size_t i = 0; i < COUNT(reference_ode); i++) {
+        if (!reference_ode[i].control &&
+            strcmp(reference_ode[i].scheme, reference_ode[control].scheme) == 0 &&
+            strcmp(reference_ode[i].problem, reference_ode[control].problem) == 0) {
+            return distance(reference_ode[i].end, reference_ode[control].end, reference_ode[i].n) >
+                   4 * reference_ode[control].tolerance;
+        }
+    }
+    return false;
+}
+
+/* The states after one step and at the end agree; those of a control do not. */
+static void states_agree(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < COUNT(reference_ode); i++) {
+        if (reference_ode[i].control && !is_telling(i)) {
+            continue;
+        }
+        const struct gm_problem problem = problem_of(reference_ode[i].problem);
+        const int n = reference_ode[i].n;
+        assert_int_equal(n, problem.n);
+        for (int compensated = 0; compensated < 2; compensated++) {
+            const struct gm_settings settings = {.compensated = compensated, .binding = 20};
+            struct gm_run *run = open_run(&problem, reference_ode[i].scheme, &settings, reference_ode[i].dt,
+                                          reference_ode[i].start);
+            assert_int_equal(gm_run_advance(run, 1), GM_OK);
+            const double at_once = distance(gm_run_state(run), reference_ode[i].after_one_step, n);
+            assert_int_equal(gm_run_advance(run, reference_ode[i].steps - 1), GM_OK);
+            const double at_end = distance(gm_run_state(run), reference_ode[i].end, n);
+            const double tolerance = reference_ode[i].tolerance;
+            const bool same = at_once <= fmin(1e-13, tolerance) && at_end <= tolerance;
+            const bool far = at_end > 2 * tolerance;
+            if (reference_ode[i].control ? !far : !same) {
+                fail_msg("%s%s on %s: error %.2e after one step, %.2e at the end, tolerance %.2e",
+                         reference_ode[i].control ? "the control of " : "", reference_ode[i].scheme,
+                         reference_ode[i].problem, at_once, at_end, tolerance);
+            }
+            gm_run_close(run);
+        }
+    }
+}
+
+static void every_control_tells_somewhere(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < COUNT(reference_ode); i++) {
+        bool told = !reference_ode[i].control;
+        for (size_t j = 0; j < COUNT(reference_ode) && !told; j++) {
+            told = reference_ode[j].control &&
+                   strcmp(reference_ode[i].scheme, reference_ode[j].scheme) == 0 && is_telling(j);
+        }
+        if (!told) {
+            fail_msg("no control of %s tells it apart", reference_ode[i].scheme);
+        }
+    }
+}
+
+static void logarithmic_hamiltonian_agrees(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < COUNT(reference_logh2); i++) {
+        const struct gm_problem problem = problem_of(reference_logh2[i].problem);
+        const struct gm_settings settings = {0};
+        struct gm_run *run =
+            open_run(&problem, "logh2", &settings, reference_logh2[i].dt, reference_logh2[i].start);
+        assert_int_equal(gm_run_advance(run, 1), GM_OK);
+        assert_true(fabs(run->t - reference_logh2[i].after_one_step[0]) < 1e-15);
+        assert_true(distance(gm_run_state(run), reference_logh2[i].after_one_step + 1, 4) < 1e-13);
+        assert_int_equal(gm_run_advance(run, reference_logh2[i].steps - 1), GM_OK);
+        const double *end = reference_logh2[i].end;
+        assert_true(fabs(run->t - end[0]) <= reference_logh2[i].tolerance * fabs(end[0]));
+        assert_true(distance(gm_run_state(run), end + 1, 4) <= reference_logh2[i].tolerance);
+        gm_run_close(run);
+    }
+}
+
+/* Unperturbed, half a step turns the eccentric anomaly by 4 atan(ds sqrt(B/8)/2), B = 1/(2a); the time that
+   passes is the area under r between both ends, by the rule that takes |u|^2 at the mean of both u = sqrt(q).
+ */
+static void levi_civita_agrees(void **unused)
+{
+    (void)unused;
+    static const double eccentricities[] = {0, 0.5, 0.99};
+    for (size_t k = 0; k < COUNT(eccentricities); k++) {
+        const double e = eccentricities[k], ds = 2 * M_PI / 47, narrow = sqrt(1 - e * e);
+        const double start[] = {1 - e, 0, 0, sqrt((1 + e) / (1 - e))};
+        const struct gm_settings settings = {0};
+        const struct gm_problem problem = gm_problem_kepler;
+        struct gm_run *run = open_run(&problem, "levi-civita", &settings, ds, start);
+        double E = 0, t = 0;
+        for (int n = 1; n <= 300; n++) {
+            assert_int_equal(gm_run_advance(run, 1), GM_OK);
+            for (int half = 0; half < 2; half++) {
+                const double next = E + 4 * atan(ds / 8);
+                /* u = (sqrt(1 - e) cos(E/2), sqrt(1 + e) sin(E/2)) */
+                const double x = sqrt(1 - e) * (cos(E / 2) + cos(next / 2)) / 2;
+                const double y = sqrt(1 + e) * (sin(E / 2) + sin(next / 2)) / 2;
+                t += ds / 2 * (x * x + y * y);
+                E = next;
+            }
+            const double r = 1 - e * cos(E);
+            const double exact[] = {cos(E) - e, narrow * sin(E), -sin(E) / r, narrow * cos(E) / r};
+            assert_true(fabs(run->t - t) < 1e-13 * t);
+            /* the velocity at the pericentre magnifies the rounding of the anomaly */
+            assert_true(distance(gm_run_state(run), exact, 4) < 3e-13 / (1 - e));
+        }
+        gm_run_close(run);
+    }
+}
+
+static void variational_steps_agree(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < COUNT(reference_variational); i++) {
+        const struct gm_problem problem = problem_of(reference_variational[i].problem);
+        const struct gm_settings settings = {.tau0 = reference_variational[i].tau0};
+        struct gm_run *run =
+            open_run(&problem, reference_variational[i].scheme, &settings, 1, reference_variational[i].start);
+        assert_int_equal(gm_run_advance(run, reference_variational[i].steps), GM_OK);
+        const double *y = gm_run_state(run), *entry = reference_variational[i].entry;
+        const double found[4] = {run->t, y[0], y[1], gm_run_memory(run)[0]};
+        for (int c = 0; c < 4; c++) {
+            if (!(fabs(found[c] - entry[c]) <= reference_variational[i].tolerance)) {
+                fail_msg("%s, tau0 = %g, entry %ld, column %d: %.17g, expected %.17g, tolerance %.2e",
+                         reference_variational[i].scheme, reference_variational[i].tau0,
+                         reference_variational[i].steps, c, found[c], entry[c],
+                         reference_variational[i].tolerance);
+            }
+        }
+        gm_run_close(run);
+    }
+}
+
+/* As printed, it ends before the first turning point: from tau0 = .1 the 13th step, at t = 1.01, has no root.
+ */
+static void the_printed_rectangle_rule_loses_its_root(void **unused)
+{
+    (void)unused;
+    const struct gm_problem problem = gm_problem_oscillator;
+    const double start[2] = {sin(0.3), cos(0.3)}, tau0[] = {0.1, 0.02, 1e-3, 1e-4};
+    for (size_t i = 0; i < COUNT(tau0); i++) {
+        const struct gm_settings settings = {.tau0 = tau0[i]};
+        struct gm_run *run = open_run(&problem, "variational-rectangle", &settings, 1, start);
+        assert_int_equal(gm_run_advance(run, 1000000), GM_STEP_COLLAPSE);
+        const double q = gm_run_state(run)[0], v = gm_run_state(run)[1];
+        assert_true(q > 0.97 && q < 1 && run->t < M_PI / 2 - 0.3 + 0.1);
+        assert_true(fabs(q * q + v * v - 1) < 1e-14);
+        if (i == 0) {
+            assert_int_equal(run->steps, 12);
+            assert_true(fabs(run->t - 1.01) < 5e-3);
+        }
+        gm_run_close(run);
+    }
+}
+
+/* Held to their claims and to a second solver by tests/unit/claims.c alone. */
+static bool is_without_reference(const char *name)
+{
+    const char *const list[] = {"radau3",
+                                "radau5",
+                                "sdirk2",
+                                "lobatto2",
+                                "avf4",
+                                "discrete-gradient2",
+                                "tao2",
+                                "tao4",
+                                "gsl-rk4",
+                                "gsl-rk8pd",
+                                "gsl-msadams",
+                                "gsl-msbdf",
+                                "variational-rectangle",
+                                "logh2",
+                                "levi-civita",
+                                "variational-rectangle-restart",
+                                "variational-midpoint"};
+    for (size_t i = 0; i < COUNT(list); i++) {
+        if (strcmp(list[i], name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void every_scheme_has_a_reference(void **unused)
+{
+    (void)unused;
+    for (size_t s = 0; s < gm_scheme_count(); s++) {
+        if (gm_scheme_at(s)->family->kind != &gm_kind_ode) {
+            continue; /* they have references of their own */
+        }
+        const char *name = gm_scheme_at(s)->name;
+        size_t found = is_without_reference(name);
+        for (size_t i = 0; i < COUNT(reference_ode); i++) {
+            found += strcmp(reference_ode[i].scheme, name) == 0 && !reference_ode[i].control;
+        }
+        if (found == 0) {
+            fail_msg("%s has no reference", name);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(states_agree),
+        cmocka_unit_test(every_control_tells_somewhere),
+        cmocka_unit_test(logarithmic_hamiltonian_agrees),
+        cmocka_unit_test(levi_civita_agrees),
+        cmocka_unit_test(variational_steps_agree),
+        cmocka_unit_test(the_printed_rectangle_rule_loses_its_root),
+        cmocka_unit_test(every_scheme_has_a_reference),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

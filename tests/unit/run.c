@@ -1,0 +1,419 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs: the same bits however they are called, cut, copied or vectorised; how they fail; what they count. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/memory.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/problems/problems.h"
+#include "core/run.h"
+#include "core/schemes.h"
+
+static const double constants[3] = {0.3, 0.4, 0.5}; /* the parameters of every problem that has some */
+static const struct gm_settings settings_of[2] = {{.compensated = 0, .binding = 20, .tau0 = 0.01},
+                                                  {.compensated = 1, .binding = 20, .tau0 = 0.01}};
+
+enum { PROBLEMS = 9, MOST = 12 };
+
+static struct gm_problem problem_at(int i)
+{
+    const struct gm_problem *const list[PROBLEMS] = {
+        &gm_problem_pendulum,     &gm_problem_pendulum_tangent, &gm_problem_particles,
+        &gm_problem_product,      &gm_problem_rigid_body,       &gm_problem_kepler,
+        &gm_problem_henon_heiles, &gm_problem_vortices_four,    &gm_problem_fpu,
+    };
+    struct gm_problem problem = *list[i];
+    problem.parameters = constants;
+    return problem;
+}
+
+/* A start that differs from member to member; moderate, so that every scheme gets through. */
+static void start_of(const struct gm_problem *problem, double *y)
+{
+    for (size_t c = 0; c < problem->n; c++) {
+        for (size_t i = 0; i < problem->m; i++) {
+            y[c * problem->m + i] = 0.5 * sin(1.0 + 2.3 * (double)c + 0.7 * (double)i);
+        }
+    }
+    const bool vortices = gm_ode_of(problem)->hamiltonian && gm_ode_of(problem)->hamiltonian->weight;
+    for (size_t c = 0; vortices && c < 4; c++) { /* apart from each other */
+        for (size_t i = 0; i < problem->m; i++) {
+            const double angle = 1.6 * (double)c + 0.7 * (double)i;
+            y[c * problem->m + i] = cos(angle);
+            y[(4 + c) * problem->m + i] = sin(angle);
+        }
+    }
+    for (size_t i = 0; gm_ode_of(problem)->kepler_split && i < problem->m;
+         i++) { /* orbits that stay away from the centre */
+        const double angle = 0.7 * (double)i, speed = 1 + 0.1 * sin(2.3 * (double)i);
+        const double orbit[4] = {cos(angle), sin(angle), -speed * sin(angle), speed * cos(angle)};
+        for (size_t c = 0; c < 4; c++) {
+            y[c * problem->m + i] = orbit[c];
+        }
+    }
+}
+
+typedef void each(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                  const struct gm_settings *settings);
+
+/* Not for long: the one loses its root from any start (tests/unit/reference.c follows it there), the other
+   falls into the centre. */
+static bool is_tested(const struct gm_scheme *scheme, const struct gm_problem *problem)
+{
+    return !(gm_ode_of(problem)->fast_linear && !(scheme->needs & GM_NEEDS_FAST_LINEAR)) &&
+           strcmp(scheme->name, "variational-rectangle") != 0 &&
+           !(gm_ode_of(problem)->kepler_split && strcmp(scheme->name, "implicit-euler") == 0);
+}
+
+static void for_all(size_t members, each *function)
+{
+    for (int p = 0; p < PROBLEMS; p++) {
+        struct gm_problem problem = problem_at(p);
+        problem.m = members;
+        for (size_t s = 0; s < gm_scheme_count(); s++) {
+            if (gm_scheme_fits(gm_scheme_at(s), &problem) && is_tested(gm_scheme_at(s), &problem)) {
+                function(&problem, gm_scheme_at(s), &settings_of[0]);
+                function(&problem, gm_scheme_at(s), &settings_of[1]);
+            }
+        }
+    }
+}
+
+static struct gm_run *open_run(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                               const struct gm_settings *settings, double dt)
+{
+    double start[MOST * 64];
+    assert_true(problem->n * problem->m <= MOST * 64);
+    start_of(problem, start);
+    struct gm_run *run = gm_run_open(problem, scheme, settings, 0, dt, start);
+    assert_non_null(run);
+    return run;
+}
+
+static void expect_same_state(const struct gm_run *a, const struct gm_run *b)
+{
+    const size_t size = a->problem->n * a->problem->m * sizeof(double);
+    if (memcmp(gm_run_state(a), gm_run_state(b), size) != 0) {
+        fail_msg("%s on %s: different bits", a->scheme->name, a->problem->name);
+    }
+}
+
+static void cut_in_pieces(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                          const struct gm_settings *settings)
+{
+    struct gm_run *whole = open_run(problem, scheme, settings, 0.05);
+    struct gm_run *pieces = open_run(problem, scheme, settings, 0.05);
+    if (gm_run_advance(whole, 100) != GM_OK) {
+        fail_msg("%s on %s fails", scheme->name, problem->name);
+    }
+    for (long done = 0, piece = 1; done < 100;
+         done += piece, piece = done + 2 * piece <= 100 ? 2 * piece : 1) {
+        assert_int_equal(gm_run_advance(pieces, piece), GM_OK);
+    }
+    assert_int_equal(pieces->steps, 100);
+    expect_same_state(whole, pieces);
+    assert_true(whole->t == pieces->t && (scheme->family->own_time || whole->t == 100 * 0.05));
+    assert_true(whole->evaluations == pieces->evaluations);
+    gm_run_close(whole);
+    gm_run_close(pieces);
+}
+
+static void pieces_do_not_matter(void **unused)
+{
+    (void)unused;
+    for_all(1, cut_in_pieces);
+    for_all(21, cut_in_pieces);
+}
+
+static void compare_members(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                            const struct gm_settings *settings)
+{
+    struct gm_run *ensemble = open_run(problem, scheme, settings, 0.05);
+    assert_int_equal(gm_run_advance(ensemble, 40), GM_OK);
+    double start[MOST * 64];
+    start_of(problem, start);
+    struct gm_problem alone = *problem;
+    alone.m = 1;
+    unsigned long evaluations = 0;
+    for (size_t i = 0; i < problem->m; i++) {
+        double y[MOST];
+        for (size_t c = 0; c < problem->n; c++) {
+            y[c] = start[c * problem->m + i];
+        }
+        struct gm_run *single = gm_run_open(&alone, scheme, settings, 0, 0.05, y);
+        assert_int_equal(gm_run_advance(single, 40), GM_OK);
+        evaluations += single->evaluations;
+        for (size_t c = 0; c < problem->n; c++) {
+            const double there = gm_run_state(ensemble)[c * problem->m + i];
+            if (memcmp(&there, &gm_run_state(single)[c], sizeof there) != 0) {
+                fail_msg("%s on %s: member %zu feels its neighbours", scheme->name, problem->name, i);
+            }
+        }
+        gm_run_close(single);
+    }
+    assert_true(ensemble->evaluations == evaluations);
+    gm_run_close(ensemble);
+}
+
+static void members_do_not_feel_each_other(void **unused)
+{
+    (void)unused;
+    for_all(21, compare_members);
+}
+
+static void compare_instruction_sets(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                                     const struct gm_settings *settings)
+{
+    if (gm_scheme_loop(scheme, problem) == scheme->family->loop) {
+        return; /* no kernels in it */
+    }
+    const size_t count = problem->n * problem->m;
+    double y[MOST * 64], carry[MOST * 64] = {0}, out[GM_ISA_COUNT][MOST * 64], carry_out[MOST * 64];
+    start_of(problem, y);
+    for (int isa = 0; isa <= (int)gm_isa_best(); isa++) {
+        const struct gm_task task = {
+            .problem = problem,
+            .scheme = scheme,
+            .dt = 0.05,
+            .steps = 40,
+            .limit = 1e10,
+            .y = y,
+            .out = out[isa],
+            .carry = settings->compensated ? carry : NULL,
+            .carry_out = settings->compensated ? carry_out : NULL,
+        };
+        const struct gm_progress progress =
+            gm_ode_of(problem)->loops[isa]->over_kernels[scheme->family->over_kernels](&task);
+        assert_int_equal(progress.done, 40);
+        if (memcmp(out[isa], out[0], count * sizeof(double)) != 0) {
+            fail_msg("%s on %s: %s differs from baseline", scheme->name, problem->name,
+                     gm_isa_name((enum gm_isa)isa));
+        }
+    }
+}
+
+static void instruction_sets_agree(void **unused)
+{
+    (void)unused;
+    for_all(1, compare_instruction_sets);
+    for_all(21, compare_instruction_sets);
+}
+
+static void resume(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                   const struct gm_settings *settings)
+{
+    if (scheme->family->not_resumable) {
+        return;
+    }
+    struct gm_run *run = open_run(problem, scheme, settings, 0.05);
+    struct gm_run *other = open_run(problem, scheme, settings, 0.05);
+    void *snapshot = malloc(gm_run_snapshot_size(run));
+    assert_non_null(snapshot);
+    gm_run_advance(run, 33);
+    gm_run_save(run, snapshot);
+    gm_run_advance(run, 50);
+    gm_run_load(other, snapshot);
+    assert_int_equal(other->steps, 33);
+    gm_run_advance(other, 50);
+    expect_same_state(run, other);
+    assert_true(run->t == other->t && run->evaluations == other->evaluations);
+    free(snapshot);
+    gm_run_close(run);
+    gm_run_close(other);
+}
+
+static void snapshots_resume_bit_for_bit(void **unused)
+{
+    (void)unused;
+    for_all(5, resume);
+}
+
+/* A loop whose second step is refused memory by a library, and takes no notice of it. */
+static struct gm_progress greedy(const struct gm_task *task)
+{
+    memcpy(task->out, task->y, task->problem->n * task->problem->m * sizeof *task->y);
+    task->out[0] += 1;
+    if (task->steps_before == 1) {
+        gm_memory_refused();
+    }
+    return (struct gm_progress){.done = task->steps, .status = GM_OK};
+}
+
+static void refused_memory_is_no_step(void **unused)
+{
+    (void)unused;
+    const struct gm_family family = {.kind = &gm_kind_ode, .loop = greedy};
+    const struct gm_scheme scheme = {.name = "greedy", .family = &family};
+    struct gm_problem problem = gm_problem_oscillator;
+    problem.m = 1;
+    const double start[2] = {0.5, 0};
+    struct gm_run *run = gm_run_open(&problem, &scheme, &settings_of[0], 0, 0.1, start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, 1), GM_OK);
+    assert_int_equal(gm_run_advance(run, 1), GM_OUT_OF_MEMORY);
+    assert_string_equal(gm_status_name(run->status), "out-of-memory");
+    assert_int_equal(run->steps, 1);
+    assert_true(run->t == 0.1 && gm_run_state(run)[0] == 1.5);
+    assert_true(gm_memory_was_short());
+    gm_run_close(run);
+}
+
+/* Explicit Euler on the oscillator: |y| = (1 + dt^2)^(n/2) |y_0|, so the step that leaves the bound is known.
+ */
+static void blow_up_is_found_to_the_step(void **unused)
+{
+    (void)unused;
+    struct gm_problem problem = gm_problem_oscillator;
+    problem.m = 3;
+    const double start[6] = {0, 0.5, 0, 0.5, 0, 1}; /* the middle member stays at rest */
+    const struct gm_scheme *scheme = gm_scheme_find("explicit-euler");
+    const double y[6] = {start[0], 0, start[2], 1, 0, start[5]};
+    struct gm_run *far = gm_run_open(&problem, scheme, &settings_of[0], 0, 2, y);
+    struct gm_run *near = gm_run_open(&problem, scheme, &settings_of[0], 0, 2, y);
+    assert_int_equal(gm_run_advance(far, 1000), GM_BLOW_UP);
+    while (near->status == GM_OK) {
+        gm_run_advance(near, 1);
+    }
+    assert_int_equal(near->steps, far->steps);
+    expect_same_state(near, far);
+    assert_true(far->t == 2.0 * (double)far->steps);
+    double q = 0, p = 1;
+    long steps = 0;
+    for (;;) {
+        const double next_q = q + 2 * p, next_p = p - 2 * q;
+        if (!(fabs(next_q) <= 1e10 && fabs(next_p) <= 1e10)) {
+            break;
+        }
+        q = next_q;
+        p = next_p;
+        steps++;
+    }
+    assert_int_equal(far->steps, steps);
+    assert_true(gm_run_state(far)[0] == q && gm_run_state(far)[3] == p);
+    const long stopped = far->steps;
+    assert_int_equal(gm_run_advance(far, 10), GM_BLOW_UP);
+    assert_int_equal(far->steps, stopped);
+    gm_run_close(far);
+    gm_run_close(near);
+}
+
+/* Implicit Euler with so large a step that p' = -q (1 + p^2), q' = p (1 + q^2) leaves Newton without a root.
+ */
+static void failed_solves_are_told(void **unused)
+{
+    (void)unused;
+    const struct gm_problem problem = gm_problem_product;
+    const double start[2] = {3, 3};
+    struct gm_run *run = gm_run_open(&problem, gm_scheme_find("midpoint"), &settings_of[0], 0, 10, start);
+    assert_int_equal(gm_run_advance(run, 1000), GM_NO_CONVERGENCE);
+    assert_true(isfinite(gm_run_state(run)[0]) && isfinite(gm_run_state(run)[1]));
+    assert_true(run->t == 10.0 * (double)run->steps);
+    gm_run_close(run);
+}
+
+/* Where fixed-point iteration cannot contract, Newton takes over: the midpoint rule at dt = 50 is the
+   rational map with cos = (1 - dt^2/4)/(1 + dt^2/4), and keeps q^2 + p^2. */
+static void newton_takes_over_at_large_steps(void **unused)
+{
+    (void)unused;
+    const struct gm_problem problem = gm_problem_oscillator;
+    const double start[2] = {0, 1}, dt = 50;
+    struct gm_run *run = gm_run_open(&problem, gm_scheme_find("midpoint"), &settings_of[0], 0, dt, start);
+    assert_int_equal(gm_run_advance(run, 1), GM_OK);
+    assert_true(run->solves > 0);
+    const double cosine = (1 - dt * dt / 4) / (1 + dt * dt / 4);
+    assert_true(fabs(gm_run_state(run)[1] - cosine) < 1e-13);
+    assert_int_equal(gm_run_advance(run, 999), GM_OK);
+    const double *y = gm_run_state(run);
+    assert_true(fabs(y[0] * y[0] + y[1] * y[1] - 1) < 1e-11);
+    gm_run_close(run);
+}
+
+static void newton_agrees_with_fixed_point(void **unused)
+{
+    (void)unused;
+    const char *const names[] = {"implicit-euler", "midpoint", "trapezoidal", "gauss4", "rk4sym"};
+    for (int p = 0; p < PROBLEMS; p++) {
+        for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+            struct gm_problem problem = problem_at(p), hard = problem;
+            if (gm_ode_of(&problem)->stiff || !is_tested(gm_scheme_find(names[i]), &problem)) {
+                continue;
+            }
+            struct gm_ode stiff = *gm_ode_of(&problem);
+            stiff.stiff = true;
+            hard.facets = &stiff;
+            struct gm_run *easy_run = open_run(&problem, gm_scheme_find(names[i]), &settings_of[0], 0.2);
+            struct gm_run *hard_run = open_run(&hard, gm_scheme_find(names[i]), &settings_of[0], 0.2);
+            assert_int_equal(gm_run_advance(easy_run, 20), GM_OK);
+            assert_int_equal(gm_run_advance(hard_run, 20), GM_OK);
+            assert_true(easy_run->solves == 0 && hard_run->solves >= 20);
+            for (size_t c = 0; c < problem.n; c++) {
+                assert_true(fabs(gm_run_state(easy_run)[c] - gm_run_state(hard_run)[c]) < 1e-13);
+            }
+            gm_run_close(easy_run);
+            gm_run_close(hard_run);
+        }
+    }
+}
+
+static void evaluations_are_counted(void **unused)
+{
+    (void)unused;
+    const struct {
+        const char *scheme;
+        double evaluations;
+    } expected[] = {
+        {"explicit-euler", 100}, {"rk2", 200}, {"rk4", 400}, {"symplectic-euler", 100}, {"verlet", 101}};
+    for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++) {
+        struct gm_problem problem = gm_problem_pendulum;
+        problem.m = 21;
+        struct gm_run *run = open_run(&problem, gm_scheme_find(expected[i].scheme), &settings_of[0], 0.05);
+        for (int k = 0; k < 100; k++) {
+            gm_run_advance(run, 1);
+        }
+        assert_true(gm_run_per_member(run, run->evaluations) == expected[i].evaluations);
+        gm_run_close(run);
+    }
+}
+
+static void segments_continue_time(void **unused)
+{
+    (void)unused;
+    const struct gm_problem problem = gm_problem_pendulum;
+    struct gm_run *run = open_run(&problem, gm_scheme_find("verlet"), &settings_of[0], 0.1);
+    double start[2] = {gm_run_state(run)[0], gm_run_state(run)[1]};
+    gm_run_advance(run, 10);
+    struct gm_run *next = gm_run_switch(run, gm_scheme_find("gauss4"));
+    assert_non_null(next);
+    expect_same_state(run, next);
+    assert_true(next->t == run->t && next->steps == 10);
+    gm_run_close(next);
+    /* back again with the same scheme and -dt: Verlet is symmetric */
+    gm_run_set_step(run, -0.1);
+    gm_run_advance(run, 10);
+    assert_int_equal(run->steps, 20);
+    assert_true(fabs(run->t) < 1e-15);
+    assert_true(fabs(gm_run_state(run)[0] - start[0]) < 1e-14 &&
+                fabs(gm_run_state(run)[1] - start[1]) < 1e-14);
+    gm_run_close(run);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pieces_do_not_matter),           cmocka_unit_test(members_do_not_feel_each_other),
+        cmocka_unit_test(instruction_sets_agree),         cmocka_unit_test(snapshots_resume_bit_for_bit),
+        cmocka_unit_test(refused_memory_is_no_step),      cmocka_unit_test(blow_up_is_found_to_the_step),
+        cmocka_unit_test(failed_solves_are_told),         cmocka_unit_test(newton_takes_over_at_large_steps),
+        cmocka_unit_test(newton_agrees_with_fixed_point), cmocka_unit_test(evaluations_are_counted),
+        cmocka_unit_test(segments_continue_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
