@@ -156,9 +156,9 @@ bool gm_checkpoint_read(const char *path, const struct gm_frames *frames, long *
     const unsigned char *at = bytes + head.identity_size, *end = at + head.body_size;
     bool good = true;
     for (size_t i = 0; good && i < count; i++) {
-        size_t size = (size_t)(end - at);
-        good = unpack(lanes[i], gm_schedule_time(frames->schedule, head.frame), at, &size);
-        at += size;
+        size_t taken = (size_t)(end - at);
+        good = unpack(lanes[i], gm_schedule_time(frames->schedule, head.frame), at, &taken);
+        at += taken;
     }
     good = good && at == end;
     free(bytes);

@@ -26,7 +26,7 @@ static double form_at(size_t d, const double *matrix, const double *a, const dou
     return form(d, matrix, false, a, a, b, b);
 }
 
-bool gm_faces_open(struct gm_faces *faces, const struct gm_form *field, const struct gm_cells *cells)
+bool gm_faces_open(struct gm_faces *faces, const struct gm_form *field, const struct gm_lattice *cells)
 {
     const size_t face = cells->points * cells->r * field->dimension;
     const size_t sides = (cells->points + 1) * cells->s * field->dimension;
@@ -42,8 +42,8 @@ void gm_faces_close(struct gm_faces *faces)
     free(faces->lower);
 }
 
-double gm_cells_law(const struct gm_form *field, const struct gm_cells *cells, const struct gm_faces *a,
-                    const struct gm_faces *b)
+double gm_lattice_law(const struct gm_form *field, const struct gm_lattice *cells, const struct gm_faces *a,
+                      const struct gm_faces *b)
 {
     const size_t d = field->dimension;
     double largest = 0;

@@ -21,19 +21,19 @@ struct gm_faces {
 };
 
 /* Stages and weights (of sum 1) of such a scheme, and the sides of its cells. */
-struct gm_cells {
+struct gm_lattice {
     size_t points, r, s;
     const double *space, *time;
     double dx, dt;
 };
 
 /* Makes room for the faces of one tangent, all 0; false where memory is short. gm_faces_close frees it. */
-bool gm_faces_open(struct gm_faces *faces, const struct gm_form *field, const struct gm_cells *cells);
+bool gm_faces_open(struct gm_faces *faces, const struct gm_form *field, const struct gm_lattice *cells);
 void gm_faces_close(struct gm_faces *faces);
 
 /* The largest |sum space_m D_t omega_m + sum time_j D_x kappa_j| of a cell. */
-double gm_cells_law(const struct gm_form *field, const struct gm_cells *cells, const struct gm_faces *a,
-                    const struct gm_faces *b);
+double gm_lattice_law(const struct gm_form *field, const struct gm_lattice *cells, const struct gm_faces *a,
+                      const struct gm_faces *b);
 
 /* Fills in a tangent at a node at the three levels n - 1, n, n + 1, [level * dimension + component]. */
 typedef void gm_complete_node(const void *tangent, size_t node, double *s);

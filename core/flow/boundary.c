@@ -23,7 +23,7 @@ static size_t edge_before(const struct gm_complex *complex, size_t edge)
 
 /* The only run of edges of this side; count = 0 if there is none. */
 static enum gm_boundary_fault find_run(const struct gm_complex *complex, const unsigned char *sides,
-                                       enum gm_side side, struct run *run)
+                                       enum gm_edge_kind side, struct run *run)
 {
     size_t runs = 0, total = 0;
     *run = (struct run){0};
@@ -101,9 +101,9 @@ enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned
     if (complex->loops != 1) {
         return GM_BOUNDARY_LOOPS;
     }
-    enum gm_boundary_fault fault = find_run(complex, sides, GM_SIDE_INLET, &in);
+    enum gm_boundary_fault fault = find_run(complex, sides, GM_EDGE_INLET, &in);
     if (fault == GM_BOUNDARY_OK) {
-        fault = find_run(complex, sides, GM_SIDE_OUTLET, &out);
+        fault = find_run(complex, sides, GM_EDGE_OUTLET, &out);
     }
     if (fault != GM_BOUNDARY_OK) {
         return fault;
@@ -114,11 +114,11 @@ enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned
     const double through = 2.0 / 3 * speed * run_length(complex, &in);
     for (size_t e = 0; e < complex->boundary; e++) {
         const int v = complex->boundary_vertex[e], end = complex->boundary_vertex[next_edge(complex, e)];
-        const bool slip = sides[e] == GM_SIDE_SLIP && sides[edge_before(complex, e)] == GM_SIDE_SLIP;
+        const bool slip = sides[e] == GM_EDGE_SLIP && sides[edge_before(complex, e)] == GM_EDGE_SLIP;
         flow->kind[v] = slip ? GM_VERTEX_SLIP : GM_VERTEX_FIXED;
         flow->theta_fixed[v] = true;
         flow->theta[v] = 0;
-        if (sides[e] == GM_SIDE_LID) {
+        if (sides[e] == GM_EDGE_LID) {
             const double half = complex->length[complex->boundary_edge[e]] / 2;
             flow->sheet[v] -= speed * half;
             flow->sheet[end] -= speed * half;

@@ -5,7 +5,7 @@
 #include "core/flow/flow.h"
 
 /* What a boundary edge is. */
-enum gm_side { GM_SIDE_WALL, GM_SIDE_INLET, GM_SIDE_OUTLET, GM_SIDE_LID, GM_SIDE_SLIP, GM_SIDE_COUNT };
+enum gm_edge_kind { GM_EDGE_WALL, GM_EDGE_INLET, GM_EDGE_OUTLET, GM_EDGE_LID, GM_EDGE_SLIP };
 
 enum gm_boundary_fault {
     GM_BOUNDARY_OK,

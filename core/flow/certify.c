@@ -22,7 +22,7 @@ static struct gm_flow *open_torus(double viscosity)
 {
     const struct gm_rectangle torus = {
         .width = 1, .height = 1, .edges = EDGES, .strips = STRIPS, .torus = true, .irregular = 0.2};
-    struct gm_mesh_fault fault;
+    struct gm_triangulation_fault fault;
     struct gm_complex *complex = gm_rectangle_open(&torus, &fault);
     struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
     if (flow) {
@@ -209,7 +209,7 @@ static struct gm_flow *open_room(void)
                                            .irregular = 0.2,
                                            .fixed = lips,
                                            .fixed_count = 2};
-    struct gm_mesh_fault fault;
+    struct gm_triangulation_fault fault;
     struct gm_complex *complex = gm_rectangle_open(&rectangle, &fault);
     struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
     unsigned char *sides = flow ? calloc(complex->boundary, 1) : NULL;
@@ -217,7 +217,7 @@ static struct gm_flow *open_room(void)
         const int *edge = complex->edge + 2 * complex->boundary_edge[b];
         const double x = (complex->point[2 * edge[0]] + complex->point[2 * edge[1]]) / 2;
         const double z = (complex->point[2 * edge[0] + 1] + complex->point[2 * edge[1] + 1]) / 2;
-        sides[b] = x == 0 && z > 2 ? GM_SIDE_INLET : x == 4 && z < 1 ? GM_SIDE_OUTLET : GM_SIDE_WALL;
+        sides[b] = x == 0 && z > 2 ? GM_EDGE_INLET : x == 4 && z < 1 ? GM_EDGE_OUTLET : GM_EDGE_WALL;
     }
     const bool good = sides && gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1000) == GM_BOUNDARY_OK;
     free(sides);

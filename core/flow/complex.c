@@ -13,7 +13,7 @@
    round-off of either sign. */
 static const double shortest_dual = 1e-9;
 
-static bool fail(struct gm_mesh_fault *fault, enum gm_mesh_fault_kind kind)
+static bool fail(struct gm_triangulation_fault *fault, enum gm_triangulation_fault_kind kind)
 {
     fault->kind = kind;
     return false;
@@ -25,7 +25,7 @@ static long tag_of(const long *tags, int vertex)
 }
 
 static void name_triangle(const struct gm_complex *complex, size_t triangle, const long *tags,
-                          struct gm_mesh_fault *fault)
+                          struct gm_triangulation_fault *fault)
 {
     fault->triangle = (long)triangle + 1;
     for (int k = 0; k < 3; k++) {
@@ -63,7 +63,7 @@ static double twice_area(const double p[6])
     return (p[2] - p[0]) * (p[5] - p[1]) - (p[4] - p[0]) * (p[3] - p[1]);
 }
 
-static bool orient(struct gm_complex *complex, const long *tags, struct gm_mesh_fault *fault)
+static bool orient(struct gm_complex *complex, const long *tags, struct gm_triangulation_fault *fault)
 {
     for (size_t t = 0; t < complex->triangles; t++) {
         double p[6];
@@ -78,7 +78,7 @@ static bool orient(struct gm_complex *complex, const long *tags, struct gm_mesh_
         const bool flat = !(fabs(twice) > 1e-12 * longest * longest) || !isfinite(twice);
         if (flat || v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
             name_triangle(complex, t, tags, fault);
-            return fail(fault, GM_MESH_DEGENERATE);
+            return fail(fault, GM_TRIANGULATION_DEGENERATE);
         }
         if (twice < 0) {
             int *corner = complex->triangle + 3 * t;
@@ -139,7 +139,7 @@ static struct side *sort_sides(const struct gm_complex *complex)
 }
 
 static bool make_edges(struct gm_complex *complex, const struct side *sides, const long *tags,
-                       struct gm_mesh_fault *fault)
+                       struct gm_triangulation_fault *fault)
 {
     const size_t count = 3 * complex->triangles;
     size_t edges = 0;
@@ -156,7 +156,7 @@ static bool make_edges(struct gm_complex *complex, const struct side *sides, con
             if (end - i == 2) {
                 fault->nodes[0] = tag_of(tags, sides[i].low);
                 fault->nodes[1] = tag_of(tags, sides[i].high);
-                return fail(fault, GM_MESH_EDGE_OF_THREE);
+                return fail(fault, GM_TRIANGULATION_EDGE_OF_THREE);
             }
             complex->triangle_edge[place] = (int)edges;
             complex->triangle_sign[place] = along ? 1 : -1;
@@ -168,7 +168,7 @@ static bool make_edges(struct gm_complex *complex, const struct side *sides, con
                                    sides[end + 1].high == sides[i].high;
                 if (!third) {
                     name_triangle(complex, (size_t)(place / 3), tags, fault);
-                    return fail(fault, GM_MESH_OVERLAP);
+                    return fail(fault, GM_TRIANGULATION_OVERLAP);
                 }
             }
         }
@@ -203,13 +203,13 @@ static void make_rings(struct gm_complex *complex)
 
 /* Turns around every vertex: its triangles must be one fan. */
 static bool check_fans(const struct gm_complex *complex, const int *leaves, const long *tags,
-                       struct gm_mesh_fault *fault)
+                       struct gm_triangulation_fault *fault)
 {
     int *corners = calloc(complex->vertices, sizeof *corners);
     int *first = malloc(complex->vertices * sizeof *first);
     bool good = corners && first;
     if (!good) {
-        fail(fault, GM_MESH_MEMORY);
+        fail(fault, GM_TRIANGULATION_MEMORY);
     }
     for (size_t i = 0; good && i < 3 * complex->triangles; i++) {
         corners[complex->triangle[i]]++;
@@ -243,7 +243,7 @@ static bool check_fans(const struct gm_complex *complex, const int *leaves, cons
         } while (place != begin && met < corners[v]);
         if (met != corners[v]) {
             fault->nodes[0] = tag_of(tags, (int)v);
-            good = fail(fault, GM_MESH_PINCHED);
+            good = fail(fault, GM_TRIANGULATION_PINCHED);
         }
     }
     free(corners);
@@ -251,11 +251,11 @@ static bool check_fans(const struct gm_complex *complex, const int *leaves, cons
     return good;
 }
 
-static bool make_boundary(struct gm_complex *complex, const long *tags, struct gm_mesh_fault *fault)
+static bool make_boundary(struct gm_complex *complex, const long *tags, struct gm_triangulation_fault *fault)
 {
     int *leaves = malloc(complex->vertices * sizeof *leaves); /* the boundary edge that begins at a vertex */
     if (!leaves) {
-        return fail(fault, GM_MESH_MEMORY);
+        return fail(fault, GM_TRIANGULATION_MEMORY);
     }
     for (size_t v = 0; v < complex->vertices; v++) {
         leaves[v] = -1;
@@ -269,7 +269,7 @@ static bool make_boundary(struct gm_complex *complex, const long *tags, struct g
         const int begin = complex->edge[2 * e + (pair[0] >= 0 ? 0 : 1)];
         if (leaves[begin] >= 0) {
             fault->nodes[0] = tag_of(tags, begin);
-            good = fail(fault, GM_MESH_PINCHED);
+            good = fail(fault, GM_TRIANGULATION_PINCHED);
         }
         leaves[begin] = (int)e;
         complex->boundary++;
@@ -291,13 +291,13 @@ static bool make_boundary(struct gm_complex *complex, const long *tags, struct g
     return good;
 }
 
-static bool in_one_piece(const struct gm_complex *complex, struct gm_mesh_fault *fault)
+static bool in_one_piece(const struct gm_complex *complex, struct gm_triangulation_fault *fault)
 {
     int *queue = malloc(complex->triangles * sizeof *queue);
     bool *met = calloc(complex->triangles, sizeof *met);
     bool good = queue && met;
     if (!good) {
-        fail(fault, GM_MESH_MEMORY);
+        fail(fault, GM_TRIANGULATION_MEMORY);
     }
     size_t count = 0;
     if (good) {
@@ -317,7 +317,7 @@ static bool in_one_piece(const struct gm_complex *complex, struct gm_mesh_fault 
     free(queue);
     free(met);
     if (good && count != complex->triangles) {
-        good = fail(fault, GM_MESH_PIECES);
+        good = fail(fault, GM_TRIANGULATION_PIECES);
     }
     return good;
 }
@@ -371,7 +371,8 @@ static double angle_facing(const struct gm_complex *complex, int triangle, int e
            180 / M_PI;
 }
 
-static bool check_stars(const struct gm_complex *complex, const long *tags, struct gm_mesh_fault *fault)
+static bool check_stars(const struct gm_complex *complex, const long *tags,
+                        struct gm_triangulation_fault *fault)
 {
     double worst = 0;
     for (size_t e = 0; e < complex->edges; e++) {
@@ -386,12 +387,12 @@ static bool check_stars(const struct gm_complex *complex, const long *tags, stru
         }
     }
     if (worst > 0) {
-        return fail(fault, GM_MESH_NOT_DELAUNAY);
+        return fail(fault, GM_TRIANGULATION_NOT_DELAUNAY);
     }
     for (size_t v = 0; v < complex->vertices; v++) {
         if (!(complex->star0[v] > 0)) {
             fault->nodes[0] = tag_of(tags, (int)v);
-            return fail(fault, GM_MESH_DUAL_CELL);
+            return fail(fault, GM_TRIANGULATION_DUAL_CELL);
         }
     }
     return true;
@@ -432,21 +433,22 @@ static bool allocate(struct gm_complex *complex)
 }
 
 struct gm_complex *gm_complex_open(const double *points, size_t vertices, const int *triangles, size_t count,
-                                   const double period[2], const long *tags, struct gm_mesh_fault *fault)
+                                   const double period[2], const long *tags,
+                                   struct gm_triangulation_fault *fault)
 {
-    *fault = (struct gm_mesh_fault){.kind = GM_MESH_OK};
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_OK};
     if (count == 0) {
-        fail(fault, GM_MESH_EMPTY);
+        fail(fault, GM_TRIANGULATION_EMPTY);
         return NULL;
     }
     struct gm_complex *complex = calloc(1, sizeof *complex);
     if (!complex) {
-        fail(fault, GM_MESH_MEMORY);
+        fail(fault, GM_TRIANGULATION_MEMORY);
         return NULL;
     }
     complex->vertices = vertices;
     complex->triangles = count;
-    bool good = allocate(complex) || fail(fault, GM_MESH_MEMORY);
+    bool good = allocate(complex) || fail(fault, GM_TRIANGULATION_MEMORY);
     struct side *sides = NULL;
     if (good) {
         memcpy(complex->point, points, 2 * vertices * sizeof *points);
@@ -456,7 +458,7 @@ struct gm_complex *gm_complex_open(const double *points, size_t vertices, const 
     }
     if (good) {
         sides = sort_sides(complex);
-        good = sides || fail(fault, GM_MESH_MEMORY);
+        good = sides || fail(fault, GM_TRIANGULATION_MEMORY);
     }
     good = good && make_edges(complex, sides, tags, fault) && make_boundary(complex, tags, fault) &&
            in_one_piece(complex, fault);

@@ -6,32 +6,33 @@
 #include <stddef.h>
 
 /* What is wrong with a mesh. Sentences are made elsewhere. */
-enum gm_mesh_fault_kind {
-    GM_MESH_OK,
-    GM_MESH_MEMORY,
-    GM_MESH_NOT_GMSH, /* does not begin with $MeshFormat */
-    GM_MESH_VERSION,  /* text: the version; only 4.1 is read */
-    GM_MESH_BINARY,
-    GM_MESH_SYNTAX,        /* line; text: what is expected there */
-    GM_MESH_TRUNCATED,     /* text: the section that does not end */
-    GM_MESH_HUGE,          /* line: announces more than the file can hold, or than 5e6 */
-    GM_MESH_REPEATED_NODE, /* line, nodes[0] */
-    GM_MESH_UNKNOWN_NODE,  /* line, nodes[0] */
-    GM_MESH_ELEMENT,       /* line, nodes[0]: a type of element that is not read */
-    GM_MESH_THREE_D,       /* line, nodes[0]: a node off the plane */
-    GM_MESH_EMPTY,         /* no triangle */
-    GM_MESH_DEGENERATE,    /* triangle, nodes: no area */
-    GM_MESH_OVERLAP,       /* triangle, nodes: two triangles on the same side of an edge */
-    GM_MESH_EDGE_OF_THREE, /* nodes: an edge of three or more triangles */
-    GM_MESH_PINCHED,       /* nodes[0]: two pieces that meet in one vertex only */
-    GM_MESH_PIECES,        /* more than one piece */
-    GM_MESH_NOT_DELAUNAY,  /* triangle, nodes, value: its largest angle, opposite to a dual edge not positive
-                            */
-    GM_MESH_DUAL_CELL,     /* nodes[0]: a dual cell whose area is not positive */
+enum gm_triangulation_fault_kind {
+    GM_TRIANGULATION_OK,
+    GM_TRIANGULATION_MEMORY,
+    GM_TRIANGULATION_NOT_GMSH, /* does not begin with $MeshFormat */
+    GM_TRIANGULATION_VERSION,  /* text: the version; only 4.1 is read */
+    GM_TRIANGULATION_BINARY,
+    GM_TRIANGULATION_SYNTAX,        /* line; text: what is expected there */
+    GM_TRIANGULATION_TRUNCATED,     /* text: the section that does not end */
+    GM_TRIANGULATION_HUGE,          /* line: announces more than the file can hold, or than 5e6 */
+    GM_TRIANGULATION_REPEATED_NODE, /* line, nodes[0] */
+    GM_TRIANGULATION_UNKNOWN_NODE,  /* line, nodes[0] */
+    GM_TRIANGULATION_ELEMENT,       /* line, nodes[0]: a type of element that is not read */
+    GM_TRIANGULATION_THREE_D,       /* line, nodes[0]: a node off the plane */
+    GM_TRIANGULATION_EMPTY,         /* no triangle */
+    GM_TRIANGULATION_DEGENERATE,    /* triangle, nodes: no area */
+    GM_TRIANGULATION_OVERLAP,       /* triangle, nodes: two triangles on the same side of an edge */
+    GM_TRIANGULATION_EDGE_OF_THREE, /* nodes: an edge of three or more triangles */
+    GM_TRIANGULATION_PINCHED,       /* nodes[0]: two pieces that meet in one vertex only */
+    GM_TRIANGULATION_PIECES,        /* more than one piece */
+    GM_TRIANGULATION_NOT_DELAUNAY,  /* triangle, nodes, value: its largest angle, opposite to a dual edge not
+                                     * positive
+                                     */
+    GM_TRIANGULATION_DUAL_CELL,     /* nodes[0]: a dual cell whose area is not positive */
 };
 
-struct gm_mesh_fault {
-    enum gm_mesh_fault_kind kind;
+struct gm_triangulation_fault {
+    enum gm_triangulation_fault_kind kind;
     long line;     /* of the file, from 1 */
     long triangle; /* from 1, in the order of the file */
     long nodes[3]; /* tags of a file's nodes, from 1 otherwise */
@@ -73,7 +74,8 @@ struct gm_complex {
    one of them used; on a torus of these periods if they are positive (triangles take the nearest images).
    NULL with a fault if it is no such mesh. `tags`: names of the points for the fault, or NULL. */
 struct gm_complex *gm_complex_open(const double *points, size_t vertices, const int *triangles, size_t count,
-                                   const double period[2], const long *tags, struct gm_mesh_fault *fault);
+                                   const double period[2], const long *tags,
+                                   struct gm_triangulation_fault *fault);
 void gm_complex_close(struct gm_complex *complex);
 
 /* The corners of a triangle, next to each other even on a torus: x0 y0 x1 y1 x2 y2. */

@@ -218,14 +218,14 @@ static bool jiggle(struct pattern *pattern, const struct gm_rectangle *r, const 
     return true;
 }
 
-struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_mesh_fault *fault)
+struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_triangulation_fault *fault)
 {
     const size_t n = (size_t)r->edges, m = (size_t)r->strips;
     const double period[2] = {r->torus ? r->width : 0, r->torus ? r->height : 0};
     struct pattern pattern = {.points = malloc(2 * (m + 1) * (n + 1) * sizeof(double)),
                               .triangles = malloc(3 * 2 * n * m * sizeof(int))};
     struct gm_complex *complex = NULL;
-    *fault = (struct gm_mesh_fault){.kind = GM_MESH_MEMORY};
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
     if (pattern.points && pattern.triangles) {
         if (r->torus) {
             lay_torus(&pattern, r);
@@ -239,7 +239,7 @@ struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_mes
         const bool moved = jiggle(&pattern, r, complex);
         gm_complex_close(complex);
         complex = NULL;
-        *fault = (struct gm_mesh_fault){.kind = GM_MESH_MEMORY};
+        *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
         if (moved) {
             complex = gm_complex_open(pattern.points, pattern.vertices, pattern.triangles, pattern.count,
                                       period, NULL, fault);

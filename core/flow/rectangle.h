@@ -25,6 +25,7 @@ bool gm_rectangle_is_acute(const struct gm_rectangle *rectangle);
 long gm_rectangle_strips(double width, double height, long edges, bool transposed);
 
 /* NULL with a fault when it cannot be made. */
-struct gm_complex *gm_rectangle_open(const struct gm_rectangle *rectangle, struct gm_mesh_fault *fault);
+struct gm_complex *gm_rectangle_open(const struct gm_rectangle *rectangle,
+                                     struct gm_triangulation_fault *fault);
 
 #endif

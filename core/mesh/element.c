@@ -293,11 +293,11 @@ void gm_elements_matrices(const struct gm_elements *stage, const struct gm_mesh 
         const struct bending bent = bending(mesh, &stage->y[e]);
         static const double sign[2] = {-1, 1};
         for (size_t i = 0; i < 2; i++) {
-            for (size_t k = 0; k < 2; k++) {
-                matrices->hessian[2 * i][2 * k] += d * d * bent.twice[i][k];
-                matrices->hessian[2 * i][2 * k + 1] += 2 * d * bent.by[i] * sign[k];
-                matrices->hessian[2 * i + 1][2 * k] += 2 * d * bent.by[k] * sign[i];
-                matrices->hessian[2 * i + 1][2 * k + 1] += 2 * (bent.q - 1) * sign[i] * sign[k];
+            for (size_t j = 0; j < 2; j++) {
+                matrices->hessian[2 * i][2 * j] += d * d * bent.twice[i][j];
+                matrices->hessian[2 * i][2 * j + 1] += 2 * d * bent.by[i] * sign[j];
+                matrices->hessian[2 * i + 1][2 * j] += 2 * d * bent.by[j] * sign[i];
+                matrices->hessian[2 * i + 1][2 * j + 1] += 2 * (bent.q - 1) * sign[i] * sign[j];
             }
         }
     }

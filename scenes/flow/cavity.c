@@ -32,7 +32,7 @@ static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **s
     for (size_t b = 0; *sides && b < complex->boundary; b++) {
         double middle[2];
         gm_flows_middle(complex, b, middle);
-        (*sides)[b] = middle[1] == 1 ? GM_SIDE_LID : GM_SIDE_WALL;
+        (*sides)[b] = middle[1] == 1 ? GM_EDGE_LID : GM_EDGE_WALL;
     }
     if (complex && !*sides) {
         snprintf(sentence, GM_SENTENCE, "not enough memory");
@@ -42,7 +42,7 @@ static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **s
 
 static struct gm_flow *open_file(const struct gm_flows *own, unsigned char **sides, char *sentence)
 {
-    struct gm_mesh mesh;
+    struct gm_triangulation mesh;
     if (!gm_flows_file(own->mesh, &mesh, sentence)) {
         return NULL;
     }
@@ -51,12 +51,12 @@ static struct gm_flow *open_file(const struct gm_flows *own, unsigned char **sid
     if (lid) {
         *sides = calloc(mesh.complex->boundary, 1);
         for (size_t b = 0; *sides && b < mesh.complex->boundary; b++) {
-            (*sides)[b] = mesh.edge_group[mesh.complex->boundary_edge[b]] == lid ? GM_SIDE_LID : GM_SIDE_WALL;
+            (*sides)[b] = mesh.edge_group[mesh.complex->boundary_edge[b]] == lid ? GM_EDGE_LID : GM_EDGE_WALL;
         }
         flow = gm_flow_open(mesh.complex);
         mesh.complex = NULL;
     }
-    gm_mesh_close(&mesh);
+    gm_triangulation_close(&mesh);
     return flow;
 }
 

@@ -66,7 +66,7 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
     for (size_t b = 0; sides && b < complex->boundary; b++) {
         double middle[2];
         gm_flows_middle(complex, b, middle);
-        sides[b] = middle[0] == 0 ? GM_SIDE_INLET : middle[0] == length ? GM_SIDE_OUTLET : GM_SIDE_WALL;
+        sides[b] = middle[0] == 0 ? GM_EDGE_INLET : middle[0] == length ? GM_EDGE_OUTLET : GM_EDGE_WALL;
     }
     if (complex && !sides) {
         snprintf(sentence, GM_SENTENCE, "not enough memory");

@@ -20,7 +20,7 @@ static bool refuse(char *sentence, const char *text)
 }
 
 /* The sentence for a mesh that was refused; `what` is "the mesh" or the file's name. */
-static void explain(const char *what, const struct gm_mesh_fault *fault, char *sentence)
+static void explain(const char *what, const struct gm_triangulation_fault *fault, char *sentence)
 {
     char where[48] = "";
     if (fault->line > 0) {
@@ -28,78 +28,78 @@ static void explain(const char *what, const struct gm_mesh_fault *fault, char *s
     }
     const long *n = fault->nodes;
     switch (fault->kind) {
-    case GM_MESH_OK:
-    case GM_MESH_MEMORY:
+    case GM_TRIANGULATION_OK:
+    case GM_TRIANGULATION_MEMORY:
         snprintf(sentence, GM_SENTENCE, "not enough memory");
         return;
-    case GM_MESH_NOT_GMSH:
+    case GM_TRIANGULATION_NOT_GMSH:
         snprintf(sentence, GM_SENTENCE, "%.100s is no Gmsh file: it does not begin with $MeshFormat", what);
         return;
-    case GM_MESH_VERSION:
+    case GM_TRIANGULATION_VERSION:
         snprintf(
             sentence, GM_SENTENCE,
             "%.100s is of version %.12s; Gmsh files of version 4.1 are read (save with Mesh.MshFileVersion = 4.1)",
             what, fault->text);
         return;
-    case GM_MESH_BINARY:
+    case GM_TRIANGULATION_BINARY:
         snprintf(sentence, GM_SENTENCE, "%.100s is binary; save it as ASCII (Mesh.Binary = 0)", what);
         return;
-    case GM_MESH_SYNTAX:
+    case GM_TRIANGULATION_SYNTAX:
         snprintf(sentence, GM_SENTENCE, "%.100s%s: expected %s", what, where, fault->text);
         return;
-    case GM_MESH_TRUNCATED:
+    case GM_TRIANGULATION_TRUNCATED:
         snprintf(sentence, GM_SENTENCE, "%.100s%s: the file ends within its section %s", what, where,
                  fault->text);
         return;
-    case GM_MESH_HUGE:
+    case GM_TRIANGULATION_HUGE:
         snprintf(sentence, GM_SENTENCE, "%.100s%s: %s is more than 5000000", what, where, fault->text);
         return;
-    case GM_MESH_REPEATED_NODE:
+    case GM_TRIANGULATION_REPEATED_NODE:
         snprintf(sentence, GM_SENTENCE, "%.100s%s: node %ld is there twice", what, where, n[0]);
         return;
-    case GM_MESH_UNKNOWN_NODE:
+    case GM_TRIANGULATION_UNKNOWN_NODE:
         snprintf(sentence, GM_SENTENCE, "%.100s%s: there is no node %ld", what, where, n[0]);
         return;
-    case GM_MESH_ELEMENT:
+    case GM_TRIANGULATION_ELEMENT:
         snprintf(
             sentence, GM_SENTENCE,
             "%.100s%s: elements of type %ld; only triangles with three nodes (type 2) and their sides are read",
             what, where, n[0]);
         return;
-    case GM_MESH_THREE_D:
+    case GM_TRIANGULATION_THREE_D:
         snprintf(sentence, GM_SENTENCE,
                  "%.100s%s: node %ld lies off the plane of the others; the mesh must be flat", what, where,
                  n[0]);
         return;
-    case GM_MESH_EMPTY:
+    case GM_TRIANGULATION_EMPTY:
         snprintf(sentence, GM_SENTENCE, "%.100s has no triangle", what);
         return;
-    case GM_MESH_DEGENERATE:
+    case GM_TRIANGULATION_DEGENERATE:
         snprintf(sentence, GM_SENTENCE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) has no area", what, where,
                  fault->triangle, n[0], n[1], n[2]);
         return;
-    case GM_MESH_OVERLAP:
+    case GM_TRIANGULATION_OVERLAP:
         snprintf(sentence, GM_SENTENCE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) lies over its neighbour",
                  what, where, fault->triangle, n[0], n[1], n[2]);
         return;
-    case GM_MESH_EDGE_OF_THREE:
+    case GM_TRIANGULATION_EDGE_OF_THREE:
         snprintf(sentence, GM_SENTENCE,
                  "%.100s: the edge between nodes %ld and %ld belongs to three triangles", what, n[0], n[1]);
         return;
-    case GM_MESH_PINCHED:
+    case GM_TRIANGULATION_PINCHED:
         snprintf(sentence, GM_SENTENCE, "%.100s: at node %ld the mesh hangs together by a point", what, n[0]);
         return;
-    case GM_MESH_PIECES:
+    case GM_TRIANGULATION_PIECES:
         snprintf(sentence, GM_SENTENCE, "%.100s is in several pieces", what);
         return;
-    case GM_MESH_NOT_DELAUNAY:
+    case GM_TRIANGULATION_NOT_DELAUNAY:
         snprintf(
             sentence, GM_SENTENCE,
             "%.80s%s: triangle %ld (nodes %ld %ld %ld) has an angle of %.1f degrees and a dual edge that is not "
             "positive; the mesh must be Delaunay",
             what, where, fault->triangle, n[0], n[1], n[2], fault->value);
         return;
-    case GM_MESH_DUAL_CELL:
+    case GM_TRIANGULATION_DUAL_CELL:
         snprintf(sentence, GM_SENTENCE, "%.100s: the dual cell of node %ld has no positive area", what, n[0]);
         return;
     }
@@ -123,7 +123,7 @@ struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sent
             rectangle->edges, rectangle->strips, best);
         return NULL;
     }
-    struct gm_mesh_fault fault;
+    struct gm_triangulation_fault fault;
     struct gm_complex *complex = gm_rectangle_open(rectangle, &fault);
     if (!complex) {
         explain("the mesh", &fault, sentence);
@@ -131,7 +131,7 @@ struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sent
     return complex;
 }
 
-bool gm_flows_file(const char *path, struct gm_mesh *mesh, char *sentence)
+bool gm_flows_file(const char *path, struct gm_triangulation *mesh, char *sentence)
 {
     enum { LARGEST = 1 << 29 };
     size_t size = 0;
@@ -141,8 +141,8 @@ bool gm_flows_file(const char *path, struct gm_mesh *mesh, char *sentence)
         snprintf(sentence, GM_SENTENCE, "%.130s could not be read: %s", path, reason);
         return false;
     }
-    struct gm_mesh_fault fault;
-    const bool good = gm_mesh_read(text, size, mesh, &fault);
+    struct gm_triangulation_fault fault;
+    const bool good = gm_triangulation_read(text, size, mesh, &fault);
     free(text);
     if (!good) {
         explain(path, &fault, sentence);
@@ -153,20 +153,20 @@ bool gm_flows_file(const char *path, struct gm_mesh *mesh, char *sentence)
 bool gm_flows_readable(const void *parameters, char *sentence)
 {
     const struct gm_flows *own = parameters;
-    struct gm_mesh mesh;
+    struct gm_triangulation mesh;
     if (strcmp(own->mesh, "none") == 0) {
         return true;
     }
     const bool good = gm_flows_file(own->mesh, &mesh, sentence);
     if (good) {
-        gm_mesh_close(&mesh);
+        gm_triangulation_close(&mesh);
     }
     return good;
 }
 
-long gm_flows_group(const struct gm_mesh *mesh, const char *key, const char *name, char *sentence)
+long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const char *name, char *sentence)
 {
-    const long tag = gm_mesh_group(mesh, name);
+    const long tag = gm_triangulation_group(mesh, name);
     if (tag != 0) {
         return tag;
     }

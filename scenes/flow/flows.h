@@ -83,13 +83,13 @@ extern const char *const gm_flows_shows[];
 struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence);
 
 /* The mesh of a file. False with a sentence that names the line or triangle. */
-bool gm_flows_file(const char *path, struct gm_mesh *mesh, char *sentence);
+bool gm_flows_file(const char *path, struct gm_triangulation *mesh, char *sentence);
 
 /* Whether the mesh of the parameters, if they name one, can be read; a sentence if not. */
 bool gm_flows_readable(const void *parameters, char *sentence);
 
 /* The tag of the boundary group `name`, which `key` was to name; 0 with a sentence. */
-long gm_flows_group(const struct gm_mesh *mesh, const char *key, const char *name, char *sentence);
+long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const char *name, char *sentence);
 
 /* What an outlet may be, NULL-terminated: the usual words of the parameter. */
 extern const char *const gm_flows_outlets[];

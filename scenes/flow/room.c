@@ -52,9 +52,9 @@ static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **s
     for (size_t b = 0; *sides && b < complex->boundary; b++) {
         double middle[2];
         gm_flows_middle(complex, b, middle);
-        (*sides)[b] = middle[0] == 0 && middle[1] > side - 1 ? GM_SIDE_INLET
-                      : middle[0] == side && middle[1] < 1   ? GM_SIDE_OUTLET
-                                                             : GM_SIDE_WALL;
+        (*sides)[b] = middle[0] == 0 && middle[1] > side - 1 ? GM_EDGE_INLET
+                      : middle[0] == side && middle[1] < 1   ? GM_EDGE_OUTLET
+                                                             : GM_EDGE_WALL;
     }
     if (complex && !*sides) {
         snprintf(sentence, GM_SENTENCE, "not enough memory");
@@ -65,7 +65,7 @@ static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **s
 static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet, unsigned char **sides,
                                  char *sentence)
 {
-    struct gm_mesh mesh;
+    struct gm_triangulation mesh;
     if (!gm_flows_file(own->mesh, &mesh, sentence)) {
         return NULL;
     }
@@ -81,12 +81,12 @@ static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet,
         *sides = calloc(complex->boundary, 1);
         for (size_t b = 0; *sides && b < complex->boundary; b++) {
             const long group = mesh.edge_group[complex->boundary_edge[b]];
-            (*sides)[b] = group == in ? GM_SIDE_INLET : group == out ? GM_SIDE_OUTLET : GM_SIDE_WALL;
+            (*sides)[b] = group == in ? GM_EDGE_INLET : group == out ? GM_EDGE_OUTLET : GM_EDGE_WALL;
         }
         flow = gm_flow_open(mesh.complex);
         mesh.complex = NULL;
     }
-    gm_mesh_close(&mesh);
+    gm_triangulation_close(&mesh);
     return flow;
 }
 

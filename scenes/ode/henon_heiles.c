@@ -152,8 +152,8 @@ static void draw_border(struct gm_picture *picture, struct gm_panel *panel, doub
 /* The orbit through that point of the section; there is none where the energy does not reach. */
 static size_t point(const void *own, double x, double y, struct gm_choice *choices)
 {
-    const struct henon_heiles *parameters = own;
-    if (!(y * y / 2 + potential(0, x) < parameters->energy) || fabs(x) > 1) {
+    const struct henon_heiles *orbit = own;
+    if (!(y * y / 2 + potential(0, x) < orbit->energy) || fabs(x) > 1) {
         return 0;
     }
     gm_choose(&choices[0], "q2", x);

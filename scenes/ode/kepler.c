@@ -169,7 +169,7 @@ static bool has_left(const struct gm_lane *lane)
 
 /* The orbits that are compared share a range: the exact orbit's, more where one has left it, but no more than
    lets the exact one be seen. */
-static void range_of(const struct gm_lane *const *lanes, size_t count, double farthest, struct gm_axis *x,
+static void range_of(const struct gm_lane *const *lanes, size_t count, double bound, struct gm_axis *x,
                      struct gm_axis *y)
 {
     double reach = 0;
@@ -187,7 +187,7 @@ static void range_of(const struct gm_lane *const *lanes, size_t count, double fa
         const struct gm_entries *trail = &lanes[i]->entries[0];
         for (size_t k = 0; k < trail->count; k++) {
             const double *at = trail->values + 2 * k;
-            if (hypot(at[0], at[1]) < farthest * reach) {
+            if (hypot(at[0], at[1]) < bound * reach) {
                 gm_range_add(&x->low, &x->high, at[0]);
                 gm_range_add(&y->low, &y->high, at[1]);
             }
@@ -288,11 +288,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         one_orbit &=
             other->eccentricity == kepler->eccentricity && other->perturbation == kepler->perturbation;
     }
-    double farthest = 0;
+    double end = 0;
     for (size_t i = 0; i < count; i++) {
-        farthest = fabs(lanes[i]->run->t) > fabs(farthest) ? lanes[i]->run->t : farthest;
+        end = fabs(lanes[i]->run->t) > fabs(end) ? lanes[i]->run->t : end;
     }
-    const double periods = farthest / (2 * M_PI);
+    const double periods = end / (2 * M_PI);
     picture->title =
         gm_picture_text(picture, "A Kepler orbit, followed by %s for %.4g %s",
                         gm_counted_schemes(lanes, count), periods, periods == 1 ? "period" : "periods");

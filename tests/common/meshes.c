@@ -24,30 +24,30 @@ char *mesh_text(const char *name, size_t *size)
     return text;
 }
 
-struct gm_mesh mesh_of(const char *name)
+struct gm_triangulation mesh_of(const char *name)
 {
-    struct gm_mesh mesh;
-    struct gm_mesh_fault fault;
+    struct gm_triangulation mesh;
+    struct gm_triangulation_fault fault;
     size_t size = 0;
     char *text = mesh_text(name, &size);
-    require(gm_mesh_read(text, size, &mesh, &fault));
+    require(gm_triangulation_read(text, size, &mesh, &fault));
     free(text);
     return mesh;
 }
 
-unsigned char *sides_of(const struct gm_mesh *mesh)
+unsigned char *sides_of(const struct gm_triangulation *mesh)
 {
     const struct gm_complex *complex = mesh->complex;
-    const long lid = gm_mesh_group(mesh, "lid"), inlet = gm_mesh_group(mesh, "inlet"),
-               outlet = gm_mesh_group(mesh, "outlet");
+    const long lid = gm_triangulation_group(mesh, "lid"), inlet = gm_triangulation_group(mesh, "inlet"),
+               outlet = gm_triangulation_group(mesh, "outlet");
     unsigned char *sides = calloc(complex->boundary, 1);
     require(sides != NULL);
     for (size_t b = 0; b < complex->boundary; b++) {
         const long group = mesh->edge_group[complex->boundary_edge[b]];
-        sides[b] = group && group == lid      ? GM_SIDE_LID
-                   : group && group == inlet  ? GM_SIDE_INLET
-                   : group && group == outlet ? GM_SIDE_OUTLET
-                                              : GM_SIDE_WALL;
+        sides[b] = group && group == lid      ? GM_EDGE_LID
+                   : group && group == inlet  ? GM_EDGE_INLET
+                   : group && group == outlet ? GM_EDGE_OUTLET
+                                              : GM_EDGE_WALL;
     }
     return sides;
 }

@@ -11,9 +11,9 @@
 char *mesh_text(const char *name, size_t *size);
 
 /* The mesh of a file that is known to be good. */
-struct gm_mesh mesh_of(const char *name);
+struct gm_triangulation mesh_of(const char *name);
 
 /* The sides of its boundary edges, by the names inlet, outlet and lid; malloc'ed. */
-unsigned char *sides_of(const struct gm_mesh *mesh);
+unsigned char *sides_of(const struct gm_triangulation *mesh);
 
 #endif

@@ -18,10 +18,10 @@ static void require(bool holds)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct gm_mesh mesh;
-    struct gm_mesh_fault fault;
-    if (!gm_mesh_read((const char *)data, size, &mesh, &fault)) {
-        require(fault.kind != GM_MESH_OK && mesh.complex == NULL);
+    struct gm_triangulation mesh;
+    struct gm_triangulation_fault fault;
+    if (!gm_triangulation_read((const char *)data, size, &mesh, &fault)) {
+        require(fault.kind != GM_TRIANGULATION_OK && mesh.complex == NULL);
         return 0;
     }
     const struct gm_complex *complex = mesh.complex;
@@ -35,6 +35,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         require(complex->triangle[t] >= 0 && (size_t)complex->triangle[t] < complex->vertices);
         require(complex->triangle_edge[t] >= 0 && (size_t)complex->triangle_edge[t] < complex->edges);
     }
-    gm_mesh_close(&mesh);
+    gm_triangulation_close(&mesh);
     return 0;
 }

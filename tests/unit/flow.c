@@ -66,12 +66,12 @@ static double *start_at_rest(const struct gm_flow *flow)
 
 static struct gm_flow *flow_on(const char *file, double speed, enum gm_vertex_kind outlet, double theta)
 {
-    struct gm_mesh mesh = mesh_of(file);
+    struct gm_triangulation mesh = mesh_of(file);
     unsigned char *sides = sides_of(&mesh);
     struct gm_flow *flow = gm_flow_open(mesh.complex);
     assert_non_null(flow);
     mesh.complex = NULL;
-    gm_mesh_close(&mesh);
+    gm_triangulation_close(&mesh);
     assert_int_equal(gm_flow_set_boundary(flow, sides, speed, outlet, theta), GM_BOUNDARY_OK);
     free(sides);
     return flow;
@@ -80,7 +80,7 @@ static struct gm_flow *flow_on(const char *file, double speed, enum gm_vertex_ki
 static void operators_agree(void **unused)
 {
     (void)unused;
-    struct gm_mesh mesh = mesh_of("square-small.msh");
+    struct gm_triangulation mesh = mesh_of("square-small.msh");
     const struct gm_complex *complex = mesh.complex;
     assert_int_equal(complex->vertices, 32);
     assert_int_equal(complex->edges, 79);
@@ -141,7 +141,7 @@ static void operators_agree(void **unused)
         }
     }
     mesh.complex = NULL;
-    gm_mesh_close(&mesh);
+    gm_triangulation_close(&mesh);
     gm_flow_close(flow);
 }
 
@@ -161,7 +161,7 @@ static void meshes_agree(void **unused)
                   {"lshape.msh", 49, 120, 72, 42.191192571896345, 92.79436205428043, 0.0038029051319451866,
                    0.024404761900706937, 0.75}};
     for (size_t i = 0; i < sizeof meshes / sizeof meshes[0]; i++) {
-        struct gm_mesh mesh = mesh_of(meshes[i].file);
+        struct gm_triangulation mesh = mesh_of(meshes[i].file);
         const struct gm_complex *complex = mesh.complex;
         double star0 = INFINITY, star1 = INFINITY;
         for (size_t v = 0; v < complex->vertices; v++) {
@@ -178,7 +178,7 @@ static void meshes_agree(void **unused)
         expect_number("smallest star0", star0, meshes[i].least_star0);
         expect_number("smallest star1", star1, meshes[i].least_star1);
         expect_number("area", complex->total_area, meshes[i].area);
-        gm_mesh_close(&mesh);
+        gm_triangulation_close(&mesh);
     }
 }
 
@@ -186,7 +186,7 @@ static void meshes_agree(void **unused)
 static void scrambled_is_the_same(void **unused)
 {
     (void)unused;
-    struct gm_mesh a = mesh_of("square-small.msh"), b = mesh_of("square-scrambled.msh");
+    struct gm_triangulation a = mesh_of("square-small.msh"), b = mesh_of("square-scrambled.msh");
     assert_int_equal(b.complex->vertices, 32);
     assert_int_equal(b.complex->triangles, 48);
     for (size_t v = 0; v < 32; v++) {
@@ -199,11 +199,11 @@ static void scrambled_is_the_same(void **unused)
         }
         assert_int_equal(found, 1);
     }
-    assert_int_equal(gm_mesh_group(&b, "lid"), 2);
-    assert_int_equal(gm_mesh_group(&b, "2"), 2);
-    assert_int_equal(gm_mesh_group(&b, "inlet"), 0);
-    gm_mesh_close(&a);
-    gm_mesh_close(&b);
+    assert_int_equal(gm_triangulation_group(&b, "lid"), 2);
+    assert_int_equal(gm_triangulation_group(&b, "2"), 2);
+    assert_int_equal(gm_triangulation_group(&b, "inlet"), 0);
+    gm_triangulation_close(&a);
+    gm_triangulation_close(&b);
 }
 
 static void expect_pressure(const char *name, const struct gm_flow *flow, const double *y,
@@ -480,7 +480,7 @@ static void channel_agrees(void **unused)
 
 static struct gm_flow *torus(double viscosity)
 {
-    struct gm_mesh_fault fault;
+    struct gm_triangulation_fault fault;
     struct gm_complex *complex = gm_complex_open(ref_torus_vertices, 80, ref_torus_triangles, 160,
                                                  (const double[]){1, 1}, NULL, &fault);
     assert_non_null(complex);
@@ -640,7 +640,7 @@ static void rectangles_are_acute(void **unused)
             if (rectangle.strips < 4 || !gm_rectangle_is_acute(&rectangle)) {
                 continue;
             }
-            struct gm_mesh_fault fault;
+            struct gm_triangulation_fault fault;
             struct gm_complex *complex = gm_rectangle_open(&rectangle, &fault);
             if (!complex) {
                 fail_msg("%ld edges, %ld strips, kind %d: fault %d", edges, rectangle.strips, kind,
@@ -674,7 +674,7 @@ static void walls_are_exact(void **unused)
                                              .transposed = kind & 1,
                                              .irregular = kind & 2 ? 0.25 : 0};
             rectangle.strips = gm_rectangle_strips(2 * M_PI, 1, edges, rectangle.transposed);
-            struct gm_mesh_fault fault;
+            struct gm_triangulation_fault fault;
             const bool small = edges * rectangle.strips < 3000;
             struct gm_complex *complex = small && rectangle.strips >= 4 && gm_rectangle_is_acute(&rectangle)
                                              ? gm_rectangle_open(&rectangle, &fault)
@@ -694,7 +694,7 @@ static void fluxes_are_closed(void **unused)
     (void)unused;
     static const char *const files[] = {"square-small.msh", "lshape.msh", "room-small.msh"};
     for (size_t i = 0; i < 3; i++) {
-        struct gm_mesh mesh = mesh_of(files[i]);
+        struct gm_triangulation mesh = mesh_of(files[i]);
         const struct gm_complex *complex = mesh.complex;
         double psi[200], scratch[400], flux[600], out[200] = {0};
         bool inside[200];
@@ -713,7 +713,7 @@ static void fluxes_are_closed(void **unused)
         for (size_t v = 0; v < complex->vertices; v++) {
             assert_true(!inside[v] || fabs(out[v]) < 1e-14);
         }
-        gm_mesh_close(&mesh);
+        gm_triangulation_close(&mesh);
     }
 }
 

@@ -12,20 +12,20 @@
 
 #include "tests/common/meshes.h"
 
-static struct gm_mesh_fault fault_of(const char *text, size_t size)
+static struct gm_triangulation_fault fault_of(const char *text, size_t size)
 {
-    struct gm_mesh mesh;
-    struct gm_mesh_fault fault;
-    assert_false(gm_mesh_read(text, size, &mesh, &fault));
+    struct gm_triangulation mesh;
+    struct gm_triangulation_fault fault;
+    assert_false(gm_triangulation_read(text, size, &mesh, &fault));
     assert_null(mesh.complex);
     return fault;
 }
 
-static struct gm_mesh_fault fault_in(const char *file)
+static struct gm_triangulation_fault fault_in(const char *file)
 {
     size_t size = 0;
     char *text = mesh_text(file, &size);
-    const struct gm_mesh_fault fault = fault_of(text, size);
+    const struct gm_triangulation_fault fault = fault_of(text, size);
     free(text);
     return fault;
 }
@@ -33,15 +33,15 @@ static struct gm_mesh_fault fault_in(const char *file)
 static void broken_files(void **unused)
 {
     (void)unused;
-    struct gm_mesh_fault fault = fault_in("truncated.msh");
-    assert_int_equal(fault.kind, GM_MESH_TRUNCATED);
+    struct gm_triangulation_fault fault = fault_in("truncated.msh");
+    assert_int_equal(fault.kind, GM_TRIANGULATION_TRUNCATED);
     assert_string_equal(fault.text, "$Elements");
     fault = fault_in("nonmanifold.msh");
-    assert_int_equal(fault.kind, GM_MESH_EDGE_OF_THREE);
+    assert_int_equal(fault.kind, GM_TRIANGULATION_EDGE_OF_THREE);
     assert_int_equal(fault.nodes[0], 15);
     assert_int_equal(fault.nodes[1], 16);
     fault = fault_in("obtuse.msh");
-    assert_int_equal(fault.kind, GM_MESH_NOT_DELAUNAY);
+    assert_int_equal(fault.kind, GM_TRIANGULATION_NOT_DELAUNAY);
     assert_true(fault.value > 117.2829 && fault.value < 117.2830);
     assert_true(fault.triangle > 0 && fault.line > 0);
     assert_int_equal(fault.nodes[0] + fault.nodes[1] + fault.nodes[2], 6 + 7 + 17);
@@ -50,7 +50,7 @@ static void broken_files(void **unused)
 static void good_files(void **unused)
 {
     (void)unused;
-    struct gm_mesh mesh = mesh_of("room-small.msh");
+    struct gm_triangulation mesh = mesh_of("room-small.msh");
     assert_int_equal(mesh.complex->vertices, 162);
     assert_int_equal(mesh.complex->edges, 449);
     assert_int_equal(mesh.groups, 3);
@@ -61,10 +61,10 @@ static void good_files(void **unused)
     assert_int_equal(counts[1], 28);
     assert_int_equal(counts[2], 3);
     assert_int_equal(counts[3], 3);
-    gm_mesh_close(&mesh);
+    gm_triangulation_close(&mesh);
     mesh = mesh_of("lshape.msh"); /* obtuse, but Delaunay */
     assert_true(mesh.complex->largest_angle > 92);
-    gm_mesh_close(&mesh);
+    gm_triangulation_close(&mesh);
 }
 
 #define HEAD "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
@@ -76,44 +76,44 @@ static void sentences(void **unused)
     (void)unused;
     static const struct {
         const char *text;
-        enum gm_mesh_fault_kind kind;
+        enum gm_triangulation_fault_kind kind;
         long line;
     } cases[] = {
-        {"", GM_MESH_NOT_GMSH, 1},
-        {"solid cube", GM_MESH_NOT_GMSH, 1},
-        {"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", GM_MESH_VERSION, 2},
-        {"$MeshFormat\n4.1 1 8\n", GM_MESH_BINARY, 2},
-        {HEAD, GM_MESH_EMPTY, 0},
-        {HEAD SQUARE, GM_MESH_EMPTY, 0},
-        {HEAD "$Nodes\n1 99999999 1 4\n", GM_MESH_HUGE, 5},
-        {HEAD "$Nodes\n1 4000000 1 4\n", GM_MESH_TRUNCATED, 5},
-        {HEAD "$Nodes\n1 99999999999999999999 1 4\n", GM_MESH_SYNTAX, 5},
-        {HEAD "$Nodes\n1 2 1 4\n2 1 0 2\n1\n1\n0 0 0\n1 1 0\n$EndNodes\n", GM_MESH_REPEATED_NODE, 8},
-        {HEAD "$Nodes\n1 2 1 4\n2 1 0 2\n1\n2\n0 nan 0\n1 1 0\n$EndNodes\n", GM_MESH_SYNTAX, 9},
-        {HEAD "$Nodes\n1 2 1 4\n2 1 0 2\n1\n2\n0 x 0\n1 1 0\n$EndNodes\n", GM_MESH_SYNTAX, 9},
-        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 3 1\n1 1 2 3 4\n"), GM_MESH_ELEMENT, 18},
-        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2 9\n"), GM_MESH_UNKNOWN_NODE, 19},
-        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2 2\n"), GM_MESH_DEGENERATE, 19},
-        {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 2 4\n"), GM_MESH_OVERLAP, 20},
-        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2\n3\n"), GM_MESH_SYNTAX, 20},
-        {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 1\n1 1 2 3\n"), GM_MESH_SYNTAX, 19},
+        {"", GM_TRIANGULATION_NOT_GMSH, 1},
+        {"solid cube", GM_TRIANGULATION_NOT_GMSH, 1},
+        {"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", GM_TRIANGULATION_VERSION, 2},
+        {"$MeshFormat\n4.1 1 8\n", GM_TRIANGULATION_BINARY, 2},
+        {HEAD, GM_TRIANGULATION_EMPTY, 0},
+        {HEAD SQUARE, GM_TRIANGULATION_EMPTY, 0},
+        {HEAD "$Nodes\n1 99999999 1 4\n", GM_TRIANGULATION_HUGE, 5},
+        {HEAD "$Nodes\n1 4000000 1 4\n", GM_TRIANGULATION_TRUNCATED, 5},
+        {HEAD "$Nodes\n1 99999999999999999999 1 4\n", GM_TRIANGULATION_SYNTAX, 5},
+        {HEAD "$Nodes\n1 2 1 4\n2 1 0 2\n1\n1\n0 0 0\n1 1 0\n$EndNodes\n", GM_TRIANGULATION_REPEATED_NODE, 8},
+        {HEAD "$Nodes\n1 2 1 4\n2 1 0 2\n1\n2\n0 nan 0\n1 1 0\n$EndNodes\n", GM_TRIANGULATION_SYNTAX, 9},
+        {HEAD "$Nodes\n1 2 1 4\n2 1 0 2\n1\n2\n0 x 0\n1 1 0\n$EndNodes\n", GM_TRIANGULATION_SYNTAX, 9},
+        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 3 1\n1 1 2 3 4\n"), GM_TRIANGULATION_ELEMENT, 18},
+        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2 9\n"), GM_TRIANGULATION_UNKNOWN_NODE, 19},
+        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2 2\n"), GM_TRIANGULATION_DEGENERATE, 19},
+        {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 2 4\n"), GM_TRIANGULATION_OVERLAP, 20},
+        {HEAD SQUARE ELEMENTS("1 1 1 1\n2 1 2 1\n1 1 2\n3\n"), GM_TRIANGULATION_SYNTAX, 20},
+        {HEAD SQUARE ELEMENTS("1 2 1 2\n2 1 2 1\n1 1 2 3\n"), GM_TRIANGULATION_SYNTAX, 19},
         {HEAD "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n.5 1 .3\n$EndNodes\n" ELEMENTS(
              "1 1 1 1\n2 1 2 1\n1 1 2 3\n"),
-         GM_MESH_THREE_D, 9},
+         GM_TRIANGULATION_THREE_D, 9},
         {HEAD
          "$Nodes\n1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n.5 1 0\n-1 0 0\n-.5 -1 0\n$EndNodes\n" ELEMENTS(
              "1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 4 5\n"),
-         GM_MESH_PINCHED, 0},
+         GM_TRIANGULATION_PINCHED, 0},
         {HEAD
          "$Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n.5 1 0\n5 0 0\n6 0 0\n5.5 1 0\n$EndNodes\n" ELEMENTS(
              "1 2 1 2\n2 1 2 2\n1 1 2 3\n2 4 5 6\n"),
-         GM_MESH_PIECES, 0},
-        {HEAD "$Comments\nnever ends\n", GM_MESH_TRUNCATED, 6},
-        {HEAD "Nodes\n", GM_MESH_SYNTAX, 4},
-        {HEAD "$PhysicalNames\n1\n1 1 wall\n", GM_MESH_SYNTAX, 6},
+         GM_TRIANGULATION_PIECES, 0},
+        {HEAD "$Comments\nnever ends\n", GM_TRIANGULATION_TRUNCATED, 6},
+        {HEAD "Nodes\n", GM_TRIANGULATION_SYNTAX, 4},
+        {HEAD "$PhysicalNames\n1\n1 1 wall\n", GM_TRIANGULATION_SYNTAX, 6},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const struct gm_mesh_fault fault = fault_of(cases[i].text, strlen(cases[i].text));
+        const struct gm_triangulation_fault fault = fault_of(cases[i].text, strlen(cases[i].text));
         if (fault.kind != cases[i].kind || (cases[i].line && fault.line != cases[i].line)) {
             fail_msg("case %zu: fault %d in line %ld", i, (int)fault.kind, fault.line);
         }
@@ -128,12 +128,12 @@ static void cut_anywhere(void **unused)
     char *text = mesh_text("square-small.msh", &size);
     for (size_t end = 0; end < size; end++) {
         char *part = malloc(end + 1); /* so that an overrun is seen */
-        struct gm_mesh mesh;
-        struct gm_mesh_fault fault;
+        struct gm_triangulation mesh;
+        struct gm_triangulation_fault fault;
         memcpy(part, text, end);
-        if (gm_mesh_read(part, end, &mesh, &fault)) {
+        if (gm_triangulation_read(part, end, &mesh, &fault)) {
             read++;
-            gm_mesh_close(&mesh);
+            gm_triangulation_close(&mesh);
         }
         free(part);
     }
@@ -145,29 +145,29 @@ static void cut_anywhere(void **unused)
 static void boundaries(void **unused)
 {
     (void)unused;
-    struct gm_mesh mesh = mesh_of("room-small.msh");
+    struct gm_triangulation mesh = mesh_of("room-small.msh");
     const struct gm_complex *complex = mesh.complex;
     unsigned char *sides = sides_of(&mesh);
     struct gm_flow *flow = gm_flow_open(mesh.complex);
     const size_t n = complex->boundary;
     size_t inlet = 0;
-    while (sides[inlet] != GM_SIDE_INLET || sides[(inlet + n - 1) % n] == GM_SIDE_INLET) {
+    while (sides[inlet] != GM_EDGE_INLET || sides[(inlet + n - 1) % n] == GM_EDGE_INLET) {
         inlet++;
     }
-    sides[(inlet + 1) % n] = GM_SIDE_WALL;
+    sides[(inlet + 1) % n] = GM_EDGE_WALL;
     assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SEVERAL);
-    sides[(inlet + 2) % n] = GM_SIDE_WALL;
+    sides[(inlet + 2) % n] = GM_EDGE_WALL;
     assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SHORT);
-    sides[inlet] = GM_SIDE_WALL;
+    sides[inlet] = GM_EDGE_WALL;
     assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_NO_INLET);
-    memset(sides, GM_SIDE_OUTLET, n);
+    memset(sides, GM_EDGE_OUTLET, n);
     assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_WHOLE);
-    memset(sides, GM_SIDE_WALL, n);
-    sides[0] = sides[1] = GM_SIDE_INLET;
+    memset(sides, GM_EDGE_WALL, n);
+    sides[0] = sides[1] = GM_EDGE_INLET;
     assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_NO_OUTLET);
     free(sides);
     mesh.complex = NULL;
-    gm_mesh_close(&mesh);
+    gm_triangulation_close(&mesh);
     gm_flow_close(flow);
 }
 

@@ -99,12 +99,12 @@ static void rings_are_solved(void **unused)
             const double h = 0.3;
             struct gm_ring_roots roots;
             assert_true(gm_ring_roots_make(&roots, n, power, mean, difference, h));
-            double complex f[101];
+            double complex left[101];
             double re[101], im[101], scratch[202];
             for (size_t i = 0; i < n; i++) {
                 re[i] = b[i];
                 im[i] = cos((double)i);
-                f[i] = 0;
+                left[i] = 0;
             }
             gm_ring_roots_solve(&roots, re, im, scratch);
             static const int binomial[4][4] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
@@ -113,9 +113,9 @@ static void rings_are_solved(void **unused)
                     const double sign = (power - k) % 2 ? -1 : 1;
                     const double complex entry =
                         binomial[power][k] * (mean / pow(2, power) + sign * difference / pow(h, power));
-                    f[i] += entry * (re[(i + (size_t)k) % n] + I * im[(i + (size_t)k) % n]);
+                    left[i] += entry * (re[(i + (size_t)k) % n] + I * im[(i + (size_t)k) % n]);
                 }
-                assert_true(cabs(f[i] - (b[i] + I * cos((double)i))) < 1e-11);
+                assert_true(cabs(left[i] - (b[i] + I * cos((double)i))) < 1e-11);
             }
         }
     }

@@ -110,7 +110,7 @@ bool gm_studies_look(struct gm_studies *studies)
 {
     bool news = false;
     for (int i = 0; i < GM_STUDY_COUNT; i++) {
-        struct gm_look *look = studies->studies[i] ? gm_study_take(studies->studies[i]) : NULL;
+        struct gm_study_look *look = studies->studies[i] ? gm_study_take(studies->studies[i]) : NULL;
         if (look) {
             studies->looks[i] = look;
             studies->fresh = studies->fresh && studies->shown != (enum gm_study_kind)i;
@@ -123,7 +123,7 @@ bool gm_studies_look(struct gm_studies *studies)
 /* ---- what is drawn ---- */
 
 /* Why there is no diagram, in its place. */
-static void draw_reason(const struct gm_sheet *sheet, const struct gm_look *look)
+static void draw_reason(const struct gm_sheet *sheet, const struct gm_study_look *look)
 {
     const struct gm_sheet page = gm_sheet_part(sheet, 2, 1, sheet->width - 4, sheet->height - 1);
     char sentence[GM_MESSAGE + 1];
@@ -135,7 +135,7 @@ static void draw_reason(const struct gm_sheet *sheet, const struct gm_look *look
 
 void gm_studies_draw(const struct gm_sheet *sheet, struct gm_studies *studies)
 {
-    struct gm_look *look = studies->looks[studies->shown];
+    struct gm_study_look *look = studies->looks[studies->shown];
     if (sheet->width < 1 || sheet->height < 1) {
         return;
     }
@@ -167,14 +167,14 @@ void gm_studies_draw(const struct gm_sheet *sheet, struct gm_studies *studies)
     }
 }
 
-static int percent(const struct gm_look *look)
+static int percent(const struct gm_study_look *look)
 {
     return look && look->all > 0 ? (int)(100 * look->done / look->all) : 0;
 }
 
 void gm_studies_status(const struct gm_studies *studies, char *text, size_t size)
 {
-    const struct gm_look *look = studies->looks[studies->shown];
+    const struct gm_study_look *look = studies->looks[studies->shown];
     const char *name = gm_study_name(studies->shown);
     if (studies->notice[0]) {
         snprintf(text, size, "%s", studies->notice);
@@ -193,7 +193,7 @@ void gm_studies_news(const struct gm_studies *studies, char *text, size_t size)
 {
     size_t used = (size_t)snprintf(text, size, "%s", studies->notice);
     for (int i = GM_STUDY_WORK; i < GM_STUDY_COUNT && used == 0; i++) {
-        const struct gm_look *look = studies->looks[i];
+        const struct gm_study_look *look = studies->looks[i];
         if (!studies->studies[i] || studies->shown == (enum gm_study_kind)i || (look && look->impossible)) {
             continue;
         }

@@ -9,11 +9,11 @@
 
 struct gm_studies {
     struct gm_study *studies[GM_STUDY_COUNT];
-    struct gm_look *looks[GM_STUDY_COUNT]; /* the last ones taken; NULL: none yet */
-    enum gm_study_kind shown;              /* GM_STUDY_NONE: the scene is */
-    struct gm_cells cells;                 /* the shown picture, kept */
-    bool fresh;                            /* they show the last look */
-    enum gm_blocks blocks;                 /* and were painted with these */
+    struct gm_study_look *looks[GM_STUDY_COUNT]; /* the last ones taken; NULL: none yet */
+    enum gm_study_kind shown;                    /* GM_STUDY_NONE: the scene is */
+    struct gm_cells cells;                       /* the shown picture, kept */
+    bool fresh;                                  /* they show the last look */
+    enum gm_blocks blocks;                       /* and were painted with these */
     enum gm_theme theme;
     char notice[GM_MESSAGE]; /* what could not be done; "" after the next key */
 };

@@ -36,7 +36,7 @@ struct gm_study {
     enum gm_theme theme;
     bool ready; /* looks[filled] is finished and not yet taken */
     int filled; /* the look that the thread fills; the screen has the other one */
-    struct gm_look looks[2];
+    struct gm_study_look looks[2];
 
     /* the thread's own */
     char *split; /* the words, cut up */
@@ -44,8 +44,8 @@ struct gm_study {
     struct gm_options options;
     struct gm_work_table work;
     struct gm_stability_table stability;
-    struct gm_look now; /* all but the picture */
-    double looked;      /* when the last look was handed over */
+    struct gm_study_look now; /* all but the picture */
+    double looked;            /* when the last look was handed over */
 };
 
 const char *gm_study_name(enum gm_study_kind kind)
@@ -92,7 +92,7 @@ static void say(struct gm_study *study, const char *sentence)
 static void show(struct gm_study *study)
 {
     pthread_mutex_lock(&study->lock);
-    struct gm_look *look = study->ready ? NULL : &study->looks[study->filled];
+    struct gm_study_look *look = study->ready ? NULL : &study->looks[study->filled];
     pthread_mutex_unlock(&study->lock);
     if (!look) {
         return;
@@ -311,9 +311,9 @@ void gm_study_close(struct gm_study *study)
     free_study(study);
 }
 
-struct gm_look *gm_study_take(struct gm_study *study)
+struct gm_study_look *gm_study_take(struct gm_study *study)
 {
-    struct gm_look *look = NULL;
+    struct gm_study_look *look = NULL;
     pthread_mutex_lock(&study->lock);
     if (study->ready) {
         look = &study->looks[study->filled];

@@ -8,7 +8,7 @@
 /* A diagram that is measured in the background: work-precision or stability, in a thread of its own that
    leaves the processor to the one that draws. It alone touches its table; looks at it are handed over. */
 
-struct gm_look {
+struct gm_study_look {
     struct gm_picture *picture;
     char what[64]; /* under way */
     size_t done, all;
@@ -32,7 +32,7 @@ const char *gm_study_words(const struct gm_study *study);
 const char *gm_study_name(enum gm_study_kind kind);
 
 /* A new look since the last call, or NULL. It may be read, and its picture laid out, until the next one. */
-struct gm_look *gm_study_take(struct gm_study *study);
+struct gm_study_look *gm_study_take(struct gm_study *study);
 
 /* Ends the measuring; what is finished stays. */
 void gm_study_stop(struct gm_study *study);

@@ -76,7 +76,7 @@ static double law(const struct base *base, bool by_differences, double *const ta
     static const double one = 1;
     const struct gm_problem *problem = base->problem;
     const size_t points = problem->line.points;
-    const struct gm_cells cells = {points, 1, 1, &one, &one, problem->line.dx, base->dt};
+    const struct gm_lattice cells = {points, 1, 1, &one, &one, problem->line.dx, base->dt};
     struct gm_faces faces[2];
     double residual = NAN;
     if (!gm_faces_open(&faces[0], gm_field_of(problem)->form, &cells)) {
@@ -97,7 +97,7 @@ static double law(const struct base *base, bool by_differences, double *const ta
                                                    tangent[k][1], &faces[k]);
     }
     if (good) {
-        residual = gm_cells_law(gm_field_of(problem)->form, &cells, &faces[0], &faces[1]);
+        residual = gm_lattice_law(gm_field_of(problem)->form, &cells, &faces[0], &faces[1]);
     }
     gm_faces_close(&faces[0]);
     gm_faces_close(&faces[1]);

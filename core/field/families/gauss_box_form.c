@@ -147,7 +147,7 @@ double gm_gauss_form(const struct gm_problem *problem, const struct gm_scheme *s
 {
     const struct gm_gauss_tableau *tableau = scheme->coefficients;
     const size_t points = problem->line.points, r = tableau->n, half = r * points, q = r * r;
-    const struct gm_cells cells = {points, r, r, tableau->b, tableau->b, problem->line.dx, dt};
+    const struct gm_lattice cells = {points, r, r, tableau->b, tableau->b, problem->line.dx, dt};
     struct gm_gauss_work *work = gm_gauss_open(problem, scheme);
     struct gm_faces faces[2] = {{0}};
     double *arrays = malloc((q * points + 2 * half) * sizeof *arrays), residual = NAN;
@@ -176,7 +176,7 @@ double gm_gauss_form(const struct gm_problem *problem, const struct gm_scheme *s
             good = advance_tangent(&base, memory, curvature, by_differences, start, &faces[k]);
         }
         if (good) {
-            residual = gm_cells_law(gm_field_of(problem)->form, &cells, &faces[0], &faces[1]);
+            residual = gm_lattice_law(gm_field_of(problem)->form, &cells, &faces[0], &faces[1]);
         }
     }
     gm_faces_close(&faces[0]);

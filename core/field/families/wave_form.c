@@ -304,13 +304,13 @@ static double law_of_cells(const struct base *base, const struct tangent *a, con
 {
     static const double one = 1;
     const struct gm_line *line = &base->problem->line;
-    const struct gm_cells cells = {line->points, 1, 1, &one, &one, line->dx, base->dt};
+    const struct gm_lattice cells = {line->points, 1, 1, &one, &one, line->dx, base->dt};
     struct gm_faces of_a, of_b;
     double law = NAN;
     if (gm_faces_open(&of_a, gm_field_of(base->problem)->form, &cells)) {
         if (gm_faces_open(&of_b, gm_field_of(base->problem)->form, &cells)) {
             if (complete_cells(base, a, &of_a) && complete_cells(base, b, &of_b)) {
-                law = gm_cells_law(gm_field_of(base->problem)->form, &cells, &of_a, &of_b);
+                law = gm_lattice_law(gm_field_of(base->problem)->form, &cells, &of_a, &of_b);
             }
             gm_faces_close(&of_b);
         }

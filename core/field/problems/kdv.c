@@ -143,9 +143,9 @@ static double two_solitons_around(const struct gm_kdv *kdv, const struct gm_line
     const double overtakes = kdv->mu * (fast * fast - slow * slow) * t;
     const double first = slow_start + shift / (2 * slow) - (fast_start + shift / (2 * fast));
     const double between = period - shift / fast - shift / slow;
-    const double m = between > 0 ? floor((overtakes - first) / between + 0.5) : 0;
-    const double fast_at = fast_start + m * shift / fast + kdv->mu * fast * fast * t;
-    const double slow_at = slow_start + m * (period - shift / slow) + kdv->mu * slow * slow * t;
+    const double passed = between > 0 ? floor((overtakes - first) / between + 0.5) : 0;
+    const double fast_at = fast_start + passed * shift / fast + kdv->mu * fast * fast * t;
+    const double slow_at = slow_start + passed * (period - shift / slow) + kdv->mu * slow * slow * t;
     const double middle = (fast_at + slow_at) / 2, place = middle + around(line, x - middle);
     double sum = 0;
     for (int image = -1; image <= 1; image++) {

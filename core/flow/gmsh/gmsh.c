@@ -21,7 +21,8 @@ static bool number_nodes(struct gm_gmsh_reader *reader, double *points, long *ta
         for (int k = 0; k < 3; k++) {
             struct gm_gmsh_node *node = gm_gmsh_find_node(reader, element->nodes[k]);
             if (!node) {
-                return gm_gmsh_fail_at_node(reader, GM_MESH_UNKNOWN_NODE, element->line, element->nodes[k]);
+                return gm_gmsh_fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line,
+                                            element->nodes[k]);
             }
             node->vertex = 0;
         }
@@ -44,7 +45,7 @@ static bool number_nodes(struct gm_gmsh_reader *reader, double *points, long *ta
     for (size_t i = 0; i < reader->node_count; i++) {
         const struct gm_gmsh_node *node = &reader->nodes[i];
         if (node->vertex >= 0 && fabs(node->z - plane) > 1e-9 * extent) {
-            return gm_gmsh_fail_at_node(reader, GM_MESH_THREE_D, node->line, node->tag);
+            return gm_gmsh_fail_at_node(reader, GM_TRIANGULATION_THREE_D, node->line, node->tag);
         }
     }
     for (size_t t = 0; t < reader->triangle_count; t++) {
@@ -82,7 +83,7 @@ static int find_edge(const struct gm_complex *complex, int a, int b)
 }
 
 /* Lines that are no edge of a triangle name nothing. */
-static bool name_edges(struct gm_gmsh_reader *reader, struct gm_mesh *mesh)
+static bool name_edges(struct gm_gmsh_reader *reader, struct gm_triangulation *mesh)
 {
     if (reader->curve_count > 0) {
         qsort(reader->curves, reader->curve_count, sizeof *reader->curves, compare_curves);
@@ -92,7 +93,7 @@ static bool name_edges(struct gm_gmsh_reader *reader, struct gm_mesh *mesh)
         const struct gm_gmsh_node *a = gm_gmsh_find_node(reader, element->nodes[0]),
                                   *b = gm_gmsh_find_node(reader, element->nodes[1]);
         if (!a || !b) {
-            return gm_gmsh_fail_at_node(reader, GM_MESH_UNKNOWN_NODE, element->line,
+            return gm_gmsh_fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line,
                                         element->nodes[a ? 1 : 0]);
         }
         const int e = a->vertex >= 0 && b->vertex >= 0 ? find_edge(mesh->complex, a->vertex, b->vertex) : -1;
@@ -103,10 +104,10 @@ static bool name_edges(struct gm_gmsh_reader *reader, struct gm_mesh *mesh)
     return true;
 }
 
-static bool assemble(struct gm_gmsh_reader *reader, struct gm_mesh *mesh)
+static bool assemble(struct gm_gmsh_reader *reader, struct gm_triangulation *mesh)
 {
     if (reader->triangle_count == 0) {
-        return gm_gmsh_fail(reader, GM_MESH_EMPTY, "");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_EMPTY, "");
     }
     const double plane[2] = {0, 0};
     double *points = malloc(2 * (reader->node_count + 1) * sizeof *points);
@@ -115,7 +116,7 @@ static bool assemble(struct gm_gmsh_reader *reader, struct gm_mesh *mesh)
     size_t vertices = 0;
     bool good = points && corners && mesh->tags;
     if (!good) {
-        gm_gmsh_fail(reader, GM_MESH_MEMORY, "");
+        gm_gmsh_fail(reader, GM_TRIANGULATION_MEMORY, "");
     }
     good = good && number_nodes(reader, points, mesh->tags, corners, &vertices);
     if (good) {
@@ -130,23 +131,24 @@ static bool assemble(struct gm_gmsh_reader *reader, struct gm_mesh *mesh)
     free(corners);
     if (good) {
         mesh->edge_group = calloc(mesh->complex->edges, sizeof *mesh->edge_group);
-        good = mesh->edge_group || gm_gmsh_fail(reader, GM_MESH_MEMORY, "");
+        good = mesh->edge_group || gm_gmsh_fail(reader, GM_TRIANGULATION_MEMORY, "");
     }
     return good && name_edges(reader, mesh);
 }
 
-bool gm_mesh_read(const char *text, size_t size, struct gm_mesh *mesh, struct gm_mesh_fault *fault)
+bool gm_triangulation_read(const char *text, size_t size, struct gm_triangulation *mesh,
+                           struct gm_triangulation_fault *fault)
 {
     struct gm_gmsh_reader reader = {.at = text, .end = text + size, .line = 1, .fault = fault, .section = ""};
-    *mesh = (struct gm_mesh){0};
-    *fault = (struct gm_mesh_fault){.kind = GM_MESH_OK};
+    *mesh = (struct gm_triangulation){0};
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_OK};
     const bool good = gm_gmsh_read_sections(&reader) && assemble(&reader, mesh);
     if (good) {
         mesh->group = reader.groups;
         mesh->groups = reader.group_count;
         reader.groups = NULL;
     } else {
-        gm_mesh_close(mesh);
+        gm_triangulation_close(mesh);
     }
     free(reader.nodes);
     free(reader.triangles);
@@ -156,16 +158,16 @@ bool gm_mesh_read(const char *text, size_t size, struct gm_mesh *mesh, struct gm
     return good;
 }
 
-void gm_mesh_close(struct gm_mesh *mesh)
+void gm_triangulation_close(struct gm_triangulation *mesh)
 {
     gm_complex_close(mesh->complex);
     free(mesh->tags);
     free(mesh->edge_group);
     free(mesh->group);
-    *mesh = (struct gm_mesh){0};
+    *mesh = (struct gm_triangulation){0};
 }
 
-long gm_mesh_group(const struct gm_mesh *mesh, const char *name)
+long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name)
 {
     for (size_t i = 0; i < mesh->groups; i++) {
         if (strcmp(mesh->group[i].name, name) == 0) {

@@ -29,12 +29,12 @@ struct gm_gmsh_curve {
 struct gm_gmsh_reader {
     const char *at, *end;
     long line;
-    struct gm_mesh_fault *fault;
+    struct gm_triangulation_fault *fault;
     const char *section;
     struct gm_gmsh_node *nodes;
     struct gm_gmsh_element *triangles, *lines;
     struct gm_gmsh_curve *curves;
-    struct gm_mesh_group *groups;
+    struct gm_triangulation_group *groups;
     size_t node_count, triangle_count, line_count, curve_count, group_count;
 };
 
@@ -42,8 +42,9 @@ struct gm_gmsh_reader {
    words what that is. Announced counts are believed only as far as the text is long. */
 
 /* Sets the fault, at the present line or at that of a node; false. */
-bool gm_gmsh_fail(struct gm_gmsh_reader *reader, enum gm_mesh_fault_kind kind, const char *text);
-bool gm_gmsh_fail_at_node(struct gm_gmsh_reader *reader, enum gm_mesh_fault_kind kind, long line, long node);
+bool gm_gmsh_fail(struct gm_gmsh_reader *reader, enum gm_triangulation_fault_kind kind, const char *text);
+bool gm_gmsh_fail_at_node(struct gm_gmsh_reader *reader, enum gm_triangulation_fault_kind kind, long line,
+                          long node);
 
 /* Blanks and line ends, which are counted. */
 void gm_gmsh_skip_blanks(struct gm_gmsh_reader *reader);

@@ -14,26 +14,27 @@ static bool read_format(struct gm_gmsh_reader *reader)
     char version[16];
     long binary = 0, size = 0;
     if (!gm_gmsh_take_word(reader, version, sizeof version)) {
-        return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "a version");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "a version");
     }
     if (strcmp(version, "4.1") != 0) {
-        return gm_gmsh_fail(reader, GM_MESH_VERSION, version);
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_VERSION, version);
     }
     if (!gm_gmsh_take_whole(reader, &binary, "0 for ASCII") || !gm_gmsh_take_whole(reader, &size, "a size")) {
         return false;
     }
-    return binary == 0 || gm_gmsh_fail(reader, GM_MESH_BINARY, "");
+    return binary == 0 || gm_gmsh_fail(reader, GM_TRIANGULATION_BINARY, "");
 }
 
 static bool read_names(struct gm_gmsh_reader *reader)
 {
     long count = 0;
     if (reader->groups || !gm_gmsh_take_count(reader, &count, "the number of names")) {
-        return reader->groups ? gm_gmsh_fail(reader, GM_MESH_SYNTAX, "one section $PhysicalNames") : false;
+        return reader->groups ? gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "one section $PhysicalNames")
+                              : false;
     }
     reader->groups = calloc((size_t)count + 1, sizeof *reader->groups);
     if (!reader->groups) {
-        return gm_gmsh_fail(reader, GM_MESH_MEMORY, "");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_MEMORY, "");
     }
     for (long i = 0; i < count; i++) {
         long dimension = 0, tag = 0;
@@ -43,7 +44,7 @@ static bool read_names(struct gm_gmsh_reader *reader)
         }
         gm_gmsh_skip_blanks(reader);
         if (reader->at >= reader->end || *reader->at != '"') {
-            return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "a name in quotation marks");
+            return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "a name in quotation marks");
         }
         const char *name = ++reader->at;
         while (reader->at < reader->end && *reader->at != '"' && *reader->at != '\n') {
@@ -51,11 +52,12 @@ static bool read_names(struct gm_gmsh_reader *reader)
         }
         const size_t length = (size_t)(reader->at - name);
         if (reader->at >= reader->end || *reader->at != '"' || length >= sizeof reader->groups->name) {
-            return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "a name of at most 63 bytes in quotation marks");
+            return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX,
+                                "a name of at most 63 bytes in quotation marks");
         }
         reader->at++;
         if (dimension == 1) {
-            struct gm_mesh_group *group = &reader->groups[reader->group_count++];
+            struct gm_triangulation_group *group = &reader->groups[reader->group_count++];
             group->tag = tag;
             memcpy(group->name, name, length);
         }
@@ -107,11 +109,11 @@ static bool read_entities(struct gm_gmsh_reader *reader)
         }
     }
     if (reader->curves) {
-        return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "one section $Entities");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Entities");
     }
     reader->curves = calloc((size_t)counts[1] + 1, sizeof *reader->curves);
     if (!reader->curves) {
-        return gm_gmsh_fail(reader, GM_MESH_MEMORY, "");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_MEMORY, "");
     }
     for (int dimension = 0; dimension < 4; dimension++) {
         for (long i = 0; i < counts[dimension]; i++) {
@@ -139,10 +141,11 @@ static bool read_node_block(struct gm_gmsh_reader *reader, size_t total)
         return false;
     }
     if (parametric < 0 || parametric > 1 || dimension < 0 || dimension > 3) {
-        return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "a dimension, an entity, 0 or 1, and a number of nodes");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX,
+                            "a dimension, an entity, 0 or 1, and a number of nodes");
     }
     if ((size_t)count > total - reader->node_count) {
-        return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "as many nodes as announced");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "as many nodes as announced");
     }
     struct gm_gmsh_node *nodes = reader->nodes + reader->node_count;
     for (long i = 0; i < count; i++) {
@@ -172,11 +175,11 @@ static bool read_nodes(struct gm_gmsh_reader *reader)
         return false;
     }
     if (reader->nodes) {
-        return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "one section $Nodes");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Nodes");
     }
     reader->nodes = calloc((size_t)total + 1, sizeof *reader->nodes);
     if (!reader->nodes) {
-        return gm_gmsh_fail(reader, GM_MESH_MEMORY, "");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_MEMORY, "");
     }
     for (long i = 0; i < blocks; i++) {
         if (!read_node_block(reader, (size_t)total)) {
@@ -184,13 +187,14 @@ static bool read_nodes(struct gm_gmsh_reader *reader)
         }
     }
     if (reader->node_count != (size_t)total) {
-        return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "as many nodes as announced");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "as many nodes as announced");
     }
     qsort(reader->nodes, reader->node_count, sizeof *reader->nodes, compare_nodes);
     for (size_t i = 1; i < reader->node_count; i++) {
         if (reader->nodes[i].tag == reader->nodes[i - 1].tag) {
             const long a = reader->nodes[i].line, b = reader->nodes[i - 1].line;
-            return gm_gmsh_fail_at_node(reader, GM_MESH_REPEATED_NODE, a > b ? a : b, reader->nodes[i].tag);
+            return gm_gmsh_fail_at_node(reader, GM_TRIANGULATION_REPEATED_NODE, a > b ? a : b,
+                                        reader->nodes[i].tag);
         }
     }
     return true;
@@ -206,10 +210,10 @@ static bool read_element_block(struct gm_gmsh_reader *reader, size_t total, size
         return false;
     }
     if (type != LINE && type != TRIANGLE && type != POINT) {
-        return gm_gmsh_fail_at_node(reader, GM_MESH_ELEMENT, reader->line, type);
+        return gm_gmsh_fail_at_node(reader, GM_TRIANGULATION_ELEMENT, reader->line, type);
     }
     if ((size_t)count > total - *done) {
-        return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "as many elements as announced");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "as many elements as announced");
     }
     *done += (size_t)count;
     for (long i = 0; i < count; i++) {
@@ -224,7 +228,7 @@ static bool read_element_block(struct gm_gmsh_reader *reader, size_t total, size
                 return false;
             }
             if (reader->line != element.line) {
-                return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "the nodes of an element on its line");
+                return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "the nodes of an element on its line");
             }
         }
         if (type == TRIANGLE) {
@@ -245,12 +249,12 @@ static bool read_elements(struct gm_gmsh_reader *reader)
         return false;
     }
     if (reader->triangles) {
-        return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "one section $Elements");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Elements");
     }
     reader->triangles = calloc((size_t)total + 1, sizeof *reader->triangles);
     reader->lines = calloc((size_t)total + 1, sizeof *reader->lines);
     if (!reader->triangles || !reader->lines) {
-        return gm_gmsh_fail(reader, GM_MESH_MEMORY, "");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_MEMORY, "");
     }
     size_t done = 0;
     for (long i = 0; i < blocks; i++) {
@@ -258,7 +262,8 @@ static bool read_elements(struct gm_gmsh_reader *reader)
             return false;
         }
     }
-    return done == (size_t)total || gm_gmsh_fail(reader, GM_MESH_SYNTAX, "as many elements as announced");
+    return done == (size_t)total ||
+           gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "as many elements as announced");
 }
 
 static bool skip_section(struct gm_gmsh_reader *reader)
@@ -273,7 +278,7 @@ static bool skip_section(struct gm_gmsh_reader *reader)
         }
         reader->line += *reader->at++ == '\n';
     }
-    return gm_gmsh_fail(reader, GM_MESH_TRUNCATED, reader->section);
+    return gm_gmsh_fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
 }
 
 bool gm_gmsh_read_sections(struct gm_gmsh_reader *reader)
@@ -289,7 +294,7 @@ bool gm_gmsh_read_sections(struct gm_gmsh_reader *reader)
     };
     char section[40];
     if (!gm_gmsh_take_word(reader, section, sizeof section) || strcmp(section, "$MeshFormat") != 0) {
-        return gm_gmsh_fail(reader, GM_MESH_NOT_GMSH, "");
+        return gm_gmsh_fail(reader, GM_TRIANGULATION_NOT_GMSH, "");
     }
     reader->section = section;
     if (!read_format(reader) || !gm_gmsh_expect_end(reader)) {
@@ -297,7 +302,7 @@ bool gm_gmsh_read_sections(struct gm_gmsh_reader *reader)
     }
     while (!gm_gmsh_at_end(reader)) {
         if (!gm_gmsh_take_word(reader, section, sizeof section) || section[0] != '$') {
-            return gm_gmsh_fail(reader, GM_MESH_SYNTAX, "a section, such as $Nodes");
+            return gm_gmsh_fail(reader, GM_TRIANGULATION_SYNTAX, "a section, such as $Nodes");
         }
         bool met = false;
         for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
