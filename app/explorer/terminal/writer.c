@@ -19,6 +19,9 @@
 
 static void put(struct gm_writer *writer, const char *bytes, size_t size)
 {
+    if (size == 0) { /* then there may be no line yet */
+        return;
+    }
     if (writer->length + size > writer->capacity) {
         size_t capacity = 2 * (writer->length + size) + 4096;
         char *more = realloc(writer->out, capacity);
