@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linear stability by stepping, and by the stability function R(z) = 1 + z b' (1 - z A)^-1 1.
-   Hairer & Wanner, Solving Ordinary Differential Equations II (1996), IV.2, IV.3. */
+/* Linear stability of a scheme, by stepping a test equation, and of a Runge-Kutta method by its stability
+   function with the tableau A, b,
+       R(z) = 1 + z b' (I - z A)^-1 (1, ..., 1)'.
+   E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), IV.2, IV.3. */
 #include "core/ode/linear_stability.h"
 
 #include <complex.h>
@@ -71,8 +73,8 @@ double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, lo
         return pow(grown(&problem, scheme, 1, y, steps, end), 1 / (double)steps);
     }
     case GM_TEST_OSCILLATOR: {
-        /* the oscillator of frequency 1 with the step w, that is h w; the matrix of one step by its columns
-         */
+        /* the oscillator of frequency 1 with the step w, that is h w; the matrix of one step by its
+           columns */
         const double first[2] = {1, 0}, second[2] = {0, 1};
         double one[2], two[2];
         if (!isfinite(grown(&gm_problem_oscillator, scheme, im, first, 1, one)) ||

@@ -4,9 +4,9 @@
 
 #include "core/scheme.h"
 
-/* By what factor a scheme lets solutions of a linear test equation grow in a step. Schemes that take any
-   ordinary differential equation are tested on y' = z y with a complex z and the step 1; schemes for H = T(p)
-   + V(q) on the oscillator q' = p, p' = -w^2 q, where z = i w. */
+/* By what factor a scheme lets solutions of a linear test equation grow in a step of length 1:
+       y' = z y, z complex               for schemes that take any ordinary differential equation
+       q' = p, p' = -w^2 q, z = i w      for schemes that take H = T(p) + V(q) */
 
 enum gm_linear_test { GM_TEST_NONE, GM_TEST_PLANE /* y' = z y */, GM_TEST_OSCILLATOR };
 

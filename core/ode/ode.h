@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The facets of ordinary differential equations: what structure a problem may have, and a scheme may need. */
 #ifndef GM_CORE_ODE_ODE_H
 #define GM_CORE_ODE_ODE_H
 

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What of the geometry a scheme breaks in a step or a short run: the defects of symplecticity, volume,
+   symmetry, reversibility, energy and other invariants. The derivative of a step is found by extrapolated
+   differences between members of an ensemble, so it asks nothing of the scheme. */
 #include <math.h>
 #include <string.h>
 

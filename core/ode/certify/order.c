@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The order of a scheme, as the slope of its error against dt. The reference is GSL's Prince-Dormand stepper,
+   which shares no code with the schemes. */
 #include <math.h>
 #include <string.h>
 

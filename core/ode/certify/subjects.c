@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The certification problems: non-linear, not chaotic over the times that are used, each with structure of
- * its own. */
+   its own. */
 #include <math.h>
 #include <string.h>
 

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Energy-keeping methods for y' = S grad H(y), S constant and skew.
-       Average vector field:  y1 = y0 + h integral_0^1 f((1 - s) y0 + s y1) ds
-   Quispel & McLaren, J. Phys. A 41 (2008) 045206: H(y1) - H(y0) = integral of grad H . (y1 - y0) = 0.
-   The integral is a Gauss-Legendre sum of 8 nodes, exact for polynomials of degree 15.
-       Discrete gradient:  y1 = y0 + h S G,  G = g + (H(y1) - H(y0) - g . d) / |d|^2 d,
-       d = y1 - y0,  g = grad H((y0 + y1)/2)
-   O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
-   Both are solved for d to round-off by fixed-point iteration, and where that does not contract by Newton's
-   method with the Jacobian of the midpoint rule, from which they differ by O(h^2 d). */
+/* Energy-keeping methods for y' = f(y) = S grad H(y), S constant and skew:
+       average vector field   y1 = y0 + h integral_0^1 f((1 - s) y0 + s y1) ds
+       discrete gradient      y1 = y0 + h S G
+                              G  = g + (H(y1) - H(y0) - g . d) / |d|^2 d
+                              g  = grad H((y0 + y1)/2),   d = y1 - y0
+   Both give H(y1) - H(y0) = 0: the first as the integral of grad H . d, the second as G . d. G.R.W. Quispel &
+   D.I. McLaren, J. Phys. A 41 (2008) 045206; O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
+
+   The integral is a Gauss-Legendre sum of 8 nodes, exact for polynomials of degree 15. Both are solved for d
+   to round-off by fixed-point iteration, and where that does not contract by Newton's method with the
+   Jacobian of the midpoint rule, from which they differ by O(h^2 d). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Explicit Runge-Kutta methods:  k_i = f(y + h sum_{j<i} a_ij k_j),  y' = y + h sum_i b_i k_i.
-   Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, section II.1. */
+/* Explicit Runge-Kutta methods:
+       k_i = f(y0 + h sum_{j<i} a_ij k_j)
+       y1  = y0 + h sum_i b_i k_i
+   E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), section II.1. The
+   rows are in explicit_runge_kutta.def, which the loops over kernels include as well. */
 #include "core/ode/families/explicit_runge_kutta.h"
 
 #include <stdlib.h>

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Explicit Runge-Kutta methods:  k_i = f(y + h sum_{j<i} a_ij k_j),  y' = y + h sum_i b_i k_i.
+/* Explicit Runge-Kutta methods:
+       k_i = f(y0 + h sum_{j<i} a_ij k_j)
+       y1  = y0 + h sum_i b_i k_i
    A scheme is one row of core/ode/families/explicit_runge_kutta.def. */
 #ifndef GM_CORE_ODE_FAMILIES_EXPLICIT_RUNGE_KUTTA_H
 #define GM_CORE_ODE_FAMILIES_EXPLICIT_RUNGE_KUTTA_H

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Explicit Runge-Kutta methods for any number of components:
-       k_i = f(y + h sum_(j<i) a_ij k_j),  y' = y + h sum_i b_i k_i. */
+/* Explicit Runge-Kutta methods for a number of components that is known at run time only:
+       k_i = f(y0 + h sum_{j<i} a_ij k_j)
+       y1  = y0 + h sum_i b_i k_i
+   Passive particles are carried by the active components' stages. */
 #include <stdlib.h>
 
 #include "core/ode/families/explicit_runge_kutta.h"

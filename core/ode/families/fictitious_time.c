@@ -1,19 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The Kepler problem in a fictitious time s, whose step ds is the run's dt. H = |p|^2/2 + V(q), V = -1/|q| +
-   W(q) < 0, B = -H at the start; a step is half a drift, a kick, half a drift. The memory is B. For W = 0
-   every point of both schemes lies on the exact orbit; only the time errs.
+/* The Kepler problem in a fictitious time s, whose step ds is the run's dt: H = |p|^2/2 + V(q), V = -1/|q| +
+   W(q) < 0, F = -grad V, F_W = -grad W, B = -H at the start. A step is half a drift, a kick, half a drift.
+   The memory is B. For W = 0 every point of both schemes lies on the exact orbit; only the time errs.
 
-   logh2: leapfrog for the logarithmic Hamiltonian ln(|p|^2/2 + B) - ln(-V(q)), dt = ds / (|p|^2/2 + B): drift
-   d = (ds/2) / (|p|^2/2 + B),  q += d p,  t += d;      kick  p += ds F(q) / (-V(q)).
+   logh2: leapfrog for the logarithmic Hamiltonian ln(|p|^2/2 + B) - ln(-V(q)), dt = ds / (|p|^2/2 + B):
+       drift   d = (ds/2) / (|p|^2/2 + B),   q += d p,   t += d
+       kick    p += ds F(q) / (-V(q))
    S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; M. Preto & S. Tremaine, Astron. J. 118
    (1999) 2532.
 
-   levi-civita: dt = |q| ds; with q = u^2 and w = 2 conj(u) p as complex numbers, r (H + B) is
-   |w|^2/8 + B |u|^2 - 1 + |u|^2 W(u^2), an oscillator and a perturbation. Drift: the midpoint rule on
-   u' = w/4, w' = -2 B u, t' = |u|^2, which keeps the quadratic quantities |w|^2/8 + B |u|^2, Im(conj(u) w)
-   and w^2/8 + B u^2: energy, angular momentum and the Laplace-Runge-Lenz vector. Kick: w -= ds (2 u W -
-   2 |u|^2 conj(u) F_W). T. Levi-Civita, Acta Math. 42 (1920) 99; Y. Minesaki & Y. Nakamura, Phys. Lett. A 306
-   (2002) 127. */
+   levi-civita: with q = u^2 and w = 2 conj(u) p as complex numbers and dt = |q| ds,
+       |q| (H + B) = |w|^2/8 + B |u|^2 - 1 + |u|^2 W(u^2),
+   an oscillator and a perturbation:
+       drift   the midpoint rule over ds/2 on  u' = w/4,   w' = -2 B u,   t' = |u|^2
+       kick    w -= ds (2 u W - 2 |u|^2 conj(u) F_W)
+   The drift keeps |w|^2/8 + B |u|^2, Im(conj(u) w) and w^2/8 + B u^2, which are quadratic: energy, angular
+   momentum and the Laplace-Runge-Lenz vector. T. Levi-Civita, Acta Math. 42 (1920) 99; Y. Minesaki &
+   Y. Nakamura, Phys. Lett. A 306 (2002) 127. */
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Steppers of the GNU Scientific Library, to compare with. tolerance = 0: one step of the library's of length
-   dt, its error not asked for; else its adaptive driver over every dt, with that absolute and relative
-   tolerance. The multistep methods choose order and step themselves, so for them 0 means 1e-8; they keep a
-   past of their own, and such a run cannot be resumed bit for bit. GSL manual, chapter "Ordinary differential
+/* Steppers of the GNU Scientific Library, to compare with: RK4, Prince & Dormand's of order 8, the Adams and
+   the backward differentiation formulae. By the parameter `tolerance` a step of length dt is
+       0      one step of the library's, its error not asked for
+       > 0    the library's adaptive driver over dt, with that absolute and relative tolerance
+   The multistep methods choose order and step themselves, so for them 0 means 1e-8; they keep a past of
+   their own, and such a run cannot be resumed bit for bit. GSL manual, chapter "Ordinary differential
    equations". */
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implicit Runge-Kutta methods:  z_i = h sum_j a_ij f(y + z_j),  y' = y + h sum_i b_i f(y + z_i),
-   solved for the increments z to round-off: by fixed-point iteration, and where that does not contract, or
-   the problem is stiff, by Newton's method. A method is symplectic if b_i a_ij + b_j a_ji = b_i b_j. Hairer,
-   Lubich & Wanner, Geometric Numerical Integration (2006), sections II.1, VI.4, VIII.6. */
+/* Implicit Runge-Kutta methods, for the increments z_i of the stages:
+       z_i = h sum_j a_ij f(y0 + z_j)
+       y1  = y0 + h sum_i b_i f(y0 + z_i)
+   solved to round-off by fixed-point iteration, and where that does not contract, or the problem is stiff, by
+   Newton's method. A method is symplectic if b_i a_ij + b_j a_ji = b_i b_j. E. Hairer, C. Lubich & G. Wanner,
+   Geometric Numerical Integration (2006), sections II.1, VI.4, VIII.6. */
 #include "core/ode/families/implicit_runge_kutta.h"
 
 #include <stdlib.h>

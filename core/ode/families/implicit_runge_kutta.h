@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The row of an implicit Runge-Kutta method, which its loops over kernels and its own loop share. */
 #ifndef GM_CORE_ODE_FAMILIES_IMPLICIT_RUNGE_KUTTA_H
 #define GM_CORE_ODE_FAMILIES_IMPLICIT_RUNGE_KUTTA_H
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implicit Runge-Kutta methods for any number of components:
-       z_i = h sum_j a_ij f(y + z_j),  y' = y + h sum_i b_i f(y + z_i),
+/* Implicit Runge-Kutta methods for a number of components that is known at run time only:
+       z_i = h sum_j a_ij f(y0 + z_j)
+       y1  = y0 + h sum_i b_i f(y0 + z_i)
    solved to round-off by fixed-point iteration; a passive particle for which that does not contract, because
    a vortex turns it too fast, by Newton's method. */
 #include <math.h>

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Kahan's method for a quadratic field:  y1 = y0 + h (I - h/2 f'(y0))^(-1) f(y0): products u v become
-   (u0 v1 + u1 v0)/2, which is linearly implicit and its own adjoint.
-   W. Kahan, Unconventional numerical methods for trajectory calculations (1993);
-   Celledoni, McLachlan, Owren & Quispel, J. Phys. A 46 (2013) 025201. */
+/* Kahan's method for a quadratic field:
+       y1 = y0 + h (I - h/2 f'(y0))^-1 f(y0)
+   Products u v of the field become (u0 v1 + u1 v0)/2, which is linearly implicit and its own adjoint.
+   W. Kahan, Unconventional numerical methods for trajectory calculations (1993); E. Celledoni,
+   R.I. McLachlan, B. Owren & G.R.W. Quispel, J. Phys. A 46 (2013) 025201. */
 #include <stdlib.h>
 
 #include "core/ode/families/families.h"

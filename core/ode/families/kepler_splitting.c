@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Splitting of the perturbed Kepler problem, H = (|p|^2/2 - 1/|q|) + W(q): half a kick by W, the exact Kepler
-   flow, half a kick. J. Wisdom & M. Holman, Astron. J. 102 (1991) 1528. The Kepler flow in universal
-   variables: with s the root of r0 G1 + (q . p) G2 + G3 = h,   G_k(s) = s^k c_k(alpha s^2),   alpha = 2/r0 -
-   |p|^2, q1 = f q + g p, p1 = f' q + g' p, where f = 1 - G2/r0, g = h - G3, f' = -G1/(r r0), g' = 1 - G2/r
-   and r = r0 G0 + (q . p) G1 + G2 is the derivative of the left side, so that it grows. K. Stumpff (1956);
-   J.M.A. Danby, Fundamentals of Celestial Mechanics, section 6.9.
-   The memory is the perturbing force at the end of the step, which the next one begins with. */
+/* Splitting of the perturbed Kepler problem, H = (|p|^2/2 - 1/|q|) + W(q):
+       p += h/2 F_W(q);   (q, p) := exact Kepler flow over h;   p += h/2 F_W(q),   F_W = -grad W.
+   J. Wisdom & M. Holman, Astron. J. 102 (1991) 1528.
+
+   The Kepler flow in universal variables: r0 = |q|, alpha = 2/r0 - |p|^2, G_k(s) = s^k c_k(alpha s^2), and s
+   the root of
+       r0 G1 + (q . p) G2 + G3 = h,
+   whose left side grows with the derivative r = r0 G0 + (q . p) G1 + G2, the distance at the end:
+       q1 = f  q + g  p,   f  = 1 - G2/r0,      g  = h - G3
+       p1 = f' q + g' p,   f' = -G1/(r r0),     g' = 1 - G2/r
+   K. Stumpff (1956); J.M.A. Danby, Fundamentals of Celestial Mechanics, section 6.9. The memory is the
+   perturbing force at the end of the step, which the next one begins with. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What families need that take one member after the other: the loop, Jacobians, elimination, when to stop. */
 #include "core/ode/families/members.h"
 
 #include <math.h>

@@ -24,15 +24,15 @@ struct gm_members {
 struct gm_members *gm_members_open(const struct gm_problem *problem, size_t remembered, size_t scratch);
 
 /* One step of one member: changes members->y and members->memory in place. What it returns says why it
- * failed. */
+   failed. */
 typedef enum gm_status gm_member_step(const struct gm_task *task, struct gm_members *members,
                                       struct gm_progress *progress);
 
 /* All steps of all members; the workspace is a gm_members. Memory is [double * m + member], as the state. */
 struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step *step);
 
-/* The Jacobian of f at y, n * n by rows; false where the problem has none, or it would be too large a matrix.
- */
+/* The Jacobian of f at y, n * n by rows; false where the problem has none, or it would be too large a
+   matrix. */
 bool gm_jacobian(const struct gm_problem *problem, const double *y, double *jacobian);
 
 /* H(y) of one member. */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Partitioned Runge-Kutta methods for Hamiltonians that do not separate, (q, p)' = (f_q, f_p):
-       Q_i = q + h sum_j a_ij f_q(Q_j, P_j),   P_i = p + h sum_j c_ij f_p(Q_j, P_j),
-       q1 = q + h sum_i b_i f_q(Q_i, P_i),     p1 = p + h sum_i b_i f_p(Q_i, P_i),
+       Q_i = q0 + h sum_j a_ij f_q(Q_j, P_j),   P_i = p0 + h sum_j c_ij f_p(Q_j, P_j)
+       q1  = q0 + h sum_i b_i  f_q(Q_i, P_i),   p1  = p0 + h sum_i b_i  f_p(Q_i, P_i)
    symplectic if b_i c_ij + b_j a_ji = b_i b_j: the Lobatto IIIA-IIIB pairs, the symplectic Euler methods.
-   Solved to round-off by fixed-point iteration, and where that does not contract by Newton's method.
-   Hairer, Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
+   Solved to round-off by fixed-point iteration, and where that does not contract by Newton's method. Hairer,
+   Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,8 +20,8 @@ struct tableau {
     double a[STAGES][STAGES], c[STAGES][STAGES], b[STAGES];
 };
 
-/* The scratch: increments z and slopes f of the stages, one stage, then the right-hand side and the matrix.
- */
+/* The scratch: increments z and slopes f of the stages, one stage, then the right-hand side and the
+   matrix. */
 struct scratch {
     double *z, *f, *stage, *right, *matrix, *jacobian;
 };

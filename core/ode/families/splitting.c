@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Splitting methods for H(q, p) = T(p) + V(q): compositions of the exact flows
-       drift  q := q + c h dT/dp(p),      kick  p := p - c h dV/dq(q).
-   Each flow is symplectic, so is every composition. An invariant q' A p of H has {q' A p, T} + {q' A p, V} =
-   0, of which the first depends on p alone and the second on q alone: both vanish, and each flow keeps it.
-   McLachlan & Quispel, Acta Numerica 11 (2002) 341; Hairer, Lubich & Wanner (2006), section II.5. */
+       drift   q := q + c h dT/dp(p)
+       kick    p := p - c h dV/dq(q)
+   Each flow is symplectic, so is every composition. An invariant q' A p of H has
+       {q' A p, T} + {q' A p, V} = 0,
+   of which the first depends on p alone and the second on q alone: both vanish, and each flow keeps it.
+   R.I. McLachlan & G.R.W. Quispel, Acta Numerica 11 (2002) 341; Hairer, Lubich & Wanner (2006), section
+   II.5. */
 #include "core/ode/families/splitting.h"
 
 #include "core/ode/families/compositions.h"
@@ -26,8 +29,8 @@ static const struct gm_splitting verlet_position = {3, {DRIFT(0.5), KICK(1), DRI
 static const struct gm_splitting ruth3 = {
     6, {DRIFT(1), KICK(-1. / 24), DRIFT(-2. / 3), KICK(3. / 4), DRIFT(2. / 3), KICK(7. / 24)}};
 
-/* Palindromes, of which half is written down: pieces of one kind on the odd places, of the other on the even.
- */
+/* Palindromes, of which half is written down: pieces of one kind on the odd places, of the other on the
+   even. */
 #define SYMMETRIC_5(ODD, EVEN, a, b) ODD(a), EVEN(b), ODD(1 - 2 * (a)), EVEN(b), ODD(a)
 #define SYMMETRIC_9(ODD, EVEN, a, b, c, d, e)                                                                \
     ODD(a), EVEN(b), ODD(c), EVEN(d), ODD(e), EVEN(d), ODD(c), EVEN(b), ODD(a)

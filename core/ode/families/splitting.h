@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The row of a splitting method, which its loop over kernels reads at run time. */
 #ifndef GM_CORE_ODE_FAMILIES_SPLITTING_H
 #define GM_CORE_ODE_FAMILIES_SPLITTING_H
 

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trigonometric methods for q'' = -omega^2 q + g(q): a kick, the exact flow of the stiff linear part, a kick:
-       p += h/2 a g(phi q),   (q, p) := rotation by h omega,   p += h/2 a g(phi q),
-   phi and a diagonal, functions of h omega; the filter psi is a sinc(h omega).
-       impulse (Verlet-I, r-RESPA)  phi = 1,     a = 1
-       mollified impulse            phi = sinc,  a = sinc           symplectic: a = phi
-       Gautschi                     phi = 1,     a = sinc^2(h omega / 2) / sinc(h omega)
-   The memory is g(phi q) at the end of the step, which the next one begins with.
-   Hairer, Lubich & Wanner (2006), sections XIII.1 to XIII.2. */
+/* Trigonometric methods for q'' = -omega^2 q + g(q), omega diagonal:
+       p += h/2 a g(phi q);   (q, p) := flow of q'' = -omega^2 q over h;   p += h/2 a g(phi q),
+   phi and a diagonal, functions of x = h omega; the filter psi of the literature is a sinc(x), and a method
+   is symplectic if a = phi:
+                                    phi        a                        psi
+       impulse (Verlet-I, r-RESPA)  1          1                        sinc(x)
+       mollified impulse            sinc(x)    sinc(x)                  sinc^2(x)
+       Gautschi                     1          sinc^2(x/2) / sinc(x)    sinc^2(x/2)
+   The memory is g(phi q) at the end of the step, which the next one begins with. Hairer, Lubich & Wanner
+   (2006), sections XIII.1 to XIII.2. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Variational integrators that vary time as well: the steps tau_n come from the discrete energy balance.
+
    Rectangle rule, L = v^2/2 - V(q), v_n = (q_{n+1} - q_n)/tau_n:
-       v_{n-1} - v_n = tau_n V'(q_n),   v_n^2/2 + V(q_n) = H_0,
+       v_{n-1} - v_n    = tau_n V'(q_n)
+       v_n^2/2 + V(q_n) = H_0
    so v_n = +-sqrt(2 (H_0 - V(q_n))) and tau_n = (v_{n-1} - v_n)/V'(q_n). tau grows without bound at a turning
    point, and before it is reached there is no real root: step-collapse. The restarting variant turns there.
-   Midpoint rule:
-       v + tau/2 V'(q + tau v/2) = p,   q += tau v,   p = v - tau/2 V'(qbar),   v^2/2 + V(qbar) = E,
-   with qbar = q + tau v/2; E is fixed by a first step of length tau0.
-   Razafindralandy et al. (2018), eqs. 55 to 59; C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40 (1999)
-   3353. The run's dt gives the direction of time only; the memory is tau, the energy, and the number of
-   restarts. */
+
+   Midpoint rule, qbar = q_n + tau v/2:
+       v + tau/2 V'(qbar) = p_n,   v^2/2 + V(qbar) = E
+       q_{n+1} = q_n + tau v,      p_{n+1} = v - tau/2 V'(qbar)
+   E is fixed by a first step of length tau0.
+
+   Razafindralandy et al. (2018), eqs. 55, 56, 58 and 59; C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40
+   (1999) 3353. The run's dt gives the direction of time only; the memory is tau, the energy, and the number
+   of restarts. */
 #include "core/ode/families/variational_time.h"
 
 #include <math.h>
@@ -200,8 +205,8 @@ static enum gm_status start(const struct gm_task *task)
         struct gm_progress ignored = {0};
         struct middle middle;
         if (last != 0) {
-            /* a run that turns round keeps its energy, and so comes back; the step of a new run is still zero
-             */
+            /* a run that turns round keeps its energy, and so comes back; the step of a new run is still
+               zero */
             task->memory_out[TAU] = copysign(last, task->dt);
             if (!solve_step(problem, task->y, task->memory_out[ENERGY], &task->memory_out[TAU], &ignored)) {
                 task->memory_out[TAU] = 0;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Splitting of a field of zero divergence into parts of zero divergence that can be integrated exactly:
-       volume-splitting1 = F_s(h) ... F_1(h),   volume-splitting2 = F_1(h/2) ... F_s(h) ... F_1(h/2).
-   K. Feng & Z.-J. Shang, Numer. Math. 71 (1995) 451; Ammari, lecture 5. */
+/* Splitting of a field f = f_1 + ... + f_s into parts of zero divergence with exact flows F_i:
+       volume-splitting1 = F_s(h) ... F_2(h) F_1(h)
+       volume-splitting2 = F_1(h/2) ... F_s(h) ... F_1(h/2)
+   K. Feng & Z.-J. Shang, Numer. Math. 71 (1995) 451; H. Ammari, lecture 5. */
 #include <string.h>
 
 #include "core/ode/families/families.h"

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The loop over blocks and steps, included once per family and pass. Before it
+/* The loop over blocks and steps, included once per family and pass. Before it are defined
        GM_DRIVE     name of the function made here
        GM_ROW       type of the family's row
-       GM_STEP      name of its step: mask step(const GM_ROW *, struct block *, double h, const void
-   *parameters, bool compensated, bool stiff, struct counts *), the lanes that were solved GM_ABREAST   so
-   many blocks make their steps side by side: their chains of operations do not wait for each other Each block
-   makes all steps in registers. Whether it failed is asked every GM_BURST steps only; then the burst is made
-   again step by step, so the step that failed is found exactly, whoever called how often. */
+       GM_STEP      name of its step, which returns the lanes that were solved:
+                        mask step(const GM_ROW *, struct block *, double h, const void *parameters,
+                                  bool compensated, bool stiff, struct counts *)
+       GM_ABREAST   so many blocks make their steps side by side: their chains of operations do not wait for
+                    each other
+   Each block makes all steps in registers. Whether it failed is asked every GM_BURST steps only; then the
+   burst is made again step by step, so the step that failed is found exactly, whoever called how often. */
 
 #define GM_DRIVE_NAME(part) GM_DRIVE_NAME_(GM_DRIVE, part)
 #define GM_DRIVE_NAME_(drive, part) GM_DRIVE_NAME__(drive, part)

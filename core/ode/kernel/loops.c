@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every family's loop over one problem's kernels, for single runs and for ensembles. The build compiles this
-   file once for each problem and instruction set, with GM_KERNELS   the problem's kernels
-   ("core/ode/problems/pendulum.kernel.h") GM_PROBLEM   its name (pendulum) GM_ISA       the instruction set's
-   name (baseline, avx2, avx512); the flags are set to match. The kernel file is included for each pass, over
-   the lane type `real`. It defines GM_COMPONENTS  n, a constant GM_SEPARABLE   if H = T(p) + V(q) and
-       separable:  K(velocity)(p, dq, parameters), K(force)(q, dp, parameters)
-       otherwise:  K(field)(y, f, parameters)
-       both:       K(jacobian)(y, J, parameters), J[row][column] = d f_row / d y_column, in the scalar pass
+   file once for each problem and instruction set, with
+       GM_KERNELS   the problem's kernels ("core/ode/problems/pendulum.kernel.h")
+       GM_PROBLEM   its name (pendulum)
+       GM_ISA       the instruction set's name (baseline, avx2, avx512); the flags are set to match
+   The kernel file is included for each pass, over the lane type `real`. It defines
+       GM_COMPONENTS   n, a constant
+       GM_SEPARABLE    if H = T(p) + V(q)
+   and the kernels
+       separable   K(velocity)(p, dq, parameters), K(force)(q, dp, parameters)
+       otherwise   K(field)(y, f, parameters)
+       both        K(jacobian)(y, J, parameters), J[row][column] = d f_row / d y_column, in the scalar pass
    The operations, and so the bits, are the same for every instruction set: nothing is contracted. */
 
 #include "core/ode/kernel/loops.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kernels of H = p^2/2 + V(q) in one degree of freedom, over the lane type. The problem's file gives
-       K(slope)(q) = V',   K(curvature)(q) = V'',   K(third)(q) = V'''.
-   With GM_TANGENT the state carries two tangent vectors: (q, xi_1, xi_2; p, eta_1, eta_2), where
+       K(slope)(q) = V',   K(curvature)(q) = V'',   K(third)(q) = V'''
+   With GM_TANGENT the state carries two tangent vectors, (q, xi_1, xi_2; p, eta_1, eta_2), where
        xi_i' = eta_i,   eta_i' = -V''(q) xi_i :
    the variational equation, which is Hamiltonian with the same split. A Runge-Kutta method or a splitting
    applied to it gives the derivative of its own step, exactly. */

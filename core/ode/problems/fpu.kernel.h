@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The chain of Fermi, Pasta & Ulam with GM_SPRINGS = m stiff springs, three unless said otherwise, in the
    variables of Hairer, Lubich & Wanner (2006), I.5.1: (x, y, x', y'), x the displacements and y the scaled
-   expansions of the stiff springs, H = (|x'|^2 + |y'|^2 + omega^2 |y|^2)/2 + sum_(i=0)^m d_i^4/4,
-   d_0 = x_1 - y_1,  d_i = x_(i+1) - y_(i+1) - x_i - y_i,  d_m = x_m + y_m, omega = *(const double
-   *)parameters. */
+   expansions of the stiff springs,
+       H   = (|x'|^2 + |y'|^2 + omega^2 |y|^2)/2 + sum_{i=0}^m d_i^4/4
+       d_0 = x_1 - y_1,   d_i = x_{i+1} - y_{i+1} - x_i - y_i,   d_m = x_m + y_m
+   omega = *(const double *)parameters. */
 #ifndef GM_SPRINGS
 #define GM_SPRINGS 3
 #endif

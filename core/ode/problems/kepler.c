@@ -42,8 +42,8 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
     }
 }
 
-/* The root E of E - c sin E + s (1 - cos E) = anomaly in [-pi, pi]; its left side grows, for c^2 + s^2 < 1.
- */
+/* The root E of E - c sin E + s (1 - cos E) = anomaly in [-pi, pi]; its left side grows, for c^2 + s^2 <
+   1. */
 static double solve_kepler(double c, double s, double anomaly)
 {
     double low = anomaly - 3, high = anomaly + 3, E = anomaly;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The plane Kepler problem, (q1, q2, p1, p2), H = |p|^2/2 - 1/|q|; with GM_PERTURBED H - e/|q|^2,
-   e = *(const double *)parameters. */
+/* The plane Kepler problem, (q1, q2, p1, p2),
+       H = |p|^2/2 - 1/|q|,   with GM_PERTURBED H - e/|q|^2,   e = *(const double *)parameters. */
 #define GM_COMPONENTS 4
 #define GM_SEPARABLE
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* y' = A y in three dimensions with tr A = 0, as a sum of plane linear fields without divergence:
-       piece j = 1, 2:  y_j' = (A y)_j,  y_3' = -a_jj y_3  (+ a_31 y_1 + a_32 y_2 in the last piece).
+       piece j = 1, 2:   y_j' = (A y)_j,   y_3' = -a_jj y_3  (+ a_31 y_1 + a_32 y_2 in the last piece)
    Feng & Shang, Numer. Math. 71 (1995) 451; Hairer, Lubich & Wanner (2006), VI.9. */
 #include <math.h>
 
@@ -28,8 +28,8 @@ static void flow(const struct gm_problem *problem, size_t piece, double h, doubl
     const double *a = problem->parameters;
     const size_t j = piece, k = 1 - piece;
     const bool last = piece == 1;
-    /* moving: (y_j, y_3); standing: y_k, which drives them by (a_jk y_k, d y_k), d = a_3k in the last piece
-     */
+    /* moving: (y_j, y_3); standing: y_k, which drives them by (a_jk y_k, d y_k), d = a_3k in the last
+       piece */
     const double own = a[4 * j], to_j = a[3 * j + 2], to_3 = last ? a[6 + j] : 0;
     double whole[2][2], half[2][2];
     plane_flow(own, to_j, to_3, h, whole);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* y' = A y in three dimensions, A = parameters, 9 doubles row by row. */
+/* y' = A y in three dimensions, A = parameters, 9 doubles row by row; linear.c says which A. */
 #define GM_COMPONENTS 3
 
 GM_INLINE void K(field)(const real *y, real *f, const void *parameters)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* H = p^2/2 + V(q), V = q^2/2 */
+/* The harmonic oscillator, (q, p), H = p^2/2 + V(q), V = q^2/2. */
 #ifdef GM_TANGENT
 #define GM_COMPONENTS 6
 #else

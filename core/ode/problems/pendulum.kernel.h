@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* H = p^2/2 + V(q), V = -cos q */
+/* The pendulum, (q, p), H = p^2/2 + V(q), V = -cos q. */
 #ifdef GM_TANGENT
 #define GM_COMPONENTS 6
 #else

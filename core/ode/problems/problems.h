@@ -41,7 +41,7 @@ extern const struct gm_problem gm_problem_fpu;
 extern const struct gm_problem gm_problem_fpu_of[GM_FPU_SPRINGS];
 
 /* A mass on a stiff spring of rest length 1 in gravity 1, (q1, q2, p1, p2); stiffness *(const double
- * *)parameters. */
+   *)parameters. */
 extern const struct gm_problem gm_problem_spring_pendulum;
 
 /* The ABC flow, (x, y, z); parameters: A, B, C as three doubles. */

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The free rigid body: Euler's equations y_1' = (1/I_3 - 1/I_2) y_2 y_3 and cyclic, I = (2, 1, 2/3).
+/* The free rigid body with the moments of inertia I = (2, 1, 2/3): Euler's equations for y = I * angular
+   velocity,
+       y_1' = (1/I_3 - 1/I_2) y_2 y_3,   y_2' = (1/I_1 - 1/I_3) y_3 y_1,   y_3' = (1/I_2 - 1/I_1) y_1 y_2.
    Hairer, Lubich & Wanner (2006), IV.1. */
 #define GM_COMPONENTS 3
 

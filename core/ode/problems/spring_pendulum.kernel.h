@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A mass on a stiff spring of rest length 1 in gravity, (q1, q2, p1, p2), H = |p|^2/2 + k (|q| - 1)^2/2 + q2,
-   k = *(const double *)parameters. Hairer, Lubich & Wanner (2006), XIII.1. */
+/* A mass on a stiff spring of rest length 1 in gravity, (q1, q2, p1, p2),
+       H = |p|^2/2 + k (|q| - 1)^2/2 + q2,   k = *(const double *)parameters.
+   Hairer, Lubich & Wanner (2006), XIII.1. */
 #define GM_COMPONENTS 4
 #define GM_SEPARABLE
 

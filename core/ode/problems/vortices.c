@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Point vortices of equal strength g = *(const double *)parameters in the plane, H = -(1/2 pi) sum_(i<j) g^2
-   ln r_ij. H. Aref, Annu. Rev. Fluid Mech. 15 (1983) 345; Razafindralandy et al. (2018), eq. 30, whose factor
-   and sense of rotation are mended: with q_i = g x_i, p_i = y_i these are Hamilton's equations. */
+/* Point vortices of equal strength g = *(const double *)parameters in the plane,
+       H = -(1/2 pi) sum_{i<j} g^2 ln r_ij :
+   with q_i = g x_i, p_i = y_i these are Hamilton's equations. H. Aref, Annu. Rev. Fluid Mech. 15 (1983) 345;
+   Razafindralandy et al. (2018), eq. 30, whose factor and sense of rotation are mended. */
 #include <math.h>
 
 #include "core/ode/kernel/loops.h"
@@ -34,8 +35,8 @@ static void energy(const struct gm_problem *problem, const double *state, double
     const double factor = strength(problem) * strength(problem) / (4 * M_PI);
     for (size_t k = 0; k < m; k++) {
         const double *x = state + k, *y = state + count * m + k;
-        /* one logarithm for many pairs: the product of their squared distances, while it is a number of note
-         */
+        /* one logarithm for many pairs: the product of their squared distances, while it is a number of
+           note */
         double sum = 0, product = 1;
         for (size_t i = 0; i < count; i++) {
             for (size_t j = i + 1; j < count; j++) {

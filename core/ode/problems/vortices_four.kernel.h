@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kirchhoff's equations of four point vortices of equal strength g in the plane, (x1..x4, y1..y4),
-       x_i' = -(g/2 pi) sum_(j != i) (y_i - y_j)/r_ij^2,   y_i' = (g/2 pi) sum_(j != i) (x_i - x_j)/r_ij^2,
+       x_i' = -(g/2 pi) sum_{j != i} (y_i - y_j)/r_ij^2
+       y_i' =  (g/2 pi) sum_{j != i} (x_i - x_j)/r_ij^2
    g = *(const double *)parameters. Every pair is taken once. */
 #define GM_COMPONENTS 8
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Four point vortices of equal strength g with z3 = -z1 and z4 = -z2 built in: (x1, x2, y1, y2) is carried.
-   With F(d) = (-d_y, d_x)/|d|^2,  z1' = (g/2 pi) [F(z1 - z2) + F(2 z1) + F(z1 + z2)], and z2' likewise;
-   g = *(const double *)parameters. */
+/* Four point vortices of equal strength g with z3 = -z1 and z4 = -z2 built in, (x1, x2, y1, y2),
+       z1' = (g/2 pi) [F(z1 - z2) + F(2 z1) + F(z1 + z2)],   F(d) = (-d_y, d_x)/|d|^2
+       z2' = (g/2 pi) [F(z2 - z1) + F(2 z2) + F(z1 + z2)]
+   g = *(const double *)parameters. The symmetric orbit of all four may be unstable; this one cannot leave
+   it. */
 #define GM_COMPONENTS 4
 
 GM_INLINE void K(field)(const real *state, real *f, const void *parameters)
