@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sparse Cholesky and LU factors, by SuiteSparse: the only file that knows it. */
 #include "core/linear/cholesky.h"
 
 #include <pthread.h>

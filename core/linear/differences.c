@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Central differences at distances that are halved, extrapolated to 0 by Romberg's scheme. */
 #include "core/linear/differences.h"
 
 #include <math.h>

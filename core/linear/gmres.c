@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* GMRES with Arnoldi's basis by Gram & Schmidt, and Givens rotations for the small least squares problem. */
 #include "core/linear/gmres.h"
 
 #include <math.h>

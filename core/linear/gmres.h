@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* GMRES: systems whose matrix is known by what it does to a vector. */
 #ifndef GM_CORE_LINEAR_GMRES_H
 #define GM_CORE_LINEAR_GMRES_H
 

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A circulant band matrix is a polynomial in the shift z. Each of its linear factors is inverted by one
    recursion, forwards where the root lies inside the unit circle, backwards where it lies outside, so that
-   rounding errors die out. What the recursion starts from follows from the closed ring: a geometric sum, cut
-   where it no longer counts.
+   rounding errors die out:
+       (1 - r / z) f = b   f_i = b_i + r f_{i-1}
+       (1 - r z) f = b     f_i = b_i + r f_{i+1}
+   What the recursion starts from follows from the closed ring: a geometric sum, cut where it no longer
+   counts.
 
    A band around a ring that is folded flat, 0, n - 1, 1, n - 2, ..., is a band of twice the width. */
 #include "core/linear/ring.h"

@@ -25,8 +25,8 @@ void gm_ring_solve(const struct gm_ring *ring, double *b);
    there is no solution, and f is NaN. */
 void gm_ring_unaverage(double *b, size_t count);
 
-/* scale (z - roots[0]) (z - roots[1]) ... f = b for complex b, (z f)_i = f_{i+1}; no root on the unit circle.
- */
+/* scale (z - roots[0]) (z - roots[1]) ... f = b for complex b, (z f)_i = f_{i+1}; no root on the unit
+   circle. */
 enum { GM_RING_ROOTS = 3 };
 struct gm_ring_roots {
     size_t count;
