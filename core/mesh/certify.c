@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Certification of schemes on moving meshes, on one soliton and a few nodes. */
 #include "core/mesh/certify.h"
 
 #include <math.h>

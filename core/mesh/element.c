@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The element Lagrangian, the constraint and their derivatives, as core/mesh/element.h states them. */
 #include "core/mesh/element.h"
 
 #include <math.h>

@@ -7,12 +7,15 @@
 /* The element Lagrangian and the mesh constraint with their derivatives, for all elements of one stage.
 
    Element e joins nodes e and e + 1, 0 <= e <= N; rise r = y1 - y0, width d = X1 - X0, slope g = r / d,
-   middle m = (y0 + y1) / 2. With u, V the velocities of y, X at the ends l   = (d Kuu - r KuV + (r^2 / d)
-   KVV) / 6 - r^2 / (2 d) - d w(m, r), Kuu = u0^2 + u0 u1 + u1^2,  KuV = 2 u0 V0 + u0 V1 + u1 V0 + 2 u1 V1,
-   KVV = V0^2 + V0 V1 + V1^2 (Tyranowski & Desbrun 2019, eq. 44), w the mean of the potential; and of the
-   constraint ell as core/mesh/moving_mesh.h has it. Multipliers enter
-   element by element: sum_k lambda_k (ell_k - ell_{k-1}) = sum_e (lambda_e - lambda_{e+1}) ell_e with
-   lambda_0 = lambda_{N+1} = 0. */
+   middle m = (y0 + y1) / 2. With u, V the velocities of y, X at the ends
+       l   = (d Kuu - r KuV + (r^2 / d) KVV) / 6 - r^2 / (2 d) - d w(m, r)
+       Kuu = u0^2 + u0 u1 + u1^2
+       KuV = 2 u0 V0 + u0 V1 + u1 V0 + 2 u1 V1
+       KVV = V0^2 + V0 V1 + V1^2
+   (Tyranowski & Desbrun 2019, eq. 44), w the mean of the potential; and the constraint's ell as
+   core/mesh/moving_mesh.h has it. Multipliers enter element by element:
+       sum_k lambda_k (ell_k - ell_{k-1}) = sum_e (lambda_e - lambda_{e+1}) ell_e
+       lambda_0 = lambda_{N+1} = 0 */
 
 struct gm_elements {
     size_t count; /* N + 1 */

@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The discrete multisymplectic form formula, for the trapezoidal discrete Lagrangian
-       L_e(z, z') = h/2 [l_e(z, v) + l_e(z', v)] - Lambda_e ell_e(z),   v = (z' - z) / h,   z = (q_e, q_e+1)
-   of element e over a step; on a mesh that is given, which has no constraint Lambda_e, also for that of the
-   midpoint rule, h l_e((z + z') / 2, v), which is Gauss' method of order 2 (Tyranowski & Desbrun 2019,
-   sections 4.2 and 4.3, eqs. 154-155; J. E. Marsden, G. W. Patrick & S. Shkoller, Commun. Math. Phys. 199
-   (1998) 351). Where its Euler-Lagrange equations hold at the nodes, the symplectic form of any stretch of
-   nodes a ... b changes by what its two ends let through: sum_{i=a}^{b} dq_i' ^ dp_i' - dq_i ^ dp_i = f(a,
-   a-1) + f(b, b) - dell_a ^ dlambda_a + dell_b ^ dlambda_b, f(i, e) = dq_i' ^ d(dL_e/dq_i') + dq_i ^
-   d(dL_e/dq_i), on motions of three steps that the scheme makes. Momenta are those of the discrete Lagrangian
-   of the step before, the multipliers the best that the places allow: nothing is taken from the scheme but
-   where the nodes are. */
+/* The discrete multisymplectic form formula, for the trapezoidal discrete Lagrangian of element e over a
+   step,
+       L_e(z, z') = h/2 [l_e(z, v) + l_e(z', v)] - Lambda_e ell_e(z),   v = (z' - z) / h,   z = (q_e, q_{e+1})
+   and on a mesh that is given, which has no constraint Lambda_e, also for that of the midpoint rule, which is
+   Gauss' method of order 2,
+       L_e(z, z') = h l_e((z + z') / 2, v).
+   Where the Euler-Lagrange equations hold at the nodes, the symplectic form of any stretch of nodes a ... b
+   changes by what its two ends let through:
+       sum_{i=a}^{b} (dq_i' ^ dp_i' - dq_i ^ dp_i)
+               = f(a, a-1) + f(b, b) - dell_a ^ dlambda_a + dell_b ^ dlambda_b
+       f(i, e) = dq_i' ^ d(dL_e/dq_i') + dq_i ^ d(dL_e/dq_i)
+   on motions of three steps that the scheme makes. Momenta are those of the discrete Lagrangian of the step
+   before, the multipliers the best that the places allow: nothing is taken from the scheme but where the
+   nodes are. Tyranowski & Desbrun (2019), sections 4.2 and 4.3, eqs. 154-155; J.E. Marsden, G.W. Patrick &
+   S. Shkoller, Commun. Math. Phys. 199 (1998) 351. */
 #include <assert.h>
 #include <math.h>
 #include <stddef.h>
@@ -69,8 +73,8 @@ static bool place(const struct gm_mesh_subject *subject, struct stages *stages, 
     return true;
 }
 
-/* h/2 times the derivative of l at `at` by the place of end `end` of an element, and the mean momentum there
- */
+/* h/2 times the derivative of l at `at` by the place of end `end` of an element, and the mean momentum
+   there */
 static void parts(const struct stages *stages, const struct gm_elements *at, double h, size_t e, size_t end,
                   double force[2], double momentum[2])
 {

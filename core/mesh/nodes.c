@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Assembly from elements to nodes, and the small systems for places, velocities and multipliers on a mesh. */
 #include "core/mesh/nodes.h"
 
 #include <math.h>
@@ -67,7 +68,7 @@ void gm_nodes_add_row(struct gm_banded *matrix, size_t points, size_t per_node, 
 }
 
 /* The derivative of the constraint by the nodes' places alone; `slope` is dy/dX at the nodes, NULL: y is
- * given. */
+   given. */
 static void by_places(const struct gm_elements *stage, const double *slope, struct gm_banded *matrix)
 {
     const size_t points = stage->count - 1;
@@ -89,7 +90,7 @@ static void by_places(const struct gm_elements *stage, const double *slope, stru
 }
 
 /* The field at the nodes where they are now, if it is a function of the place; true if all widths are
- * positive. */
+   positive. */
 static bool look(struct gm_elements *stage, const struct gm_mesh *mesh, gm_profile *profile,
                  const void *context)
 {

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Potentials and their exact means over linear elements. */
+/* Potentials W and their exact means over linear elements, m the mean and r the difference of the ends:
+       sine-Gordon   w = 1 - cos(m) S(r/2),   S(h) = sin(h)/h           (Tyranowski & Desbrun 2019, eq. 170)
+       phi^4         the mean of (phi^2 - 1)^2 / 4, a polynomial in m and r */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One or two solitons on a moving mesh: the mesh and its density, the start, the exact solution. */
 #include "core/mesh/soliton.h"
 
 #include <math.h>

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Newton's method for the equations of one step on a mesh: with factors that are kept, then, where that
+   fails, with new ones and shortened steps, from one first guess after the other. */
 #include "core/mesh/solver.h"
 
 #include <math.h>

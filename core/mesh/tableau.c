@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gauss, Lobatto IIIA-IIIB and Radau IIA. abar of a pair that is symplectic is
+       abar_ij = b_j (1 - a_ji / b_i);
+   Gauss' is a itself; Radau's is taken as a, and is not symplectic. Hairer, Lubich & Wanner (2006), chapters
+   II and IV. */
 #include "core/mesh/tableau.h"
 
 #define ROOT_3 1.7320508075688772

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Partitioned Runge-Kutta methods for the field on a mesh that follows it (the control-theoretic strategy),
-   and on a uniform mesh. At the stages i, with X(y) given by the constraint g(y, X) = 0, P_i = dL/dydot (Y_i,
-   Q_i, Ydot_i, Qdot_i) = p_n + h sum_j abar_ij F_j,   F_j = dL/dy at stage j, Y_i = y_n + h sum_j a_ij
-   Ydot_j,   g(Y_i, Q_i) = 0,   d/dt g = 0, unknowns (Ydot_i, Q_i, Qdot_i); on the uniform mesh Q is fixed and
-   only Ydot_i and P_i are left. The mesh is an explicit function of time for the Lagrangian, so symplecticity
-   in (y, p) does not keep its energy. On the uniform mesh the methods of order 2 come from discrete
-   Lagrangians of the elements, that of the midpoint rule (gauss2) and the trapezoidal one (lobatto2), and are
-   multisymplectic; more stages couple all elements. Tyranowski & Desbrun (2019), eq. 21 and sections 2.6
-   and 4.2. */
+   and on a uniform mesh. At the stages i, with X(y) given by the constraint g(y, X) = 0,
+       Y_i = y_n + h sum_j a_ij Ydot_j
+       P_i = p_n + h sum_j abar_ij F_j
+       P_i = dL/dydot(Y_i, Q_i, Ydot_i, Qdot_i),   F_j = dL/dy(Y_j, Q_j, Ydot_j, Qdot_j)
+       g(Y_i, Q_i) = 0,   d/dt g = Dg(Y_i, Q_i) (Ydot_i, Qdot_i) = 0
+       unknowns (Ydot_i, Q_i, Qdot_i); on the uniform mesh Q is fixed and only Ydot_i and P_i are left
+   The mesh is an explicit function of time for the Lagrangian, so symplecticity in (y, p) does not keep its
+   energy. On the uniform mesh the methods of order 2 come from discrete Lagrangians of the elements, that of
+   the midpoint rule (gauss2) and the trapezoidal one (lobatto2), and are multisymplectic; more stages couple
+   all elements. Tyranowski & Desbrun (2019), eq. 21 and sections 2.6 and 4.2. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

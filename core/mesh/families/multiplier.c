@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lobatto IIIA-IIIB for the field and the mesh together, the mesh constraint g(q) = 0, q = (y, X), enforced
-   by Lagrange multipliers. The mass matrix is singular where the field is straight; so slack variables r with
-   the Lagrangian L + rdot^T Dg(q) qdot and the constraint r = 0 are added: Q_i = q_n + h sum_j a_ij Qdot_j,
-   R_i = h sum_j a_ij Rdot_j, P_i = M(Q_i) Qdot_i + Dg(Q_i)^T Rdot_i = p_n + h sum_j abar_ij (G_j - Dg(Q_j)^T
-   Lambda_j), B_i = Dg(Q_i) Qdot_i = B_n - h sum_j abar_ij mu_j,   g(Q_i) = 0,   R_i = 0, G_j = d/dq [L +
-   Rdot_j^T Dg(q) qdot]. R_i = 0 leaves Rdot_j = kappa_j W, kappa in the kernel of a; eliminating mu with the
-   left kernel l of abar leaves sum_i l_i Dg(Q_i) Qdot_i = 0. So a node has the unknowns Qdot_1 ... Qdot_s, W,
-   Lambda_1 ... Lambda_{s-1}. The last multiplier follows from the hidden constraint Dg qdot = 0 at the end of
-   the step. Tyranowski & Desbrun (2019), eqs. 95-98; L. O. Jay, SIAM J. Numer. Anal. 33 (1996) 368. */
+   by Lagrange multipliers. The mass matrix M is singular where the field is straight; so slack variables r
+   with the Lagrangian L + rdot^T Dg(q) qdot and the constraint r = 0 are added:
+       Q_i = q_n + h sum_j a_ij Qdot_j
+       R_i =       h sum_j a_ij Rdot_j
+       P_i = p_n + h sum_j abar_ij (G_j - Dg(Q_j)^T Lambda_j),   P_i = M(Q_i) Qdot_i + Dg(Q_i)^T Rdot_i
+       B_i = B_n - h sum_j abar_ij mu_j,                         B_i = Dg(Q_i) Qdot_i
+       G_j = d/dq [L + Rdot_j^T Dg(q) qdot] at (Q_j, Qdot_j)
+       g(Q_i) = 0,   R_i = 0
+   R_i = 0 leaves Rdot_j = kappa_j W, kappa in the kernel of a; eliminating mu with the left kernel l of abar
+   leaves
+       sum_i l_i Dg(Q_i) Qdot_i = 0
+   So a node has the unknowns Qdot_1 ... Qdot_s, W, Lambda_1 ... Lambda_{s-1}. The last multiplier follows
+   from the hidden constraint Dg qdot = 0 at the end of the step. Tyranowski & Desbrun (2019), eqs. 95-98;
+   L.O. Jay, SIAM J. Numer. Anal. 33 (1996) 368. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -124,8 +130,8 @@ static void guess(void *self, double *unknowns)
     }
 }
 
-/* The share of every element in a multiplier given at the nodes: lambda_e - lambda_{e+1}, none at the ends.
- */
+/* The share of every element in a multiplier given at the nodes: lambda_e - lambda_{e+1}, none at the
+   ends. */
 static void spread(const double *unknowns, size_t points, size_t per_node, size_t offset, double *share)
 {
     double left = 0;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The steps of the multiplier strategy, for families that vary the step. */
 #ifndef GM_CORE_MESH_FAMILIES_MULTIPLIER_H
 #define GM_CORE_MESH_FAMILIES_MULTIPLIER_H
 
 #include "core/mesh/tableau.h"
 #include "core/scheme.h"
 
-/* A row of the family, and its steps, for families that vary the step. */
+/* A row of the family: its tableau, the kernel of a and the left kernel of abar. */
 struct gm_multiplier {
     const struct gm_tableau *tableau;
     double kappa[GM_STAGES]; /* a kappa = 0 */

@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The multisymplectic trapezoidal rule for the field and the mesh together, like SHAKE: with the discrete
-   Lagrangian Ld(q0, q1) = h/2 [L(q0, v) + L(q1, v)],   v = (q1 - q0) / h, places q_{j+1} and impulses
-   lambda_j (a multiplier times h) from p_j + D1 Ld(q_j, q_{j+1}) - Dg(q_j)^T lambda_j = 0,   g(q_{j+1}) = 0,
-   then p_{j+1} = D2 Ld(q_j, q_{j+1}), projected onto the velocities that the constraint allows; the
-   projection does not change any later q. Tyranowski & Desbrun (2019), eqs. 154-155. */
+/* The multisymplectic trapezoidal rule for the field and the mesh together, like SHAKE, with the discrete
+   Lagrangian
+       Ld(q0, q1) = h/2 [L(q0, v) + L(q1, v)],   v = (q1 - q0) / h
+   Places q_{j+1} and impulses lambda_j (a multiplier times h) come from
+       p_j + D1 Ld(q_j, q_{j+1}) - Dg(q_j)^T lambda_j = 0,   g(q_{j+1}) = 0
+   and then, with L_q and L_v the derivatives of L,
+       p_{j+1}     = D2 Ld(q_j, q_{j+1})
+       D1 Ld       = h/2 L_q(q0, v) - [L_v(q0, v) + L_v(q1, v)]/2
+       D2 Ld       = h/2 L_q(q1, v) + [L_v(q0, v) + L_v(q1, v)]/2
+   p_{j+1} is projected onto the velocities that the constraint allows; the projection does not change any
+   later q. Tyranowski & Desbrun (2019), eqs. 154-155. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
