@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the kinds of boundary edges to what is given at the boundary's vertices: psi, sheets, the scalar. */
 #include "core/flow/boundary.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 /* A run of boundary edges of one side: `first` .. `first + count`, cyclic; psi goes from `from` to `to` along
- * it. */
+   it. */
 struct run {
     size_t first, count;
     double from, to;

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Certification of schemes for flows on complexes. Order: on an irregular torus against the semi-discrete
-   equations d omega / dt = -(C(F) + nu K) omega / star0, written here anew with a dense Poisson matrix and
-   integrated by GSL. Claims: a room with inlet and soft outlet, and the torus without viscosity. */
+   equations
+       d omega / dt = -(C(F) + nu K) omega / star0,
+   written here anew with a dense Poisson matrix and integrated by GSL. Claims: a room with inlet and soft
+   outlet, and the torus without viscosity. */
 #include "core/flow/certify.h"
 
 #include <math.h>

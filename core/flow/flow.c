@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Flows: their memory, fluxes, vorticity and velocities, and the states that a run starts from. */
 #include "core/flow/flow.h"
 
 #include <math.h>

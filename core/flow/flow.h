@@ -7,11 +7,14 @@
 
 /* An incompressible flow on a simplicial complex and a scalar that it carries, in the discrete exterior
    calculus of Mohamed, Hirani & Samtaney (2016). Velocity u = (d psi/dy, -d psi/dx).
-
-   psi: stream function at the vertices; U = -star1 d0 psi its circulation along dual edges; K = d0' star1 d0;
-   omega = (K psi + sheet) / star0, sheet the circulation that moving walls add to a boundary cell;
-   F = (d1' P - boundary midpoints) psi the flux through dual edges, exactly free of divergence on inner dual
-   cells; convection of a: -d0' diag(F) A a, A the mean of an edge's ends. */
+       psi     stream function, at the vertices
+       U       = -star1 d0 psi, its circulation along dual edges
+       K       = d0' star1 d0, minus the Laplacian times the cells' area
+       omega   = (K psi + sheet) / star0, vorticity, at the vertices; sheet: the circulation that moving walls
+                 add to a boundary cell
+       F       = (d1' P - boundary midpoints) psi, the flux through dual edges, exactly free of divergence on
+                 inner dual cells; P interpolates to the circumcentres
+       convection of a quantity a: -d0' diag(F) A a, A the mean of an edge's ends */
 
 /* What is known of psi and omega at a vertex. */
 enum gm_vertex_kind {

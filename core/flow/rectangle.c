@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An acute triangulation of a rectangle by M strips of height h. Even rows of vertices have N + 1 of them, a
-   apart; odd rows have N, one above the middle of each edge but for the ends, which keep the distance c from
-   the wall, so that the wall's triangle (0, 2 k h), (c, (2 k + 1) h), (0, (2 k + 2) h) is acute. If a/2 < h <
-   c < a, all are: the foot of every apex lies inside its base and splits it into p + q <= a with p q <= a^2 /
-   4 < h^2. */
+   apart; odd rows have N, one above the middle of each edge but near the ends, which keep the distance c from
+   the wall, so that the wall's triangle
+       (0, 2 k h),   (c, (2 k + 1) h),   (0, (2 k + 2) h)
+   is acute. If a/2 < h < c < a, all are: the foot of every apex lies inside its base and splits it into p + q
+   <= a with p q <= a^2/4 < h^2. */
 #include "core/flow/rectangle.h"
 
 #include <math.h>

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Linear algebra of the steps. With z = (psi at unknowns I, omega at soft vertices O) and
-       omega(z) = W (K psi + sheet) + omega_O,   W = 1 / star0, 0 at soft and slip vertices,
+       omega(z) = W (K psi + sheet) + omega_O,   W = 1 / star0, 0 at soft and slip vertices
    steps and steady states are equations R omega(z) = right on the rows I and O. The preconditioner leaves out
-   the convection: B = shift star0 + viscosity K, z_O = B_OO^-1 r_O,   z_I = (shift K_II + viscosity K_I W
-   K_I)^-1 (r_I - B_IO z_O). */
+   the convection, with B = shift star0 + viscosity K:
+       z_O = B_OO^-1 r_O
+       z_I = (shift K_II + viscosity K_I W K_I)^-1 (r_I - B_IO z_O) */
 #include "core/flow/solver.h"
 
 #include <math.h>

@@ -31,8 +31,8 @@ struct gm_flow_solver {
 struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow);
 void gm_flow_solver_close(struct gm_flow_solver *solver);
 
-/* Makes the factors of shift K + viscosity K W K; nothing to do if they are there. False if it is not
-   positive definite or memory is short. */
+/* Makes the factors of shift K_II + viscosity K_I W K_I and of B_OO (solver.c); nothing to do if they are
+   there. False if one is not positive definite or memory is short. */
 bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double viscosity);
 
 /* The unknowns (psi, then omega of soft vertices) of the correction that takes the residual solver->b to 0,

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Convection and diffusion as a matrix in the pattern of the complex' rings, and systems with it. */
 #include "core/flow/transport.h"
 
 #include <math.h>
@@ -94,8 +95,8 @@ static void apply_scaled(const struct gm_transport *transport, const bool *fixed
     }
 }
 
-/* Adds to x the solution of matrix d = r. Stops where the residual is below `small`; false where it does not.
- */
+/* Adds to x the solution of matrix d = r. Stops where the residual is below `small`; false where it does
+   not. */
 static bool bicgstab(const struct gm_transport *transport, const bool *fixed, double *r, double *x,
                      double small, double *scratch, unsigned long *iterations)
 {

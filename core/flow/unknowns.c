@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The unknown values of the stream function, and the matrices K and K W K between them. */
 #include "core/flow/unknowns.h"
 
 #include <math.h>

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Incompressible flow in discrete exterior calculus (notation: core/flow/flow.h), with C(F) = -d0' diag(F) A:
-       half step   star0 omega* = star0 omega - dt/2 [C(F) omega + nu K omega],   K psi* + sheet = star0
-   omega* flow        [star0/dt + C(F*) + nu K] omega' = star0 omega / dt,   K psi' + sheet = star0 omega'
-       scalar      [star0/dt + C(F*) + diag(q) + kappa K] theta' = star0 theta / dt
-   Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175; Razafindralandy et al. (2018), eqs. 153-155.
- */
+/* Incompressible flow in discrete exterior calculus (notation: core/flow/flow.h). With
+       C(F) = -d0' diag(F) A + diag(max(q, 0)),   q = d0' F, what flows out of boundary cells
+   and the share s of the new time, 1 (semi-implicit) or 1/2 (Crank-Nicolson), a step is
+       half step   star0 (omega* - omega)/(dt/2) + [C(F) + nu K] omega = 0
+                   K psi* + sheet = star0 omega*
+       flow        star0 (omega' - omega)/dt + [C(F*) + nu K] (s omega' + (1 - s) omega) = 0
+                   K psi' + sheet = star0 omega'
+       scalar      star0 (theta' - theta)/dt + [-d0' diag(F*) A + diag(q) + kappa K] theta' = 0
+   with F and F* the fluxes of psi and psi*. Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175;
+   Razafindralandy et al. (2018), eqs. 153-155. The steady scheme takes C(F) omega + nu K omega = 0 by
+   Newton's method, a correction a step. */
 #include <math.h>
 #include <string.h>
 
@@ -84,7 +89,7 @@ static void half_step(struct gm_flow_solver *solver, double dt, double *y)
 }
 
 /* star0 omega / dt less what the old time contributes, into solver->rate. Leaves the matrix of the step
- * assembled. */
+   assembled. */
 static void make_equation(struct gm_flow_solver *solver, const struct row *row, double dt,
                           const double *omega)
 {
@@ -160,8 +165,8 @@ static void correct(const struct gm_flow_solver *solver, double *y)
     gm_flow_vorticity(flow, y, omega);
 }
 
-/* The step for psi, and for omega where psi does not give it. The first guess goes on as the last step did.
- */
+/* The step for psi, and for omega where psi does not give it. The first guess goes on as the last step
+   did. */
 static bool advance_stream(struct gm_flow_solver *solver, const struct row *row, double dt, double *y,
                            const double *psi_before, struct gm_progress *progress)
 {
@@ -235,7 +240,7 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
 }
 
 /* One correction of Newton's method at the present Reynolds number; a change small enough leads to the next
- * one. */
+   one. */
 static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried, double *y,
                                   struct gm_progress *progress)
 {
