@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Certification of schemes for fields on a line. Each equation is a subject, on which every claim is measured
+   that its data allow: an exact solution, a multisymplectic form, invariants, symmetries. */
 #include "core/field/certify.h"
 
 #include <math.h>
@@ -58,7 +60,7 @@ static double error_at(struct subject *subject, double t,
 }
 
 /* Forth 8 steps, back 7: the distance from the level after the first. Two-step schemes come back along their
- * levels. */
+   levels. */
 static double return_defect(struct subject *subject, const double *y)
 {
     const size_t points = subject->problem.line.points;

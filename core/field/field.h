@@ -1,4 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The facets of fields on a line: Hamiltonian partial differential equations in one space dimension on a
+   periodic grid, in their multisymplectic form
+       M s_t + K s_x = grad S(s),   M, K constant and skew,
+   and what elimination makes of them. T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184. */
 #ifndef GM_CORE_FIELD_FIELD_H
 #define GM_CORE_FIELD_FIELD_H
 
@@ -40,9 +44,11 @@ struct gm_wave {
     double (*quotient_slope)(double a, double b);
 };
 
-/* a A^p f_t + b D^p f + Q g(A f) = 0 on the grid, A f = (f_i + f_{i+1})/2, D f = (f_{i+1} - f_i)/dx, Q = A D
-   or A: what the box scheme leaves of an equation of first order in time. The field is real, with the state
-   of a wave problem, or complex, and its state is the real parts and the imaginary parts. */
+/* What the box scheme leaves of an equation of first order in time:
+       a A^p f_t + b D^p f + Q g(A f) = 0,   Q = A D or A
+       A f = (f_i + f_{i+1})/2,   D f = (f_{i+1} - f_i)/dx
+   The field is real, with the state of a wave problem, or complex, and its state is the real parts and the
+   imaginary parts. */
 struct gm_dispersive {
     int power;                                              /* p, 2 or 3 */
     double factor[2];                                       /* a, real and imaginary part */

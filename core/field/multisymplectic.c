@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The discrete multisymplectic laws that core/field/multisymplectic.h states, summed over cells and nodes. */
 #include "core/field/multisymplectic.h"
 
 #include <math.h>

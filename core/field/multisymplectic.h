@@ -4,11 +4,11 @@
 
 #include "core/field/field.h"
 
-/* The law that a multisymplectic scheme for M s_t + K s_x = grad S(s) keeps, for any skew M and K: for two
-   solutions a and b of the linearised scheme, with omega(a, b) = a' M b and kappa(a, b) = a' K b, a
-   difference quotient of omega in time and one of kappa in space add up to nothing. Bridges & Reich, Phys.
-   Lett. A 284 (2001) 184; Reich, J. Comput. Phys. 157 (2000) 473; Moore & Reich, Numer. Math. 95 (2003) 625.
- */
+/* The law that a multisymplectic scheme for M s_t + K s_x = grad S(s), M and K skew, keeps for any two
+   solutions a and b of the linearised scheme:
+       D_t omega(a, b) + D_x kappa(a, b) = 0,   omega(a, b) = a' M b,   kappa(a, b) = a' K b
+   with difference quotients of the scheme's own. T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184;
+   S. Reich, J. Comput. Phys. 157 (2000) 473; B. Moore & S. Reich, Numer. Math. 95 (2003) 625. */
 
 /* A tangent solution on the faces of a row of cells between two levels: on the lower and the upper face at
    the r stages of the scheme in space, [(cell * r + stage) * dimension + component], on the left side of

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Energy and momentum of u_tt - u_xx + V'(u) = 0 on a grid, and by how much a scheme's step fails their local
+   laws. */
 #include "core/field/wave_laws.h"
 
 #include <math.h>

@@ -5,8 +5,8 @@
 #include "core/field/field.h"
 
 /* The conservation laws of u_tt - u_xx + V'(u) = 0 and what is left of them on a grid. `y` is the state of a
-   wave problem: two levels, u and the other, and the time between them. D f = (f_{i+1} - f_i)/dx, A f their
-   mean. */
+   wave problem: two levels, u and the other, o, and the time between them, dt.
+       D f = (f_{i+1} - f_i)/dx,   A f = (f_i + f_{i+1})/2 */
 
 /* dx sum [ ((u - o)/dt)^2 / 2 + D u D o / 2 + (V(u) + V(o)) / 2 - V(0) ] */
 double gm_wave_energy(const struct gm_problem *problem, const double *y);

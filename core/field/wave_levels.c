@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The three levels that the laws of a wave problem speak of, where the state holds two: a step is made
+   aside. */
 #include "core/field/wave_levels.h"
 
 #include <math.h>

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The box scheme of Preissmann: the implicit midpoint rule in time and in space for M s_t + K s_x = grad
-   S(s), M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),     A f = (f_i + f_{i+1})/2,  D f = (f_{i+1} -
-   f_i)/dx, with all but the field eliminated. For u_tt - u_xx + V'(u) = 0 nine points are left, (A_x^2
-   u^{n+1} - 2 A_x^2 u^n + A_x^2 u^{n-1}) / dt^2 - (d2 u^{n+1} + 2 d2 u^n + d2 u^{n-1}) / (4 dx^2)
-           + 1/4 sum over the four cells around the node of V'(mean of the four corners) = 0,
-   A_x^2 f = (f_{i+1} + 2 f_i + f_{i-1})/4. Bridges & Reich, Phys. Lett. A 284 (2001) 184. (The form printed
-   in Razafindralandy et al. (2018) lacks the averages.)
+   S(s),
+       M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),   A f = (f_i + f_{i+1})/2,   D f = (f_{i+1} - f_i)/dx
+   with all but the field eliminated. For u_tt - u_xx + V'(u) = 0 nine points are left:
+         [a u^{n+1} - 2 a u^n + a u^{n-1}] / dt^2
+       - [d u^{n+1} + 2 d u^n + d u^{n-1}] / (4 dx^2)
+       + 1/4 sum over the four cells around the node of V'(mean of the four corners) = 0
+       a f = (f_{i+1} + 2 f_i + f_{i-1})/4,   d f = f_{i+1} - 2 f_i + f_{i-1}
+   T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184. (The form printed in Razafindralandy et al. (2018)
+   lacks the averages.) For equations of first order in time see dispersive_box.c.
 
    The linear part is circulant; it is inverted by two sweeps and the rest is iterated, which contracts by
    dt^2/4 max |V''|. Where that is slow Newton's method goes on. The matrix of the equations of a step,
-   A_x' (1/dt^2 + V''/4) A_x + D_x' D_x/4, is that of a minimum: with |V''| <= 1 there is one solution for dt
-   <= 2, and at least one, maybe several, beyond. */
+       A_x' (1/dt^2 + V''/4) A_x + D_x' D_x/4,
+   is that of a minimum: with |V''| <= 1 there is one solution for dt <= 2, and at least one, maybe several,
+   beyond. */
 #include <math.h>
 #include <string.h>
 

@@ -1,16 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schemes for u_t + u u_x = nu u_xx and their invariantised forms, which commute with its symmetries.
-   D0 u = (u_{j+1} - u_{j-1})/(2h), D2 u = (u_{j+1} - 2 u_j + u_{j-1})/h^2, time step k:
-       FTCS              v = u - k u D0 u + k nu D2 u                    (or D0(u^2/2), conservative)
-       Lax-Wendroff      v = u - k D0(u^2/2) + k^2/(2h^2) [A+ (f_{j+1} - f_j) - A- (f_j - f_{j-1})] + k nu D2
-   u, f = u^2/2, A+- the mean of u to the right and left Crank-Nicolson    (v - u)/k + (v D0 v + u D0 u)/2 =
-   nu/2 (D2 u + D2 v) A moving frame turns the three values around a node into u = 0, D0 u = 0 by a boost and
-   a projection with a4 = -D0 u, m = 1 + k D0 u; there the step is made, and transformed back. A node that
-   moves by sigma a step gives a5 = -sigma/k (the print omits sigma a4): FTCS              v = [u - sigma a4 +
-   k nu D2 u / m] / m Lax-Wendroff      v = [u - sigma a4 + k/m (nu + k a^2/(2m)) D2 u] / m,   a = (u_{j+1} +
-   2 u_j + u_{j-1})/4 + a5 Crank-Nicolson    m (m v + sigma a4 - u)/k + (m v + sigma a4 + a5) m (m D0 v +
-   a4)/2 = nu/2 (D2 u + m^3 D2 v) Chhay & Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018),
-   section "Invariantisation". */
+
+   The time step is k, v = u^{n+1}, D0 u = (u_{j+1} - u_{j-1})/(2h), D2 u = (u_{j+1} - 2 u_j + u_{j-1})/h^2:
+       FTCS              v = u - k u D0 u + k nu D2 u
+       Lax-Wendroff      v = u - k D0 f + k^2/(2h^2) [A+ (f_{j+1} - f_j) - A- (f_j - f_{j-1})] + k nu D2 u
+                         f = u^2/2,   A+- = (u_j + u_{j+-1})/2
+       Crank-Nicolson    (v - u)/k + (v D0 v + u D0 u)/2 = nu/2 (D2 u + D2 v)
+   with D0(u^2/2) instead of u D0 u, but where the problem asks for the printed form.
+
+   A moving frame turns the three values around a node into u = 0, D0 u = 0 by a boost and a projection with
+       a4 = -D0 u,   m = 1 + k D0 u;
+   there the step is made, and transformed back. A node that moves by sigma a step gives a5 = -sigma/k (the
+   print omits sigma a4):
+       FTCS              v = [u - sigma a4 + k nu D2 u / m] / m
+       Lax-Wendroff      v = [u - sigma a4 + k/m (nu + k a^2/(2m)) D2 u] / m
+                         a = (u_{j+1} + 2 u_j + u_{j-1})/4 + a5
+       Crank-Nicolson    m (m v + sigma a4 - u)/k + (m v + sigma a4 + a5) m (m D0 v + a4)/2
+                             = nu/2 (D2 u + m^3 D2 v)
+   M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018), eqs. 97 to 123. */
 #include "core/field/families/burgers.h"
 
 #include <math.h>

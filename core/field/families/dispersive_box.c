@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The box scheme, all but the field eliminated, for equations of first order in time:
-       a A^p (f^{n+1} - f^n)/dt + b D^p (f^{n+1} + f^n)/2 + Q g(A (f^{n+1} + f^n)/2) = 0.
-   Korteweg-de Vries, eight points: Ascher & McLachlan, Appl. Numer. Math. 48 (2004) 255. Nonlinear
-   Schroedinger, six points: Islas, Karpeev & Schober, J. Comput. Phys. 173 (2001) 116. The linear part is
-   circulant and inverted by recursions; the rest is iterated to round-off, and where that is slow or diverges
-   solved by Newton's method. */
+/* The box scheme, all but the field eliminated, for equations of first order in time,
+       a A^p (f^{n+1} - f^n)/dt + b D^p (f^{n+1} + f^n)/2 + Q g(A (f^{n+1} + f^n)/2) = 0,
+   A f = (f_i + f_{i+1})/2, D f = (f_{i+1} - f_i)/dx:
+                               p   a   b    Q     g             points
+       Korteweg-de Vries       3   1   mu   A D   eta u^2/2     8
+       Schroedinger            2   i   1    A     |psi|^2 psi   6
+   U. Ascher & R.I. McLachlan, Appl. Numer. Math. 48 (2004) 255; A.L. Islas, D.A. Karpeev & C.M. Schober,
+   J. Comput. Phys. 173 (2001) 116. The linear part is circulant and inverted by recursions; the rest is
+   iterated to round-off, and where that is slow or diverges solved by Newton's method. */
 #include "core/field/families/dispersive_box.h"
 
 #include <complex.h>

@@ -5,8 +5,8 @@
 #include "core/field/families/two_step.h"
 #include "core/field/field.h"
 
-/* The box scheme for equations of first order in time: a loop and its work, which gm_two_step_close closes.
- */
+/* The box scheme for equations of first order in time: a loop and its work, which gm_two_step_close
+   closes. */
 struct gm_progress gm_dispersive_advance(const struct gm_task *task);
 void *gm_dispersive_open(const struct gm_problem *problem);
 

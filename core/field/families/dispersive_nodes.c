@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The multisymplectic schemes of nodes for equations of first order in time, all but the field eliminated
    (D_+, D_-, D_0 forward, backward and centred differences in x, d2 = D_+ D_-).
-   Korteweg-de Vries, f = mu d2 u + eta u^2/2 (centred: mu D_0^2 u + eta u^2/2):
-       Euler box  (u_i^{n+1} - u_i^n + u_{i+1}^n - u_{i+1}^{n-1}) / (2 dt) + D_+ f_i = 0,
-                  the triangles the other way round, and with them x, where dt < 0;
-                  stable for dt < dx^3/(4 mu)
-       midpoint   (u^{n+1} - u^{n-1}) / (2 dt) + D_0 f = 0;
-                  stable for dt < dx^3/mu
+
+   Korteweg-de Vries, f = mu d2 u + eta u^2/2, centred f = mu D_0^2 u + eta u^2/2:
+       Euler box   (u_i^{n+1} - u_i^n + u_{i+1}^n - u_{i+1}^{n-1}) / (2 dt) + D_+ f_i = 0
+                   where dt < 0 the triangles the other way round, and with them x;
+                   stable for dt < dx^3/(4 mu)
+       midpoint    (u^{n+1} - u^{n-1}) / (2 dt) + D_0 f = 0
+                   stable for dt < dx^3/mu
    Nonlinear Schroedinger, psi = p + i q, the state p^{n-1} and q^n:
-       Euler box  (p^n - p^{n-1})/dt + d2 q^n + (p^n p^n + q^n q^n) q^n = 0, a quadratic equation for p^n,
-                  (q^{n+1} - q^n)/dt - d2 p^n - (p^n p^n + q^n q^n) p^n = 0;
-                  stable for dt < dx^2/2
-   Moore & Reich, Numer. Math. 95 (2003) 625; Razafindralandy et al. (2018). There is no midpoint scheme for
-   Schroedinger's equation: its second solution, of alternating sign in time, grows, and a soliton of
+       Euler box   (p^n - p^{n-1})/dt + d2 q^n + (p^n p^n + q^n q^n) q^n = 0,   a quadratic equation for p^n
+                   (q^{n+1} - q^n)/dt - d2 p^n - (p^n p^n + q^n q^n) p^n = 0
+                   stable for dt < dx^2/2
+   B. Moore & S. Reich, Numer. Math. 95 (2003) 625; Razafindralandy et al. (2018). There is no midpoint scheme
+   for Schroedinger's equation: its second solution, of alternating sign in time, grows, and a soliton of
    amplitude 1 on 400 points blows up at t = 34 with dt = 0.4 dx^2, where 1 dx^2 is the limit of linear
-   theory.
- */
+   theory. */
 #include "core/field/families/dispersive_nodes.h"
 
 #include <math.h>

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The multisymplectic law of the schemes of nodes for equations of first order in time: two tangents are
-   advanced by a step, and what elimination left out follows from the other equations, linearised:
-       Korteweg-de Vries   D_- phi = u,  v = mu D_- u,  w = D_t^- phi/2 + D_+ v + eta u m
-       (centred differences for the midpoint scheme; m is the solution; phi of every level is free up to a
-       constant, which its differences do not see; the tangents have no mean, so that it is periodic)
-       Schroedinger        v = D_- p,  w = D_- q */
+   advanced by a step, and what elimination left out follows from the other equations, linearised at the
+   solution m:
+       Korteweg-de Vries   D_- phi = u,   v = mu D_- u,   w = D_t^- phi/2 + D_+ v + eta m u
+       Schroedinger        v = D_- p,   w = D_- q
+   with centred differences for the midpoint scheme. phi of every level is free up to a constant, which its
+   differences do not see; the tangents have no mean, so that it is periodic. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gauss-Legendre collocation in space and time for M s_t + K s_x = grad S(s): r stages across a cell, s
    stages across a step, multisymplectic (S. Reich, J. Comput. Phys. 157 (2000) 473); r = s = 1 is the box.
-   For u_tt - u_xx + V'(u) = 0 the memory is u and v = u_t at the r stages of every cell. With tableaux (A, b,
-   c) around a ring, z = e^(i theta) the shift by a cell, the derivative of stage values is circulant, D(z) =
-   [A^-1 - A^-1 1 b' A^-1 / (z - 1 + rho)] / dx,     rho = b' A^-1 1 = 2 (r = 1), 0 (r = 2), and skew: each
-   mode has r branches, on which D is i omega, r = 1:  omega dx = 2 tan(theta/2), r = 2:  omega dx = [-beta +-
-   sqrt(beta^2 + 4 a^2)] / 2,  a = 2 sqrt 3,  beta = 6 cot(theta/2), stage values (a - i omega dx, a + i omega
-   dx). A step is that of the s-stage Gauss method for u'' = D^2 u - V'(u): solved for the stages of u'',
-   branch by branch but for V', and iterated, which contracts by dt^2/4. A branch of infinite frequency (r =
-   1, z = -1: an even number of cells; r = 2, z = 1) is 0, which the slope of w forces.
+   For u_tt - u_xx + V'(u) = 0 the memory is u and v = u_t at the r stages of every cell.
+
+   With the tableau (A, b, c) around a ring, z = e^(i theta) the shift by a cell, the derivative of stage
+   values is circulant,
+       D(z) = [A^-1 - A^-1 1 b' A^-1 / (z - 1 + rho)] / dx,   rho = b' A^-1 1 = 2 (r = 1), 0 (r = 2),
+   and skew: each mode has r branches, on which D is i omega:
+       r = 1   omega dx = 2 tan(theta/2)
+       r = 2   omega dx = [-beta +- sqrt(beta^2 + 4 a^2)] / 2,   a = 2 sqrt 3,   beta = 6 cot(theta/2)
+               stage values (a - i omega dx, a + i omega dx)
+   A branch of infinite frequency (r = 1, z = -1: an even number of cells; r = 2, z = 1) is 0, which the slope
+   of w forces. A step is that of the s-stage Gauss method for
+       u'' = D^2 u - V'(u),
+   solved for the stages of u'', branch by branch but for V', and iterated, which contracts by dt^2/4.
 
    From values at the nodes the stages are found by averaging (r = 1) or by trigonometric interpolation (r =
    2), and the other way round: the nodes' own values of the collocation polynomials lose an order if they do
@@ -54,10 +59,10 @@ static void correct(struct gm_gauss_work *work, const struct gm_problem *problem
     free(other);
 }
 
-/* u and v at the stages, from the two levels: for r = 1 so that the first step leads from one to the other,
-   for r = 2 by the first terms of Taylor's series, v = [u(t + g) - u(t)]/g - g [2 u''(t) + u''(t + g)]/6 +
-   O(g^3). The last number of the memory says that it is filled, and is not to be filled anew for another dt.
- */
+/* u and v at the stages, from the two levels: for r = 1 so that the first step leads from one to the
+   other, for r = 2 by the first terms of Taylor's series, v = [u(t + g) - u(t)]/g - g [2 u''(t) + u''(t +
+   g)]/6 + O(g^3). The last number of the memory says that it is filled, and is not to be filled anew for
+   another dt. */
 static enum gm_status start(const struct gm_task *task)
 {
     const struct gm_problem *problem = task->problem;

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Centred differences in time and space for M s_t + K s_x = grad S(s),
-       M (s^{n+1} - s^{n-1})/(2 dt) + K (s_{i+1} - s_{i-1})/(2 dx) = grad S(s):
-       u^{n+1} = u^{n-1} + 2 dt v^n,   w = D0 u,   v^{n+1} = v^{n-1} + 2 dt [D0 w - V'(u)].
+       M (s^{n+1} - s^{n-1})/(2 dt) + K (s_{i+1} - s_{i-1})/(2 dx) = grad S(s),
+   which for u_tt - u_xx + V'(u) = 0 are, with D0 f = (f_{i+1} - f_{i-1})/(2 dx),
+       u^{n+1} = u^{n-1} + 2 dt v^n
+       w^n     = D0 u^n
+       v^{n+1} = v^{n-1} + 2 dt [D0 w^n - V'(u^n)]
    With v and w eliminated these are four leapfrogs on the grid of steps (2 dt, 2 dx) that know nothing of
    each other: the solution splits into a checkerboard. Stable for dt <= dx. The memory is v at the two levels
-   of the state. */
+   of the state. Razafindralandy et al. (2018), the multisymplectic midpoint scheme. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Split-step Fourier method for i psi_t + psi_xx + |psi|^2 psi = 0: both parts exactly,
-       psi := exp(i |psi|^2 dt/2) psi,   psi_k := exp(-i k^2 dt) psi_k,   psi := exp(i |psi|^2 dt/2) psi.
-   Hardin & Tappert, SIAM Rev. 15 (1973) 423; Weideman & Herbst, SIAM J. Numer. Anal. 23 (1986) 485: stable
-   for dt < dx^2/pi on a plane wave's background. */
+       psi   := exp(i |psi|^2 dt/2) psi
+       psi_k := exp(-i k^2 dt) psi_k
+       psi   := exp(i |psi|^2 dt/2) psi
+   R.H. Hardin & F.D. Tappert, SIAM Rev. 15 (1973) 423; J.A.C. Weideman & B.M. Herbst, SIAM J. Numer. Anal. 23
+   (1986) 485: stable for dt < dx^2/pi on a plane wave's background. */
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schemes of two steps for u_tt - u_xx + V'(u) = 0, d2 u = (u_{i+1} - 2 u_i + u_{i-1}) / dx^2:
-       leapfrog             (u^{n+1} - 2 u^n + u^{n-1}) / dt^2 = d2 u^n - V'(u^n)
-       energy-conserving    the same with [V(u^{n+1}) - V(u^{n-1})] / (u^{n+1} - u^{n-1}) for V'(u^n)
-   Leapfrog is also the multisymplectic Euler scheme of Moore & Reich, Numer. Math. 95 (2003) 625, with the
-   triangular splitting of the two skew matrices, v and w eliminated. Energy-conserving: Strauss & Vazquez, J.
-   Comput. Phys. 28 (1978) 271. Stable for dt <= dx (leapfrog a little below: 4/dt^2 >= 4/dx^2 + V''). */
+       leapfrog            (u^{n+1} - 2 u^n + u^{n-1}) / dt^2 = d2 u^n - V'(u^n)
+       energy-conserving   (u^{n+1} - 2 u^n + u^{n-1}) / dt^2 = d2 u^n - [V(u^{n+1}) - V(u^{n-1})]
+                                                                         / (u^{n+1} - u^{n-1})
+       Euler box           M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s)
+   In the Euler box M = M+ - M+', K = K+ - K+' are split into triangles; with v and w eliminated it is
+   leapfrog, so leapfrog is multisymplectic as well. B. Moore & S. Reich, Numer. Math. 95 (2003) 625.
+   Energy-conserving: W. Strauss & L. Vazquez, J. Comput. Phys. 28 (1978) 271. Stable where, with V'' at the
+   solution,
+       leapfrog            4/dt^2        >= 4/dx^2 + V''
+       energy-conserving   4/dt^2 + V''  >= 4/dx^2 */
 #include "core/field/families/two_step.h"
 
 #include <math.h>
@@ -121,8 +126,8 @@ static enum gm_status energy_conserving(struct gm_two_step_work *work, const str
     return GM_OK;
 }
 
-/* M = M+ - M+', K = K+ - K+' with the upper triangles M+, K+, and M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+'
-   D_x^- s = grad S(s): here v = D_t^- u, w = D_x^- u, -D_t^+ v + D_x^+ w = V'(u). */
+/* M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s) with the upper triangles M+, K+: here
+       v = D_t^- u,   w = D_x^- u,   -D_t^+ v + D_x^+ w = V'(u) */
 static enum gm_status euler_box(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
                                 const double *past, const double *now, double *next,
                                 struct gm_progress *progress)

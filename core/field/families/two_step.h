@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The loop of schemes that lead from two levels of a field to the next, and what their files share. */
 #ifndef GM_CORE_FIELD_FAMILIES_TWO_STEP_H
 #define GM_CORE_FIELD_FAMILIES_TWO_STEP_H
 

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The multisymplectic law of schemes for u_tt - u_xx + V'(u) = 0, s = (u, v, w), v = u_t, w = u_x. The
    schemes have u alone, or u and v; what else the law asks for follows from their equations, linearised:
-       Euler box   v = D_t^- u, w = D_x^- u;  midpoint   w = D0 u
-       box         A_x W = D_x A_t u for W = A_t w at the sides of the cells, and for V = A_x v at their
-                   levels A_t V = D_t A_x u in the first row of cells, D_t V = D_x W - V'' u in both: so V at
-                   the last level is right only if the step was one of the box. */
+       Euler box   v = D_t^- u,   w = D_x^- u
+       midpoint    w = D_0 u
+       box         A_x W = D_x A_t u                           W = A_t w, at the sides of the cells
+                   A_t V = D_t A_x u   in the first row        V = A_x v, at the levels
+                   D_t V = D_x W - V'' u   in both rows
+   In the box V at the last level is right only if the step was one of the box. */
 #include "core/field/families/wave_form.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Razafindralandy et al. (2018), eqs. 93 to 96, 125 and 127; in (127) as printed the argument of tanh lacks
- * t. */
+/* Burgers' equation and its exact solutions (burgers.h): Razafindralandy et al. (2018), eqs. 93 to 96, 125
+   and 127; in (127) as printed the argument of tanh lacks t. */
 #include "core/field/problems/burgers.h"
 
 #include <math.h>

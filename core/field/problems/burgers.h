@@ -4,8 +4,9 @@
 
 #include "core/field/field.h"
 
-/* u_t + u u_x = nu u_xx and its frames of reference: (t, x, u) -> (t, x + lambda (t - t0), u + lambda). The
-   nodes are those of gm_problem.line, the first and the last hold exact values. */
+/* Burgers' equation u_t + u u_x = nu u_xx and its frames of reference,
+       (t, x, u) -> (t, x + lambda (t - t0), u + lambda).
+   The nodes are those of gm_problem.line, the first and the last hold exact values. */
 
 enum gm_burgers_test {
     GM_BURGERS_FRONT, /* -sinh(x/2nu) / (cosh(x/2nu) + exp(-t/4nu)), t0 = 0 */
@@ -33,7 +34,7 @@ static inline const struct gm_burgers *gm_burgers_of(const struct gm_problem *pr
 double gm_burgers_t0(const struct gm_burgers *burgers);
 
 /* The exact value at time t, in the new frame, at the node that was at x at t0 and rests there (fixed) or
- * moves. */
+   moves. */
 double gm_burgers_exact(const struct gm_burgers *burgers, bool fixed, double x, double t);
 
 /* State: u at the nodes; where lambda is not 0 a companion follows, the same run in the frame lambda = 0 on

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equations of first order in time, Korteweg-de Vries and the nonlinear Schroedinger equation: parameters,
+   exact solutions, invariants. */
 #ifndef GM_CORE_FIELD_PROBLEMS_DISPERSIVE_H
 #define GM_CORE_FIELD_PROBLEMS_DISPERSIVE_H
 

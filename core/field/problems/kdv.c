@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* s = (phi, u, v, w):  u_t/2 + w_x = 0,  -phi_t/2 - v_x = -w + eta u^2/2,  u_x = v/mu,  -phi_x = -u,
-   S = v^2/(2 mu) - u w + eta u^3/6.   Ascher & McLachlan, Appl. Numer. Math. 48 (2004) 255. The field u comes
-   second. */
+/* The Korteweg-de Vries equation u_t + eta u u_x + mu u_xxx = 0 in multisymplectic form, s = (phi, u, v, w):
+        u_t/2   + w_x = 0
+       -phi_t/2 - v_x = -w + eta u^2/2
+        u_x           = v/mu
+       -phi_x         = -u
+       S = v^2/(2 mu) - u w + eta u^3/6
+   U. Ascher & R.I. McLachlan, Appl. Numer. Math. 48 (2004) 255. The field u comes second. */
 #include <math.h>
 
 #include "core/field/multisymplectic.h"
@@ -47,10 +51,14 @@ static void linearised(const struct gm_problem *problem, const double *base, con
 
 enum { PHI, U, V, W, DIMENSION };
 
-/* phi from D_x phi = A_x u, 0 at the first node of every level: its constant in x is free, and w goes with
-   it. v from D_x u = A_x v / mu, w from D_t A_x u/2 + D_x w = 0 and the mean over the ring of the last
-   equation, -D_t phi/2 - D_x v = -A_x w + eta m u, which else is the scheme; its alternating part is that of
-   v on an even number of points. (To take w from the latter would invert A_x twice and rounding with it.) */
+/* What the scheme left out of s, each from one equation:
+       phi   from D_x phi = A_x u, 0 at the first node of every level: its constant in x is free, and w goes
+             with it
+       v     from D_x u = A_x v / mu
+       w     from D_t A_x u/2 + D_x w = 0, and from the mean over the ring of
+                 -D_t phi/2 - D_x v = -A_x w + eta m u,
+             which else is the scheme; its alternating part is that of v on an even number of points
+   To take w from the last one would invert A_x twice and rounding with it. */
 static void complete(const struct gm_problem *problem, double dt, const double *base, const double *now,
                      const double *next, struct gm_faces *faces)
 {
@@ -133,9 +141,9 @@ static double two_solitons(double a, double b, double log_a)
 }
 
 /* On the covering line of the ring the faster soliton meets one image of the slower one after another. A
-   meeting moves it forwards by shift / fast and the other one back by shift / slow, so that the m-th is the
-   first one with other starts. What counts is the nearest meeting; its own images, a period apart, are added.
- */
+   meeting moves it forwards by shift / fast and the other one back by shift / slow, so that the m-th is
+   the first one with other starts. What counts is the nearest meeting; its own images, a period apart, are
+   added. */
 static double two_solitons_around(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
 {
     const double period = line->dx * (double)line->points;

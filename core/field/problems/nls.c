@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* psi = p + i q, s = (p, q, v, w):  q_t - v_x = |psi|^2 p,  -p_t - w_x = |psi|^2 q,  p_x = v,  q_x = w,
-   S = (p^2 + q^2)^2/4 + (v^2 + w^2)/2.   Islas, Karpeev & Schober, J. Comput. Phys. 173 (2001) 116. */
+/* The nonlinear Schroedinger equation i psi_t + psi_xx + |psi|^2 psi = 0 in multisymplectic form, psi = p + i
+   q, s = (p, q, v, w):
+        q_t - v_x = |psi|^2 p
+       -p_t - w_x = |psi|^2 q
+        p_x       = v
+        q_x       = w
+       S = (p^2 + q^2)^2/4 + (v^2 + w^2)/2
+   A.L. Islas, D.A. Karpeev & C.M. Schober, J. Comput. Phys. 173 (2001) 116. (S as printed in Razafindralandy
+   et al. (2018) is another one.) */
 #include <complex.h>
 #include <math.h>
 

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ablowitz, Kaup, Newell & Segur, Phys. Rev. Lett. 30 (1973) 1262; Drazin & Johnson, Solitons (1989). */
+/* Breathers, kinks and their meetings, exact on the line; on a ring their images are added. M.J. Ablowitz,
+   D.J. Kaup, A.C. Newell & H. Segur, Phys. Rev. Lett. 30 (1973) 1262; P.G. Drazin & R.S. Johnson, Solitons
+   (1989). */
 #include "core/field/problems/sine_gordon.h"
 
 #include <math.h>

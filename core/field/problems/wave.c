@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* u_tt - u_xx + V'(u) = 0 with s = (u, v, w):  -v_t + w_x = V'(u),  u_t = v,  -u_x = -w,
-   S = V(u) + v^2/2 - w^2/2.   Bridges & Reich, Phys. Lett. A 284 (2001) 184; Razafindralandy et al. (2018).
- */
+/* Wave equations u_tt - u_xx + V'(u) = 0 in multisymplectic form, s = (u, v, w):
+       -v_t + w_x = V'(u)
+        u_t       = v
+       -u_x       = -w
+       S = V(u) + v^2/2 - w^2/2
+   T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; Razafindralandy et al. (2018). */
 #include <math.h>
 
 #include "core/field/problems/sine_gordon.h"

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Wave equations u_tt - u_xx + V'(u) = 0: sine-Gordon, and the linear one. */
 #ifndef GM_CORE_FIELD_PROBLEMS_WAVE_H
 #define GM_CORE_FIELD_PROBLEMS_WAVE_H
 
