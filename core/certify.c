@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What all certificates have in common: the tolerances, the verdicts, and the call of the wing that
+   measures. */
 #include "core/certify.h"
 
 #include <math.h>

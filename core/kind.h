@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The one way in which the hall knows the wings: a struct of data and hooks for each kind of problem. */
 #ifndef GM_CORE_KIND_H
 #define GM_CORE_KIND_H
 
@@ -34,8 +35,8 @@ struct gm_kind {
 gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem);
 /* whether the problem has what the scheme needs */
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem);
-/* What the scheme needs and the problem lacks, in words; NULL if it fits, or where there is no word for it.
- */
+/* What the scheme needs and the problem lacks, in words; NULL if it fits, or where there is no word for
+   it. */
 const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_problem *problem);
 /* The problems that a scheme is for, in words: those of its kind, or of the facet that says most. */
 const char *gm_scheme_problems(const struct gm_scheme *scheme);

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 /* A grid of equal spacing; node i lies at first + i dx. A periodic field obeys u(x + points dx) = u(x) +
- * jump. */
+   jump. */
 struct gm_line {
     size_t points;
     double dx, first, jump;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The allocators of the whole program, wrapped: a refusal is noted, and handed on. */
 #include "core/memory.h"
 
 #include <stdarg.h>

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a problem of any kind is, and what a family's loop is asked to do with one. No equation is known
+   here. */
 #ifndef GM_CORE_PROBLEM_H
 #define GM_CORE_PROBLEM_H
 

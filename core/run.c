@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A run's one block of memory, its steps, and its snapshots. */
 #include "core/run.h"
 
 #include <limits.h>

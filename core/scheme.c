@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Words for claims, and the parameters that schemes bring. */
 #include "core/scheme.h"
 
 #include <string.h>

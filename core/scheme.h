@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Schemes and families of schemes: what a row of data says, and what its family brings. */
 #ifndef GM_CORE_SCHEME_H
 #define GM_CORE_SCHEME_H
 
@@ -64,12 +65,12 @@ struct gm_family {
     const struct gm_scheme *schemes;
     size_t count;
     const struct gm_parameter *const *parameters; /* rows of gm_settings_parameters, NULL-terminated */
-    int over_kernels; /* which of the loops over a problem's kernels is its, as its kind numbers them; 0: none
-                       */
+    /* Which of the loops over a problem's kernels is its, as its kind numbers them; 0: none. */
+    int over_kernels;
 
     /* All that follows is for families that are not loops over a problem's kernels. */
-    gm_loop
-        *loop; /* advances any problem that has the facets, where its kind has no other loop; NULL: none */
+    /* Advances any problem that has the facets, where its kind has no other loop; NULL: none. */
+    gm_loop *loop;
     bool carries_passive; /* loop knows what to do with a passive block */
     /* Doubles of memory that a scheme carries from step to step, in the run's block. */
     size_t (*memory)(const struct gm_problem *problem, const struct gm_scheme *scheme);
@@ -77,15 +78,15 @@ struct gm_family {
        After every step `out` holds the canonical state again. */
     enum gm_status (*start)(const struct gm_task *task);
     /* Scratch and factors: derived from the state alone, rebuilt wherever a run is resumed. NULL: out of
-     * memory. */
+       memory. */
     void *(*workspace_open)(const struct gm_problem *problem, const struct gm_scheme *scheme);
     void (*workspace_close)(void *workspace);
     void (*workspace_reset)(void *workspace); /* forgets what was derived from an earlier state */
-    /* The scheme chooses its step: the loop returns the time, dt is what its rows say it is. One member only.
-     */
+    /* The scheme chooses its step: the loop returns the time, dt is what its rows say it is. One member
+       only. */
     bool own_time;
-    bool doubled; /* the memory is a second copy of phase space, and the scheme is symplectic on both together
-                   */
+    /* The memory is a second copy of phase space, and the scheme is symplectic on both together. */
+    bool doubled;
     /* The residual of the discrete multisymplectic law at the state y, for gm_form_residual; by differences
        of the scheme's own steps, or by the linearised scheme. NULL: the family has no such law. */
     double (*form)(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,

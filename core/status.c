@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The names of the statuses, as run --json prints them. */
 #include "core/status.h"
 
 const char *gm_status_name(enum gm_status status)
