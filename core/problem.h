@@ -43,9 +43,9 @@ struct gm_progress {
     long done;
     enum gm_status status;
     unsigned long evaluations, solves, iterations;
-    unsigned long
-        failed_iterations; /* of the step that was not solved, where they are not among the others */
-    double t;              /* the time reached, of schemes that choose their own step */
+    /* Of the step that was not solved, where they are not among the others. */
+    unsigned long failed_iterations;
+    double t; /* the time reached, of schemes that choose their own step */
 };
 
 typedef struct gm_progress gm_loop(const struct gm_task *task);

@@ -87,8 +87,8 @@ struct gm_field {
     const struct gm_form *form; /* NULL: it has none, and so on */
     const struct gm_wave *wave;
     const struct gm_dispersive *dispersive;
-    unsigned
-        equation; /* GM_NEEDS_BURGERS, _KDV, _NLS: the problem's parameters are then its constants; or 0 */
+    /* GM_NEEDS_BURGERS, _KDV, _NLS: the problem's parameters are then its constants; or 0. */
+    unsigned equation;
 };
 
 extern const struct gm_kind gm_kind_field;

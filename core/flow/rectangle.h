@@ -12,8 +12,8 @@ struct gm_rectangle {
     long strips;     /* M, even */
     bool transposed; /* strips run along y (N edges on the walls x = 0 and x = width) instead of along x */
     bool torus;      /* opposite sides are one */
-    double
-        irregular; /* every vertex is moved at random by at most this part of its shortest edge, below 1/2 */
+    /* Every vertex is moved at random by at most this part of its shortest edge, below 1/2. */
+    double irregular;
     const double *fixed; /* points that stay where they are, 2 numbers each (corners always do) */
     size_t fixed_count;
 };

@@ -23,8 +23,8 @@ struct gm_split {
 struct gm_hamiltonian {
     void (*energy)(const struct gm_problem *problem, const double *y, double *energy, size_t m);
     double (*weight)(const struct gm_problem *problem);
-    bool partial; /* `energy` is that of the first of several copies, as where tangent vectors are carried
-                     along */
+    /* `energy` is that of the first of several copies, as where tangent vectors are carried along. */
+    bool partial;
 };
 
 /* L(q, v) = v^2/2 - V(q), one degree of freedom: values[0..2] = V, V', V'' at q */
@@ -34,24 +34,24 @@ struct gm_lagrangian {
 
 /* H = |p|^2/2 + sum_i omega_i^2 q_i^2 / 2 + U(q): a stiff linear part that is solved exactly */
 struct gm_fast_linear {
-    double (*frequency)(const struct gm_problem *problem,
-                        size_t i); /* omega_i of component i < n / 2; 0: slow */
+    /* omega_i of component i < n / 2; 0: slow */
+    double (*frequency)(const struct gm_problem *problem, size_t i);
     /* -dU/dq (n/2 * m) */
     void (*slow_force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
 };
 
 /* H = |p|^2/2 + V(q), V = -1/|q| + W(q) < 0 in the plane, (q1, q2, p1, p2) */
 struct gm_kepler_split {
-    void (*potential)(const struct gm_problem *problem, const double *q, double *potential, size_t m); /* V */
-    void (*perturbing_force)(const struct gm_problem *problem, const double *q, double *force,
-                             size_t m); /* -dW/dq */
+    /* V, and -dW/dq (2 * m) */
+    void (*potential)(const struct gm_problem *problem, const double *q, double *potential, size_t m);
+    void (*perturbing_force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
 };
 
 /* f = f_0 + ... + f_(pieces - 1), each without divergence and with an exact flow */
 struct gm_volume {
     size_t pieces;
-    void (*flow)(const struct gm_problem *problem, size_t piece, double h, double *y,
-                 size_t m); /* in place */
+    /* y := the exact flow of f_piece over h, in place */
+    void (*flow)(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m);
 };
 
 /* The facets of a system. Where n is a constant, loops hold loops over the problem's kernels. Where n is

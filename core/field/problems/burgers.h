@@ -41,7 +41,7 @@ double gm_burgers_exact(const struct gm_burgers *burgers, bool fixed, double x, 
    as many nodes, and a number, 1 while it is well. */
 size_t gm_burgers_size(const struct gm_burgers *burgers, size_t points);
 
-extern const struct gm_problem
-    gm_problem_burgers; /* the caller sets parameters (struct gm_burgers), line and n */
+/* The caller sets parameters (struct gm_burgers), line and n. */
+extern const struct gm_problem gm_problem_burgers;
 
 #endif

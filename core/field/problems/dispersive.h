@@ -8,10 +8,14 @@
 
 /* Korteweg-de Vries, u_t + eta u u_x + mu u_xxx = 0, with the state of a wave problem. */
 enum gm_kdv_initial {
-    GM_KDV_SOLITON, /* 3 c/eta sech^2(sqrt(c/mu)/2 (x - x0 - c t)) */
-    GM_KDV_TWO, /* 12 mu/eta (ln F)_xx, F = 1 + e1 + e2 + ((k1-k2)/(k1+k2))^2 e1 e2, ei = exp(ki (x-xi) - mu
-                   ki^3 t), k = 1.2, .8, x1 = -30, x2 = -15; on the ring they meet again and again */
-    GM_KDV_COSINE, /* cos(pi x) at t = 0 (Zabusky & Kruskal 1965); no exact solution */
+    /* u = 3 c/eta sech^2(sqrt(c/mu)/2 (x - x0 - c t)) */
+    GM_KDV_SOLITON,
+    /* u = 12 mu/eta (ln F)_xx,   F = 1 + e1 + e2 + ((k1 - k2)/(k1 + k2))^2 e1 e2,
+       ei = exp(ki (x - xi) - mu ki^3 t),   k = 1.2, .8,   x1 = -30, x2 = -15;
+       on the ring they meet again and again */
+    GM_KDV_TWO,
+    /* u = cos(pi x) at t = 0 (Zabusky & Kruskal 1965); no exact solution */
+    GM_KDV_COSINE,
 };
 struct gm_kdv {
     int initial;

@@ -50,8 +50,8 @@ static size_t memory(const struct gm_problem *problem, const struct gm_scheme *s
     return scheme->coefficients == &steady ? MEMORY : 0;
 }
 
-static const double first_level =
-    100; /* Newton's method converges from rest up to about this Reynolds number */
+/* Newton's method converges from rest up to about this Reynolds number. */
+static const double first_level = 100;
 
 static enum gm_status start(const struct gm_task *task)
 {

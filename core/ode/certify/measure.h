@@ -52,10 +52,9 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
 double gm_symplecticity_defect(const struct gm_subject *subject, const struct gm_scheme *scheme);
 double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme *scheme);
 
-double gm_symmetry_defect(const struct gm_subject *subject,
-                          const struct gm_scheme *scheme); /* step(-dt) step(dt) */
-double gm_reversibility_defect(const struct gm_subject *subject,
-                               const struct gm_scheme *scheme); /* R step R step */
+/* What step(-dt) step(dt), and what R step R step with R: p -> -p, leave of the way back to the start. */
+double gm_symmetry_defect(const struct gm_subject *subject, const struct gm_scheme *scheme);
+double gm_reversibility_defect(const struct gm_subject *subject, const struct gm_scheme *scheme);
 
 /* The largest relative change of the quantities over many smaller steps. */
 double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme,
