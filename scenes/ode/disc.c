@@ -1,6 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A disc of initial conditions in the phase plane, carried by a scheme: Liouville's theorem made visible.
-   Razafindralandy, Hamdouni & Chhay (2018), sections "Harmonic oscillator", figures 1, 2, 4, 5.
+       oscillator   H = p^2/2 + q^2/2        pendulum   H = p^2/2 - cos q
+   The exact flow keeps the disc's area. What to look at: the area, which explicit schemes blow up and
+   implicit ones shrink and symplectic ones keep, whatever the step; and the energy error, which stays bounded
+   for them.
+
+   Razafindralandy, Hamdouni & Chhay (2018), section "Harmonic oscillator":
+       figures 1, 2   the area and the energy error of explicit and implicit Euler
+       figures 4, 5   the same of symplectic Euler and of the midpoint rule
 
    The members of the ensemble are the points of the disc's edge and, last, its centre. Every member carries
    two tangent vectors: their mean determinant is the area's factor without the coarseness of a polygon, and

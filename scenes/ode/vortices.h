@@ -5,7 +5,7 @@
 #include "scenes/frame/graph.h"
 
 /* What scenes/ode/vortices.c, scenes/ode/vortices_start.c (where they start) and scenes/ode/vortices_draw.c
- * share. */
+   share. */
 
 enum { GM_REDUCED, GM_SQUARE, GM_TWO_TURNED, GM_ONE_TURNED, GM_RANDOM, GM_COLLISION };
 

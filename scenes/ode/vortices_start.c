@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where point vortices and their tracers start. */
+/* Where point vortices and their tracers start: on a polygon, turned, at random, or nearly colliding. */
 #include <math.h>
 #include <stdint.h>
 
