@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pictures of fields on a line: the profiles now over the exact one, and every lane's field so far as a
+   surface over space and time. */
 #include "scenes/field/field.h"
 
 #include <math.h>

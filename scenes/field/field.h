@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the scenes of fields on a line share. */
 #ifndef GM_SCENES_FIELD_FIELD_H
 #define GM_SCENES_FIELD_FIELD_H
 
 #include "scenes/frame/graph.h"
 
 /* What the scenes of fields on a line have in common: the profile now, and the field so far over space and
- * time. */
+   time. */
 
 /* A row of the surface: the field at so many points, every two hundredth of the run. */
 enum { GM_SURFACE_COLUMNS = 240, GM_SURFACE_ROWS = 256 };
