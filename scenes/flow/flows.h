@@ -9,7 +9,10 @@
 #include "scenes/frame/lane.h"
 
 /* What the scenes of flows on complexes have in common: room, channel, couette, poiseuille, cavity,
- * taylor-green. */
+   taylor-green. All solve, in the plane,
+       omega_t + u . grad omega = nu Laplace omega,   omega = -Laplace psi,   u = (psi_y, -psi_x)
+       theta_t + u . grad theta = kappa Laplace theta
+   by discrete exterior calculus (core/flow/flow.h), whose velocity has no divergence but rounding. */
 
 enum gm_flows_show {
     GM_SHOW_SCALAR,
@@ -211,8 +214,8 @@ const char *gm_flows_mesh_and_scheme(struct gm_picture *picture, const struct gm
 void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                    const struct gm_look *look);
 
-/* Rows of a profile: along the line from a to b, `count` points; reference(s) where it is known, s = 0 .. 1.
- */
+/* Rows of a profile: along the line from a to b, `count` points; reference(s) where it is known, s = 0 ..
+   1. */
 struct gm_profile {
     const char *name;
     double a[2], b[2];

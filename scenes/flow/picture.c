@@ -134,8 +134,8 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     panel->note = gm_lane_failure(picture, lane);
     const bool coloured = own->show <= GM_SHOW_PRESSURE, over = coloured && !gm_flow_is_signed(own->show);
     const double *field = coloured ? field_of(picture, lane) : NULL;
-    /* colours of fine meshes are smooth as they are, and four times the triangles cost three times the time
-     */
+    /* colours of fine meshes are smooth as they are, and four times the triangles cost three times the
+       time */
     const bool plain = complex->boundary > 0 && complex->triangles > SMOOTH;
     struct gm_flow_sheet sheet;
     if (!gm_flow_sheet_make(picture, complex, gm_run_state(lane->run), plain ? NULL : field, &sheet)) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Poiseuille flow between two walls at rest in a square: the convergence of discrete exterior calculus is
-   read off it. Razafindralandy, Hamdouni & Chhay (2018), figures 33 and 34. Lengths in H, velocities in
-   the centreline's U, time in H^2 / nu; kappa = nu. */
+/* Poiseuille flow between two walls at rest, in a square: u = 4 y (1 - y), theta = y. Lengths in H,
+   velocities in the centreline's U, time in H^2 / nu; kappa = nu. What to look at: the errors over meshes,
+   from which the convergence of discrete exterior calculus is read off, and the divergence, which is zero on
+   every mesh. Razafindralandy, Hamdouni & Chhay (2018), figures 33 (the orders) and 34 (the divergence). */
 #include "scenes/flow/shear.h"
 
 #include <math.h>

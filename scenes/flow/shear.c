@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Setup of the flows between two walls: a unit square with psi, and theta = y, given all round. */
+/* The flows between two walls, couette and poiseuille: a unit square with psi, and theta = y, given all
+   round. */
 #include "scenes/flow/shear.h"
 
 #include <math.h>

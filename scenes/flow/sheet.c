@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From a mesh and values at its vertices to the triangles that are drawn. */
 #include "scenes/flow/sheet.h"
 
 #include <math.h>
 #include <string.h>
 
 /* Meshes up to this size are refined once for the picture: a cubic along every edge, from the gradients at
- * its ends. */
+   its ends. */
 enum { REFINED = 12000 };
 
 /* Gradients at the vertices: x and y for each, the mean over the triangles around. */
