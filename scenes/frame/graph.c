@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the pictures of all scenes have in common: clocks, names of lanes, trails, graphs of observables. */
 #include "scenes/frame/graph.h"
 
 #include <math.h>

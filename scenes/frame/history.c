@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bins of a history: filled, merged in pairs when they are full, looked at as they were. */
 #include "scenes/frame/history.h"
 
 #include <stdlib.h>

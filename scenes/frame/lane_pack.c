@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A lane as bytes, for checkpoints. What comes from a file is believed only if a lane can be so. */
 #include "scenes/frame/lane_pack.h"
 
 #include <limits.h>

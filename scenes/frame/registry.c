@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* All scenes there are, from the list scenes.def, and what is looked up in a scene by its key. */
 #include <stdio.h>
 #include <string.h>
 

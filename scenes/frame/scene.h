@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a scene is: parameters, setup and start, observables, tracks, and the picture that is drawn of
+   lanes. */
 #ifndef GM_SCENES_FRAME_SCENE_H
 #define GM_SCENES_FRAME_SCENE_H
 
@@ -75,8 +77,8 @@ struct gm_track {
     void (*record)(const struct gm_view *view, double *entry);
 };
 
-/* How `geomint work-precision` measures a scene; without it the scene's defaults and every scheme that fits.
- */
+/* How `geomint work-precision` measures a scene; without it the scene's defaults and every scheme that
+   fits. */
 struct gm_work {
     const char *arguments; /* key=value that differ from the defaults, separated by blanks; "" */
     const char *measure;   /* key of the observable that is the error, at the end; NULL: the distance of the
@@ -168,8 +170,8 @@ struct gm_scene {
     void (*close)(struct gm_problem *problem);
     /* Writes the canonical state at t0 (n * m). */
     void (*start)(const void *parameters, const struct gm_problem *problem, double *y);
-    /* Instead of start, where the state depends on the scheme, or may not exist: false with a sentence then.
-     */
+    /* Instead of start, where the state depends on the scheme, or may not exist: false with a sentence
+       then. */
     bool (*start_with)(const void *parameters, const struct gm_problem *problem,
                        const struct gm_scheme *scheme, double *y, char *sentence);
     /* Draws the lanes, count >= 1, into an empty picture; looks only. */
