@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint: the first word is the command, or a scene for the explorer; what that returns is the exit status,
+   unless memory was short. */
 #include <locale.h>
 #include <signal.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of options, from which they are read, checked and explained. */
 #include "app/commands/options.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The --options of a command line. */
 #ifndef GM_APP_COMMANDS_OPTIONS_H
 #define GM_APP_COMMANDS_OPTIONS_H
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The explorer: opens its parts, and goes from key to screen until it is left. */
 #include "app/explorer/explorer.h"
 
 #include <curses.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A published figure, made again and held against what its document says of it. */
 #include "app/figures/figure.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The page of published figures: one file of HTML with everything in it. */
 #include "app/figures/page.h"
 
 #include <ctype.h>

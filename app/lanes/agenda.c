@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Changes that a tour has arranged for a session, made at their time. */
 #include "app/lanes/agenda.h"
 #include "core/schemes.h"
 

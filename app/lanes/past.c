@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The way back of a lane: snapshots in bounded memory, thinned when they are full. */
 #include "app/lanes/past.h"
 
 #include <stdlib.h>

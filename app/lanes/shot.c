@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A finished look at a session: everything that the screen shows, copied. */
 #include "app/lanes/shot.h"
 
 #include <math.h>

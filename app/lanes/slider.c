@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Round values for a parameter that keys move. */
 #include "app/lanes/slider.h"
 
 #include <math.h>

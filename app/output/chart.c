@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where a command that measures puts its diagram and its table. */
 #include "app/output/chart.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Checkpoints of a render, from which a killed one goes on. */
 #include "app/output/checkpoint.h"
 
 #include <errno.h>

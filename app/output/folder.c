@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Folders for output, made where they are not there. */
 #include "app/output/folder.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The numbered pictures of a render: which there are already, and whose they are. */
 #include "app/output/frames.h"
 
 #include <dirent.h>

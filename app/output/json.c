@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* JSON on standard output: strings, numbers, what is no number. */
 #include "app/output/json.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a PNG tells of itself: the command, the changes in flight, the steps, the failures. */
 #include "app/output/provenance.h"
 
 #include <stdarg.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* When the frames of a render are, and which of them are a shard's. */
 #include "app/output/schedule.h"
 
 #include <math.h>

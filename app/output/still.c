@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lanes as they are now, as one PNG. */
 #include "app/output/still.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Text on standard output, wrapped to its width. */
 #include "app/output/wrapped.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lanes driven from outside any scene: steps in bursts, changes in flight, interruption. */
 #include "app/request/drive.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Steps of equal cost: dt of each lane so that all evaluate equally often. */
 #include "app/request/equal_cost.h"
 
 #include <math.h>

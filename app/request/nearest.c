@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What was probably meant by a word that is none. */
 #include "app/request/nearest.h"
 
 #include <stdbool.h>

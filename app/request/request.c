@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From words to a scene and its lanes, with a sentence for what cannot be. */
 #include "app/request/request.h"
 #include "core/schemes.h"
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The words behind a scene's name: keys with lists of values, and their product. */
 #include "app/request/words.h"
 
 #include <stdarg.h>

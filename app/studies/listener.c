@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Who listens to long work: a line on standard error, or nobody. */
 #include "app/studies/listener.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which time step keeps which scheme bounded: lanes over a grid of steps and of one parameter, judged. */
 #include "app/studies/stability.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What fits what, in words: shared by `list`, the manual, the pages and completion, so that they agree. */
 #include "app/commands/reference/catalogue.h"
 #include "core/schemes.h"
 

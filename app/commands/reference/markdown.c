@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* docs/schemes.md and docs/scenes.md, as the program knows itself. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The terminal as a device: modes, keys, signals, and every way out of it. */
 #include "app/explorer/terminal/console.h"
 
 #include <curses.h>

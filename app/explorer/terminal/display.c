@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Composed screens to the terminal, with the picture of pixels that a screen leaves room for. */
 #include "app/explorer/terminal/display.h"
 
 #include <errno.h>

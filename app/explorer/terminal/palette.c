@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The colours of a picture in terminals of 256 and of 16 colours. */
 #include "app/explorer/terminal/palette.h"
 
 static int distance(struct gm_rgb a, struct gm_rgb b)

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Painting and encoding for terminals that show pixels, in a thread: keys and steps do not wait for it. */
 #include "app/explorer/terminal/pixels.h"
 
 #include <pthread.h>

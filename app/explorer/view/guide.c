@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A tour in the explorer: its step, its text below the picture, its keys. */
 #include "app/explorer/view/guide.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What takes the keys for a while: pages, the list of schemes, the typed line. */
 #include "app/explorer/view/modes.h"
 
 #include <curses.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reports of the mouse, taken out of what the terminal sends. */
 #include "app/explorer/view/mouse.h"
 
 #include <stdio.h>

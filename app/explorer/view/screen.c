@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The composed screen: picture, side panel, status line, or a page of help. */
 #include "app/explorer/view/screen.h"
 
 #include <stdio.h>

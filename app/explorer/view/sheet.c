@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Text into a rectangle of the screen, cut to it, with what a click on it means. */
 #include "app/explorer/view/sheet.h"
 
 #include <stdio.h>

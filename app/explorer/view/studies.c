@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The diagrams in the background: one of each kind, and which one is on the screen. */
 #include "app/explorer/view/studies.h"
 
 #include <ctype.h>

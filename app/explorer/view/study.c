@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A diagram that is measured in the background, in a thread of its own. */
 #include "app/explorer/view/study.h"
 
 #include <errno.h>

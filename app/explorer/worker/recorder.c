@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A movie of what is seen: frames to ffmpeg in a thread, so that steps do not wait for it. */
 #include "app/explorer/worker/recorder.h"
 
 #include <math.h>

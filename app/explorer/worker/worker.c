@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The thread that steps: orders in, finished looks out, and in between as many steps as the clock asks
+   for. */
 #include "app/explorer/worker/worker.h"
 
 #include <errno.h>
