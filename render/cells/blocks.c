@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sub-pixels as characters: half blocks, quadrants, braille and ASCII. */
 #include "render/cells/blocks.h"
 
 #include <stdlib.h>

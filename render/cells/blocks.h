@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sub-pixels as characters. */
 #ifndef GM_RENDER_CELLS_BLOCKS_H
 #define GM_RENDER_CELLS_BLOCKS_H
 

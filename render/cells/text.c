@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Text in character cells. */
 #include "render/cells/text.h"
 
 #include <stdlib.h>

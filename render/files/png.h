@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* PNG files: written whole or not at all, and read for what they tell of themselves. */
 #ifndef GM_RENDER_FILES_PNG_H
 #define GM_RENDER_FILES_PNG_H
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Opening what is read: regular files alone. */
 #include "render/files/regular_file.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A sink of numbered PNG files, written by several threads. */
 #include "render/files/sink_kind.h"
 
 #include <sched.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Files that are written beside their place and renamed when they are complete. */
 #include "render/files/temporary.h"
 
 #include <dirent.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The GL painter: what is painted in which order, and the pixels read back. */
 #include "render/gl/canvas.h"
 
 #include <pthread.h>

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* An OpenGL context without a screen, by OSMesa or EGL, whose libraries are loaded only when one is
+   wanted. */
 #include "render/gl/context.h"
 
 #include <dlfcn.h>

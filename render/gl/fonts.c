@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fonts by fontconfig. */
 #include "render/gl/fonts.h"
 
 #include <pthread.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Letters by FreeType, kept in an atlas. */
 #include "render/gl/glyphs.h"
 
 #include <errno.h>

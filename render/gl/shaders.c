@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The programs that run on the vertices of a frame. */
 #include "render/gl/shaders.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The labels of a layout, painted. */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Labels that keep off each other: one is taken only where there is room. */
 #include "render/layout/labels.h"
 
 #include <string.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where everything of a picture goes on a surface of given size. */
 #include "render/layout/layout.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Themes: what the roles and colour maps of a picture look like. */
 #ifndef GM_RENDER_LAYOUT_THEME_H
 #define GM_RENDER_LAYOUT_THEME_H
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Ticks of an axis: round values, multiples of pi, powers of ten, and their labels. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>

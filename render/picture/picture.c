@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A picture's memory, and how panels and marks come into it. */
 #include "render/picture/picture.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Ranges of axes: widened by values, then rounded. */
 #include <math.h>
 
 #include "render/picture/picture.h"
