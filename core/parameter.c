@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parameters: how numbers are read, checked against their range, stored and written. */
 #include "core/parameter.h"
 
 #include <ctype.h>

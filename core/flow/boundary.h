@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The boundary of a flow: walls, inlet, outlet, lid, and what they give. */
 #ifndef GM_CORE_FLOW_BOUNDARY_H
 #define GM_CORE_FLOW_BOUNDARY_H
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Oriented simplicial complexes in the plane or on a torus, and what may be wrong with a triangulation. */
 #ifndef GM_CORE_FLOW_COMPLEX_H
 #define GM_CORE_FLOW_COMPLEX_H
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step of a scheme for Burgers' equation, and what its rows say. */
 #ifndef GM_CORE_FIELD_FAMILIES_BURGERS_H
 #define GM_CORE_FIELD_FAMILIES_BURGERS_H
 

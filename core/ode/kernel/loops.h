@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The loops over a problem's kernels, as its facets hold them for each instruction set. */
 #ifndef GM_CORE_ODE_KERNEL_LOOPS_H
 #define GM_CORE_ODE_KERNEL_LOOPS_H
 
