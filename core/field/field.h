@@ -12,10 +12,6 @@
 
 struct gm_faces; /* core/field/multisymplectic.h */
 
-/* Fields on a line: Hamiltonian partial differential equations in one space dimension on a periodic grid, in
-   their multisymplectic form M s_t + K s_x = grad S(s),     M, K skew, (Bridges & Reich, Phys. Lett. A 284
-   (2001) 184), and what elimination makes of them. */
-
 /* Whether none of the values is beyond the limit of a task, or no number. */
 static inline bool gm_field_within(const double *values, size_t count, double limit)
 {

@@ -4,8 +4,9 @@
 
 #include "core/flow/flow.h"
 
-/* The matrix  shift star0 + share [-d0' diag(F) A + diag(boundary) + diffusion K],  vertices by vertices, in
-   the pattern of the complex' rings. */
+/* The matrix
+       shift star0 + share [-d0' diag(F) A + diag(boundary) + diffusion K],
+   vertices by vertices, in the pattern of the complex' rings. */
 struct gm_transport {
     const struct gm_complex *complex;
     double *diagonal; /* vertices */
