@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Partitioned Runge-Kutta tableaux for fields on meshes. */
 #ifndef GM_CORE_MESH_TABLEAU_H
 #define GM_CORE_MESH_TABLEAU_H
 

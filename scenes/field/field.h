@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the scenes of fields on a line share. */
 #ifndef GM_SCENES_FIELD_FIELD_H
 #define GM_SCENES_FIELD_FIELD_H
 

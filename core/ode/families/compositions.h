@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Symmetric compositions of a symmetric method of order 2 with itself: steps of lengths g_1 h, ..., g_s h
-   with g_{s+1-i} = g_i and sum g_i = 1. For a symmetric method the order s steps reach depends on the g
-   alone, whatever the method is. Hairer, Lubich & Wanner (2006), section V.3. Each list takes a macro that
-   receives the first half of the fractions, the middle one included. */
+/* Symmetric compositions of a symmetric method of order 2 with itself, steps of lengths g_1 h, ..., g_s h
+   with
+       g_{s+1-i} = g_i,   sum_i g_i = 1
+   For a symmetric method the order that s steps reach depends on the g alone, whatever the method is. Hairer,
+   Lubich & Wanner (2006), section V.3. Each list takes a macro that receives the first half of the fractions,
+   the middle one included. */
 #ifndef GM_CORE_ODE_FAMILIES_COMPOSITIONS_H
 #define GM_CORE_ODE_FAMILIES_COMPOSITIONS_H
 
-/* 1 / (2 - 2^(1/3)) = (2 + 2^(1/3) + 2^(-1/3)) / 3. Forest & Ruth, Physica D 43 (1990) 105; H. Yoshida,
-   Phys. Lett. A 150 (1990) 262 */
+/* 1 / (2 - 2^(1/3)) = (2 + 2^(1/3) + 2^(-1/3)) / 3. E. Forest & R.D. Ruth, Physica D 43 (1990) 105;
+   H. Yoshida, Phys. Lett. A 150 (1990) 262 */
 #define GM_TRIPLE_JUMP 1.3512071919596576340476878089715
 #define GM_YOSHIDA4(OF) OF(GM_TRIPLE_JUMP, 1 - 2 * GM_TRIPLE_JUMP)
 
