@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One panel of a layout: the room for its texts, then its box and its axes. */
+/* One panel: what its texts take around its data, where its ticks, keys and colour bar stand. */
 #include "render/layout/frame.h"
 
 #include <math.h>
@@ -384,22 +384,23 @@ static bool stands_on(const struct gm_box *box, const struct gm_frame *frame)
     return gm_boxes_overlap(box, &frame->box, 0.0) || gm_boxes_overlap(box, &frame->colour_bar, 0.0);
 }
 
-static bool is_free(const struct gm_layout *layout, const struct gm_frame *frame, const struct gm_box *box)
+static bool is_free(const struct gm_frame *frames, size_t count, size_t own, const struct gm_box *box)
 {
-    bool is_free = !gm_boxes_overlap(box, &frame->colour_bar, 0.0);
-    for (size_t i = 0; i < layout->frame_count; i++) {
-        is_free = is_free && (&layout->frames[i] == frame || !stands_on(box, &layout->frames[i]));
+    bool is_free = !gm_boxes_overlap(box, &frames[own].colour_bar, 0.0);
+    for (size_t i = 0; i < count; i++) {
+        is_free = is_free && (i == own || !stands_on(box, &frames[i]));
     }
     return is_free;
 }
 
-void gm_frame_note(struct gm_label_list *list, const struct gm_layout *layout, const struct gm_frame *frame,
+void gm_frame_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
                    const struct gm_mark *mark)
 {
     static const double shares[] = {
         [GM_ANCHOR_LEFT] = 0.0, [GM_ANCHOR_CENTRE] = 0.5, [GM_ANCHOR_RIGHT] = 1.0};
     static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0}; /* in lines */
     const struct gm_metrics *metrics = list->metrics;
+    const struct gm_frame *frame = &frames[own];
     const struct gm_box *data = &frame->box;
     const double x = gm_frame_x(frame, mark->points[0]), y = gm_frame_y(frame, mark->points[1]);
     if (!(x >= data->x - 1.0 && x <= data->x + data->width + 1.0 && y >= data->y - 1.0 &&
@@ -414,31 +415,14 @@ void gm_frame_note(struct gm_label_list *list, const struct gm_layout *layout, c
         const double top = y + (shifts[k / 2] - 0.5) * line;
         const struct gm_box box = {k % 2 == 0 ? left : within, fmax(0.0, fmin(top, metrics->height - line)),
                                    width, line};
-        if (is_free(layout, frame, &box) && gm_labels_add(list, (struct gm_label){.text = mark->text,
-                                                                                  .size = GM_TEXT_TICK,
-                                                                                  .role = mark->style.role,
-                                                                                  .x = box.x,
-                                                                                  .y = box.y,
-                                                                                  .among_marks = true})) {
+        if (is_free(frames, count, own, &box) &&
+            gm_labels_add(list, (struct gm_label){.text = mark->text,
+                                                  .size = GM_TEXT_TICK,
+                                                  .role = mark->style.role,
+                                                  .x = box.x,
+                                                  .y = box.y,
+                                                  .among_marks = true})) {
             return;
         }
     }
-}
-
-static double frame_coordinate(const struct gm_axis *axis, double origin, double factor, double value)
-{
-    if (axis->scale == GM_LOG) {
-        value = value > 0.0 ? log10(value) : -400.0;
-    }
-    return origin + factor * value;
-}
-
-double gm_frame_x(const struct gm_frame *frame, double value)
-{
-    return frame_coordinate(&frame->panel->x, frame->x_origin, frame->x_factor, value);
-}
-
-double gm_frame_y(const struct gm_frame *frame, double value)
-{
-    return frame_coordinate(&frame->panel->y, frame->y_origin, frame->y_factor, value);
 }

@@ -52,8 +52,9 @@ struct gm_fill {
 void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const struct gm_panel *panel,
                    const struct gm_fill *fill);
 
-/* Places a text among the marks of a frame, when all other labels are. */
-void gm_frame_note(struct gm_label_list *list, const struct gm_layout *layout, const struct gm_frame *frame,
+/* Places a text among the marks of frame number `own`, when all other labels are: on its own data, and on no
+   other frame of all `count`. */
+void gm_frame_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
                    const struct gm_mark *mark);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Labels that keep off each other: one is taken only where there is room. */
+/* Labels as they are taken: none over another one or over the edge; what is too long is made shorter. */
 #include "render/layout/labels.h"
 
 #include <string.h>
@@ -29,13 +29,6 @@ static struct gm_box box_of(const struct gm_label_list *list, const struct gm_la
                          : label->anchor == GM_ANCHOR_CENTRE ? 0.5
                                                              : 1.0;
     return (struct gm_box){label->x - shift * width, label->y, width, line};
-}
-
-bool gm_boxes_overlap(const struct gm_box *a, const struct gm_box *b, double air)
-{
-    const double touch = 1e-6;
-    return a->width > 0.0 && b->width > 0.0 && a->x < b->x + b->width + air && b->x < a->x + a->width + air &&
-           a->y < b->y + b->height - touch && b->y < a->y + a->height - touch;
 }
 
 bool gm_labels_add(struct gm_label_list *list, struct gm_label label)

@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_LAYOUT_LABELS_H
 #define GM_RENDER_LAYOUT_LABELS_H
 
-#include "render/layout/layout.h"
+#include "render/layout/surface.h"
 
 /* The labels of a layout under construction: a label is taken only if it is wholly on the surface and on no
    label taken before, so the order in which they are offered is their rank. */
@@ -18,9 +18,6 @@ struct gm_label_list {
 /* False when memory is short. */
 bool gm_labels_open(struct gm_label_list *list, struct gm_picture *picture, const struct gm_metrics *metrics,
                     size_t capacity);
-
-/* Neighbours in a line need air between them; lines may touch. Empty boxes overlap nothing. */
-bool gm_boxes_overlap(const struct gm_box *a, const struct gm_box *b, double air);
 
 /* True if the label was taken. Empty texts never are. */
 bool gm_labels_add(struct gm_label_list *list, struct gm_label label);

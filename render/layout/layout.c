@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where everything of a picture goes on a surface of given size. */
+/* The whole picture: which grid of states and graphs makes their data largest, and what else has room. */
 #include "render/layout/layout.h"
 
 #include <math.h>
@@ -535,13 +535,12 @@ static size_t terse_count(const struct group *graphs, bool beside)
 
 /* Texts among the marks come last: one that meets another label or stands over the edge of its panel moves a
    little, and is left out where that does not help. */
-static void place_notes(struct gm_label_list *list, const struct gm_layout *layout)
+static void place_notes(struct gm_label_list *list, const struct gm_frame *frames, size_t count)
 {
-    for (size_t i = 0; i < layout->frame_count; i++) {
-        const struct gm_frame *frame = &layout->frames[i];
-        for (const struct gm_mark *mark = frame->panel->first; mark != NULL; mark = mark->next) {
+    for (size_t i = 0; i < count; i++) {
+        for (const struct gm_mark *mark = frames[i].panel->first; mark != NULL; mark = mark->next) {
             if (mark->kind == GM_MARK_TEXT) {
-                gm_frame_note(list, layout, frame, mark);
+                gm_frame_note(list, frames, count, i, mark);
             }
         }
     }
@@ -611,10 +610,10 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
         }
         place_group(&list, &graphs, margin, false);
     }
-    *layout = (struct gm_layout){.frames = frames, .frame_count = states.count + graphs.count};
-    place_notes(&list, layout);
-    layout->labels = list.labels;
-    layout->label_count = list.count;
+    const size_t frame_count = states.count + graphs.count;
+    place_notes(&list, frames, frame_count);
+    *layout = (struct gm_layout){
+        .frames = frames, .frame_count = frame_count, .labels = list.labels, .label_count = list.count};
     return layout;
 }
 

@@ -2,57 +2,9 @@
 #ifndef GM_RENDER_LAYOUT_LAYOUT_H
 #define GM_RENDER_LAYOUT_LAYOUT_H
 
-#include "render/picture/picture.h"
+#include "render/layout/surface.h"
 
-/* Where everything of a picture goes on a surface of given size. Painters differ in how they measure text
-   and in their unit (a pixel; for the terminal a part of a cell); the layout is one. y grows downwards. */
-
-enum gm_text_size { GM_TEXT_TITLE, GM_TEXT_PANEL, GM_TEXT_LABEL, GM_TEXT_TICK, GM_TEXT_SIZE_COUNT };
-
-struct gm_metrics {
-    double width, height;            /* of the surface */
-    double line[GM_TEXT_SIZE_COUNT]; /* height of a line of text of each size */
-    /* A text's width as it will be set: title and panel names are bold, the clock is in the title's size. */
-    double (*measure)(const void *self, enum gm_text_size size, const char *text);
-    const void *self;
-    double scale; /* surface units a pixel of a picture 720 high */
-    bool terse;   /* leave out the subtitle and all graphs but the first */
-};
-
-struct gm_box {
-    double x, y, width, height;
-};
-
-struct gm_tick {
-    double position; /* on the surface */
-    double value;
-    const char *label;
-};
-enum { GM_TICK_MAX = 12 };
-
-struct gm_label { /* a text placed on the surface */
-    const char *text;
-    enum gm_text_size size;
-    enum gm_role role;
-    bool bold, mono;
-    double x, y; /* of the anchor; y is the top of the line */
-    enum gm_anchor anchor;
-    bool vertical;    /* reads upwards; x is then its left edge, y the middle of its height */
-    bool among_marks; /* a text of a panel's data, to be read on whatever lies under it */
-};
-
-struct gm_frame { /* a panel on the surface */
-    const struct gm_panel *panel;
-    struct gm_box box; /* of the data; marks are clipped to it */
-    /* surface = origin + factor * value (of log10 of the value on a log axis) */
-    double x_origin, x_factor, y_origin, y_factor;
-    struct gm_tick x_ticks[GM_TICK_MAX], y_ticks[GM_TICK_MAX];
-    size_t x_tick_count, y_tick_count;
-    struct gm_box colour_bar; /* width 0: none */
-    double bar_tip[2]; /* height of the point below and above the bar, where values lie beyond; 0: none */
-    struct gm_tick bar_ticks[GM_TICK_MAX];
-    size_t bar_tick_count;
-};
+/* Where everything of a picture goes on a surface of given size; the layout is one for all painters. */
 
 struct gm_layout {
     struct gm_frame *frames;
@@ -64,16 +16,6 @@ struct gm_layout {
 /* Lays the picture out; the result lives in the picture's arena until its next clear. NULL when memory is
    short. Labels never overlap each other nor leave the surface: what does not fit is left out. */
 const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics);
-
-/* Round tick values of a range: at least 3 where possible, at most max <= GM_TICK_MAX. */
-size_t gm_ticks(const struct gm_axis *axis, size_t max, double *values);
-/* A tick's label: a true minus sign, pi/2, powers of ten with superscripts. `step` is the distance of ticks.
- */
-void gm_tick_format(enum gm_scale scale, double value, double step, char *text, size_t size);
-
-/* Surface coordinates of a value on a frame's axes. */
-double gm_frame_x(const struct gm_frame *frame, double value);
-double gm_frame_y(const struct gm_frame *frame, double value);
 
 /* The panel of a state that a place of the surface is in, and the place in its own units; NULL if there is
    none, or if its axes are logarithmic. */

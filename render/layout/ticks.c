@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ticks of an axis: round values, multiples of pi, powers of ten, and their labels. */
+/* Round values of linear, logarithmic and π axes, and their labels. */
+#include "render/layout/ticks.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "render/layout/layout.h"
 
 #define PI 3.14159265358979323846
 #define MINUS "\u2212"
