@@ -3,7 +3,7 @@
 #ifndef GM_RENDER_CELLS_BLOCKS_H
 #define GM_RENDER_CELLS_BLOCKS_H
 
-#include "render/cells/cells.h"
+#include "render/cells/grid.h"
 #include "render/cells/raster.h"
 
 /* How many sub-pixels a cell has, and whether they are merely on or off. */

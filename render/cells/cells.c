@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The terminal painter: a picture to character cells. */
+/* A picture on a terminal's cells: marks through the raster, then grid and texts as characters. */
 #include "render/cells/cells.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "render/cells/blocks.h"
-#include "render/cells/raster.h"
+#include "render/cells/marks.h"
 #include "render/cells/text.h"
 #include "render/layout/layout.h"
 
@@ -84,14 +84,14 @@ static void paint_dotted_grid(struct gm_raster *raster, const struct gm_frame *f
     double right = box->x + box->width, bottom = box->y + box->height;
     for (size_t i = 0; i < frame->x_tick_count; i++) {
         double x = frame->x_ticks[i].position;
-        gm_raster_rule(raster, x, box->y, x, bottom, GM_GRID, 2);
+        gm_marks_rule(raster, x, box->y, x, bottom, GM_GRID, 2);
     }
     for (size_t i = 0; i < frame->y_tick_count; i++) {
         double y = frame->y_ticks[i].position;
-        gm_raster_rule(raster, box->x, y, right, y, GM_GRID, 2);
+        gm_marks_rule(raster, box->x, y, right, y, GM_GRID, 2);
     }
-    gm_raster_rule(raster, box->x, box->y, box->x, bottom, GM_SECONDARY, 1);
-    gm_raster_rule(raster, box->x, bottom, right, bottom, GM_SECONDARY, 1);
+    gm_marks_rule(raster, box->x, box->y, box->x, bottom, GM_SECONDARY, 1);
+    gm_marks_rule(raster, box->x, bottom, right, bottom, GM_SECONDARY, 1);
 }
 
 /* Grid and axes as characters in the cells that the marks left blank: thinner than any block. */
@@ -205,11 +205,11 @@ static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout
         }
         for (const struct gm_mark *mark = frame->panel->first; ok && mark; before = mark, mark = mark->next) {
             if (!taking.outlines || !mark->next || !is_outline(mark, mark->next)) {
-                ok = gm_raster_mark(raster, frame, mark, taking.areas && is_outline(before, mark));
+                ok = gm_marks_draw(raster, frame, mark, taking.areas && is_outline(before, mark));
             }
         }
         if (frame->colour_bar.width > 0) {
-            gm_raster_bar(raster, &frame->colour_bar, map_of(frame->panel));
+            gm_marks_bar(raster, &frame->colour_bar, map_of(frame->panel));
         }
     }
     return ok;

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The raster beneath the character cells: sub-pixels that know what they belong to. */
+/* The raster itself, and the mask through which marks reach it. */
 #include "render/cells/raster.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "render/cells/cover.h"
 
 bool gm_raster_open(struct gm_raster *raster, int width, int height, enum gm_theme theme)
 {
@@ -45,14 +43,23 @@ void gm_raster_close(struct gm_raster *raster)
     raster->mask = NULL;
 }
 
+int gm_raster_clamp(double value, int low, int high)
+{
+    if (!(value > low)) {
+        return low;
+    }
+    return value < high ? (int)value : high;
+}
+
 void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box)
 {
     /* A sub-pixel belongs to the box when its middle does; the one past the end too, so that what lies on
        the edge itself is seen. */
-    raster->clip_left = gm_clamp(floor(box->x / raster->unit_x), 0, raster->width);
-    raster->clip_top = gm_clamp(floor(box->y / raster->unit_y), 0, raster->height);
-    raster->clip_right = gm_clamp(floor((box->x + box->width) / raster->unit_x) + 1, 0, raster->width);
-    raster->clip_bottom = gm_clamp(floor((box->y + box->height) / raster->unit_y) + 1, 0, raster->height);
+    raster->clip_left = gm_raster_clamp(floor(box->x / raster->unit_x), 0, raster->width);
+    raster->clip_top = gm_raster_clamp(floor(box->y / raster->unit_y), 0, raster->height);
+    raster->clip_right = gm_raster_clamp(floor((box->x + box->width) / raster->unit_x) + 1, 0, raster->width);
+    raster->clip_bottom =
+        gm_raster_clamp(floor((box->y + box->height) / raster->unit_y) + 1, 0, raster->height);
 }
 
 struct gm_raster_place gm_raster_place(const struct gm_raster *raster, const struct gm_frame *frame,
@@ -129,41 +136,4 @@ void gm_raster_settle(struct gm_raster *raster, struct gm_rgb colour, double alp
     raster->left = raster->width;
     raster->top = raster->height;
     raster->right = raster->bottom = 0;
-}
-
-/* ---- all marks ---- */
-
-bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark,
-                    bool outline)
-{
-    struct gm_rgb colour = gm_theme_colour(raster->theme, mark->style.role);
-    if (mark->count == 0) {
-        return true;
-    }
-    gm_raster_clip(raster, &frame->box);
-    switch (mark->kind) {
-    case GM_MARK_LINE:
-        gm_raster_line(raster, frame, mark);
-        gm_raster_settle(raster, colour, mark->style.alpha, outline ? GM_LEVEL_FILL : GM_LEVEL_LINE,
-                         mark->style.role);
-        return true;
-    case GM_MARK_POINTS:
-        gm_raster_points(raster, frame, mark);
-        gm_raster_settle(raster, colour, mark->style.alpha, GM_LEVEL_LINE, mark->style.role);
-        return true;
-    case GM_MARK_POLYGON: {
-        bool ok = gm_raster_polygon(raster, frame, mark);
-        gm_raster_settle(raster, colour, mark->style.alpha, GM_LEVEL_FILL, mark->style.role);
-        return ok;
-    }
-    case GM_MARK_MESH:
-        gm_raster_mesh(raster, frame, mark);
-        return true;
-    case GM_MARK_IMAGE:
-        gm_raster_image(raster, frame, mark);
-        return true;
-    case GM_MARK_TEXT:
-        return true;
-    }
-    return true;
 }

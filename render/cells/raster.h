@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_CELLS_RASTER_H
 #define GM_RENDER_CELLS_RASTER_H
 
-#include "render/layout/layout.h"
+#include "render/layout/surface.h"
 #include "render/layout/theme.h"
 
 /* The raster beneath the character cells: a few sub-pixels a cell. A sub-pixel keeps its colour and what it
@@ -42,16 +42,24 @@ void gm_raster_close(struct gm_raster *raster);
 /* Marks stay within this box of the surface. */
 void gm_raster_clip(struct gm_raster *raster, const struct gm_box *box);
 
-/* One mark of a panel, texts excepted; `outline` says that it is a line around the filled polygon before it,
-   and counts as a part of that. False when memory is short. */
-bool gm_raster_mark(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark,
-                    bool outline);
+/* Towards zero, and within the bounds; NaN is the lower one. */
+int gm_raster_clamp(double value, int low, int high);
 
-/* A straight line in surface units that belongs to the axes: every `gap`-th sub-pixel. */
-void gm_raster_rule(struct gm_raster *raster, double x0, double y0, double x1, double y1, enum gm_role role,
-                    int gap);
+/* A place on the raster, in sub-pixels. */
+struct gm_raster_place {
+    double x, y;
+};
+/* Where a point (x, y) of the panel lies. */
+struct gm_raster_place gm_raster_place(const struct gm_raster *raster, const struct gm_frame *frame,
+                                       const double *point);
+/* Whether it is finite. */
+bool gm_raster_is_place(struct gm_raster_place place);
 
-/* The colour map from bottom to top. */
-void gm_raster_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_map map);
+/* Marks a sub-pixel in the mask as covered by at least so much (0 to 1), if it is within the clip box. */
+void gm_raster_cover(struct gm_raster *raster, int x, int y, double coverage);
+/* Lays the mask over the raster in one colour, so that a mark that meets itself is not counted twice, and
+   empties it. */
+void gm_raster_settle(struct gm_raster *raster, struct gm_rgb colour, double alpha, enum gm_level level,
+                      enum gm_role role);
 
 #endif

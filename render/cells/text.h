@@ -2,7 +2,7 @@
 #ifndef GM_RENDER_CELLS_TEXT_H
 #define GM_RENDER_CELLS_TEXT_H
 
-#include "render/cells/cells.h"
+#include "render/cells/grid.h"
 
 /* Text in character cells: one cell a code point. */
 

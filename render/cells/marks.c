@@ -1,0 +1,452 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines, points, polygons, meshes and images on the raster beneath the character cells, and the rules and the
+   colour bar around them. Lines, points and polygons go to the mask, fields to the raster itself. */
+#include "render/cells/marks.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* fmin and fmax are calls, because of what they do with NaN; no NaN comes here. */
+static double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* ---- lines ---- */
+
+/* Lengths of stroke and gap in sub-pixels, alternately. Counted in sub-pixels rather than in units of the
+   picture because a dash must survive the coarsest raster. */
+static const int dashes[GM_DASH_COUNT][6] = {
+    [GM_SOLID] = {0},
+    [GM_LONG_DASH] = {6, 3, 6, 3, 6, 3},
+    [GM_DOTS] = {1, 2, 1, 2, 1, 2},
+    [GM_DASH_DOT] = {6, 2, 1, 2, 6, 2},
+    [GM_SHORT_DASH] = {3, 2, 3, 2, 3, 2},
+    [GM_DASH_DOT_DOT] = {6, 2, 1, 2, 1, 2},
+};
+
+static bool dash_on(enum gm_dash dash, double length)
+{
+    const int *pattern = dashes[dash];
+    if (!pattern[0]) {
+        return true;
+    }
+    /* DASH_DOT repeats after four entries, the others after any even number */
+    int entries = dash == GM_DASH_DOT ? 4 : 6, period = 0;
+    for (int i = 0; i < entries; i++) {
+        period += pattern[i];
+    }
+    int at = (int)fmod(length, period);
+    for (int i = 0; i < entries; i++) {
+        if (at < pattern[i]) {
+            return i % 2 == 0;
+        }
+        at -= pattern[i];
+    }
+    return false;
+}
+
+/* The part of a line within the clip box widened by `margin`: Liang and Barsky. */
+static bool clip_segment(const struct gm_raster *raster, double margin, double *x0, double *y0, double *x1,
+                         double *y1, double *start, double *end)
+{
+    double dx = *x1 - *x0, dy = *y1 - *y0;
+    double p[4] = {-dx, dx, -dy, dy};
+    double q[4] = {*x0 - (raster->clip_left - margin), raster->clip_right + margin - *x0,
+                   *y0 - (raster->clip_top - margin), raster->clip_bottom + margin - *y0};
+    double low = 0, high = 1;
+    for (int i = 0; i < 4; i++) {
+        if (p[i] == 0) {
+            if (q[i] < 0) {
+                return false;
+            }
+        } else if (p[i] < 0) {
+            low = larger(low, q[i] / p[i]);
+        } else {
+            high = smaller(high, q[i] / p[i]);
+        }
+    }
+    if (low > high) {
+        return false;
+    }
+    *start = low;
+    *end = high;
+    *x1 = *x0 + high * dx;
+    *y1 = *y0 + high * dy;
+    *x0 += low * dx;
+    *y0 += low * dy;
+    return true;
+}
+
+/* The sub-pixels across a line of the given width at one place of its long direction. */
+static void cover_across(struct gm_raster *raster, bool steep, int along, double middle, double width)
+{
+    if (raster->sharp) {
+        int count = (int)larger(1, round(width));
+        int first = (int)floor(middle - 0.5 * (count - 1));
+        for (int i = 0; i < count; i++) {
+            gm_raster_cover(raster, steep ? first + i : along, steep ? along : first + i, 1);
+        }
+        return;
+    }
+    double low = middle - 0.5 * width, high = middle + 0.5 * width;
+    for (int i = (int)floor(low); i < high; i++) {
+        double part = smaller(high, i + 1) - larger(low, i);
+        if (part > 0) {
+            gm_raster_cover(raster, steep ? i : along, steep ? along : i, part);
+        }
+    }
+}
+
+/* One straight piece; *length is the way so far, for the dash. */
+static void line_piece(struct gm_raster *raster, double x0, double y0, double x1, double y1, double width,
+                       enum gm_dash dash, double *length)
+{
+    double whole = larger(fabs(x1 - x0), fabs(y1 - y0)), begun = *length, start, end;
+    *length += whole;
+    if (!clip_segment(raster, width + 1, &x0, &y0, &x1, &y1, &start, &end)) {
+        return;
+    }
+    bool steep = fabs(y1 - y0) > fabs(x1 - x0);
+    double from = steep ? y0 : x0, to = steep ? y1 : x1;
+    double across = steep ? x0 : y0, slope = to == from ? 0 : ((steep ? x1 : y1) - across) / (to - from);
+    int step = to >= from ? 1 : -1, last = (int)floor(to);
+    for (int along = (int)floor(from);; along += step) {
+        /* the ends are met exactly, the sub-pixels between in their middle */
+        double at = along + 0.5;
+        at = step > 0 ? smaller(larger(at, from), to) : larger(smaller(at, from), to);
+        if (dash_on(dash, begun + start * whole + fabs(at - from))) {
+            cover_across(raster, steep, along, across + slope * (at - from), width);
+        }
+        if (along == last) {
+            break;
+        }
+    }
+}
+
+static void draw_line(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    double thickness = mark->style.width * raster->scale / smaller(raster->unit_x, raster->unit_y);
+    double width = raster->sharp ? round(0.7 * thickness) : larger(1, thickness), length = 0;
+    size_t count = mark->count + (mark->closed && mark->count > 1 ? 1 : 0);
+    struct gm_raster_place before = {NAN, NAN};
+    for (size_t i = 0; i < count; i++) {
+        struct gm_raster_place now = gm_raster_place(raster, frame, &mark->points[2 * (i % mark->count)]);
+        if (gm_raster_is_place(before) && gm_raster_is_place(now)) {
+            /* what is nearer than a part of a sub-pixel adds nothing but work */
+            if (i + 1 < count && fabs(now.x - before.x) + fabs(now.y - before.y) < 0.25) {
+                continue;
+            }
+            line_piece(raster, before.x, before.y, now.x, now.y, width, mark->style.dash, &length);
+        }
+        before = now;
+    }
+}
+
+/* ---- points ---- */
+
+static void draw_points(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    double radius = 0.5 * mark->style.width * raster->scale;
+    double radius_x = larger(radius / raster->unit_x, 0.5), radius_y = larger(radius / raster->unit_y, 0.5);
+    for (size_t i = 0; i < mark->count; i++) {
+        struct gm_raster_place middle = gm_raster_place(raster, frame, &mark->points[2 * i]);
+        if (!gm_raster_is_place(middle) || middle.x < raster->clip_left - radius_x ||
+            middle.y < raster->clip_top - radius_y || middle.x > raster->clip_right + radius_x ||
+            middle.y > raster->clip_bottom + radius_y) {
+            continue;
+        }
+        gm_raster_cover(raster, (int)floor(middle.x), (int)floor(middle.y), 1);
+        for (int y = (int)floor(middle.y - radius_y); y <= middle.y + radius_y; y++) {
+            for (int x = (int)floor(middle.x - radius_x); x <= middle.x + radius_x; x++) {
+                double dx = (x + 0.5 - middle.x) / radius_x, dy = (y + 0.5 - middle.y) / radius_y;
+                double inside = (1 - sqrt(dx * dx + dy * dy)) * smaller(radius_x, radius_y) + 0.5;
+                if (inside > 0) {
+                    gm_raster_cover(raster, x, y, inside);
+                }
+            }
+        }
+    }
+}
+
+/* ---- polygons ---- */
+
+/* Scan lines a sub-pixel, at most: the smoothness of a polygon's upper and lower edges. */
+enum { SCANS = 4 };
+
+struct crossing {
+    int scan;
+    double x;
+};
+
+static int by_place(const void *a, const void *b)
+{
+    const struct crossing *one = a, *other = b;
+    if (one->scan != other->scan) {
+        return one->scan < other->scan ? -1 : 1;
+    }
+    return (one->x > other->x) - (one->x < other->x);
+}
+
+/* A polygon's outline crossing the scan lines. */
+struct scan {
+    struct crossing *crossings;
+    size_t count, capacity;
+    int fine; /* scan lines a sub-pixel */
+    bool failed;
+};
+
+static void add_edge(const struct gm_raster *raster, struct scan *scan, struct gm_raster_place a,
+                     struct gm_raster_place b)
+{
+    double low = smaller(a.y, b.y) * scan->fine - 0.5, high = larger(a.y, b.y) * scan->fine - 0.5;
+    int first = gm_raster_clamp(ceil(low), raster->clip_top * scan->fine, raster->clip_bottom * scan->fine);
+    int end = gm_raster_clamp(ceil(high), raster->clip_top * scan->fine, raster->clip_bottom * scan->fine);
+    if (first >= end || scan->failed) {
+        return;
+    }
+    size_t wanted = scan->count + (size_t)(end - first);
+    if (wanted > scan->capacity) {
+        struct crossing *more = realloc(scan->crossings, 2 * wanted * sizeof *more);
+        if (!more) {
+            scan->failed = true;
+            return;
+        }
+        scan->crossings = more;
+        scan->capacity = 2 * wanted;
+    }
+    double slope = (b.x - a.x) / (b.y - a.y);
+    for (int i = first; i < end; i++) {
+        double y = (i + 0.5) / scan->fine;
+        scan->crossings[scan->count++] = (struct crossing){i, a.x + (y - a.y) * slope};
+    }
+}
+
+static void add_span(struct gm_raster *raster, double *row, double from, double to, double weight)
+{
+    from = larger(from, raster->clip_left);
+    to = smaller(to, raster->clip_right);
+    for (int x = (int)floor(from); x < to; x++) {
+        row[x] += larger(0, smaller(to, x + 1) - larger(from, x)) * weight;
+    }
+}
+
+static void fill_crossings(struct gm_raster *raster, const struct scan *scan, double *row)
+{
+    const struct crossing *crossings = scan->crossings;
+    size_t i = 0;
+    while (i < scan->count) {
+        int y = crossings[i].scan / scan->fine;
+        double left = raster->clip_right, right = raster->clip_left;
+        for (; i < scan->count && crossings[i].scan / scan->fine == y; i++) {
+            /* even-odd: the crossings of a scan line come in pairs, as the outline is closed */
+            if (i + 1 < scan->count && crossings[i + 1].scan == crossings[i].scan) {
+                add_span(raster, row, crossings[i].x, crossings[i + 1].x, 1.0 / scan->fine);
+                left = smaller(left, crossings[i].x);
+                right = larger(right, crossings[i + 1].x);
+                i++;
+            }
+        }
+        int end = gm_raster_clamp(ceil(right), raster->clip_left, raster->clip_right);
+        for (int x = gm_raster_clamp(floor(left), raster->clip_left, raster->clip_right); x < end; x++) {
+            if (row[x] > 0) {
+                gm_raster_cover(raster, x, y, row[x]);
+            }
+            row[x] = 0;
+        }
+    }
+}
+
+static bool draw_polygon(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    double *row = calloc((size_t)raster->width + 1, sizeof *row);
+    struct scan scan = {.fine = raster->sharp ? 1 : SCANS};
+    struct gm_raster_place first = {NAN, NAN}, before = first;
+    if (!row) {
+        return false;
+    }
+    for (size_t i = 0; i < mark->count; i++) {
+        struct gm_raster_place now = gm_raster_place(raster, frame, &mark->points[2 * i]);
+        if (!gm_raster_is_place(now)) {
+            continue;
+        }
+        if (!gm_raster_is_place(before)) {
+            first = now;
+        } else if (fabs(now.x - before.x) + fabs(now.y - before.y) < 0.2) {
+            continue;
+        } else {
+            add_edge(raster, &scan, before, now);
+        }
+        before = now;
+    }
+    if (gm_raster_is_place(before)) {
+        add_edge(raster, &scan, before, first);
+    }
+    if (scan.count > 0 && !scan.failed) {
+        qsort(scan.crossings, scan.count, sizeof *scan.crossings, by_place);
+        fill_crossings(raster, &scan, row);
+    }
+    free(scan.crossings);
+    free(row);
+    return !scan.failed;
+}
+
+/* ---- fields ---- */
+
+static void set_field(struct gm_raster *raster, int x, int y, struct gm_rgb colour)
+{
+    raster->at[(size_t)y * (size_t)raster->width + (size_t)x] =
+        (struct gm_subpixel){colour, GM_LEVEL_FIELD, GM_INK};
+}
+
+static double map_position(const struct gm_mark *mark, double value)
+{
+    return mark->high > mark->low ? (value - mark->low) / (mark->high - mark->low) : 0.5;
+}
+
+static void mesh_triangle(struct gm_raster *raster, const struct gm_mark *mark,
+                          const struct gm_raster_place corner[3], const double value[3])
+{
+    double area = (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) -
+                  (corner[2].x - corner[0].x) * (corner[1].y - corner[0].y);
+    if (area == 0) {
+        return;
+    }
+    double low_x = smaller(corner[0].x, smaller(corner[1].x, corner[2].x));
+    double low_y = smaller(corner[0].y, smaller(corner[1].y, corner[2].y));
+    double high_x = larger(corner[0].x, larger(corner[1].x, corner[2].x));
+    double high_y = larger(corner[0].y, larger(corner[1].y, corner[2].y));
+    int left = gm_raster_clamp(floor(low_x), raster->clip_left, raster->clip_right);
+    int right = gm_raster_clamp(ceil(high_x), raster->clip_left, raster->clip_right);
+    int top = gm_raster_clamp(floor(low_y), raster->clip_top, raster->clip_bottom);
+    int bottom = gm_raster_clamp(ceil(high_y), raster->clip_top, raster->clip_bottom);
+    for (int y = top; y < bottom; y++) {
+        for (int x = left; x < right; x++) {
+            double px = x + 0.5 - corner[0].x, py = y + 0.5 - corner[0].y;
+            double b = (px * (corner[2].y - corner[0].y) - (corner[2].x - corner[0].x) * py) / area;
+            double c = ((corner[1].x - corner[0].x) * py - px * (corner[1].y - corner[0].y)) / area;
+            if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9) {
+                continue;
+            }
+            double here = value[0] + b * (value[1] - value[0]) + c * (value[2] - value[0]);
+            set_field(raster, x, y, gm_map_colour(mark->map, raster->theme, map_position(mark, here)));
+        }
+    }
+}
+
+static void draw_mesh(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    for (size_t i = 0; i < mark->triangle_count; i++) {
+        struct gm_raster_place corner[3];
+        double value[3];
+        bool drawn = true;
+        for (size_t k = 0; k < 3; k++) {
+            size_t vertex = (size_t)mark->triangles[3 * i + k];
+            corner[k] = gm_raster_place(raster, frame, &mark->points[2 * vertex]);
+            value[k] = mark->values[vertex];
+            drawn = drawn && gm_raster_is_place(corner[k]) && isfinite(value[k]);
+        }
+        if (drawn) {
+            mesh_triangle(raster, mark, corner, value);
+        }
+    }
+}
+
+static void draw_image(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    struct gm_raster_place low = gm_raster_place(raster, frame, &mark->points[0]);
+    struct gm_raster_place high = gm_raster_place(raster, frame, &mark->points[2]);
+    if (mark->rows == 0 || mark->columns == 0 || !gm_raster_is_place(low) || !gm_raster_is_place(high) ||
+        low.x == high.x || low.y == high.y) {
+        return;
+    }
+    for (int y = raster->clip_top; y < raster->clip_bottom; y++) {
+        double v = (y + 0.5 - low.y) / (high.y - low.y);
+        if (v < 0 || v > 1) {
+            continue;
+        }
+        size_t row = (size_t)gm_raster_clamp(v * (double)mark->rows, 0, (int)mark->rows - 1);
+        for (int x = raster->clip_left; x < raster->clip_right; x++) {
+            double u = (x + 0.5 - low.x) / (high.x - low.x);
+            if (u < 0 || u > 1) {
+                continue;
+            }
+            size_t column = (size_t)gm_raster_clamp(u * (double)mark->columns, 0, (int)mark->columns - 1);
+            double value = mark->values[row * mark->columns + column];
+            if (isfinite(value)) {
+                set_field(raster, x, y, gm_map_colour(mark->map, raster->theme, map_position(mark, value)));
+            }
+        }
+    }
+}
+
+/* ---- all of them, and what is around ---- */
+
+bool gm_marks_draw(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark,
+                   bool outline)
+{
+    struct gm_rgb colour = gm_theme_colour(raster->theme, mark->style.role);
+    if (mark->count == 0) {
+        return true;
+    }
+    gm_raster_clip(raster, &frame->box);
+    switch (mark->kind) {
+    case GM_MARK_LINE:
+        draw_line(raster, frame, mark);
+        gm_raster_settle(raster, colour, mark->style.alpha, outline ? GM_LEVEL_FILL : GM_LEVEL_LINE,
+                         mark->style.role);
+        return true;
+    case GM_MARK_POINTS:
+        draw_points(raster, frame, mark);
+        gm_raster_settle(raster, colour, mark->style.alpha, GM_LEVEL_LINE, mark->style.role);
+        return true;
+    case GM_MARK_POLYGON: {
+        bool ok = draw_polygon(raster, frame, mark);
+        gm_raster_settle(raster, colour, mark->style.alpha, GM_LEVEL_FILL, mark->style.role);
+        return ok;
+    }
+    case GM_MARK_MESH:
+        draw_mesh(raster, frame, mark);
+        return true;
+    case GM_MARK_IMAGE:
+        draw_image(raster, frame, mark);
+        return true;
+    case GM_MARK_TEXT:
+        return true;
+    }
+    return true;
+}
+
+void gm_marks_rule(struct gm_raster *raster, double x0, double y0, double x1, double y1, enum gm_role role,
+                   int gap)
+{
+    raster->clip_left = raster->clip_top = 0;
+    raster->clip_right = raster->width;
+    raster->clip_bottom = raster->height;
+    bool upright = fabs(x1 - x0) / raster->unit_x < fabs(y1 - y0) / raster->unit_y;
+    double unit = upright ? raster->unit_y : raster->unit_x;
+    int from = (int)floor((upright ? smaller(y0, y1) : smaller(x0, x1)) / unit);
+    int to = (int)floor((upright ? larger(y0, y1) : larger(x0, x1)) / unit);
+    int across = (int)floor(upright ? x0 / raster->unit_x : y0 / raster->unit_y);
+    for (int along = from; along <= to; along++) {
+        if (along % gap == 0) {
+            gm_raster_cover(raster, upright ? across : along, upright ? along : across, 1);
+        }
+    }
+    gm_raster_settle(raster, gm_theme_colour(raster->theme, role), 1, GM_LEVEL_GRID, role);
+}
+
+void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_map map)
+{
+    gm_raster_clip(raster, box);
+    for (int y = raster->clip_top; y < raster->clip_bottom; y++) {
+        double position = 1 - ((y + 0.5) * raster->unit_y - box->y) / box->height;
+        for (int x = raster->clip_left; x < raster->clip_right; x++) {
+            set_field(raster, x, y, gm_map_colour(map, raster->theme, position));
+        }
+    }
+}

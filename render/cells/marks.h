@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_CELLS_MARKS_H
+#define GM_RENDER_CELLS_MARKS_H
+
+#include "render/cells/raster.h"
+
+/* What is drawn on the raster. */
+
+/* One mark of a panel, texts excepted; `outline` says that it is a line around the filled polygon before it,
+   and counts as a part of that. False when memory is short. */
+bool gm_marks_draw(struct gm_raster *raster, const struct gm_frame *frame, const struct gm_mark *mark,
+                   bool outline);
+
+/* A straight line in surface units that belongs to the axes: every `gap`-th sub-pixel. */
+void gm_marks_rule(struct gm_raster *raster, double x0, double y0, double x1, double y1, enum gm_role role,
+                   int gap);
+
+/* The colour map from bottom to top. */
+void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_map map);
+
+#endif
