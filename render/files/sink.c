@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "render/files/sink_kind.h"
+/* The queue of frames and its workers. */
+#include "render/files/sink.h"
 #include "render/files/thread.h"
 
 #include <pthread.h>

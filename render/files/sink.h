@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include "render/files/png.h"
+#include "render/message.h"
 
 /* Where frames go: numbered PNG files, one PNG file, or a movie. Frames are encoded by worker threads behind
    a bounded queue: gm_sink_frame waits while all frames are in use, so memory does not grow with their
@@ -30,6 +31,9 @@ struct gm_sink *gm_sink_open_png(const char *pattern, const struct gm_sink_setti
 struct gm_sink *gm_sink_open_movie(const char *path, const struct gm_sink_settings *settings, char *message);
 /* Whether a path has one of these endings. */
 bool gm_sink_is_movie(const char *path);
+/* How long ffmpeg may take no data, or take to finish, before it is given up, in milliseconds. Tests shorten
+   it. */
+extern int gm_sink_movie_patience;
 
 /* An empty frame of width * height * 3 bytes to paint into; waits for one. NULL after a failure. */
 unsigned char *gm_sink_frame(struct gm_sink *sink);
@@ -42,5 +46,22 @@ bool gm_sink_flush(struct gm_sink *sink);
 /* Finishes what was put (keep) or gives the movie up (not keep; finished PNGs stay). False if any frame
    failed, with the sentence of the first failure. */
 bool gm_sink_close(struct gm_sink *sink, bool keep, char *message);
+
+/* A kind of sink says what becomes of a frame; the queue is the same for all. */
+struct gm_sink_kind {
+    /* Called in a worker thread, with one worker in the order in which frames were put. */
+    bool (*frame)(void *self, const unsigned char *rgb, long number, const struct gm_png_text *texts,
+                  size_t count, char *message);
+    /* Called once, with no worker left; frees self. `keep` is false if the sink is given up or has failed. */
+    bool (*close)(void *self, bool keep, char *message);
+};
+
+/* Takes self over, also on failure. */
+struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int workers, size_t frame_size,
+                              char *message);
+
+/* Copies that belong to the caller. */
+struct gm_png_text *gm_texts_copy(const struct gm_png_text *texts, size_t count);
+void gm_texts_free(struct gm_png_text *texts, size_t count);
 
 #endif

@@ -1,5 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "render/files/sink_kind.h"
+/* Frames go to ffmpeg's standard input; what it says goes to a file, since nobody would empty a pipe. On 300
+   plots of 1280x720, two cores, ffmpeg 5.1 (seconds, megabytes of file, of memory):
+
+       mp4    libx264 veryfast, crf 18                        2.7     .60    172   (medium: 3.8, .64)
+       webm   libvpx-vp9 realtime, crf 24                     1.6    1.0     208   (good: 9.4, .76)
+       gif    frames kept without loss while the palette
+              is gathered, then one more pass                 3.2    4.9     131
+              one pass: every frame waits for the palette     7.9    4.9    1984
+              one pass: a palette for every frame             9.3   21       127
+
+   The first two lose nothing that can be seen (50 dB and more), so the fast settings are the right ones. */
+#include "render/files/sink.h"
 #include "render/files/temporary.h"
 
 #include <errno.h>
@@ -17,18 +28,6 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-
-/* Frames go to ffmpeg's standard input; what it says goes to a file, since nobody would empty a pipe. On 300
-   plots of 1280x720, two cores, ffmpeg 5.1 (seconds, megabytes of file, of memory):
-
-       mp4    libx264 veryfast, crf 18                        2.7     .60    172   (medium: 3.8, .64)
-       webm   libvpx-vp9 realtime, crf 24                     1.6    1.0     208   (good: 9.4, .76)
-       gif    frames kept without loss while the palette
-              is gathered, then one more pass                 3.2    4.9     131
-              one pass: every frame waits for the palette     7.9    4.9    1984
-              one pass: a palette for every frame             9.3   21       127
-
-   The first two lose nothing that can be seen (50 dB and more), so the fast settings are the right ones. */
 
 extern char **environ;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A sink of numbered PNG files, written by several threads. */
-#include "render/files/sink_kind.h"
+/* Numbered PNG files, or one. */
+#include "render/files/sink.h"
 
 #include <sched.h>
 #include <stdio.h>

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One stream of vertices and a short list of draw calls for a whole frame. */
+/* Vertices and draw calls of a frame, gathered and then sent at once. */
 #include "render/gl/batch.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#include "render/gl/shaders.h"
 
 struct gm_command {
     enum gm_program program;

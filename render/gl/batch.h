@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "render/gl/gl.h"
+#include "render/gl/shaders.h"
 #include "render/layout/theme.h"
 
 /* A frame as one stream of vertices and a short list of draw calls: marks are appended in painting order,
@@ -19,15 +19,6 @@ struct gm_vertex {
     float x, y; /* in pixels, downwards */
     float across, along, half;
     uint8_t colour[4]; /* of fields and images: the first is the row of the colour map, 0 or 255 */
-};
-
-enum gm_program {
-    GM_PROGRAM_INK,
-    GM_PROGRAM_CORE, /* ink where it covers pixels wholly */
-    GM_PROGRAM_TEXT,
-    GM_PROGRAM_FIELD,
-    GM_PROGRAM_IMAGE,
-    GM_PROGRAM_COUNT,
 };
 
 enum gm_stencil {

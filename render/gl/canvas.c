@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The GL painter: what is painted in which order, and the pixels read back. */
+/* A framebuffer with its textures, and how it becomes a picture of bytes. */
 #include "render/gl/canvas.h"
 
 #include <pthread.h>
@@ -11,12 +11,16 @@
 
 enum { MAP_STEPS = 256, MAP_ROWS = 2 };
 
-struct gm_ink gm_canvas_ink(const struct gm_canvas *canvas, enum gm_role role, double alpha)
-{
-    const struct gm_rgb rgb = gm_theme_colour(canvas->theme, role);
-    const double clamped = alpha > 0.0 ? (alpha < 1.0 ? alpha : 1.0) : 0.0;
-    return (struct gm_ink){{rgb.r, rgb.g, rgb.b, (uint8_t)(255.0 * clamped + 0.5)}};
-}
+struct gm_canvas {
+    struct gm_context *context;
+    struct gm_gl gl;
+    struct gm_painter painter;
+    GLuint framebuffer, colour_buffer, stencil_buffer;
+    GLuint atlas, maps;
+    int atlas_height;      /* of the texture */
+    unsigned char *pixels; /* as read back, 4 bytes each */
+    char backend[GM_MESSAGE];
+};
 
 static bool framebuffer_open(struct gm_canvas *canvas, char *message)
 {
@@ -25,16 +29,17 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
     gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     most = most < viewport[0] ? most : viewport[0];
-    if (canvas->width < 1 || canvas->height < 1 || canvas->width > most || canvas->height > most) {
+    if (canvas->painter.width < 1 || canvas->painter.height < 1 || canvas->painter.width > most ||
+        canvas->painter.height > most) {
         snprintf(message, GM_MESSAGE, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
-                 canvas->width, canvas->height, most);
+                 canvas->painter.width, canvas->painter.height, most);
         return false;
     }
     gl->GenFramebuffers(1, &canvas->framebuffer);
     gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
     gl->GenRenderbuffers(1, &canvas->colour_buffer);
     gl->BindRenderbuffer(GL_RENDERBUFFER, canvas->colour_buffer);
-    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, canvas->width, canvas->height);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, canvas->painter.width, canvas->painter.height);
     gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, canvas->colour_buffer);
     gl->GenRenderbuffers(1, &canvas->stencil_buffer);
     gl->BindRenderbuffer(GL_RENDERBUFFER, canvas->stencil_buffer);
@@ -43,7 +48,8 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
     } stencils[] = {{GL_STENCIL_INDEX8, GL_STENCIL_ATTACHMENT},
                     {GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT}};
     for (int i = 0; i < 2; i++) {
-        gl->RenderbufferStorage(GL_RENDERBUFFER, stencils[i].format, canvas->width, canvas->height);
+        gl->RenderbufferStorage(GL_RENDERBUFFER, stencils[i].format, canvas->painter.width,
+                                canvas->painter.height);
         gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, stencils[i].attachment, GL_RENDERBUFFER,
                                     canvas->stencil_buffer);
         if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE &&
@@ -51,8 +57,8 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
             return true;
         }
     }
-    snprintf(message, GM_MESSAGE, "This OpenGL gives no framebuffer of %d x %d pixels.", canvas->width,
-             canvas->height);
+    snprintf(message, GM_MESSAGE, "This OpenGL gives no framebuffer of %d x %d pixels.",
+             canvas->painter.width, canvas->painter.height);
     return false;
 }
 
@@ -71,7 +77,7 @@ static void textures_open(struct gm_canvas *canvas)
     for (int map = 0; map < MAP_ROWS; map++) {
         for (int i = 0; i < MAP_STEPS; i++) {
             const struct gm_rgb rgb =
-                gm_map_colour((enum gm_map)map, canvas->theme, (double)i / (MAP_STEPS - 1));
+                gm_map_colour((enum gm_map)map, canvas->painter.theme, (double)i / (MAP_STEPS - 1));
             memcpy(texels[map][i], (const unsigned char[]){rgb.r, rgb.g, rgb.b, 255}, 4);
         }
     }
@@ -88,15 +94,15 @@ static void textures_open(struct gm_canvas *canvas)
 }
 
 /* Letters and strokes follow the height, on narrow surfaces the width. */
-static void set_sizes(struct gm_canvas *canvas)
+static void set_sizes(struct gm_painter *painter)
 {
     static const double shares[GM_TEXT_SIZE_COUNT] = {0.036, 0.025, 0.022, 0.021};
     const int smallest = 9;
-    const double by_width = canvas->width / 960.0, by_height = canvas->height / 720.0;
-    canvas->scale = by_height < by_width ? by_height : by_width;
+    const double by_width = painter->width / 960.0, by_height = painter->height / 720.0;
+    painter->scale = by_height < by_width ? by_height : by_width;
     for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++) {
-        const int letters = (int)(720.0 * canvas->scale * shares[i] + 0.5);
-        canvas->letters[i] = letters > smallest ? letters : smallest;
+        const int letters = (int)(720.0 * painter->scale * shares[i] + 0.5);
+        painter->letters[i] = letters > smallest ? letters : smallest;
     }
 }
 
@@ -118,7 +124,7 @@ static bool gl_open(struct gm_canvas *canvas, char *message)
              gm_context_name(canvas->context), version, renderer, mesa != NULL ? ", " : "",
              mesa != NULL ? mesa : "");
     return framebuffer_open(canvas, message) &&
-           gm_batch_open(&canvas->batch, &canvas->gl, message, GM_MESSAGE);
+           gm_batch_open(&canvas->painter.batch, &canvas->gl, message, GM_MESSAGE);
 }
 
 static void close_alone(struct gm_canvas *canvas)
@@ -128,20 +134,20 @@ static void close_alone(struct gm_canvas *canvas)
     }
     if (canvas->context != NULL && canvas->gl.Viewport != NULL && gm_context_use(canvas->context)) {
         const struct gm_gl *gl = &canvas->gl;
-        gm_batch_close(&canvas->batch);
+        gm_batch_close(&canvas->painter.batch);
         gl->DeleteTextures(1, &canvas->atlas);
         gl->DeleteTextures(1, &canvas->maps);
-        gl->DeleteTextures((GLsizei)canvas->image_count, canvas->images);
+        gl->DeleteTextures((GLsizei)canvas->painter.image_count, canvas->painter.images);
         gl->DeleteFramebuffers(1, &canvas->framebuffer);
         gl->DeleteRenderbuffers(1, &canvas->colour_buffer);
         gl->DeleteRenderbuffers(1, &canvas->stencil_buffer);
     }
-    gm_glyphs_close(canvas->glyphs);
-    gm_polyline_free(&canvas->line);
-    gm_polyline_free(&canvas->piece);
-    gm_polyline_free(&canvas->dash);
-    free(canvas->images);
-    free(canvas->texels);
+    gm_glyphs_close(canvas->painter.glyphs);
+    gm_polyline_free(&canvas->painter.line);
+    gm_polyline_free(&canvas->painter.piece);
+    gm_polyline_free(&canvas->painter.dash);
+    free(canvas->painter.images);
+    free(canvas->painter.texels);
     free(canvas->pixels);
     gm_context_close(canvas->context);
     free(canvas);
@@ -150,26 +156,25 @@ static void close_alone(struct gm_canvas *canvas)
 static struct gm_canvas *open_alone(int width, int height, enum gm_theme theme, char *message)
 {
     struct gm_canvas *canvas = calloc(1, sizeof *canvas);
-    if (canvas != NULL) {
-        *canvas = (struct gm_canvas){.width = width, .height = height, .theme = theme};
-    }
     if (canvas == NULL) {
         snprintf(message, GM_MESSAGE, "There is not enough memory for a picture.");
         return NULL;
     }
+    canvas->painter =
+        (struct gm_painter){.gl = &canvas->gl, .width = width, .height = height, .theme = theme};
     if (!gl_open(canvas, message)) {
         close_alone(canvas);
         return NULL;
     }
-    set_sizes(canvas);
+    set_sizes(&canvas->painter);
     textures_open(canvas);
-    canvas->glyphs = gm_glyphs_open(message, GM_MESSAGE);
+    canvas->painter.glyphs = gm_glyphs_open(message, GM_MESSAGE);
     canvas->pixels = malloc((size_t)width * (size_t)height * 4);
-    if (canvas->glyphs != NULL && canvas->pixels == NULL) {
+    if (canvas->painter.glyphs != NULL && canvas->pixels == NULL) {
         snprintf(message, GM_MESSAGE, "There is not enough memory for a picture of %d x %d pixels.", width,
                  height);
     }
-    if (canvas->glyphs == NULL || canvas->pixels == NULL) {
+    if (canvas->painter.glyphs == NULL || canvas->pixels == NULL) {
         close_alone(canvas);
         return NULL;
     }
@@ -184,7 +189,7 @@ const char *gm_canvas_backend(const struct gm_canvas *canvas)
 static void update_atlas(struct gm_canvas *canvas)
 {
     const struct gm_gl *gl = &canvas->gl;
-    const struct gm_atlas atlas = gm_glyphs_atlas(canvas->glyphs);
+    const struct gm_atlas atlas = gm_glyphs_atlas(canvas->painter.glyphs);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, canvas->atlas);
     if (atlas.height != canvas->atlas_height) {
@@ -200,9 +205,9 @@ static void update_atlas(struct gm_canvas *canvas)
 static void clear(const struct gm_canvas *canvas)
 {
     const struct gm_gl *gl = &canvas->gl;
-    const struct gm_rgb paper = gm_theme_colour(canvas->theme, GM_PAPER);
+    const struct gm_rgb paper = gm_theme_colour(canvas->painter.theme, GM_PAPER);
     gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
-    gl->Viewport(0, 0, canvas->width, canvas->height);
+    gl->Viewport(0, 0, canvas->painter.width, canvas->painter.height);
     gl->ClearColor(paper.r / 255.0f, paper.g / 255.0f, paper.b / 255.0f, 1.0f);
     gl->ClearStencil(0);
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
@@ -212,9 +217,10 @@ static void clear(const struct gm_canvas *canvas)
 static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
 {
     const struct gm_gl *gl = &canvas->gl;
-    const size_t count = (size_t)canvas->width * (size_t)canvas->height;
+    const size_t count = (size_t)canvas->painter.width * (size_t)canvas->painter.height;
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl->ReadPixels(0, 0, canvas->width, canvas->height, GL_RGBA, GL_UNSIGNED_BYTE, canvas->pixels);
+    gl->ReadPixels(0, 0, canvas->painter.width, canvas->painter.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                   canvas->pixels);
     const unsigned char *restrict from = canvas->pixels;
     for (size_t i = 0; i < count; i++, from += 4, rgb += 3) {
         rgb[0] = from[0];
@@ -225,20 +231,20 @@ static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
 
 static bool paint_alone(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
 {
-    const struct gm_metrics metrics = gm_canvas_metrics(canvas);
+    const struct gm_metrics metrics = gm_painter_metrics(&canvas->painter);
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
     if (layout == NULL || !gm_context_use(canvas->context)) {
         return false;
     }
-    gm_batch_clear(&canvas->batch);
-    canvas->images_used = 0;
+    gm_batch_clear(&canvas->painter.batch);
+    canvas->painter.images_used = 0;
     for (size_t i = 0; i < layout->frame_count; i++) {
-        gm_canvas_frame(canvas, &layout->frames[i]);
+        gm_paint_frame(&canvas->painter, &layout->frames[i]);
     }
-    gm_canvas_labels(canvas, layout);
+    gm_paint_labels(&canvas->painter, layout);
     update_atlas(canvas);
     clear(canvas);
-    const bool drawn = gm_batch_draw(&canvas->batch, canvas->width, canvas->height);
+    const bool drawn = gm_batch_draw(&canvas->painter.batch, canvas->painter.width, canvas->painter.height);
     read_back(canvas, rgb);
     return drawn;
 }
@@ -285,6 +291,6 @@ bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsig
 const struct gm_panel *gm_canvas_locate(struct gm_canvas *canvas, struct gm_picture *picture, double across,
                                         double down, double *x, double *y)
 {
-    const struct gm_metrics metrics = gm_canvas_metrics(canvas);
+    const struct gm_metrics metrics = gm_painter_metrics(&canvas->painter);
     return gm_layout_locate(gm_layout_make(picture, &metrics), across, down, x, y);
 }

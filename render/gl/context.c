@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An OpenGL context without a screen, by OSMesa or EGL, whose libraries are loaded only when one is
-   wanted. */
+/* Which backend there is, and how a crash of Mesa ends with a sentence. */
 #include "render/gl/context.h"
 
-#include <dlfcn.h>
-#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,53 +9,32 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "render/gl/context_kind.h"
+#include "render/gl/backend.h"
 #include "render/message.h"
 
-static const struct gm_context_kind *const kinds[] = {
+static const struct gm_backend *const backends[] = {
 #ifdef GM_HAVE_OSMESA
-    &gm_context_osmesa,
+    &gm_backend_osmesa,
 #endif
 #ifdef GM_HAVE_EGL
-    &gm_context_egl,
+    &gm_backend_egl,
 #endif
     NULL,
 };
 
 struct gm_context {
-    const struct gm_context_kind *kind;
+    const struct gm_backend *backend;
     void *self;
 };
 
-void *gm_context_library(const char *const *names, char *message, size_t size)
-{
-    snprintf(message, size, "%s is not installed", names[0]);
-    for (size_t i = 0; names[i] != NULL; i++) {
-        void *library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
-        if (library != NULL) {
-            return library;
-        }
-        /* "NAME: cannot open shared object file: No such file or directory"; of a library that it needs, or
-           with another reason, it is there and of no use */
-        const char *reason = dlerror();
-        const bool missing =
-            strncmp(reason, names[i], strlen(names[i])) == 0 && strstr(reason, strerror(ENOENT)) != NULL;
-        if (!missing) {
-            snprintf(message, size, "%s", reason);
-            return NULL;
-        }
-    }
-    return NULL;
-}
-
-static struct gm_context *open_kind(const struct gm_context_kind *kind, char *message, size_t size)
+static struct gm_context *open_with(const struct gm_backend *backend, char *message, size_t size)
 {
     struct gm_context *context = malloc(sizeof *context);
     if (context == NULL) {
         snprintf(message, size, "There is not enough memory for an OpenGL context.");
         return NULL;
     }
-    *context = (struct gm_context){.kind = kind, .self = kind->open(message, size)};
+    *context = (struct gm_context){.backend = backend, .self = backend->open(message, size)};
     if (context->self == NULL) {
         free(context);
         return NULL;
@@ -66,12 +42,12 @@ static struct gm_context *open_kind(const struct gm_context_kind *kind, char *me
     return context;
 }
 
-static void unknown_kind(const char *wanted, char *message, size_t size)
+static void unknown_backend(const char *wanted, char *message, size_t size)
 {
     char known[64] = "";
-    for (size_t i = 0; kinds[i] != NULL; i++) {
+    for (size_t i = 0; backends[i] != NULL; i++) {
         snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i > 0 ? " and " : "",
-                 kinds[i]->key);
+                 backends[i]->key);
     }
     snprintf(message, size, "GEOMINT_GL is \"%.40s\", but this geomint knows only %s.", wanted,
              known[0] != '\0' ? known : "none");
@@ -82,18 +58,18 @@ struct gm_context *gm_context_open(char *message, size_t size)
     const char *wanted = getenv("GEOMINT_GL");
     char reasons[2][192] = {"", ""};
     size_t tried = 0;
-    for (size_t i = 0; kinds[i] != NULL; i++) {
-        if (wanted != NULL && wanted[0] != '\0' && strcmp(wanted, kinds[i]->key) != 0) {
+    for (size_t i = 0; backends[i] != NULL; i++) {
+        if (wanted != NULL && wanted[0] != '\0' && strcmp(wanted, backends[i]->key) != 0) {
             continue;
         }
-        struct gm_context *context = open_kind(kinds[i], reasons[tried], sizeof reasons[tried]);
+        struct gm_context *context = open_with(backends[i], reasons[tried], sizeof reasons[tried]);
         if (context != NULL) {
             return context;
         }
         tried++;
     }
     if (tried == 0 && wanted != NULL && wanted[0] != '\0') {
-        unknown_kind(wanted, message, size);
+        unknown_backend(wanted, message, size);
     } else if (tried == 0) {
         snprintf(message, size,
                  "This geomint was built without OSMesa and EGL, so it cannot paint pictures.");
@@ -109,23 +85,23 @@ void gm_context_close(struct gm_context *context)
     if (context == NULL) {
         return;
     }
-    context->kind->close(context->self);
+    context->backend->close(context->self);
     free(context);
 }
 
 bool gm_context_use(const struct gm_context *context)
 {
-    return context->kind->use(context->self);
+    return context->backend->use(context->self);
 }
 
-gm_context_function gm_context_find(const struct gm_context *context, const char *name)
+gm_library_function gm_context_find(const struct gm_context *context, const char *name)
 {
-    return context->kind->find(context->self, name);
+    return context->backend->find(context->self, name);
 }
 
 const char *gm_context_name(const struct gm_context *context)
 {
-    return context->kind->name;
+    return context->backend->name;
 }
 
 static const int crashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};

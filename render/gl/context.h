@@ -2,8 +2,7 @@
 #ifndef GM_RENDER_GL_CONTEXT_H
 #define GM_RENDER_GL_CONTEXT_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "render/gl/library.h"
 
 /* An OpenGL 3.3 core context without a screen. It has no surface of its own worth drawing to: painters draw
    into a framebuffer object. Libraries are loaded when the first context is opened, so that a program which
@@ -19,9 +18,8 @@ void gm_context_close(struct gm_context *context);
 /* Makes the context current in the calling thread. */
 bool gm_context_use(const struct gm_context *context);
 
-typedef void (*gm_context_function)(void);
 /* A GL function; NULL if there is none of that name. */
-gm_context_function gm_context_find(const struct gm_context *context, const char *name);
+gm_library_function gm_context_find(const struct gm_context *context, const char *name);
 
 /* Between these two a crash ends the program with one sentence on standard error and exit status 3: Mesa dies
    of memory that it is refused, and OSMesa of a driver that it does not know. Nothing changes where the

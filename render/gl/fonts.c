@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fonts by fontconfig. */
+/* Which font file stands for a family on this machine. */
 #include "render/gl/fonts.h"
 
 #include <pthread.h>

@@ -1,108 +1,108 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What surrounds the marks of a panel. Rules are upright and sharp: they begin and end on whole pixels. */
 #include <math.h>
 
 #include "render/gl/painter.h"
 
-/* What surrounds the marks of a panel. Rules are upright and sharp: they begin and end on whole pixels. */
-
-static double hairline(const struct gm_canvas *canvas)
+static double hairline(const struct gm_painter *painter)
 {
-    return fmax(1.0, floor(canvas->scale + 0.5));
+    return fmax(1.0, floor(painter->scale + 0.5));
 }
 
-static void horizontal_rule(struct gm_canvas *canvas, double left, double right, double y, struct gm_ink ink)
+static void horizontal_rule(struct gm_painter *painter, double left, double right, double y,
+                            struct gm_ink ink)
 {
-    const double thickness = hairline(canvas), top = floor(y - 0.5 * thickness + 0.5);
-    gm_stroke_box(&canvas->batch, (float)floor(left + 0.5), (float)top, (float)floor(right + 0.5),
+    const double thickness = hairline(painter), top = floor(y - 0.5 * thickness + 0.5);
+    gm_stroke_box(&painter->batch, (float)floor(left + 0.5), (float)top, (float)floor(right + 0.5),
                   (float)(top + thickness), ink);
 }
 
-static void vertical_rule(struct gm_canvas *canvas, double x, double top, double bottom, struct gm_ink ink)
+static void vertical_rule(struct gm_painter *painter, double x, double top, double bottom, struct gm_ink ink)
 {
-    const double thickness = hairline(canvas), left = floor(x - 0.5 * thickness + 0.5);
-    gm_stroke_box(&canvas->batch, (float)left, (float)floor(top + 0.5), (float)(left + thickness),
+    const double thickness = hairline(painter), left = floor(x - 0.5 * thickness + 0.5);
+    gm_stroke_box(&painter->batch, (float)left, (float)floor(top + 0.5), (float)(left + thickness),
                   (float)floor(bottom + 0.5), ink);
 }
 
-static void draw_grid(struct gm_canvas *canvas, const struct gm_frame *frame)
+static void draw_grid(struct gm_painter *painter, const struct gm_frame *frame)
 {
     const struct gm_box box = frame->box;
-    const struct gm_ink ink = gm_canvas_ink(canvas, GM_GRID, 1.0);
+    const struct gm_ink ink = gm_ink_of(painter->theme, GM_GRID, 1.0);
     for (size_t i = 0; i < frame->x_tick_count; i++) {
-        vertical_rule(canvas, frame->x_ticks[i].position, box.y, box.y + box.height, ink);
+        vertical_rule(painter, frame->x_ticks[i].position, box.y, box.y + box.height, ink);
     }
     for (size_t i = 0; i < frame->y_tick_count; i++) {
-        horizontal_rule(canvas, box.x, box.x + box.width, frame->y_ticks[i].position, ink);
+        horizontal_rule(painter, box.x, box.x + box.width, frame->y_ticks[i].position, ink);
     }
 }
 
-static void draw_axes(struct gm_canvas *canvas, const struct gm_frame *frame)
+static void draw_axes(struct gm_painter *painter, const struct gm_frame *frame)
 {
     const struct gm_box box = frame->box;
-    const struct gm_ink ink = gm_canvas_ink(canvas, GM_SECONDARY, 1.0);
-    const double tick = 4.0 * canvas->scale, right = box.x + box.width, bottom = box.y + box.height;
-    const double half = 0.5 * hairline(canvas);
-    vertical_rule(canvas, box.x, box.y, bottom + half, ink);
-    horizontal_rule(canvas, box.x - half, right, bottom, ink);
+    const struct gm_ink ink = gm_ink_of(painter->theme, GM_SECONDARY, 1.0);
+    const double tick = 4.0 * painter->scale, right = box.x + box.width, bottom = box.y + box.height;
+    const double half = 0.5 * hairline(painter);
+    vertical_rule(painter, box.x, box.y, bottom + half, ink);
+    horizontal_rule(painter, box.x - half, right, bottom, ink);
     for (size_t i = 0; i < frame->x_tick_count; i++) {
-        vertical_rule(canvas, frame->x_ticks[i].position, bottom, bottom + tick, ink);
+        vertical_rule(painter, frame->x_ticks[i].position, bottom, bottom + tick, ink);
     }
     for (size_t i = 0; i < frame->y_tick_count; i++) {
-        horizontal_rule(canvas, box.x - tick, box.x, frame->y_ticks[i].position, ink);
+        horizontal_rule(painter, box.x - tick, box.x, frame->y_ticks[i].position, ink);
     }
 }
 
 /* Points at the ends of the bar beyond which there are values; they have the colours of the ends. */
-static void draw_tips(struct gm_canvas *canvas, const struct gm_frame *frame, enum gm_map map)
+static void draw_tips(struct gm_painter *painter, const struct gm_frame *frame, enum gm_map map)
 {
     const struct gm_box bar = frame->colour_bar;
     for (int end = 0; end < 2; end++) {
         const double base = end == 0 ? bar.y + bar.height : bar.y;
         const double tip = end == 0 ? base + frame->bar_tip[0] : base - frame->bar_tip[1];
-        const struct gm_rgb colour = gm_map_colour(map, canvas->theme, end);
+        const struct gm_rgb colour = gm_map_colour(map, painter->theme, end);
         struct gm_point corners[3] = {{(float)bar.x, (float)base},
                                       {(float)(bar.x + bar.width), (float)base},
                                       {(float)(bar.x + 0.5 * bar.width), (float)tip}};
         const struct gm_polyline line = {.points = corners, .count = 3, .closed = true};
         if (frame->bar_tip[end] > 0.0) {
-            gm_fill_polygon(&canvas->batch, &line,
+            gm_fill_polygon(&painter->batch, &line,
                             (struct gm_ink){.colour = {colour.r, colour.g, colour.b, 255}});
         }
     }
 }
 
-static void draw_colour_bar(struct gm_canvas *canvas, const struct gm_frame *frame)
+static void draw_colour_bar(struct gm_painter *painter, const struct gm_frame *frame)
 {
     const struct gm_box bar = frame->colour_bar;
-    const struct gm_ink ink = gm_canvas_ink(canvas, GM_SECONDARY, 1.0);
-    const double tick = 4.0 * canvas->scale, right = bar.x + bar.width;
+    const struct gm_ink ink = gm_ink_of(painter->theme, GM_SECONDARY, 1.0);
+    const double tick = 4.0 * painter->scale, right = bar.x + bar.width;
     for (const struct gm_mark *mark = frame->panel->first; mark != NULL; mark = mark->next) {
         if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
-            gm_canvas_map_bar(canvas, bar, mark->map);
-            draw_tips(canvas, frame, mark->map);
+            gm_paint_colours(painter, bar, mark->map);
+            draw_tips(painter, frame, mark->map);
             break;
         }
     }
     for (size_t i = 0; i < frame->bar_tick_count; i++) {
-        horizontal_rule(canvas, right, right + tick, frame->bar_ticks[i].position, ink);
+        horizontal_rule(painter, right, right + tick, frame->bar_ticks[i].position, ink);
     }
 }
 
-void gm_canvas_frame(struct gm_canvas *canvas, const struct gm_frame *frame)
+void gm_paint_frame(struct gm_painter *painter, const struct gm_frame *frame)
 {
     const struct gm_box box = frame->box;
     if (!(box.width >= 1.0 && box.height >= 1.0)) {
         return;
     }
-    gm_batch_state(&canvas->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
-    gm_batch_scissor(&canvas->batch, 0, 0, canvas->width, canvas->height);
+    gm_batch_state(&painter->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    gm_batch_scissor(&painter->batch, 0, 0, painter->width, painter->height);
     if (frame->panel->axes) {
-        draw_grid(canvas, frame);
-        draw_axes(canvas, frame);
+        draw_grid(painter, frame);
+        draw_axes(painter, frame);
     }
-    gm_canvas_marks(canvas, frame);
-    gm_batch_scissor(&canvas->batch, 0, 0, canvas->width, canvas->height);
+    gm_paint_marks(painter, frame);
+    gm_batch_scissor(&painter->batch, 0, 0, painter->width, painter->height);
     if (frame->colour_bar.width > 0.0) {
-        draw_colour_bar(canvas, frame);
+        draw_colour_bar(painter, frame);
     }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Letters by FreeType, kept in an atlas. */
+/* Letters drawn once and kept. */
 #include "render/gl/glyphs.h"
 
 #include <errno.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Polylines in pixels: cut to the frame, simplified, dashed. */
+/* Clipping, simplifying and dashing. */
 #include "render/gl/polyline.h"
 
 #include <math.h>

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The programs that run on the vertices of a frame. */
+/* The shaders: what a pixel of a stroke, a letter, a field or an image looks like. */
 #include "render/gl/shaders.h"
 
 #include <stdio.h>
-
-#include "render/gl/batch.h"
 
 /* The first row of pixels in memory is the top of the picture, so y is not turned round. */
 static const char vertex_source[] = "#version 330 core\n"

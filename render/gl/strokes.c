@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strokes and discs as triangles whose edges fade. */
+/* Strokes, discs and polygons as triangles. */
 #include "render/gl/strokes.h"
 
 #include <math.h>
@@ -10,6 +10,13 @@ static const float fringe = 0.75f;
 
 /* Sharper turns than this cosine are not mitred. */
 static const float sharpest = 0.35f;
+
+struct gm_ink gm_ink_of(enum gm_theme theme, enum gm_role role, double alpha)
+{
+    const struct gm_rgb rgb = gm_theme_colour(theme, role);
+    const double clamped = alpha > 0.0 ? (alpha < 1.0 ? alpha : 1.0) : 0.0;
+    return (struct gm_ink){{rgb.r, rgb.g, rgb.b, (uint8_t)(255.0 * clamped + 0.5)}};
+}
 
 static struct gm_point minus(struct gm_point a, struct gm_point b)
 {

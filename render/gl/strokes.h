@@ -11,6 +11,9 @@ struct gm_ink {
     uint8_t colour[4];
 };
 
+/* A role's colour, so opaque (0 to 1; clamped). */
+struct gm_ink gm_ink_of(enum gm_theme theme, enum gm_role role, double alpha);
+
 /* Joints where the line turns gently are mitred, so that its strip covers nothing twice. At the others,
    counted here, it ends and begins again with round ends that overlap. */
 size_t gm_stroke_breaks(const struct gm_polyline *line, float half);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The labels of a layout, painted. */
+/* Letters: what a text measures, and where each of its letters goes. */
 #include <math.h>
 #include <string.h>
 
@@ -9,38 +9,38 @@
    equal width, is as large as the title. */
 static double measure(const void *self, enum gm_text_size size, const char *text)
 {
-    const struct gm_canvas *canvas = self;
-    const int height = canvas->letters[size];
+    const struct gm_painter *painter = self;
+    const int height = painter->letters[size];
     switch (size) {
     case GM_TEXT_TITLE:
-        return fmax(gm_glyphs_width(canvas->glyphs, GM_FONT_BOLD, height, text),
-                    gm_glyphs_width(canvas->glyphs, GM_FONT_MONO, height, text));
+        return fmax(gm_glyphs_width(painter->glyphs, GM_FONT_BOLD, height, text),
+                    gm_glyphs_width(painter->glyphs, GM_FONT_MONO, height, text));
     case GM_TEXT_PANEL:
-        return gm_glyphs_width(canvas->glyphs, GM_FONT_BOLD, height, text);
+        return gm_glyphs_width(painter->glyphs, GM_FONT_BOLD, height, text);
     default:
-        return gm_glyphs_width(canvas->glyphs, GM_FONT_SANS, height, text);
+        return gm_glyphs_width(painter->glyphs, GM_FONT_SANS, height, text);
     }
 }
 
-static double line_height(struct gm_canvas *canvas, int letters)
+static double line_height(const struct gm_painter *painter, int letters)
 {
-    return ceil(gm_glyphs_ascent(canvas->glyphs, GM_FONT_SANS, letters) +
-                gm_glyphs_descent(canvas->glyphs, GM_FONT_SANS, letters));
+    return ceil(gm_glyphs_ascent(painter->glyphs, GM_FONT_SANS, letters) +
+                gm_glyphs_descent(painter->glyphs, GM_FONT_SANS, letters));
 }
 
-struct gm_metrics gm_canvas_metrics(struct gm_canvas *canvas)
+struct gm_metrics gm_painter_metrics(const struct gm_painter *painter)
 {
     const int roomy = 540;
     struct gm_metrics metrics = {
-        .width = canvas->width,
-        .height = canvas->height,
+        .width = painter->width,
+        .height = painter->height,
         .measure = measure,
-        .self = canvas,
-        .scale = canvas->scale,
-        .terse = canvas->height < roomy,
+        .self = painter,
+        .scale = painter->scale,
+        .terse = painter->height < roomy,
     };
     for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++) {
-        metrics.line[i] = line_height(canvas, canvas->letters[i]);
+        metrics.line[i] = line_height(painter, painter->letters[i]);
     }
     return metrics;
 }
@@ -74,16 +74,16 @@ static void put_letter(struct gm_batch *batch, const struct writing *writing, do
     gm_batch_end(batch, 0);
 }
 
-static void write_text(struct gm_canvas *canvas, const struct writing *writing, const char *text)
+static void write_text(struct gm_painter *painter, const struct writing *writing, const char *text)
 {
     /* Baselines stand on whole pixels; letters find their place along them to a quarter. */
     const double x = writing->upwards ? floor(writing->x + 0.5) : floor(writing->x);
     const double y = writing->upwards ? ceil(writing->y) : floor(writing->y + 0.5);
     double pen = writing->upwards ? y - writing->y : writing->x - x;
     struct gm_letter letter;
-    while (gm_glyphs_next(canvas->glyphs, writing->font, writing->letters, &text, &pen, &letter)) {
+    while (gm_glyphs_next(painter->glyphs, writing->font, writing->letters, &text, &pen, &letter)) {
         if (letter.width > 0) {
-            put_letter(&canvas->batch, writing, x, y, &letter);
+            put_letter(&painter->batch, writing, x, y, &letter);
         }
     }
 }
@@ -93,16 +93,16 @@ static double anchor_share(enum gm_anchor anchor)
     return anchor == GM_ANCHOR_LEFT ? 0.0 : anchor == GM_ANCHOR_CENTRE ? 0.5 : 1.0;
 }
 
-static void draw_label(struct gm_canvas *canvas, const struct gm_label *label)
+static void draw_label(struct gm_painter *painter, const struct gm_label *label)
 {
     struct writing writing = {.font = label->mono   ? GM_FONT_MONO
                                       : label->bold ? GM_FONT_BOLD
                                                     : GM_FONT_SANS,
-                              .letters = canvas->letters[label->size],
+                              .letters = painter->letters[label->size],
                               .upwards = label->vertical,
-                              .ink = gm_canvas_ink(canvas, label->role, 1.0)};
-    const double width = gm_glyphs_width(canvas->glyphs, writing.font, writing.letters, label->text);
-    const double ascent = gm_glyphs_ascent(canvas->glyphs, GM_FONT_SANS, writing.letters);
+                              .ink = gm_ink_of(painter->theme, label->role, 1.0)};
+    const double width = gm_glyphs_width(painter->glyphs, writing.font, writing.letters, label->text);
+    const double ascent = gm_glyphs_ascent(painter->glyphs, GM_FONT_SANS, writing.letters);
     if (label->vertical) {
         writing.x = label->x + ascent;
         writing.y = label->y + 0.5 * width;
@@ -110,33 +110,33 @@ static void draw_label(struct gm_canvas *canvas, const struct gm_label *label)
         writing.x = label->x - anchor_share(label->anchor) * width;
         writing.y = label->y + ascent;
     }
-    write_text(canvas, &writing, label->text);
+    write_text(painter, &writing, label->text);
 }
 
 /* A plate of translucent paper, so that a text among the marks can be read on anything. */
-static void draw_plate(struct gm_canvas *canvas, const struct gm_label *label)
+static void draw_plate(struct gm_painter *painter, const struct gm_label *label)
 {
-    const int letters = canvas->letters[label->size];
-    const double width = gm_glyphs_width(canvas->glyphs, GM_FONT_SANS, letters, label->text);
-    const double line = line_height(canvas, letters);
+    const int letters = painter->letters[label->size];
+    const double width = gm_glyphs_width(painter->glyphs, GM_FONT_SANS, letters, label->text);
+    const double line = line_height(painter, letters);
     const float half = (float)(0.5 * line), middle = (float)(label->y + 0.5 * line);
     const float left = (float)label->x + 0.25f * half, right = (float)(label->x + width) - 0.25f * half;
     struct gm_point ends[2] = {{left, middle}, {fmaxf(left + 1.0f, right), middle}};
     const struct gm_polyline axis = {.points = ends, .count = 2};
-    gm_stroke_line(&canvas->batch, &axis, half, gm_canvas_ink(canvas, GM_PAPER, 0.6));
+    gm_stroke_line(&painter->batch, &axis, half, gm_ink_of(painter->theme, GM_PAPER, 0.6));
 }
 
-void gm_canvas_labels(struct gm_canvas *canvas, const struct gm_layout *layout)
+void gm_paint_labels(struct gm_painter *painter, const struct gm_layout *layout)
 {
-    gm_batch_scissor(&canvas->batch, 0, 0, canvas->width, canvas->height);
-    gm_batch_state(&canvas->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    gm_batch_scissor(&painter->batch, 0, 0, painter->width, painter->height);
+    gm_batch_state(&painter->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
     for (size_t i = 0; i < layout->label_count; i++) {
         if (layout->labels[i].among_marks) {
-            draw_plate(canvas, &layout->labels[i]);
+            draw_plate(painter, &layout->labels[i]);
         }
     }
-    gm_batch_state(&canvas->batch, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
+    gm_batch_state(&painter->batch, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
     for (size_t i = 0; i < layout->label_count; i++) {
-        draw_label(canvas, &layout->labels[i]);
+        draw_label(painter, &layout->labels[i]);
     }
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "render/files/sink.h"
-#include "render/files/sink_kind.h"
 #include "tests/common/folder.h"
 
 #include <malloc.h>

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <dlfcn.h>
+/* OSMesa: Mesa's renderer into memory. Mesa 25.1 was the last to ship it. */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include <GL/gl.h>
 #include <GL/osmesa.h>
 
-#include "render/gl/context_kind.h"
-
-/* OSMesa: Mesa's renderer into memory. Mesa 25.1 was the last to ship it. */
+#include "render/gl/backend.h"
 
 enum { SIDE = 16 }; /* of the buffer that a context must have; nothing is drawn there */
 
@@ -21,13 +19,6 @@ struct osmesa {
     OSMESAproc (*get_proc_address)(const char *name);
     unsigned char buffer[SIDE * SIDE * 4];
 };
-
-/* Function pointers come out of dlsym as data pointers; POSIX lets their representation be copied. */
-static bool find_symbol(void *library, const char *name, void *function)
-{
-    *(void **)function = dlsym(library, name);
-    return *(void **)function != NULL;
-}
 
 static bool osmesa_use(void *self)
 {
@@ -47,9 +38,8 @@ static void osmesa_close(void *self)
 
 static void *osmesa_open(char *message, size_t size)
 {
-    /* The library is never unloaded: Mesa and LLVM leave threads' destructors and exit handlers behind. */
     static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL};
-    void *library = gm_context_library(names, message, size);
+    void *library = gm_library_open(names, message, size);
     if (library == NULL) {
         return NULL;
     }
@@ -58,10 +48,13 @@ static void *osmesa_open(char *message, size_t size)
         snprintf(message, size, "there is not enough memory for OSMesa");
         return NULL;
     }
-    if (!find_symbol(library, "OSMesaCreateContextAttribs", &osmesa->create) ||
-        !find_symbol(library, "OSMesaDestroyContext", &osmesa->destroy) ||
-        !find_symbol(library, "OSMesaMakeCurrent", &osmesa->make_current) ||
-        !find_symbol(library, "OSMesaGetProcAddress", &osmesa->get_proc_address)) {
+    const struct gm_library_symbol symbols[] = {
+        {"OSMesaCreateContextAttribs", &osmesa->create},
+        {"OSMesaDestroyContext", &osmesa->destroy},
+        {"OSMesaMakeCurrent", &osmesa->make_current},
+        {"OSMesaGetProcAddress", &osmesa->get_proc_address},
+    };
+    if (!gm_library_find(library, symbols, sizeof symbols / sizeof *symbols)) {
         snprintf(message, size, "libOSMesa is too old");
         osmesa_close(osmesa);
         return NULL;
@@ -84,13 +77,13 @@ static void *osmesa_open(char *message, size_t size)
     return osmesa;
 }
 
-static gm_context_function osmesa_find(void *self, const char *name)
+static gm_library_function osmesa_find(void *self, const char *name)
 {
     struct osmesa *osmesa = self;
-    return (gm_context_function)osmesa->get_proc_address(name);
+    return (gm_library_function)osmesa->get_proc_address(name);
 }
 
-const struct gm_context_kind gm_context_osmesa = {
+const struct gm_backend gm_backend_osmesa = {
     .key = "osmesa",
     .name = "OSMesa",
     .open = osmesa_open,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <dlfcn.h>
+/* EGL on Mesa's surfaceless platform: no screen, no window, no X server is asked. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,9 +10,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-#include "render/gl/context_kind.h"
-
-/* EGL on Mesa's surfaceless platform: no screen, no window, no X server is asked. */
+#include "render/gl/backend.h"
 
 struct egl {
     EGLDisplay display;
@@ -29,24 +27,21 @@ struct egl {
     PFNEGLRELEASETHREADPROC release_thread;
 };
 
-static bool find_symbol(void *library, const char *name, void *function)
+static bool find_functions(struct egl *egl, void *library)
 {
-    *(void **)function = dlsym(library, name);
-    return *(void **)function != NULL;
-}
-
-static bool find_symbols(struct egl *egl, void *library)
-{
-    return find_symbol(library, "eglGetProcAddress", &egl->get_proc_address) &&
-           find_symbol(library, "eglQueryString", &egl->query_string) &&
-           find_symbol(library, "eglInitialize", &egl->initialize) &&
-           find_symbol(library, "eglTerminate", &egl->terminate) &&
-           find_symbol(library, "eglBindAPI", &egl->bind_api) &&
-           find_symbol(library, "eglChooseConfig", &egl->choose_config) &&
-           find_symbol(library, "eglCreateContext", &egl->create_context) &&
-           find_symbol(library, "eglDestroyContext", &egl->destroy_context) &&
-           find_symbol(library, "eglMakeCurrent", &egl->make_current) &&
-           find_symbol(library, "eglReleaseThread", &egl->release_thread);
+    const struct gm_library_symbol symbols[] = {
+        {"eglGetProcAddress", &egl->get_proc_address},
+        {"eglQueryString", &egl->query_string},
+        {"eglInitialize", &egl->initialize},
+        {"eglTerminate", &egl->terminate},
+        {"eglBindAPI", &egl->bind_api},
+        {"eglChooseConfig", &egl->choose_config},
+        {"eglCreateContext", &egl->create_context},
+        {"eglDestroyContext", &egl->destroy_context},
+        {"eglMakeCurrent", &egl->make_current},
+        {"eglReleaseThread", &egl->release_thread},
+    };
+    return gm_library_find(library, symbols, sizeof symbols / sizeof *symbols);
 }
 
 static bool egl_use(void *self)
@@ -110,7 +105,7 @@ static const char *context_create(struct egl *egl)
 static void *egl_open(char *message, size_t size)
 {
     static const char *const names[] = {"libEGL.so.1", NULL};
-    void *library = gm_context_library(names, message, size); /* never unloaded, as with OSMesa */
+    void *library = gm_library_open(names, message, size);
     if (library == NULL) {
         return NULL;
     }
@@ -119,7 +114,7 @@ static void *egl_open(char *message, size_t size)
         snprintf(message, size, "there is not enough memory for EGL");
         return NULL;
     }
-    const char *reason = find_symbols(egl, library) ? context_create(egl) : "is too old";
+    const char *reason = find_functions(egl, library) ? context_create(egl) : "is too old";
     if (reason != NULL) {
         snprintf(message, size, "EGL %s", reason);
         egl_close(egl);
@@ -128,13 +123,13 @@ static void *egl_open(char *message, size_t size)
     return egl;
 }
 
-static gm_context_function egl_find(void *self, const char *name)
+static gm_library_function egl_find(void *self, const char *name)
 {
     struct egl *egl = self;
-    return (gm_context_function)egl->get_proc_address(name);
+    return (gm_library_function)egl->get_proc_address(name);
 }
 
-const struct gm_context_kind gm_context_egl = {
+const struct gm_backend gm_backend_egl = {
     .key = "egl",
     .name = "EGL",
     .open = egl_open,

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the loader says of a library that it does not open, in one sentence. */
+#include "render/gl/library.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+void *gm_library_open(const char *const *names, char *message, size_t size)
+{
+    snprintf(message, size, "%s is not installed", names[0]);
+    for (size_t i = 0; names[i] != NULL; i++) {
+        void *library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
+        if (library != NULL) {
+            return library;
+        }
+        /* "NAME: cannot open shared object file: No such file or directory"; of a library that it needs, or
+           with another reason, it is there and of no use */
+        const char *reason = dlerror();
+        const bool missing =
+            strncmp(reason, names[i], strlen(names[i])) == 0 && strstr(reason, strerror(ENOENT)) != NULL;
+        if (!missing) {
+            snprintf(message, size, "%s", reason);
+            return NULL;
+        }
+    }
+    return NULL;
+}
+
+bool gm_library_find(void *library, const struct gm_library_symbol *symbols, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        /* dlsym returns functions as data pointers; POSIX lets their representation be copied */
+        void **function = symbols[i].function;
+        *function = dlsym(library, symbols[i].name);
+        if (*function == NULL) {
+            return false;
+        }
+    }
+    return true;
+}
