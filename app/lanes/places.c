@@ -6,6 +6,7 @@
 
 #include "app/lanes/course.h"
 #include "core/schemes.h"
+#include "scenes/frame/lane_pack.h"
 
 static bool has_room(const struct gm_session *session, char *message)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lanes: opened, advanced, looked at, switched and copied, with the bounded records of their past. */
+/* A lane is looked at, named, advanced, switched to another scheme and taken back. */
 #include "scenes/frame/lane.h"
 
 #include <math.h>
@@ -7,9 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/kind.h"
 #include "core/memory.h"
-#include "core/ode/kernel/loops.h"
-#include "scenes/frame/lane_pack.h"
 
 enum { MOST_OBSERVABLES = 64 };
 
@@ -34,6 +33,8 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .run = lane->run,
     };
 }
+
+/* ---- what is observed ---- */
 
 /* What an error is divided by, and the value at the start. */
 static double divisor_of(const struct gm_observable *observable, const struct gm_view *view, double *initial)
@@ -108,148 +109,12 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
     }
 }
 
-static double *entry_values(const struct gm_entries *entries, size_t index)
-{
-    return entries->values + index * entries->width;
-}
-
-static void thin(struct gm_entries *entries)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < entries->count; i += 2, kept++) {
-        entries->times[kept] = entries->times[i];
-        entries->steps[kept] = entries->steps[i];
-        memmove(entry_values(entries, kept), entry_values(entries, i), entries->width * sizeof(double));
-    }
-    entries->count = kept;
-    entries->every *= 2;
-}
-
-/* Forgets the older half. */
-static void forget(struct gm_entries *entries)
-{
-    const size_t kept = entries->count / 2, gone = entries->count - kept;
-    memmove(entries->times, entries->times + gone, kept * sizeof(double));
-    memmove(entries->steps, entries->steps + gone, kept * sizeof *entries->steps);
-    memmove(entries->values, entry_values(entries, gone), kept * entries->width * sizeof(double));
-    entries->count = kept;
-}
-
-/* How many whole intervals lie between t0 and t; a step that misses one by round-off has made it. */
-static double intervals(const struct gm_lane *lane, double interval, double t)
-{
-    return floor(fabs(t - lane->t0) / interval * (1 + 1e-12) + 1e-9);
-}
-
-size_t gm_lane_active(const struct gm_lane *lane)
-{
-    return (lane->problem.n - 2 * lane->problem.passive) * lane->problem.m;
-}
-
-/* Makes an entry if the section was passed upwards in the step that ended in `view`. Between the two states
-   the cubic is taken that has the field's slopes at both ends; its error is of order 4 in the step. */
-static void record_crossing(struct gm_lane *lane, const struct gm_track *track, struct gm_entries *entries,
-                            const struct gm_view *view)
-{
-    const double after = track->section(view), before = entries->before;
-    entries->before = after;
-    if (!(before < 0 && after >= 0 && lane->t_behind != view->t)) {
-        return;
-    }
-    const size_t active = gm_lane_active(lane);
-    double *slopes = lane->behind + active, *between = slopes + 2 * active;
-    const double h = view->t - lane->t_behind;
-    const struct gm_loops *loops = gm_ode_of(&lane->problem)->loops[gm_isa_best()];
-    loops->field(&lane->problem, lane->behind, slopes, lane->problem.m);
-    loops->field(&lane->problem, view->state, slopes + active, lane->problem.m);
-    struct gm_view there = *view;
-    there.state = between;
-    double low = 0, high = 1, below = before, above = after;
-    /* regula falsi with bisection in between, so that neither end stands still */
-    for (int i = 0; i < 60 && high - low > 1e-15; i++) {
-        const double secant = low - below * (high - low) / (above - below);
-        const double s = i % 3 < 2 && secant > low && secant < high ? secant : (low + high) / 2, r = 1 - s;
-        for (size_t c = 0; c < active; c++) {
-            between[c] = r * r * (1 + 2 * s) * lane->behind[c] + s * s * (3 - 2 * s) * view->state[c] +
-                         h * s * r * (r * slopes[c] - s * slopes[active + c]);
-        }
-        there.t = lane->t_behind + s * h;
-        const double value = track->section(&there);
-        if (value == 0) {
-            break;
-        }
-        if (value > 0) {
-            high = s;
-            above = value;
-        } else {
-            low = s;
-            below = value;
-        }
-    }
-    if (entries->count == track->bound) {
-        thin(entries);
-        entries->skipped = 0;
-    }
-    if (entries->skipped > 0) {
-        entries->skipped--;
-        return;
-    }
-    entries->skipped = entries->every - 1;
-    entries->times[entries->count] = there.t;
-    entries->steps[entries->count] = lane->run->steps;
-    track->record(&there, entry_values(entries, entries->count));
-    entries->kept = ++entries->count;
-}
-
-/* While time runs backwards, a record of all the past unwinds: what is later than t is not shown, but for the
-   start. */
-static void unwind(struct gm_entries *entries, double t)
-{
-    while (entries->count > 1 && entries->times[entries->count - 1] > t) {
-        entries->count--;
-    }
-}
-
 static void record_tracks(struct gm_lane *lane, const struct gm_view *view)
 {
     for (size_t i = 0; i < lane->scene->track_count; i++) {
-        const struct gm_track *track = &lane->scene->tracks[i];
-        struct gm_entries *entries = &lane->entries[i];
-        if (!track->section && !track->recent && view->dt < 0 && view->t >= lane->t0) {
-            unwind(entries, view->t);
-            continue;
-        }
-        entries->kept = entries->count; /* the lane goes on from here */
-        if (track->section) {
-            record_crossing(lane, track, entries, view);
-            continue;
-        }
-        if (entries->count > 0) {
-            const double last = entries->times[entries->count - 1];
-            const double interval = track->interval(lane->parameters) * (double)entries->every;
-            const bool due = interval > 0
-                                 ? intervals(lane, interval, view->t) != intervals(lane, interval, last)
-                                 : view->t != last;
-            if (!due) {
-                continue;
-            }
-        }
-        if (entries->count == track->bound) {
-            if (track->recent) {
-                forget(entries);
-            } else {
-                thin(entries);
-            }
-        }
-        entries->times[entries->count] = view->t;
-        entries->steps[entries->count] = lane->run->steps;
-        track->record(view, entry_values(entries, entries->count));
-        entries->kept = ++entries->count;
+        gm_entries_record(&lane->entries[i], &lane->scene->tracks[i], view, &lane->behind);
     }
-    if (lane->behind) {
-        memcpy(lane->behind, view->state, gm_lane_active(lane) * sizeof(double));
-        lane->t_behind = view->t;
-    }
+    gm_behind_note(&lane->behind, view);
 }
 
 /* An angle is unwrapped from where it was, so it has to be followed. */
@@ -309,19 +174,140 @@ void gm_lane_record(struct gm_lane *lane)
     settle(lane, refusals);
 }
 
+/* ---- how it is called, also after schemes were switched in flight ---- */
+
+/* Of a name "RK4, Δt = 0.1": the part that begins so, and ends with it or, for a parameter, before the next
+   comma; NULL if it has none. */
+static const char *part_of(const char *name, const char *front, bool parameter, size_t *length)
+{
+    const size_t known = strlen(front);
+    for (const char *part = name; part; part = strstr(part, ", ")) {
+        part += part == name ? 0 : 2;
+        *length = known;
+        if (strncmp(part, front, known) == 0) {
+            *length += parameter ? strcspn(part + known, ",") : 0;
+            if (part[*length] == '\0' || part[*length] == ',') {
+                return part;
+            }
+        }
+    }
+    return NULL;
+}
+
+void gm_shown_rename(struct gm_shown *shown, const char *before, const char *after, bool parameter)
+{
+    char *names[] = {shown->panel_name, shown->colour_name};
+    for (size_t k = 0; k < 2; k++) {
+        char was[sizeof shown->panel_name];
+        size_t length = 0;
+        snprintf(was, sizeof was, "%s", names[k]);
+        const char *part = part_of(was, before, parameter, &length);
+        if (part) {
+            snprintf(names[k], sizeof was, "%.*s%s%s", (int)(part - was), was, after, part + length);
+        }
+    }
+}
+
+/* "name, then Verlet, then RK4"; of many switches the last two. */
+static void add_switches(const struct gm_lane *lane, char *name, size_t size)
+{
+    size_t used = strlen(name);
+    const size_t first = lane->switch_count > 2 ? lane->switch_count - 2 : 0;
+    for (size_t i = first; i < lane->switch_count && used < size; i++) {
+        used += (size_t)snprintf(name + used, size - used, "%s, then %s", i == first && first > 0 ? " …" : "",
+                                 lane->switches[i].scheme->title);
+    }
+}
+
+/* The names as they are to be shown now. */
+static void compose(struct gm_lane *lane)
+{
+    struct gm_shown *shown = &lane->shown;
+    *shown = lane->named;
+    snprintf(lane->schemes, sizeof lane->schemes, "%s", lane->first_scheme->title);
+    add_switches(lane, lane->schemes, sizeof lane->schemes);
+    if (lane->switch_count == 0) {
+        return;
+    }
+    if (shown->colour_name[0]) {
+        add_switches(lane, shown->colour_name, sizeof shown->colour_name);
+        return;
+    }
+    if (!shown->panel_name[0]) {
+        snprintf(shown->panel_name, sizeof shown->panel_name, "%s", lane->first_scheme->title);
+    }
+    add_switches(lane, shown->panel_name, sizeof shown->panel_name);
+}
+
+void gm_lane_show(struct gm_lane *lane, const struct gm_shown *named)
+{
+    lane->named = *named;
+    compose(lane);
+}
+
+static bool note_switch(struct gm_lane *lane, const struct gm_scheme *scheme)
+{
+    const long step = lane->run->steps;
+    struct gm_switch *longer = realloc(lane->switches, (lane->switch_count + 1) * sizeof *lane->switches);
+    if (!longer) {
+        return false;
+    }
+    lane->switches = longer;
+    while (lane->switch_count > 0 && longer[lane->switch_count - 1].step >= step) {
+        lane->switch_count--;
+    }
+    const size_t count = lane->switch_count;
+    if (step == 0) { /* nothing was made by the one before */
+        gm_shown_rename(&lane->named, lane->first_scheme->title, scheme->title, false);
+        lane->first_scheme = scheme;
+    } else if (scheme != (count > 0 ? longer[count - 1].scheme : lane->first_scheme)) {
+        longer[lane->switch_count++] = (struct gm_switch){.scheme = scheme, .step = step, .t = lane->run->t};
+    }
+    lane->switches_kept = lane->switch_count;
+    compose(lane);
+    return true;
+}
+
+static void show_switches(struct gm_lane *lane, long step)
+{
+    lane->switch_count = lane->switches_kept;
+    while (lane->switch_count > 0 && lane->switches[lane->switch_count - 1].step > step) {
+        lane->switch_count--;
+    }
+    compose(lane);
+}
+
+static bool copy_switches(struct gm_lane *lane, const struct gm_lane *from)
+{
+    const size_t size = from->switch_count * sizeof *from->switches;
+    struct gm_switch *copy = malloc(size ? size : 1);
+    if (!copy) {
+        return false;
+    }
+    if (size > 0) {
+        memcpy(copy, from->switches, size);
+    }
+    free(lane->switches);
+    lane->switches = copy;
+    lane->switch_count = lane->switches_kept = from->switch_count;
+    lane->first_scheme = from->first_scheme;
+    gm_lane_show(lane, &from->named);
+    return true;
+}
+
+/* ---- from open to close ---- */
+
 void gm_lane_close(struct gm_lane *lane)
 {
     if (!lane) {
         return;
     }
     for (size_t i = 0; lane->entries && i < lane->scene->track_count; i++) {
-        free(lane->entries[i].times);
-        free(lane->entries[i].steps);
-        free(lane->entries[i].values);
+        gm_entries_close(&lane->entries[i]);
     }
     free(lane->entries);
     free(lane->angles);
-    free(lane->behind);
+    free(lane->behind.state);
     gm_history_close(&lane->history);
     gm_run_close(lane->run);
     if (lane->scene->close) {
@@ -343,21 +329,7 @@ static bool open_tracks(struct gm_lane *lane)
     }
     const struct gm_view view = gm_lane_view(lane);
     for (size_t i = 0; i < scene->track_count; i++) {
-        struct gm_entries *entries = &lane->entries[i];
-        entries->every = 1;
-        entries->before = NAN;
-        if (scene->tracks[i].section && !lane->behind) {
-            /* the state before, slopes at both ends, a state between */
-            lane->behind = calloc(4 * gm_lane_active(lane), sizeof *lane->behind);
-            if (!lane->behind) {
-                return false;
-            }
-        }
-        entries->width = scene->tracks[i].width(&view);
-        entries->times = malloc(scene->tracks[i].bound * sizeof(double));
-        entries->steps = malloc(scene->tracks[i].bound * sizeof *entries->steps);
-        entries->values = malloc(scene->tracks[i].bound * entries->width * sizeof(double));
-        if (!entries->times || !entries->steps || !entries->values) {
+        if (!gm_entries_open(&lane->entries[i], &scene->tracks[i], &view, &lane->behind)) {
             return false;
         }
     }
@@ -460,7 +432,7 @@ bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *
     if (!run) {
         return refuse(sentence, "not enough memory");
     }
-    if (!gm_lane_note_switch(lane, scheme)) {
+    if (!note_switch(lane, scheme)) {
         gm_run_close(run);
         return refuse(sentence, "not enough memory");
     }
@@ -470,7 +442,7 @@ bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *
     return true;
 }
 
-struct gm_lane *gm_lane_copy(const struct gm_lane *lane)
+struct gm_lane *gm_lane_reopen(const struct gm_lane *lane)
 {
     char sentence[GM_SENTENCE];
     struct gm_timing *forwards = copy_of(lane->parameters, lane->scene->size);
@@ -478,25 +450,15 @@ struct gm_lane *gm_lane_copy(const struct gm_lane *lane)
         return NULL;
     }
     forwards->dt = fabs(forwards->dt); /* the start is one of a run that goes forwards */
-    struct gm_lane *copy = gm_lane_open(lane->scene, forwards, &lane->settings, lane->scheme, sentence);
+    struct gm_lane *other = gm_lane_open(lane->scene, forwards, &lane->settings, lane->scheme, sentence);
     free(forwards);
-    size_t size = gm_lane_pack_size(lane);
-    void *bytes = malloc(size);
-    if (!copy || !bytes || !gm_lane_copy_switches(copy, lane)) {
-        gm_lane_close(copy);
-        free(bytes);
+    if (!other || !copy_switches(other, lane)) {
+        gm_lane_close(other);
         return NULL;
     }
-    memcpy(copy->start, lane->start, lane->problem.n * lane->problem.m * sizeof *copy->start);
-    ((struct gm_timing *)copy->parameters)->dt = lane->run->dt;
-    gm_lane_pack(lane, bytes);
-    const bool good = gm_lane_unpack(copy, bytes, &size);
-    free(bytes);
-    if (!good) {
-        gm_lane_close(copy);
-        return NULL;
-    }
-    return copy;
+    memcpy(other->start, lane->start, lane->problem.n * lane->problem.m * sizeof *other->start);
+    ((struct gm_timing *)other->parameters)->dt = lane->run->dt;
+    return other;
 }
 
 void gm_lane_set_step(struct gm_lane *lane, double dt)
@@ -533,20 +495,10 @@ bool gm_lane_load(struct gm_lane *lane, const void *snapshot)
     const long step = lane->run->steps;
     lane->scheme = lane->run->scheme;
     ((struct gm_timing *)lane->parameters)->dt = lane->run->dt;
-    gm_lane_show_switches(lane, step);
+    show_switches(lane, step);
     gm_history_show(&lane->history, step);
     for (size_t i = 0; i < lane->scene->track_count; i++) {
-        struct gm_entries *entries = &lane->entries[i];
-        const size_t kept = lane->scene->tracks[i].section ? 0 : 1;
-        entries->count = entries->kept;
-        while (entries->count > kept && entries->steps[entries->count - 1] > step) {
-            entries->count--;
-        }
-        if (lane->run->dt < 0 && !lane->scene->tracks[i].section && !lane->scene->tracks[i].recent) {
-            unwind(entries, lane->run->t);
-        }
-        /* what the step before was is not known; it is again after the next one */
-        entries->before = NAN;
+        gm_entries_show(&lane->entries[i], &lane->scene->tracks[i], lane->run);
     }
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         const struct gm_history *history = &lane->history;

@@ -2,21 +2,10 @@
 #ifndef GM_SCENES_FRAME_LANE_H
 #define GM_SCENES_FRAME_LANE_H
 
+#include "scenes/frame/entries.h"
 #include "scenes/frame/history.h"
-#include "scenes/frame/scene.h"
 
 /* A lane: one run of a scene, with its parameters, its start and its bounded past. */
-
-struct gm_entries { /* the record of one track */
-    size_t width, count;
-    size_t kept;    /* entries in memory; count is less while an earlier step is looked at */
-    long every;     /* of the intervals, this many make one entry (doubled by thinning) */
-    double *times;  /* count */
-    long *steps;    /* count: after how many steps each was made */
-    double *values; /* count * width */
-    long skipped;   /* of a section: so many crossings more go unrecorded (after thinning) */
-    double before;  /* of a section: its value after the step before; NAN: not known */
-};
 
 /* How a lane is shown: lanes of one panel share its axes, each in its own colour. */
 struct gm_shown {
@@ -52,8 +41,7 @@ struct gm_lane {
     struct gm_history history;  /* one series per observable */
     struct gm_entries *entries; /* one per track */
     double *angles;             /* per observable, where it was when last looked at: what unwraps an angle */
-    double *behind; /* the active components after the step before, for sections; NULL: no sections */
-    double t_behind;
+    struct gm_behind behind;    /* of sections */
 };
 
 /* Opens a lane at its start, with the start recorded. NULL with a sentence (GM_SENTENCE bytes) if the
@@ -62,9 +50,6 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
                              const struct gm_settings *settings, const struct gm_scheme *scheme,
                              char *sentence);
 void gm_lane_close(struct gm_lane *lane);
-
-/* How many numbers of the state are active: all but the passive block. */
-size_t gm_lane_active(const struct gm_lane *lane);
 
 struct gm_view gm_lane_view(const struct gm_lane *lane);
 
@@ -101,8 +86,8 @@ void gm_shown_rename(struct gm_shown *shown, const char *before, const char *aft
 /* Continues the present state with another scheme; false if it does not fit or memory is short. */
 bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *sentence);
 
-/* A copy with its own past: a fork. */
-struct gm_lane *gm_lane_copy(const struct gm_lane *lane);
+/* A lane of the same scene, parameters, start, names and switches, at its start. NULL if memory is short. */
+struct gm_lane *gm_lane_reopen(const struct gm_lane *lane);
 
 /* A change of a live parameter; acts on the present state. */
 void gm_lane_set_step(struct gm_lane *lane, double dt);
@@ -114,11 +99,5 @@ void gm_lane_set_step(struct gm_lane *lane, double dt);
 size_t gm_lane_snapshot_size(const struct gm_lane *lane);
 void gm_lane_save(const struct gm_lane *lane, void *snapshot);
 bool gm_lane_load(struct gm_lane *lane, const void *snapshot);
-
-/* For lane.c: a switch to `scheme` after the present step, which ends what was noted of later ones, and those
-   up to a step. False if memory is short. */
-bool gm_lane_note_switch(struct gm_lane *lane, const struct gm_scheme *scheme);
-void gm_lane_show_switches(struct gm_lane *lane, long step);
-bool gm_lane_copy_switches(struct gm_lane *lane, const struct gm_lane *from);
 
 #endif

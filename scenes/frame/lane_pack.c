@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A lane as bytes, for checkpoints. What comes from a file is believed only if a lane can be so. */
+/* One walk over everything that a lane becomes in time measures, packs and unpacks it, so that the three
+   agree. */
 #include "scenes/frame/lane_pack.h"
 
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* One walk over everything that a lane becomes in time measures, packs and unpacks it, so that the three
-   agree. */
 
 enum direction { MEASURE, PACK, UNPACK };
 
@@ -129,9 +127,9 @@ static void walk_lane(struct walk *walk, struct gm_lane *lane)
         pass_entries(walk, &lane->entries[i], &lane->scene->tracks[i], last);
     }
     pass(walk, lane->angles, lane->scene->observable_count * sizeof *lane->angles);
-    if (lane->behind) {
-        pass(walk, lane->behind, gm_lane_active(lane) * sizeof *lane->behind);
-        pass(walk, &lane->t_behind, sizeof lane->t_behind);
+    if (lane->behind.state) {
+        pass(walk, lane->behind.state, gm_active_count(&lane->problem) * sizeof *lane->behind.state);
+        pass(walk, &lane->behind.t, sizeof lane->behind.t);
     }
 }
 
@@ -154,4 +152,22 @@ bool gm_lane_unpack(struct gm_lane *lane, const void *bytes, size_t *size)
     walk_lane(&walk, lane);
     *size = walk.used;
     return !walk.damaged;
+}
+
+struct gm_lane *gm_lane_copy(const struct gm_lane *lane)
+{
+    size_t size = gm_lane_pack_size(lane);
+    struct gm_lane *copy = gm_lane_reopen(lane);
+    void *bytes = malloc(size);
+    bool good = copy && bytes;
+    if (good) {
+        gm_lane_pack(lane, bytes);
+        good = gm_lane_unpack(copy, bytes, &size);
+    }
+    free(bytes);
+    if (!good) {
+        gm_lane_close(copy);
+        return NULL;
+    }
+    return copy;
 }

@@ -16,4 +16,7 @@ void gm_lane_pack(const struct gm_lane *lane, void *bytes);
    then what it took. False if they are not of such a lane, which is then no good any more. */
 bool gm_lane_unpack(struct gm_lane *lane, const void *bytes, size_t *size);
 
+/* A copy with its own past: a fork. NULL if memory is short. */
+struct gm_lane *gm_lane_copy(const struct gm_lane *lane);
+
 #endif

@@ -71,7 +71,7 @@ static void too_long(int signal)
 /* The active components: a passive particle that cannot be carried on is lost by itself, as NaN. */
 static bool is_finite(const struct gm_lane *lane)
 {
-    for (size_t i = 0; i < gm_lane_active(lane); i++) {
+    for (size_t i = 0; i < gm_active_count(&lane->problem); i++) {
         if (!isfinite(gm_run_state(lane->run)[i])) {
             return false;
         }

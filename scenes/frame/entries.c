@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* When an entry is due, what of a full record goes, and where between two steps a section was passed. */
+#include "scenes/frame/entries.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+
+size_t gm_active_count(const struct gm_problem *problem)
+{
+    return (problem->n - 2 * problem->passive) * problem->m;
+}
+
+bool gm_entries_open(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
+                     struct gm_behind *behind)
+{
+    *entries = (struct gm_entries){.every = 1, .before = NAN};
+    if (track->section && !behind->state) {
+        /* the state before, slopes at both ends, a state between */
+        behind->state = calloc(4 * gm_active_count(view->problem), sizeof *behind->state);
+        if (!behind->state) {
+            return false;
+        }
+    }
+    entries->width = track->width(view);
+    entries->times = malloc(track->bound * sizeof *entries->times);
+    entries->steps = malloc(track->bound * sizeof *entries->steps);
+    entries->values = malloc(track->bound * entries->width * sizeof *entries->values);
+    return entries->times && entries->steps && entries->values;
+}
+
+void gm_entries_close(struct gm_entries *entries)
+{
+    free(entries->times);
+    free(entries->steps);
+    free(entries->values);
+}
+
+static double *entry_values(const struct gm_entries *entries, size_t index)
+{
+    return entries->values + index * entries->width;
+}
+
+static void thin(struct gm_entries *entries)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < entries->count; i += 2, kept++) {
+        entries->times[kept] = entries->times[i];
+        entries->steps[kept] = entries->steps[i];
+        memmove(entry_values(entries, kept), entry_values(entries, i), entries->width * sizeof(double));
+    }
+    entries->count = kept;
+    entries->every *= 2;
+}
+
+/* Forgets the older half. */
+static void forget(struct gm_entries *entries)
+{
+    const size_t kept = entries->count / 2, gone = entries->count - kept;
+    memmove(entries->times, entries->times + gone, kept * sizeof(double));
+    memmove(entries->steps, entries->steps + gone, kept * sizeof *entries->steps);
+    memmove(entries->values, entry_values(entries, gone), kept * entries->width * sizeof(double));
+    entries->count = kept;
+}
+
+static void add_entry(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view)
+{
+    entries->times[entries->count] = view->t;
+    entries->steps[entries->count] = view->run->steps;
+    track->record(view, entry_values(entries, entries->count));
+    entries->kept = ++entries->count;
+}
+
+/* How many whole intervals lie between t0 and t; a step that misses one by round-off has made it. */
+static double intervals(const struct gm_view *view, double interval, double t)
+{
+    return floor(fabs(t - view->t0) / interval * (1 + 1e-12) + 1e-9);
+}
+
+/* Makes an entry if the section was passed upwards in the step that ended in `view`. Between the two states
+   the cubic is taken that has the field's slopes at both ends; its error is of order 4 in the step. */
+static void record_crossing(struct gm_entries *entries, const struct gm_track *track,
+                            const struct gm_view *view, const struct gm_behind *behind)
+{
+    const double after = track->section(view), before = entries->before;
+    entries->before = after;
+    if (!(before < 0 && after >= 0 && behind->t != view->t)) {
+        return;
+    }
+    const size_t active = gm_active_count(view->problem);
+    double *slopes = behind->state + active, *between = slopes + 2 * active;
+    const double h = view->t - behind->t;
+    const struct gm_loops *loops = gm_ode_of(view->problem)->loops[gm_isa_best()];
+    loops->field(view->problem, behind->state, slopes, view->problem->m);
+    loops->field(view->problem, view->state, slopes + active, view->problem->m);
+    struct gm_view there = *view;
+    there.state = between;
+    double low = 0, high = 1, below = before, above = after;
+    /* regula falsi with bisection in between, so that neither end stands still */
+    for (int i = 0; i < 60 && high - low > 1e-15; i++) {
+        const double secant = low - below * (high - low) / (above - below);
+        const double s = i % 3 < 2 && secant > low && secant < high ? secant : (low + high) / 2, r = 1 - s;
+        for (size_t c = 0; c < active; c++) {
+            between[c] = r * r * (1 + 2 * s) * behind->state[c] + s * s * (3 - 2 * s) * view->state[c] +
+                         h * s * r * (r * slopes[c] - s * slopes[active + c]);
+        }
+        there.t = behind->t + s * h;
+        const double value = track->section(&there);
+        if (value == 0) {
+            break;
+        }
+        if (value > 0) {
+            high = s;
+            above = value;
+        } else {
+            low = s;
+            below = value;
+        }
+    }
+    if (entries->count == track->bound) {
+        thin(entries);
+        entries->skipped = 0;
+    }
+    if (entries->skipped > 0) {
+        entries->skipped--;
+        return;
+    }
+    entries->skipped = entries->every - 1;
+    add_entry(entries, track, &there);
+}
+
+/* While time runs backwards, a record of all the past unwinds: what is later than t is not shown, but for the
+   start. */
+static void unwind(struct gm_entries *entries, double t)
+{
+    while (entries->count > 1 && entries->times[entries->count - 1] > t) {
+        entries->count--;
+    }
+}
+
+static bool is_due(const struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view)
+{
+    if (entries->count == 0) {
+        return true;
+    }
+    const double last = entries->times[entries->count - 1];
+    const double interval = track->interval(view->parameters) * (double)entries->every;
+    return interval > 0 ? intervals(view, interval, view->t) != intervals(view, interval, last)
+                        : view->t != last;
+}
+
+void gm_entries_record(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
+                       const struct gm_behind *behind)
+{
+    if (!track->section && !track->recent && view->dt < 0 && view->t >= view->t0) {
+        unwind(entries, view->t);
+        return;
+    }
+    entries->kept = entries->count; /* the run goes on from here */
+    if (track->section) {
+        record_crossing(entries, track, view, behind);
+        return;
+    }
+    if (!is_due(entries, track, view)) {
+        return;
+    }
+    if (entries->count == track->bound) {
+        if (track->recent) {
+            forget(entries);
+        } else {
+            thin(entries);
+        }
+    }
+    add_entry(entries, track, view);
+}
+
+void gm_behind_note(struct gm_behind *behind, const struct gm_view *view)
+{
+    if (behind->state) {
+        memcpy(behind->state, view->state, gm_active_count(view->problem) * sizeof *behind->state);
+        behind->t = view->t;
+    }
+}
+
+void gm_entries_show(struct gm_entries *entries, const struct gm_track *track, const struct gm_run *run)
+{
+    const size_t kept = track->section ? 0 : 1;
+    entries->count = entries->kept;
+    while (entries->count > kept && entries->steps[entries->count - 1] > run->steps) {
+        entries->count--;
+    }
+    if (run->dt < 0 && !track->section && !track->recent) {
+        unwind(entries, run->t);
+    }
+    /* what the step before was is not known; it is again after the next one */
+    entries->before = NAN;
+}
