@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "scenes/field/burgers.h"
+#include "scenes/field/burgers_draw.h"
 
 static const char *const tests[] = {"front", "shock", NULL};
 static const char *const frames[] = {"each", "fixed", "moving", NULL};

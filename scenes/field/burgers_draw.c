@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "scenes/field/burgers.h"
+#include "scenes/field/burgers_draw.h"
 #include "scenes/frame/graph.h"
 
 enum { DRAWN = 1600 /* most points of a profile */, TOLD = 60 /* nodes that can be told apart */ };

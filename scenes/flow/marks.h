@@ -11,9 +11,6 @@
 /* Whether what is shown has colours of both signs. */
 bool gm_flow_is_signed(int show);
 
-/* Whether all lanes look for a steady state, so that there is no time. */
-bool gm_flow_is_steady(const struct gm_lane *const *lanes, size_t count);
-
 /* Level lines of psi: equal parts of the flow that passes through; the same distance in what turns on its
    own. */
 void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
@@ -32,12 +29,5 @@ void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, con
 /* "inlet" and "outlet" outside the walls, where they are on the left and on the right. */
 void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow,
                            double size);
-
-/* Errors against the mean edge length, a point for each lane. */
-void gm_flow_draw_convergence(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                              const struct gm_look *look);
-/* The look's graphs over time; of errors, logarithmic ones. */
-void gm_flow_draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                         const struct gm_look *look);
 
 #endif

@@ -1,19 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solitons between two walls on linear elements whose nodes follow them: r-adaptive variational integrators.
-       L = integral of phi_t^2/2 - phi_X^2/2 - W(phi),   W = 1 - cos phi, or (phi^2 - 1)^2/4
-   What to look at: the paths of the nodes; the energy, which the multiplier strategy keeps and with the
-   control-theoretic one wanders, symplectic or not, although both meshes follow the soliton equally well; the
-   error over the number of nodes.
-
-   Tyranowski & Desbrun (2019), section 5:
-       figures 2, 3      the exact solutions
-       figures 4 to 7    the field on few nodes
-       figures 8, 9      the paths of the nodes
-       figure 10         nodes that stand still
-       figure 11         error over nodes
-       figure 12         which strategy gets ahead, which lags behind, and where they break down
-       figures 13, 14    the energy */
-#include "scenes/mesh/soliton.h"
+/* Solitons between walls on linear elements whose nodes follow them: r-adaptive variational integrators.
+   Tyranowski & Desbrun (2019), section 5, figures 2 to 14. */
+#include "scenes/mesh/soliton_draw.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -153,19 +141,12 @@ static bool start_with(const void *own, const struct gm_problem *problem, const 
     return false;
 }
 
-struct gm_mesh gm_soliton_mesh(const struct gm_view *view)
-{
-    struct gm_mesh mesh;
-    gm_moving_mesh_of(view->problem)->describe(view->problem, &mesh);
-    return mesh;
-}
-
 static bool moves(const struct gm_view *view)
 {
     return gm_scheme_mesh(view->run->scheme) == GM_MESH_MOVING;
 }
 
-double gm_soliton_error(const struct gm_view *view)
+static double solution_error(const struct gm_view *view)
 {
     const struct gm_soliton_scene *soliton = view->parameters;
     const size_t points = (size_t)soliton->own.points;
@@ -262,11 +243,11 @@ static double factorisations(const struct gm_view *view)
 }
 
 static const struct gm_observable observables[] = {
-    {.key = "solution_error",
-     .title = "error  max |φ − exact| at the nodes",
-     .unit = "",
-     .evaluate = gm_soliton_error,
-     .logarithmic = true},
+    [GM_SOLITON_ERROR] = {.key = "solution_error",
+                          .title = "error  max |φ − exact| at the nodes",
+                          .unit = "",
+                          .evaluate = solution_error,
+                          .logarithmic = true},
     {.key = "lead",
      .title = "time ahead of the exact solution",
      .missing = "no shift in time brings the exact solution near",
@@ -308,14 +289,14 @@ static const struct gm_observable observables[] = {
 };
 
 /* Paths of all nodes, or of evenly chosen ones. */
-size_t gm_soliton_path_stride(size_t points)
+static size_t path_stride(size_t points)
 {
     return (points + PATHS - 1) / PATHS;
 }
 
 static size_t path_count(const struct gm_view *view)
 {
-    const size_t points = view->problem->n / 4, stride = gm_soliton_path_stride(points);
+    const size_t points = view->problem->n / 4, stride = path_stride(points);
     return (points + stride - 1) / stride;
 }
 
@@ -326,18 +307,18 @@ static double path_interval(const void *own)
 
 static void record_paths(const struct gm_view *view, double *entry)
 {
-    const size_t points = view->problem->n / 4, stride = gm_soliton_path_stride(points);
+    const size_t points = view->problem->n / 4, stride = path_stride(points);
     for (size_t k = 0; k < points; k += stride) {
         *entry++ = view->state[points + k];
     }
 }
 
 static const struct gm_track tracks[] = {
-    {.key = "paths",
-     .width = path_count,
-     .interval = path_interval,
-     .bound = RECORDS,
-     .record = record_paths},
+    [GM_SOLITON_PATHS] = {.key = "paths",
+                          .width = path_count,
+                          .interval = path_interval,
+                          .bound = RECORDS,
+                          .record = record_paths},
 };
 
 static const char *const schemes[] = {"multiplier-lobatto4", "control-gauss4",         "uniform-gauss4",

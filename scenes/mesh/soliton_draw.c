@@ -5,9 +5,16 @@
 #include <string.h>
 
 #include "scenes/frame/graph.h"
-#include "scenes/mesh/soliton.h"
+#include "scenes/mesh/soliton_draw.h"
 
 enum { EXACT_POINTS = 1500 };
+
+struct gm_mesh gm_soliton_mesh(const struct gm_view *view)
+{
+    struct gm_mesh mesh;
+    gm_moving_mesh_of(view->problem)->describe(view->problem, &mesh);
+    return mesh;
+}
 
 static void field_axes(struct gm_panel *panel, const struct gm_soliton_scene *soliton,
                        const struct gm_mesh *mesh)
@@ -82,9 +89,8 @@ static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const
 /* How a lane stands: failed, or its error. */
 static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane)
 {
-    const struct gm_view view = gm_lane_view(lane);
     const char *failure = gm_lane_failure(picture, lane);
-    const double error = gm_soliton_error(&view);
+    const double error = gm_lane_observe(lane, GM_SOLITON_ERROR);
     return failure[0]        ? failure
            : isfinite(error) ? gm_picture_text(picture, "solution error %.3f", error)
                              : "";
@@ -116,10 +122,10 @@ static void draw_fields(struct gm_picture *picture, const struct gm_lane *const 
 static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                        bool crowded)
 {
-    const struct gm_entries *entries = &lane->entries[0];
+    const struct gm_entries *entries = &lane->entries[GM_SOLITON_PATHS];
     const struct gm_view view = gm_lane_view(lane);
-    const size_t points = view.problem->n / 4, stride = gm_soliton_path_stride(points),
-                 rows = entries->count + 1;
+    const size_t points = view.problem->n / 4, rows = entries->count + 1;
+    const size_t stride = (points + entries->width - 1) / entries->width; /* of the nodes with a path */
     const struct gm_style style = {gm_lane_role(lane->shown.colour), crowded ? 0.6 : 0.9, crowded ? 0.8 : 1.2,
                                    GM_SOLID};
     double *path = gm_picture_memory(picture, 2 * rows * sizeof *path);
@@ -156,10 +162,10 @@ static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const 
                     gm_name_lanes(picture, panel, lanes, count, p);
                 }
             }
-            const double *times = lanes[i]->entries[0].times;
+            const double *times = lanes[i]->entries[GM_SOLITON_PATHS].times;
             panel->y.low = fmin(panel->y.low, fmin(times[0], lanes[i]->run->t));
             panel->y.high = fmax(panel->y.high, fmax(soliton->timing.until, lanes[i]->run->t));
-            draw_paths(picture, panel, lanes[i], lanes[i]->entries[0].width > 40);
+            draw_paths(picture, panel, lanes[i], lanes[i]->entries[GM_SOLITON_PATHS].width > 40);
         }
         if (panel && !(panel->y.high > panel->y.low)) {
             panel->y.high = panel->y.low + 1; /* nothing is asked to pass */
@@ -182,7 +188,7 @@ static void draw_convergence(struct gm_picture *picture, const struct gm_lane *c
         const struct gm_soliton_scene *soliton = lanes[i]->parameters;
         largest[i] = lanes[i]->run->status == GM_OK ? 0 : NAN;
         for (size_t b = 0; b < history->count; b++) {
-            largest[i] = fmax(history->bins[b * history->series].high, largest[i]);
+            largest[i] = fmax(history->bins[b * history->series + GM_SOLITON_ERROR].high, largest[i]);
         }
         largest[i] = lanes[i]->run->status == GM_OK ? largest[i] : NAN;
         gm_range_add(&low_x, &high_x, (double)(soliton->own.points + 1));

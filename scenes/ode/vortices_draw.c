@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "scenes/ode/vortices.h"
+#include "scenes/frame/graph.h"
+#include "scenes/ode/vortices_draw.h"
 
 /* The greatest distance from the middle that is drawn; and so many tracers become a field. */
 static const double farthest = 4;

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "scenes/ode/vortices.h"
+#include "scenes/ode/vortices_start.h"
 
 /* splitmix64 (Steele, Lea & Flood 2014): a number in [0, 1) */
 static double next_random(uint64_t *state)

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_FIELD_BURGERS_H
-#define GM_SCENES_FIELD_BURGERS_H
+#ifndef GM_SCENES_FIELD_BURGERS_DRAW_H
+#define GM_SCENES_FIELD_BURGERS_DRAW_H
 
 #include "core/field/families/burgers.h"
 #include "scenes/frame/lane.h"
 
-/* What scenes/field/burgers.c and its pictures, scenes/field/burgers_draw.c, share. */
+/* The pictures of scenes/field/burgers.c, and the parameters that they tell of. */
 
 struct gm_burgers_scene {
     struct gm_timing timing;

@@ -1,16 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_SCENES_ODE_VORTICES_H
-#define GM_SCENES_ODE_VORTICES_H
+#ifndef GM_SCENES_ODE_VORTICES_START_H
+#define GM_SCENES_ODE_VORTICES_START_H
 
-#include "scenes/frame/graph.h"
+#include "scenes/frame/scene.h"
 
-/* What scenes/ode/vortices.c, scenes/ode/vortices_start.c (where they start) and scenes/ode/vortices_draw.c
-   share. */
+/* Point vortices as the parameters of scenes/ode/vortices.c arrange them. */
 
 enum { GM_REDUCED, GM_SQUARE, GM_TWO_TURNED, GM_ONE_TURNED, GM_RANDOM, GM_COLLISION };
-
-/* tracks: radii of vortex 1 in the section; positions, x and y in turn, lately and since the start */
-enum { GM_SECTION, GM_TRAIL, GM_PAST };
 
 struct gm_vortices {
     struct gm_timing timing;
@@ -27,7 +23,5 @@ bool gm_vortices_coincide(const struct gm_vortices *own);
 
 /* The start of struct gm_scene: vortices as configured, tracers spread over a disc. */
 void gm_vortices_start(const void *parameters, const struct gm_problem *problem, double *y);
-
-void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 
 #endif
