@@ -24,17 +24,10 @@ struct gm_field_look {
 };
 
 /* Rows of a parameter table: the ring, and the points of its grid, in members of the scene's own struct. */
-#define GM_HALF_LENGTH(own, member, standard_text, help_text)                                                \
-    {                                                                                                        \
-        .key = "half_length", .unit = "", .help = help_text, .type = GM_REAL,                                \
-        .offset = offsetof(own, member), .standard = standard_text, .lowest = 0.1, .highest = 1e5,           \
-        .logarithmic = true,                                                                                 \
-    }
-#define GM_POINTS(own, member, standard_text, least, help_text)                                              \
-    {                                                                                                        \
-        .key = "points", .unit = "", .help = help_text, .type = GM_INTEGER, .offset = offsetof(own, member), \
-        .standard = standard_text, .lowest = least, .highest = 1e7, .logarithmic = true,                     \
-    }
+#define GM_HALF_LENGTH(own, member, standard, help)                                                          \
+    GM_REAL_ROW(own, member, "half_length", standard, 0.1, 1e5, help, .logarithmic = true)
+#define GM_POINTS(own, member, standard, least, help)                                                        \
+    GM_INTEGER_ROW(own, member, "points", standard, least, 1e7, help, .logarithmic = true)
 
 /* The track of the surface; `record_row` fills a row by gm_surface_record. */
 #define GM_SURFACE_TRACK(record_row)                                                                         \

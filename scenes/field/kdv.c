@@ -25,60 +25,15 @@ static const char *const initials[] = {"soliton", "two-solitons", "cosine", NULL
 static const struct gm_parameter parameters[] = {
     GM_DT("0.05", 1e-9, 10),
     GM_UNTIL("40"),
-    {
-        .key = "initial",
-        .unit = "",
-        .help =
-            "one soliton; two that overtake; cos πx, which breaks up into solitons (half_length 1, mu 0.022², "
-            "until 3.6/π unless given)",
-        .type = GM_CHOICE,
-        .offset = offsetof(struct scene, kdv.initial),
-        .standard = "two-solitons",
-        .choices = initials,
-    },
-    {
-        .key = "velocity",
-        .unit = "",
-        .help = "of the one soliton, c",
-        .type = GM_REAL,
-        .offset = offsetof(struct scene, kdv.velocity),
-        .standard = "1",
-        .lowest = 1e-3,
-        .highest = 100,
-        .logarithmic = true,
-    },
-    {
-        .key = "position",
-        .unit = "",
-        .help = "of the one soliton at t = 0",
-        .type = GM_REAL,
-        .offset = offsetof(struct scene, kdv.position),
-        .standard = "-5",
-        .lowest = -1e4,
-        .highest = 1e4,
-    },
-    {
-        .key = "eta",
-        .unit = "",
-        .help = "coefficient of u uₓ",
-        .type = GM_REAL,
-        .offset = offsetof(struct scene, kdv.eta),
-        .standard = "1",
-        .lowest = 1e-6,
-        .highest = 1e3,
-        .logarithmic = true,
-    },
-    {
-        .key = "mu",
-        .unit = "",
-        .help = "coefficient of uₓₓₓ",
-        .type = GM_REAL,
-        .offset = offsetof(struct scene, kdv.mu),
-        .standard = "1",
-        .lowest = 1e-9,
-        .highest = 1e3,
-        .logarithmic = true,
-    },
+    GM_CHOICE_ROW(
+        struct scene, kdv.initial, "initial", "two-solitons", initials,
+        "one soliton; two that overtake; cos πx, which breaks up into solitons (half_length 1, mu 0.022², "
+        "until 3.6/π unless given)"),
+    GM_REAL_ROW(struct scene, kdv.velocity, "velocity", "1", 1e-3, 100, "of the one soliton, c",
+                .logarithmic = true),
+    GM_REAL_ROW(struct scene, kdv.position, "position", "-5", -1e4, 1e4, "of the one soliton at t = 0"),
+    GM_REAL_ROW(struct scene, kdv.eta, "eta", "1", 1e-6, 1e3, "coefficient of u uₓ", .logarithmic = true),
+    GM_REAL_ROW(struct scene, kdv.mu, "mu", "1", 1e-9, 1e3, "coefficient of uₓₓₓ", .logarithmic = true),
     GM_HALF_LENGTH(
         struct scene, half_length, "50",
         "half the length of the ring (50 for two solitons, 20 for one, 1 for the cosine, unless given)"),
@@ -197,46 +152,17 @@ static double energy_of_cosine(const void *own)
 }
 
 static const struct gm_observable observables[] = {
-    {.key = "mass_error",
-     .title = "error of the mass ∫u",
-     .unit = "",
-     .evaluate = mass,
-     .error = true,
-     .symbol = "M",
-     .scale = mass_of_cosine,
-     .scale_text = "4/π for the cosine",
-     .kept = true,
-     .logarithmic = true},
-    {.key = "square_error",
-     .title = "error of ∫u²",
-     .unit = "",
-     .evaluate = square,
-     .error = true,
-     .symbol = "S",
-     .kept = true,
-     .logarithmic = true},
-    {.key = "energy_error",
-     .title = "energy error",
-     .unit = "",
-     .evaluate = energy,
-     .error = true,
-     .symbol = "H",
-     .scale = energy_of_cosine,
-     .scale_text = "4η/9π for the cosine",
-     .kept = true,
-     .logarithmic = true},
-    {.key = "solution_error",
-     .title = "largest error of u",
-     .unit = "",
-     .evaluate = solution_error,
-     .missing = "no exact solution is known of the cosine, nor of solitons whose tails meet on a short ring",
-     .logarithmic = true},
-    {.key = "multisymplectic_residual",
-     .title = "residual of the multisymplectic law",
-     .missing = GM_NO_LAW,
-     .unit = "",
-     .evaluate = form_residual,
-     .logarithmic = true},
+    GM_KEPT_OBSERVABLE("mass_error", mass, "M", "error of the mass ∫u", .scale = mass_of_cosine,
+                       .scale_text = "4/π for the cosine"),
+    GM_KEPT_OBSERVABLE("square_error", square, "S", "error of ∫u²"),
+    GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error", .scale = energy_of_cosine,
+                       .scale_text = "4η/9π for the cosine"),
+    GM_LOG_OBSERVABLE(
+        "solution_error", solution_error, "largest error of u",
+        .missing =
+            "no exact solution is known of the cosine, nor of solitons whose tails meet on a short ring"),
+    GM_LOG_OBSERVABLE("multisymplectic_residual", form_residual, "residual of the multisymplectic law",
+                      .missing = GM_NO_LAW),
 };
 
 static void record(const struct gm_view *view, double *entry)
@@ -287,8 +213,6 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 
 static const char *const schemes[] = {"box", "zabusky-kruskal", "euler-box", "midpoint-box", NULL};
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* The error of the mesh hides that of the step, and the other way round: both are refined. */
 static const double mesh_points[] = {101, 201, 401, 801};
 static const double compared[] = {1e-1, 1e-2, 1e-3};
@@ -298,7 +222,7 @@ static const struct gm_work work = {.arguments = "initial=soliton until=4",
                                     .halvings = 7,
                                     .resolution = "points",
                                     .resolutions = mesh_points,
-                                    .resolution_count = sizeof mesh_points / sizeof mesh_points[0],
+                                    .resolution_count = GM_COUNT(mesh_points),
                                     .errors = compared};
 
 /* What leapfrog can take: 0.385 dx^3/mu (Zabusky & Kruskal). */
@@ -317,11 +241,11 @@ static const struct gm_stability stability = {
     .arguments = "initial=soliton points=101 until=10",
     .parameter = "velocity",
     .values = velocities,
-    .value_count = COUNT(velocities),
+    .value_count = GM_COUNT(velocities),
     .label = "Δt μ / Δx³",
     .unit = dispersion_time,
     .steps = steps,
-    .step_count = COUNT(steps),
+    .step_count = GM_COUNT(steps),
     .kept = "square_error",
 };
 
@@ -338,13 +262,13 @@ const struct gm_scene gm_scene_kdv = {
     .time = "that in which the equation has η and μ as given",
     .size = sizeof(struct scene),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .lanes = "scheme=box,zabusky-kruskal dt=0.05,0.0025 points=501 zip=yes",
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .tracks = tracks,
-    .track_count = COUNT(tracks),
+    .track_count = GM_COUNT(tracks),
     .work = &work,
     .stability = &stability,
     .settle = settle,

@@ -31,38 +31,13 @@ static const char *const initials[] = {"travelling", "standing", NULL};
 static const struct gm_parameter parameters[] = {
     GM_DT("0.9*2*pi/72", 1e-9, 100),
     GM_UNTIL("4*pi"),
-    {
-        .key = "initial",
-        .unit = "",
-        .help = "a Gaussian that travels to the right, or one that parts both ways",
-        .type = GM_CHOICE,
-        .offset = offsetof(struct scene, standing),
-        .standard = "travelling",
-        .choices = initials,
-    },
-    {
-        .key = "sharpness",
-        .unit = "",
-        .help = "a of the Gaussian exp(−a x²)",
-        .type = GM_REAL,
-        .offset = offsetof(struct scene, sharpness),
-        .standard = "8",
-        .lowest = 0.1,
-        .highest = 1e6,
-        .logarithmic = true,
-    },
+    GM_CHOICE_ROW(struct scene, standing, "initial", "travelling", initials,
+                  "a Gaussian that travels to the right, or one that parts both ways"),
+    GM_REAL_ROW(struct scene, sharpness, "sharpness", "8", 0.1, 1e6, "a of the Gaussian exp(−a x²)",
+                .logarithmic = true),
     GM_POINTS(struct scene, points, "72", 3, "of the mesh on the ring −π ≤ x < π"),
-    {
-        .key = "courant",
-        .unit = "",
-        .help = "dt / dx: either this or dt is given",
-        .type = GM_REAL,
-        .offset = offsetof(struct scene, courant),
-        .standard = "0.9",
-        .lowest = 1e-6,
-        .highest = 100,
-        .logarithmic = true,
-    },
+    GM_REAL_ROW(struct scene, courant, "courant", "0.9", 1e-6, 100, "dt / dx: either this or dt is given",
+                .logarithmic = true),
 };
 
 static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
@@ -242,37 +217,14 @@ static double rank(const struct gm_view *view)
 }
 
 static const struct gm_observable observables[] = {
-    {.key = "solution_error",
-     .title = "largest error of u",
-     .unit = "",
-     .evaluate = solution_error,
-     .logarithmic = true},
-    {.key = "energy_error",
-     .title = "energy error",
-     .unit = "",
-     .evaluate = energy,
-     .error = true,
-     .symbol = "H",
-     .kept = true,
-     .logarithmic = true},
-    {.key = "energy_law_residual",
-     .title = "energy law (67b) in a cell: residual",
-     .unit = "",
-     .evaluate = energy_law,
-     .logarithmic = true},
-    {.key = "energy_sum_residual",
-     .title = "energy law, summed over the cells",
-     .unit = "",
-     .evaluate = energy_sum,
-     .logarithmic = true},
-    {.key = "momentum_law_residual",
-     .title = "momentum law (67c): residual",
-     .unit = "",
-     .evaluate = momentum_law,
-     .logarithmic = true},
-    {.key = "unknowns", .title = "unknowns of a step", .unit = "", .evaluate = unknowns},
-    {.key = "equations", .title = "equations of a step", .unit = "", .evaluate = equations},
-    {.key = "rank", .title = "rank of their Jacobian", .unit = "", .evaluate = rank},
+    GM_LOG_OBSERVABLE("solution_error", solution_error, "largest error of u"),
+    GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error"),
+    GM_LOG_OBSERVABLE("energy_law_residual", energy_law, "energy law (67b) in a cell: residual"),
+    GM_LOG_OBSERVABLE("energy_sum_residual", energy_sum, "energy law, summed over the cells"),
+    GM_LOG_OBSERVABLE("momentum_law_residual", momentum_law, "momentum law (67c): residual"),
+    GM_OBSERVABLE("unknowns", unknowns, "unknowns of a step"),
+    GM_OBSERVABLE("equations", equations, "equations of a step"),
+    GM_OBSERVABLE("rank", rank, "rank of their Jacobian"),
 };
 
 static void record(const struct gm_view *view, double *entry)
@@ -303,12 +255,10 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         {.observable = "energy_law_residual", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1},
         {.observable = "energy_sum_residual", .scale = GM_LOG, .calm_low = 1e-17, .calm_high = 1e-2},
     };
-    gm_draw_field(picture, lanes, count, &look, graphs, sizeof graphs / sizeof graphs[0]);
+    gm_draw_field(picture, lanes, count, &look, graphs, GM_COUNT(graphs));
 }
 
 static const char *const schemes[] = {"leapfrog", "box", NULL};
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* The error of the mesh hides that of the step, and the other way round: both are refined. */
 static const double mesh_points[] = {64, 128, 256, 512};
@@ -319,7 +269,7 @@ static const struct gm_work work = {.arguments = "until=2*pi",
                                     .halvings = 6,
                                     .resolution = "points",
                                     .resolutions = mesh_points,
-                                    .resolution_count = sizeof mesh_points / sizeof mesh_points[0],
+                                    .resolution_count = GM_COUNT(mesh_points),
                                     .errors = compared};
 
 /* A Courant number of 1. */
@@ -335,11 +285,11 @@ static const struct gm_stability stability = {
     .arguments = "until=4*pi",
     .parameter = "sharpness",
     .values = sharpnesses,
-    .value_count = COUNT(sharpnesses),
+    .value_count = GM_COUNT(sharpnesses),
     .label = "Δt / Δx",
     .unit = crossing_time,
     .steps = courant_numbers,
-    .step_count = COUNT(courant_numbers),
+    .step_count = GM_COUNT(courant_numbers),
     .kept = "energy_error",
 };
 
@@ -355,12 +305,12 @@ const struct gm_scene gm_scene_wave = {
     .time = "what a wave needs for a length of 1",
     .size = sizeof(struct scene),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .tracks = tracks,
-    .track_count = COUNT(tracks),
+    .track_count = GM_COUNT(tracks),
     .work = &work,
     .stability = &stability,
     .settle = settle,

@@ -15,12 +15,16 @@
 static const struct gm_parameter parameters[] = {
     GM_DT("0.05", 1e-7, 10),
     GM_UNTIL("4"),
-    GM_FLOWS_NUMBER(reynolds, "Reynolds number U L / ν", "1000", 0.01, 1e5, true),
-    GM_FLOWS_WHOLE(columns, "edges at the bottom and on the lid", "128", 4, 2000),
-    GM_FLOWS_WHOLE(rows, "strips of triangles along y; 0: the best", "168", 0, 3000),
+    GM_REAL_ROW(struct gm_flows, reynolds, "reynolds", "1000", 0.01, 1e5, "Reynolds number U L / ν",
+                .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, columns, "columns", "128", 4, 2000, "edges at the bottom and on the lid",
+                   .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, rows, "rows", "168", 0, 3000, "strips of triangles along y; 0: the best",
+                   .logarithmic = true),
     GM_FLOWS_IRREGULAR,
-    GM_FLOWS_WORD(lid, "name or tag of the mesh's lid", "lid", NULL),
-    GM_FLOWS_MESH("a Gmsh file (4.1, ASCII) of another cavity; none: the square"),
+    GM_TEXT_ROW(struct gm_flows, lid, "lid", "lid", "name or tag of the mesh's lid"),
+    GM_TEXT_ROW(struct gm_flows, mesh, "mesh", "none",
+                "a Gmsh file (4.1, ASCII) of another cavity; none: the square", .file = true),
     GM_FLOWS_TRACERS("0"),
     GM_FLOWS_LOOKS("vorticity", "yes"),
 };
@@ -84,7 +88,7 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
 }
 
 static const struct gm_observable observables[] = {
-    {.key = "psi_min", .title = "least stream function", .unit = "", .evaluate = gm_flows_psi_low},
+    GM_OBSERVABLE("psi_min", gm_flows_psi_low, "least stream function"),
     GM_FLOWS_CHANGE,
     GM_FLOWS_ENERGY,
     GM_FLOWS_ENSTROPHY,
@@ -215,7 +219,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .vorticity_range = 5,
         .speed_high = 1,
         .levels = levels,
-        .level_count = sizeof levels / sizeof levels[0],
+        .level_count = GM_COUNT(levels),
         .graphs = {"kinetic_energy", "psi_min"},
         .profiles = profiles,
     };
@@ -223,8 +227,6 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 }
 
 static const char *const schemes[] = {"steady", NULL};
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 static double courant_time(const void *own)
 {
@@ -239,11 +241,11 @@ static const struct gm_stability stability = {
     .arguments = "columns=32 rows=0 until=10",
     .parameter = "reynolds",
     .values = reynolds_numbers,
-    .value_count = COUNT(reynolds_numbers),
+    .value_count = GM_COUNT(reynolds_numbers),
     .label = "Courant number",
     .unit = courant_time,
     .steps = courant_numbers,
-    .step_count = COUNT(courant_numbers),
+    .step_count = GM_COUNT(courant_numbers),
     .kept = "speed_max",
     .schemes = marching,
 };
@@ -258,10 +260,10 @@ const struct gm_scene gm_scene_cavity = {
     .time = "L/U, the side over the lid’s speed",
     .size = sizeof(struct gm_flows),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .stability = &stability,
     .idle = gm_flows_idle,
     .setup = setup,

@@ -261,10 +261,10 @@ bool gm_flows_idle(const void *parameters, const char *key)
     static const char *const made[] = {"rows", "columns", "irregular"}, *const named[] = {"inlet", "lid"};
     const bool from_file = strcmp(((const struct gm_flows *)parameters)->mesh, "none") != 0;
     bool idle = false;
-    for (size_t i = 0; i < sizeof made / sizeof made[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(made); i++) {
         idle = idle || (from_file && strcmp(key, made[i]) == 0);
     }
-    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(named); i++) {
         idle = idle || (!from_file && strcmp(key, named[i]) == 0);
     }
     return idle;

@@ -36,48 +36,20 @@ struct gm_flows {
     int show, streamlines, arrows, grid, domain;
 };
 
-#define GM_FLOWS_NUMBER(name, text, standard_text, low, high, by_factors)                                    \
-    {                                                                                                        \
-        .key = #name, .unit = "", .help = text, .type = GM_REAL, .offset = offsetof(struct gm_flows, name),  \
-        .standard = standard_text, .lowest = low, .highest = high, .logarithmic = by_factors,                \
-    }
-#define GM_FLOWS_WHOLE(name, text, standard_text, low, high)                                                 \
-    {                                                                                                        \
-        .key = #name, .unit = "", .help = text, .type = GM_INTEGER,                                          \
-        .offset = offsetof(struct gm_flows, name), .standard = standard_text, .lowest = low,                 \
-        .highest = high, .logarithmic = true,                                                                \
-    }
-#define GM_FLOWS_WORD(name, text, standard_text, list)                                                       \
-    {                                                                                                        \
-        .key = #name, .unit = "", .help = text, .type = GM_TEXT, .offset = offsetof(struct gm_flows, name),  \
-        .standard = standard_text, .choices = list,                                                          \
-    }
-#define GM_FLOWS_MESH(text)                                                                                  \
-    {                                                                                                        \
-        .key = "mesh", .unit = "", .help = text, .type = GM_TEXT, .offset = offsetof(struct gm_flows, mesh), \
-        .standard = "none", .file = true,                                                                    \
-    }
-#define GM_FLOWS_CHOICE(name, text, standard_text, list, acts)                                               \
-    {                                                                                                        \
-        .key = #name, .unit = "", .help = text, .type = GM_CHOICE,                                           \
-        .offset = offsetof(struct gm_flows, name), .standard = standard_text, .choices = list, .live = acts, \
-    }
-#define GM_FLOWS_FLAG(name, text, standard_text)                                                             \
-    {                                                                                                        \
-        .key = #name, .unit = "", .help = text, .type = GM_BOOLEAN,                                          \
-        .offset = offsetof(struct gm_flows, name), .standard = standard_text, .lowest = 0, .highest = 1,     \
-        .live = true,                                                                                        \
-    }
+/* Rows that several of them have. */
 #define GM_FLOWS_IRREGULAR                                                                                   \
-    GM_FLOWS_NUMBER(irregular, "random shift of the vertices, as a part of their shortest edge", "0", 0,     \
-                    0.45, false)
-#define GM_FLOWS_LOOKS(shown, streamlines_shown)                                                             \
-    GM_FLOWS_CHOICE(show, "what the picture shows", shown, gm_flows_shows, true),                            \
-        GM_FLOWS_FLAG(streamlines, "streamlines, as level lines of the stream function", streamlines_shown), \
-        GM_FLOWS_FLAG(arrows, "arrows of velocity", "no"),                                                   \
-        GM_FLOWS_FLAG(grid, "the edges of the mesh", "no")
+    GM_REAL_ROW(struct gm_flows, irregular, "irregular", "0", 0, 0.45,                                       \
+                "random shift of the vertices, as a part of their shortest edge")
 #define GM_FLOWS_TRACERS(count)                                                                              \
-    GM_FLOWS_WHOLE(tracers, "particles that the flow carries along", count, 0, 20000)
+    GM_INTEGER_ROW(struct gm_flows, tracers, "tracers", count, 0, 20000,                                     \
+                   "particles that the flow carries along", .logarithmic = true)
+#define GM_FLOWS_LOOKS(shown, streamlines_shown)                                                             \
+    GM_CHOICE_ROW(struct gm_flows, show, "show", shown, gm_flows_shows, "what the picture shows",            \
+                  .live = true),                                                                             \
+        GM_BOOLEAN_ROW(struct gm_flows, streamlines, "streamlines", streamlines_shown,                       \
+                       "streamlines, as level lines of the stream function", .live = true),                  \
+        GM_BOOLEAN_ROW(struct gm_flows, arrows, "arrows", "no", "arrows of velocity", .live = true),         \
+        GM_BOOLEAN_ROW(struct gm_flows, grid, "grid", "no", "the edges of the mesh", .live = true)
 
 extern const char *const gm_flows_shows[];
 
@@ -135,33 +107,13 @@ double gm_flows_speed_max(const struct gm_view *view);
 double gm_flows_change(const struct gm_view *view);
 double gm_flows_triangles(const struct gm_view *view);
 
-#define GM_FLOWS_ENERGY                                                                                      \
-    {                                                                                                        \
-        .key = "kinetic_energy", .title = "kinetic energy", .unit = "", .evaluate = gm_flows_kinetic_energy  \
-    }
-#define GM_FLOWS_ENSTROPHY                                                                                   \
-    {                                                                                                        \
-        .key = "enstrophy", .title = "enstrophy", .unit = "", .evaluate = gm_flows_enstrophy                 \
-    }
+#define GM_FLOWS_ENERGY GM_OBSERVABLE("kinetic_energy", gm_flows_kinetic_energy, "kinetic energy")
+#define GM_FLOWS_ENSTROPHY GM_OBSERVABLE("enstrophy", gm_flows_enstrophy, "enstrophy")
 #define GM_FLOWS_SPEED                                                                                       \
-    {                                                                                                        \
-        .key = "speed_max", .title = "largest speed, of a triangle or of the boundary", .unit = "",          \
-        .evaluate = gm_flows_speed_max                                                                       \
-    }
-#define GM_FLOWS_DIVERGENCE                                                                                  \
-    {                                                                                                        \
-        .key = "divergence", .title = "divergence  max |d₁ d₀ ψ|", .unit = "",                               \
-        .evaluate = gm_flows_divergence, .logarithmic = true                                                 \
-    }
-#define GM_FLOWS_CHANGE                                                                                      \
-    {                                                                                                        \
-        .key = "change", .title = "change of ψ in a step", .unit = "", .evaluate = gm_flows_change,          \
-        .logarithmic = true                                                                                  \
-    }
-#define GM_FLOWS_TRIANGLES                                                                                   \
-    {                                                                                                        \
-        .key = "triangles", .title = "triangles", .unit = "", .evaluate = gm_flows_triangles                 \
-    }
+    GM_OBSERVABLE("speed_max", gm_flows_speed_max, "largest speed, of a triangle or of the boundary")
+#define GM_FLOWS_DIVERGENCE GM_LOG_OBSERVABLE("divergence", gm_flows_divergence, "divergence  max |d₁ d₀ ψ|")
+#define GM_FLOWS_CHANGE GM_LOG_OBSERVABLE("change", gm_flows_change, "change of ψ in a step")
+#define GM_FLOWS_TRIANGLES GM_OBSERVABLE("triangles", gm_flows_triangles, "triangles")
 
 /* Flow between walls, u = U(y) with psi, theta and the total pressure known everywhere. */
 struct gm_shear {

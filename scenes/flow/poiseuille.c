@@ -101,8 +101,6 @@ static const struct gm_figure figures[] = {
     },
 };
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 const struct gm_scene gm_scene_poiseuille = {
     .name = "poiseuille",
     .title = "Poiseuille flow",
@@ -112,13 +110,13 @@ const struct gm_scene gm_scene_poiseuille = {
     .time = "H²/ν, the height squared over the viscosity",
     .size = sizeof(struct gm_flows),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .work = &gm_shear_work,
     .figures = figures,
-    .figure_count = COUNT(figures),
+    .figure_count = GM_COUNT(figures),
     .setup = setup,
     .close = gm_flows_close,
     .start = gm_flows_start,

@@ -20,16 +20,22 @@ static const double side = 5; /* of the room, in inlet heights */
 static const struct gm_parameter parameters[] = {
     GM_DT("0.002", 1e-7, 10),
     GM_UNTIL("3"),
-    GM_FLOWS_NUMBER(reynolds, "Reynolds number U h / ν", "100", 0.01, 1e5, true),
-    GM_FLOWS_NUMBER(schmidt, "Schmidt number ν / κ", "1", 1e-3, 1e4, true),
-    GM_FLOWS_WHOLE(rows, "edges on each of the walls x = 0 and x = 5", "50", 10, 1000),
-    GM_FLOWS_WHOLE(columns, "strips of triangles along x; 0: the best", "66", 0, 2000),
+    GM_REAL_ROW(struct gm_flows, reynolds, "reynolds", "100", 0.01, 1e5, "Reynolds number U h / ν",
+                .logarithmic = true),
+    GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", "1", 1e-3, 1e4, "Schmidt number ν / κ",
+                .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, rows, "rows", "50", 10, 1000,
+                   "edges on each of the walls x = 0 and x = 5", .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, columns, "columns", "66", 0, 2000,
+                   "strips of triangles along x; 0: the best", .logarithmic = true),
     GM_FLOWS_IRREGULAR,
-    GM_FLOWS_WORD(outlet, "soft, dirichlet or free; of a mesh also GROUP or GROUP:free", "soft",
-                  gm_flows_outlets),
-    GM_FLOWS_WORD(inlet, "name or tag of the mesh's inlet", "inlet", NULL),
-    GM_FLOWS_MESH("a Gmsh file (4.1, ASCII) of another room; none: the square one"),
-    GM_FLOWS_NUMBER(inlet_scalar, "concentration that enters", "1000", -1e300, 1e300, false),
+    GM_TEXT_ROW(struct gm_flows, outlet, "outlet", "soft",
+                "soft, dirichlet or free; of a mesh also GROUP or GROUP:free", .choices = gm_flows_outlets),
+    GM_TEXT_ROW(struct gm_flows, inlet, "inlet", "inlet", "name or tag of the mesh's inlet"),
+    GM_TEXT_ROW(struct gm_flows, mesh, "mesh", "none",
+                "a Gmsh file (4.1, ASCII) of another room; none: the square one", .file = true),
+    GM_REAL_ROW(struct gm_flows, inlet_scalar, "inlet_scalar", "1000", -1e300, 1e300,
+                "concentration that enters"),
     GM_FLOWS_TRACERS("350"),
     GM_FLOWS_LOOKS("scalar", "yes"),
 };
@@ -142,16 +148,9 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
 }
 
 static const struct gm_observable observables[] = {
-    {.key = "scalar_total", .title = "pollutant in the room", .unit = "", .evaluate = gm_flows_scalar_total},
-    {.key = "scalar_outflow",
-     .title = "outflow of pollutant",
-     .unit = "",
-     .evaluate = gm_flows_scalar_outflow},
-    {.key = "budget_defect",
-     .title = "defect of the pollutant's budget",
-     .unit = "",
-     .evaluate = gm_flows_budget_defect,
-     .logarithmic = true},
+    GM_OBSERVABLE("scalar_total", gm_flows_scalar_total, "pollutant in the room"),
+    GM_OBSERVABLE("scalar_outflow", gm_flows_scalar_outflow, "outflow of pollutant"),
+    GM_LOG_OBSERVABLE("budget_defect", gm_flows_budget_defect, "defect of the pollutant's budget"),
     GM_FLOWS_DIVERGENCE,
     GM_FLOWS_ENERGY,
     GM_FLOWS_ENSTROPHY,
@@ -230,8 +229,6 @@ static const struct gm_figure figures[] = {
     },
 };
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static double courant_time(const void *own)
 {
     return gm_flows_courant_time(setup, own);
@@ -245,11 +242,11 @@ static const struct gm_stability stability = {
     .arguments = "rows=30 columns=0 tracers=0 until=2",
     .parameter = "reynolds",
     .values = reynolds_numbers,
-    .value_count = COUNT(reynolds_numbers),
+    .value_count = GM_COUNT(reynolds_numbers),
     .label = "Courant number",
     .unit = courant_time,
     .steps = courant_numbers,
-    .step_count = COUNT(courant_numbers),
+    .step_count = GM_COUNT(courant_numbers),
     .kept = "speed_max",
     .schemes = marching,
 };
@@ -264,12 +261,12 @@ const struct gm_scene gm_scene_room = {
     .time = "τ = 4H/U, once around the room at the speed of the inlet’s centre",
     .size = sizeof(struct gm_flows),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .figures = figures,
-    .figure_count = COUNT(figures),
+    .figure_count = GM_COUNT(figures),
     .stability = &stability,
     .idle = gm_flows_idle,
     .setup = setup,

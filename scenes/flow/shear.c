@@ -23,7 +23,7 @@ const struct gm_work gm_shear_work = {
     .halvings = 4,
     .resolution = "rows",
     .resolutions = edges,
-    .resolution_count = sizeof edges / sizeof edges[0],
+    .resolution_count = GM_COUNT(edges),
     .errors = errors,
 };
 

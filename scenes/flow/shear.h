@@ -21,9 +21,12 @@ extern const struct gm_work gm_shear_work;
 
 #define GM_SHEAR_PARAMETERS                                                                                  \
     GM_DT("0.05", 1e-7, 10), GM_UNTIL("5"),                                                                  \
-        GM_FLOWS_NUMBER(reynolds, "Reynolds number U H / ν", "1", 0.01, 1e5, true),                          \
-        GM_FLOWS_WHOLE(rows, "edges at the bottom and at the top", "24", 3, 1000),                           \
-        GM_FLOWS_WHOLE(columns, "strips of triangles along y; 0: the best", "0", 0, 2000),                   \
+        GM_REAL_ROW(struct gm_flows, reynolds, "reynolds", "1", 0.01, 1e5, "Reynolds number U H / ν",        \
+                    .logarithmic = true),                                                                    \
+        GM_INTEGER_ROW(struct gm_flows, rows, "rows", "24", 3, 1000, "edges at the bottom and at the top",   \
+                       .logarithmic = true),                                                                 \
+        GM_INTEGER_ROW(struct gm_flows, columns, "columns", "0", 0, 2000,                                    \
+                       "strips of triangles along y; 0: the best", .logarithmic = true),                     \
         GM_FLOWS_IRREGULAR, GM_FLOWS_TRACERS("0"), GM_FLOWS_LOOKS("speed", "yes")
 
 /* The observables of a shear flow, whose struct gm_shear is called `shear`. */

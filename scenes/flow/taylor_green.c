@@ -16,11 +16,14 @@ static const char *const domains[] = {"torus", "box", NULL};
 static const struct gm_parameter parameters[] = {
     GM_DT("0.01", 1e-7, 10),
     GM_UNTIL("1"),
-    GM_FLOWS_NUMBER(viscosity, "kinematic viscosity ν; 0: an ideal fluid", "0.005", 0, 10, false),
-    GM_FLOWS_CHOICE(domain, "opposite sides are one, or walls without friction", "torus", domains, false),
-    GM_FLOWS_NUMBER(speed, "strength of other waves that are mixed in", "0", 0, 10, false),
-    GM_FLOWS_WHOLE(columns, "edges along x", "32", 4, 1000),
-    GM_FLOWS_WHOLE(rows, "strips of triangles along y; 0: the best", "0", 0, 2000),
+    GM_REAL_ROW(struct gm_flows, viscosity, "viscosity", "0.005", 0, 10,
+                "kinematic viscosity ν; 0: an ideal fluid"),
+    GM_CHOICE_ROW(struct gm_flows, domain, "domain", "torus", domains,
+                  "opposite sides are one, or walls without friction"),
+    GM_REAL_ROW(struct gm_flows, speed, "speed", "0", 0, 10, "strength of other waves that are mixed in"),
+    GM_INTEGER_ROW(struct gm_flows, columns, "columns", "32", 4, 1000, "edges along x", .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, rows, "rows", "0", 0, 2000, "strips of triangles along y; 0: the best",
+                   .logarithmic = true),
     GM_FLOWS_IRREGULAR,
     GM_FLOWS_TRACERS("0"),
     GM_FLOWS_LOOKS("vorticity", "yes"),
@@ -114,33 +117,13 @@ static double psi_error(const struct gm_view *view)
 static const char mixed[] = "no exact solution is known of several waves";
 
 static const struct gm_observable observables[] = {
-    {.key = "solution_error",
-     .title = "error of ψ",
-     .missing = mixed,
-     .unit = "",
-     .evaluate = solution_error,
-     .logarithmic = true},
-    {.key = "psi_error",
-     .title = "relative error of ψ",
-     .missing = mixed,
-     .unit = "",
-     .evaluate = psi_error,
-     .logarithmic = true},
+    GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ", .missing = mixed),
+    GM_LOG_OBSERVABLE("psi_error", psi_error, "relative error of ψ", .missing = mixed),
     GM_FLOWS_ENERGY,
     GM_FLOWS_ENSTROPHY,
-    {.key = "enstrophy_error",
-     .title = "enstrophy error",
-     .unit = "",
-     .evaluate = gm_flows_enstrophy,
-     .error = true,
-     .symbol = "Z",
-     .logarithmic = true},
-    {.key = "circulation_error",
-     .title = "circulation error",
-     .unit = "",
-     .evaluate = gm_flows_circulation_error,
-     .logarithmic = true},
-    {.key = "mean_edge", .title = "mean edge", .unit = "", .evaluate = gm_flows_mean_edge},
+    GM_LOG_OBSERVABLE("enstrophy_error", gm_flows_enstrophy, "enstrophy error", .error = true, .symbol = "Z"),
+    GM_LOG_OBSERVABLE("circulation_error", gm_flows_circulation_error, "circulation error"),
+    GM_OBSERVABLE("mean_edge", gm_flows_mean_edge, "mean edge"),
     GM_FLOWS_DIVERGENCE,
     GM_FLOWS_TRIANGLES,
 };
@@ -183,8 +166,6 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 
 static const char *const schemes[] = {"crank-nicolson", "semi-implicit", NULL};
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static const double edges[] = {8, 16, 32, 64, 128}, accuracies[] = {1e-1, 1e-2, 1e-3};
 
 static const struct gm_work work = {
@@ -194,7 +175,7 @@ static const struct gm_work work = {
     .halvings = 6,
     .resolution = "columns",
     .resolutions = edges,
-    .resolution_count = COUNT(edges),
+    .resolution_count = GM_COUNT(edges),
     .errors = accuracies,
     .schemes = schemes,
 };
@@ -209,11 +190,11 @@ const struct gm_scene gm_scene_taylor_green = {
     .time = "L/U, of the unit length over the greatest speed at the start of the single pattern",
     .size = sizeof(struct gm_flows),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .lanes = "scheme=crank-nicolson,semi-implicit viscosity=0 speed=1 until=5",
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .work = &work,
     .setup = setup,
     .close = gm_flows_close,

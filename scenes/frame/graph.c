@@ -193,7 +193,7 @@ const char *gm_counted_schemes(const struct gm_lane *const *lanes, size_t count)
             schemes += seen ? 0 : 1;
         }
     }
-    return schemes < sizeof words / sizeof words[0] ? words[schemes] : "many schemes";
+    return schemes < GM_COUNT(words) ? words[schemes] : "many schemes";
 }
 
 size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count)

@@ -8,6 +8,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "scenes/frame/rows.h"
+
 #define AT_MOST(number) .low = -INFINITY, .high = (number)
 #define AT_LEAST(number) .low = (number), .high = INFINITY
 #define BETWEEN(least, most) .low = (least), .high = (most)
@@ -366,7 +368,7 @@ static const struct gm_published published[] = {
 
 size_t gm_document_count(void)
 {
-    return sizeof documents / sizeof documents[0];
+    return GM_COUNT(documents);
 }
 
 const struct gm_document *gm_document_at(size_t index)
@@ -376,7 +378,7 @@ const struct gm_document *gm_document_at(size_t index)
 
 size_t gm_published_count(void)
 {
-    return sizeof published / sizeof published[0];
+    return GM_COUNT(published);
 }
 
 const struct gm_published *gm_published_at(size_t index)

@@ -17,7 +17,7 @@ static const struct gm_scene *const scenes[] = {
 
 size_t gm_scene_count(void)
 {
-    return sizeof scenes / sizeof scenes[0];
+    return GM_COUNT(scenes);
 }
 
 const struct gm_scene *gm_scene_at(size_t index)

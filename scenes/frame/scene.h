@@ -6,6 +6,7 @@
 
 #include "core/run.h"
 #include "render/picture/picture.h"
+#include "scenes/frame/rows.h"
 
 struct gm_lane;
 struct gm_entries;
@@ -18,20 +19,6 @@ struct gm_timing {
 
 /* The end of a run that is told by its steps alone. */
 #define GM_NEVER 1e12
-
-/* The rows of the two, for a scene's parameter table. */
-#define GM_DT(standard_text, low, high)                                                                      \
-    {                                                                                                        \
-        .key = "dt", .unit = "", .help = "time step", .type = GM_REAL,                                       \
-        .offset = offsetof(struct gm_timing, dt), .standard = standard_text, .lowest = low, .highest = high, \
-        .logarithmic = true, .live = true,                                                                   \
-    }
-#define GM_UNTIL(standard_text)                                                                              \
-    {                                                                                                        \
-        .key = "until", .unit = "", .help = "time at which run and render stop", .type = GM_REAL,            \
-        .offset = offsetof(struct gm_timing, until), .standard = standard_text, .lowest = 0,                 \
-        .highest = GM_NEVER, .logarithmic = true, .live = true,                                              \
-    }
 
 /* What may be looked at of one lane. */
 struct gm_view {

@@ -46,15 +46,7 @@ static const char *const systems[] = {"abc", "linear", NULL};
 static const struct gm_parameter parameters[] = {
     GM_DT("0.1", 1e-6, 10),
     GM_UNTIL("500"),
-    {
-        .key = "system",
-        .unit = "",
-        .help = "abc, or linear with zero trace",
-        .type = GM_CHOICE,
-        .offset = offsetof(struct abc, system),
-        .standard = "abc",
-        .choices = systems,
-    },
+    GM_CHOICE_ROW(struct abc, system, "system", "abc", systems, "abc, or linear with zero trace"),
     CONSTANT("A", 0, "1"),
     CONSTANT("B", 1, "sqrt(2/3)"),
     CONSTANT("C", 2, "sqrt(1/3)"),
@@ -110,12 +102,8 @@ static double log_volume(const struct gm_view *view)
 }
 
 static const struct gm_observable observables[] = {
-    {.key = "log_volume",
-     .title = "ln(volume / initial volume)",
-     .missing = "the cell is drawn out too far for differences to measure",
-     .unit = "",
-     .evaluate = log_volume,
-     .logarithmic = true},
+    GM_LOG_OBSERVABLE("log_volume", log_volume, "ln(volume / initial volume)",
+                      .missing = "the cell is drawn out too far for differences to measure"),
 };
 
 /* z passes a multiple of 2 pi upwards. */
@@ -261,8 +249,6 @@ static const char *const schemes[] = {
 static const struct gm_work work = {
     .arguments = "until=20", .coarsest = 0.8, .halvings = 8, .reference = "gauss8"};
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 const struct gm_scene gm_scene_abc = {
     .name = "abc",
     .title = "Flow without divergence",
@@ -274,12 +260,12 @@ const struct gm_scene gm_scene_abc = {
     .time = "length / speed, in the units of x and of A, B, C",
     .size = sizeof(struct abc),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .tracks = tracks,
-    .track_count = COUNT(tracks),
+    .track_count = GM_COUNT(tracks),
     .work = &work,
     .follow = 1,
     .setup = setup,

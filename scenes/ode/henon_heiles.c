@@ -22,36 +22,11 @@ struct henon_heiles {
 static const struct gm_parameter parameters[] = {
     GM_DT("0.1", 1e-7, 10),
     GM_UNTIL("20000"),
-    {
-        .key = "energy",
-        .unit = "",
-        .help = "1/12: nearly all orbits are regular; 1/8: part of them; 1/6: nearly none (escape beyond)",
-        .type = GM_REAL,
-        .offset = offsetof(struct henon_heiles, energy),
-        .standard = "1/12",
-        .lowest = 1e-6,
-        .highest = 1. / 6,
-    },
-    {
-        .key = "q2",
-        .unit = "",
-        .help = "start in the section: q1 = 0, p1 > 0 follows from the energy",
-        .type = GM_REAL,
-        .offset = offsetof(struct henon_heiles, q2),
-        .standard = "0.1",
-        .lowest = -0.5,
-        .highest = 1,
-    },
-    {
-        .key = "p2",
-        .unit = "",
-        .help = "start in the section",
-        .type = GM_REAL,
-        .offset = offsetof(struct henon_heiles, p2),
-        .standard = "0.1",
-        .lowest = -0.6,
-        .highest = 0.6,
-    },
+    GM_REAL_ROW(struct henon_heiles, energy, "energy", "1/12", 1e-6, 1. / 6,
+                "1/12: nearly all orbits are regular; 1/8: part of them; 1/6: nearly none (escape beyond)"),
+    GM_REAL_ROW(struct henon_heiles, q2, "q2", "0.1", -0.5, 1,
+                "start in the section: q1 = 0, p1 > 0 follows from the energy"),
+    GM_REAL_ROW(struct henon_heiles, p2, "p2", "0.1", -0.6, 0.6, "start in the section"),
 };
 
 static double potential(double q1, double q2)
@@ -89,14 +64,7 @@ static double energy(const struct gm_view *view)
 }
 
 static const struct gm_observable observables[] = {
-    {.key = "energy_error",
-     .title = "energy error",
-     .unit = "",
-     .evaluate = energy,
-     .error = true,
-     .symbol = "H",
-     .kept = true,
-     .logarithmic = true},
+    GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error"),
 };
 
 static double first_coordinate(const struct gm_view *view)
@@ -234,8 +202,6 @@ static const char *const schemes[] = {"verlet", "rk4",      "rk2",      "gauss4"
 static const struct gm_work work = {
     .arguments = "until=100", .coarsest = 0.5, .halvings = 8, .reference = "gauss8"};
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 /* Small oscillations turn by a radian in it. */
 static double radian_time(const void *own)
 {
@@ -250,11 +216,11 @@ static const struct gm_stability stability = {
     .arguments = "until=500",
     .parameter = "energy",
     .values = energies,
-    .value_count = COUNT(energies),
+    .value_count = GM_COUNT(energies),
     .label = "h ω",
     .unit = radian_time,
     .steps = steps,
-    .step_count = COUNT(steps),
+    .step_count = GM_COUNT(steps),
     .kept = "energy_error",
     .schemes = mapped,
 };
@@ -270,13 +236,13 @@ const struct gm_scene gm_scene_henon_heiles = {
     .time = "1/2π of the period of a small oscillation",
     .size = sizeof(struct henon_heiles),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .lanes = "scheme=verlet q2=0,.1,.2,.3 energy=1/8 overlay=yes",
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .tracks = tracks,
-    .track_count = COUNT(tracks),
+    .track_count = GM_COUNT(tracks),
     .work = &work,
     .stability = &stability,
     .follow = 1,

@@ -25,26 +25,10 @@ struct kepler {
 static const struct gm_parameter parameters[] = {
     GM_DT("2*pi/100", 1e-7, 1000),
     GM_UNTIL("40*pi"),
-    {
-        .key = "eccentricity",
-        .unit = "",
-        .help = "of the orbit, which starts at the pericentre",
-        .type = GM_REAL,
-        .offset = offsetof(struct kepler, eccentricity),
-        .standard = "0.5",
-        .lowest = 0,
-        .highest = 0.9999,
-    },
-    {
-        .key = "perturbation",
-        .unit = "",
-        .help = "the potential is −1/r − perturbation/r²",
-        .type = GM_REAL,
-        .offset = offsetof(struct kepler, perturbation),
-        .standard = "0",
-        .lowest = -0.1,
-        .highest = 0.1,
-    },
+    GM_REAL_ROW(struct kepler, eccentricity, "eccentricity", "0.5", 0, 0.9999,
+                "of the orbit, which starts at the pericentre"),
+    GM_REAL_ROW(struct kepler, perturbation, "perturbation", "0", -0.1, 0.1,
+                "the potential is −1/r − perturbation/r²"),
 };
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
@@ -106,36 +90,17 @@ static double natural_energy(const void *own)
 }
 
 static const struct gm_observable observables[] = {
-    {.key = "energy_error",
-     .title = "energy error",
-     .unit = "",
-     .evaluate = energy,
-     .error = true,
-     .symbol = "H",
-     .scale = natural_energy,
-     .scale_text = "1/2",
-     .kept = true,
-     .logarithmic = true},
-    {.key = "angular_momentum_error",
-     .title = "angular momentum error",
-     .unit = "",
-     .evaluate = angular_momentum,
-     .error = true,
-     .symbol = "L",
-     .kept = true,
-     .logarithmic = true},
+    GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error", .scale = natural_energy,
+                       .scale_text = "1/2"),
+    GM_KEPT_OBSERVABLE("angular_momentum_error", angular_momentum, "L", "angular momentum error"),
     {.key = "lrl_angle",
      .title = "turn of the orbit's axis",
      .missing = "a circle has no axis",
      .unit = "rad",
      .evaluate = lrl_angle,
      .period = 2 * M_PI},
-    {.key = "position_error",
-     .title = "distance from the exact position",
-     .missing = "no exact solution is known with a perturbation",
-     .unit = "",
-     .evaluate = position_error,
-     .logarithmic = true},
+    GM_LOG_OBSERVABLE("position_error", position_error, "distance from the exact position",
+                      .missing = "no exact solution is known with a perturbation"),
 };
 
 static size_t two(const struct gm_view *view)
@@ -372,19 +337,17 @@ static double period(const void *own)
 
 static const double eccentricities[] = {0, 0.17, 0.33, 0.5, 0.66, 0.83, 0.99};
 static const double steps[] = {1. / 2000, 1. / 1000, 1. / 500, 1. / 200, 1. / 100, 1. / 60, 1. / 40, 1. / 20};
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 static const char *const mapped[] = {"verlet", "rk4", "rk4sym", "gauss4", "logh2", "levi-civita", NULL};
 
 static const struct gm_stability stability = {
     .arguments = "until=40*pi",
     .parameter = "eccentricity",
     .values = eccentricities,
-    .value_count = COUNT(eccentricities),
+    .value_count = GM_COUNT(eccentricities),
     .label = "h / T",
     .unit = period,
     .steps = steps,
-    .step_count = COUNT(steps),
+    .step_count = GM_COUNT(steps),
     .kept = "energy_error",
     .error = "position_error",
     .schemes = mapped,
@@ -403,15 +366,15 @@ const struct gm_scene gm_scene_kepler = {
     .time = "1/2π of the unperturbed orbit’s period, whatever its eccentricity",
     .size = sizeof(struct kepler),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .lanes = "scheme=rk2,rk4,verlet,rk4sym",
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .tracks = tracks,
-    .track_count = COUNT(tracks),
+    .track_count = GM_COUNT(tracks),
     .figures = figures,
-    .figure_count = COUNT(figures),
+    .figure_count = GM_COUNT(figures),
     .work = &work,
     .stability = &stability,
     .follow = 64,

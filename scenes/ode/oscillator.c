@@ -31,35 +31,11 @@ static const char *const systems[] = {"harmonic", "pendulum", NULL};
 static const struct gm_parameter parameters[] = {
     GM_DT("0.02", 1e-7, 100),
     GM_UNTIL("20"),
-    {
-        .key = "system",
-        .unit = "",
-        .help = "H = p²/2 + q²/2 or p²/2 − cos q",
-        .type = GM_CHOICE,
-        .offset = offsetof(struct oscillator, system),
-        .standard = "harmonic",
-        .choices = systems,
-    },
-    {
-        .key = "q0",
-        .unit = "",
-        .help = "position at the start",
-        .type = GM_REAL,
-        .offset = offsetof(struct oscillator, q0),
-        .standard = "0.29552020666133957", /* sin 0.3 */
-        .lowest = -100,
-        .highest = 100,
-    },
-    {
-        .key = "p0",
-        .unit = "",
-        .help = "momentum at the start",
-        .type = GM_REAL,
-        .offset = offsetof(struct oscillator, p0),
-        .standard = "0.955336489125606", /* cos 0.3 */
-        .lowest = -100,
-        .highest = 100,
-    },
+    GM_CHOICE_ROW(struct oscillator, system, "system", "harmonic", systems,
+                  "H = p²/2 + q²/2 or p²/2 − cos q"),
+    /* sin 0.3 and cos 0.3 */
+    GM_REAL_ROW(struct oscillator, q0, "q0", "0.29552020666133957", -100, 100, "position at the start"),
+    GM_REAL_ROW(struct oscillator, p0, "p0", "0.955336489125606", -100, 100, "momentum at the start"),
 };
 
 static void turn(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
@@ -129,18 +105,10 @@ static double natural_energy(const void *own)
 }
 
 static const struct gm_observable observables[] = {
-    [ENERGY] = {.key = "energy_error",
-                .title = "energy error",
-                .unit = "",
-                .evaluate = energy,
-                .error = true,
-                .symbol = "H",
-                .scale = natural_energy,
-                .scale_text = "1 for the pendulum",
-                .kept = true,
-                .logarithmic = true},
-    [TAU] = {.key = "tau", .title = "time step τ", .unit = "", .evaluate = tau, .logarithmic = true},
-    [RESTARTS] = {.key = "restarts", .title = "restarts", .unit = "", .evaluate = restarts},
+    [ENERGY] = GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error", .scale = natural_energy,
+                                  .scale_text = "1 for the pendulum"),
+    [TAU] = GM_LOG_OBSERVABLE("tau", tau, "time step τ"),
+    [RESTARTS] = GM_OBSERVABLE("restarts", restarts, "restarts"),
     [PHASE] = {.key = "phase_error",
                .title = "phase error",
                .missing = "the phase of the pendulum is not followed",
@@ -288,8 +256,6 @@ static const struct gm_figure figures[] = {
     },
 };
 
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
 const struct gm_scene gm_scene_oscillator = {
     .name = "oscillator",
     .title = "One oscillator, steps by variation",
@@ -302,14 +268,14 @@ const struct gm_scene gm_scene_oscillator = {
         "1/2π of the harmonic oscillator’s period; of the pendulum √(l/g), 1/2π of the period of a small swing",
     .size = sizeof(struct oscillator),
     .parameters = parameters,
-    .parameter_count = COUNT(parameters),
+    .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
     .observables = observables,
-    .observable_count = COUNT(observables),
+    .observable_count = GM_COUNT(observables),
     .tracks = tracks,
-    .track_count = COUNT(tracks),
+    .track_count = GM_COUNT(tracks),
     .figures = figures,
-    .figure_count = COUNT(figures),
+    .figure_count = GM_COUNT(figures),
     .follow = 1,
     .setup = setup,
     .start = start,
