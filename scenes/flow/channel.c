@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scenes/flow/shear.h"
+#include "scenes/flow/flows.h"
 
 static const double hot = 20;
 
@@ -45,8 +45,6 @@ static double psi(double y)
 {
     return 2 * y * y - 4.0 / 3 * y * y * y;
 }
-
-static const struct gm_shear shear = {.velocity = velocity, .psi = psi, .theta = theta};
 
 static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
 {
@@ -129,7 +127,7 @@ static double theta_error(const struct gm_view *view)
 
 static double solution_error(const struct gm_view *view)
 {
-    return gm_shear_solution_error(&shear, view);
+    return gm_flows_psi_error(view, psi);
 }
 
 static const struct gm_observable observables[] = {
@@ -161,7 +159,7 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
 static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                      enum gm_place place)
 {
-    gm_shear_draw_profiles(lanes, count, picture, place, &line, velocity, theta);
+    gm_flows_draw_profiles(lanes, count, picture, place, &line, velocity, theta);
 }
 
 static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)

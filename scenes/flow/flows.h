@@ -115,25 +115,18 @@ double gm_flows_triangles(const struct gm_view *view);
 #define GM_FLOWS_CHANGE GM_LOG_OBSERVABLE("change", gm_flows_change, "change of ψ in a step")
 #define GM_FLOWS_TRIANGLES GM_OBSERVABLE("triangles", gm_flows_triangles, "triangles")
 
-/* Flow between walls, u = U(y) with psi, theta and the total pressure known everywhere. */
-struct gm_shear {
-    double (*velocity)(double y);
-    double (*psi)(double y);
-    double (*pressure)(double x, double y, double viscosity);
-    double (*theta)(double y); /* NULL: it is y */
-};
-double gm_shear_psi_error(const struct gm_shear *shear, const struct gm_view *view);
-double gm_shear_theta_error(const struct gm_shear *shear, const struct gm_view *view);
-double gm_shear_flux_error(const struct gm_shear *shear, const struct gm_view *view);
-double gm_shear_velocity_error(const struct gm_shear *shear, const struct gm_view *view);
-double gm_shear_pressure_error(const struct gm_shear *shear, const struct gm_view *view);
-/* the same away from the walls, further than .2 from each: there the layer of wrong vorticity along the
-   walls, one cell wide, is not met */
-double gm_shear_pressure_error_middle(const struct gm_shear *shear, const struct gm_view *view);
-/* max |psi - exact| */
-double gm_shear_solution_error(const struct gm_shear *shear, const struct gm_view *view);
 double gm_flows_mean_edge(const struct gm_view *view);
+/* max |psi - exact|, of a flow along x whose stream function is known */
+double gm_flows_psi_error(const struct gm_view *view, double (*psi)(double y));
 
+/* A profile: along the line from a to b, `count` points; reference(s) where it is known, s = 0 .. 1.
+ */
+struct gm_profile {
+    const char *name;
+    double a[2], b[2];
+    size_t count;
+    double (*reference)(const struct gm_view *view, double s); /* NULL: none */
+};
 /* What a scene's picture shows besides the field. */
 struct gm_look {
     const char *title;
@@ -166,14 +159,11 @@ const char *gm_flows_mesh_and_scheme(struct gm_picture *picture, const struct gm
 void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                    const struct gm_look *look);
 
-/* Rows of a profile: along the line from a to b, `count` points; reference(s) where it is known, s = 0 ..
-   1. */
-struct gm_profile {
-    const char *name;
-    double a[2], b[2];
-    size_t count;
-    double (*reference)(const struct gm_view *view, double s); /* NULL: none */
-};
+/* Two panels: u and theta along the profile, which runs upwards, the exact ones dashed and grey beneath. */
+void gm_flows_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                            enum gm_place place, const struct gm_profile *line, double (*velocity)(double y),
+                            double (*theta)(double y));
+/* Rows of CSV. */
 void gm_flows_write_profile(const struct gm_view *view, const char *front, const struct gm_profile *profile,
                             FILE *stream);
 void gm_flows_write_sample(const struct gm_view *view, const char *front, const char *name, double x,

@@ -287,6 +287,62 @@ static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
+static void draw_profile(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                         enum gm_place place, const struct gm_profile *line, bool scalar,
+                         double (*exact)(double), const char *label)
+{
+    enum { POINTS = 65 };
+    struct gm_panel *panel = gm_panel_add(picture, place, "");
+    double points[2 * POINTS];
+    panel->axes = true;
+    panel->x = (struct gm_axis){.label = label, .low = 1, .high = 0};
+    panel->y = (struct gm_axis){.label = "y", .low = line->a[1], .high = line->b[1]};
+    for (int drawn = 0; drawn < 2; drawn++) {
+        for (size_t i = 0; exact && i < POINTS; i++) {
+            const double z = line->a[1] + (line->b[1] - line->a[1]) * (double)i / (POINTS - 1);
+            points[2 * i] = exact(z);
+            points[2 * i + 1] = z;
+            gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
+        }
+        if (drawn && exact) {
+            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.6, GM_SHORT_DASH}, points, POINTS,
+                         false);
+        }
+        for (size_t k = 0; k < count; k++) {
+            size_t made = 0;
+            for (size_t i = 0; i < POINTS; i++) {
+                const double s = (double)i / (POINTS - 1), x = line->a[0] + s * (line->b[0] - line->a[0]);
+                const double z = line->a[1] + s * (line->b[1] - line->a[1]);
+                struct gm_sample sample;
+                if (gm_flow_sample(gm_flow_of(&lanes[k]->problem), gm_run_state(lanes[k]->run), x, z,
+                                   &sample)) {
+                    points[2 * made] = scalar ? sample.theta : sample.u;
+                    points[2 * made + 1] = z;
+                    if (!exact) {
+                        gm_range_add(&panel->x.low, &panel->x.high, points[2 * made]);
+                    }
+                    made++;
+                }
+            }
+            if (drawn) {
+                gm_mark_line(picture, panel, gm_lane_style(lanes[k], 1, 2.4), points, made, false);
+            }
+        }
+        if (!drawn && !exact) {
+            gm_range_round(&panel->x.low, &panel->x.high, GM_LINEAR);
+        }
+    }
+}
+
+void gm_flows_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                            enum gm_place place, const struct gm_profile *line, double (*velocity)(double),
+                            double (*theta)(double))
+{
+    draw_profile(picture, lanes, count, place, line, false, velocity, "u");
+    draw_profile(picture, lanes, count, place, line, true, theta, "θ");
+    picture->caption = "Grey, dashed: exact.";
+}
+
 /* The clock; none where there is no time: steady states. */
 static void draw_clock(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                        const struct gm_look *look)

@@ -1,33 +1,80 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The flows between two walls, couette and poiseuille: a unit square with psi, and theta = y, given all
-   round. */
-#include "scenes/flow/shear.h"
-
+/* Flow between two walls in a unit square, which is known exactly: Couette's, between a wall at rest and one
+   that moves, and Poiseuille's, which a pressure drives. They are here to read the convergence of discrete
+   exterior calculus off them: Razafindralandy, Hamdouni & Chhay (2018), figures 32 to 34. Lengths in H,
+   velocities in the U of the moving wall or of the centreline, time in H^2 / nu; kappa = nu, and theta = y.
+ */
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
-const struct gm_look_error gm_shear_errors[] = {
-    {"psi_error", "ψ"},
-    {"theta_error", "θ"},
-    {"flux_error", "flux"},
-    {"velocity_error", "velocity"},
-    {"pressure_error", "total pressure"},
-    {NULL, NULL},
+#include "scenes/flow/flows.h"
+
+struct shear {
+    const char *name, *title;
+    double (*velocity)(double y);
+    double (*psi)(double y);
+    double slope; /* of the pressure along x, over the viscosity */
+    double vorticity_range;
 };
 
-static const double edges[] = {6, 12, 24, 48, 96}, errors[] = {1e-2, 1e-3, 1e-4};
+static double height(double y)
+{
+    return y;
+}
+static double couette_psi(double y)
+{
+    return y * y / 2;
+}
+static double poiseuille_velocity(double y)
+{
+    return 4 * y * (1 - y);
+}
+static double poiseuille_psi(double y)
+{
+    return 2 * y * y - 4.0 / 3 * y * y * y;
+}
 
-const struct gm_work gm_shear_work = {
-    .arguments = "until=1",
-    .measure = "psi_error",
-    .coarsest = 0.2,
-    .halvings = 4,
-    .resolution = "rows",
-    .resolutions = edges,
-    .resolution_count = GM_COUNT(edges),
-    .errors = errors,
+static const struct shear couette = {.name = "couette",
+                                     .title = "Couette flow",
+                                     .velocity = height,
+                                     .psi = couette_psi,
+                                     .vorticity_range = 2},
+                          poiseuille = {.name = "poiseuille",
+                                        .title = "Poiseuille flow",
+                                        .velocity = poiseuille_velocity,
+                                        .psi = poiseuille_psi,
+                                        .slope = -8,
+                                        .vorticity_range = 4};
+
+static const struct shear *shear_of(const struct gm_problem *problem)
+{
+    return strcmp(problem->name, couette.name) == 0 ? &couette : &poiseuille;
+}
+
+static double total_pressure(const struct shear *shear, const double *point, double viscosity)
+{
+    const double u = shear->velocity(point[1]);
+    return shear->slope * viscosity * point[0] + u * u / 2;
+}
+
+static const struct gm_parameter parameters[] = {
+    GM_DT("0.05", 1e-7, 10),
+    GM_UNTIL("5"),
+    GM_REAL_ROW(struct gm_flows, reynolds, "reynolds", "1", 0.01, 1e5, "Reynolds number U H / ν",
+                .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, rows, "rows", "24", 3, 1000, "edges at the bottom and at the top",
+                   .logarithmic = true),
+    GM_INTEGER_ROW(struct gm_flows, columns, "columns", "0", 0, 2000,
+                   "strips of triangles along y; 0: the best", .logarithmic = true),
+    GM_FLOWS_IRREGULAR,
+    GM_FLOWS_TRACERS("0"),
+    GM_FLOWS_LOOKS("speed", "yes"),
 };
 
-static bool make(const struct gm_flows *own, const struct gm_shear *shear, struct gm_flow **made,
+/* A mesh of the square with psi and theta given all round. */
+static bool make(const struct gm_flows *own, const struct shear *shear, struct gm_problem *problem,
                  char *sentence)
 {
     struct gm_rectangle rectangle = {
@@ -62,73 +109,281 @@ static bool make(const struct gm_flows *own, const struct gm_shear *shear, struc
     flow->speed = 1;
     flow->scalar = true;
     flow->tracers = (size_t)own->tracers;
-    *made = flow;
+    gm_flows_problem(problem, flow, shear->name);
     return true;
 }
 
-bool gm_shear_setup(const void *parameters, const struct gm_shear *shear, const char *name,
-                    struct gm_problem *problem, char *sentence)
+static bool setup_couette(const void *own, struct gm_problem *problem, char *sentence)
 {
-    struct gm_flow *flow = NULL;
-    if (!make(parameters, shear, &flow, sentence)) {
-        return false;
-    }
-    gm_flows_problem(problem, flow, name);
-    return true;
+    return make(own, &couette, problem, sentence);
 }
 
-static void draw_profile(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                         enum gm_place place, const struct gm_profile *line, bool scalar,
-                         double (*exact)(double), const char *label)
+static bool setup_poiseuille(const void *own, struct gm_problem *problem, char *sentence)
 {
-    enum { POINTS = 65 };
-    struct gm_panel *panel = gm_panel_add(picture, place, "");
-    double points[2 * POINTS];
-    panel->axes = true;
-    panel->x = (struct gm_axis){.label = label, .low = 1, .high = 0};
-    panel->y = (struct gm_axis){.label = "y", .low = line->a[1], .high = line->b[1]};
-    for (int drawn = 0; drawn < 2; drawn++) {
-        for (size_t i = 0; exact && i < POINTS; i++) {
-            const double z = line->a[1] + (line->b[1] - line->a[1]) * (double)i / (POINTS - 1);
-            points[2 * i] = exact(z);
-            points[2 * i + 1] = z;
-            gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
-        }
-        if (drawn && exact) {
-            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.6, GM_SHORT_DASH}, points, POINTS,
-                         false);
-        }
-        for (size_t k = 0; k < count; k++) {
-            size_t made = 0;
-            for (size_t i = 0; i < POINTS; i++) {
-                const double s = (double)i / (POINTS - 1), x = line->a[0] + s * (line->b[0] - line->a[0]);
-                const double z = line->a[1] + s * (line->b[1] - line->a[1]);
-                struct gm_sample sample;
-                if (gm_flow_sample(gm_flow_of(&lanes[k]->problem), gm_run_state(lanes[k]->run), x, z,
-                                   &sample)) {
-                    points[2 * made] = scalar ? sample.theta : sample.u;
-                    points[2 * made + 1] = z;
-                    if (!exact) {
-                        gm_range_add(&panel->x.low, &panel->x.high, points[2 * made]);
-                    }
-                    made++;
-                }
-            }
-            if (drawn) {
-                gm_mark_line(picture, panel, gm_lane_style(lanes[k], 1, 2.4), points, made, false);
-            }
-        }
-        if (!drawn && !exact) {
-            gm_range_round(&panel->x.low, &panel->x.high, GM_LINEAR);
-        }
+    return make(own, &poiseuille, problem, sentence);
+}
+
+static double solution_error(const struct gm_view *view)
+{
+    return gm_flows_psi_error(view, shear_of(view->problem)->psi);
+}
+
+/* |values - exact| / |exact| in the norm sum star0 w^2 */
+static double vertex_error(const struct gm_view *view, enum gm_flow_block block, double (*exact)(double))
+{
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    const double *values = gm_flow_block(gm_flow_of(view->problem), view->state, block);
+    double error = 0, size = 0;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        const double z = complex->point[2 * v + 1], truth = exact(z), away = values[v] - truth;
+        error += complex->star0[v] * away * away;
+        size += complex->star0[v] * truth * truth;
+    }
+    return sqrt(error / size);
+}
+
+static double psi_error(const struct gm_view *view)
+{
+    return vertex_error(view, GM_FLOW_PSI, shear_of(view->problem)->psi);
+}
+
+static double theta_error(const struct gm_view *view)
+{
+    return vertex_error(view, GM_FLOW_THETA, height);
+}
+
+/* An end of a dual edge: a circumcentre, or on the boundary the edge's middle. */
+static void dual_end(const struct gm_complex *complex, size_t e, int side, double p[2])
+{
+    const int t = complex->edge_triangle[2 * e + (size_t)side];
+    if (t >= 0) {
+        gm_complex_circumcentre(complex, (size_t)t, p);
+        return;
+    }
+    for (int c = 0; c < 2; c++) {
+        p[c] = (complex->point[2 * complex->edge[2 * e] + c] +
+                complex->point[2 * complex->edge[2 * e + 1] + c]) /
+               2;
     }
 }
 
-void gm_shear_draw_profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
-                            enum gm_place place, const struct gm_profile *line, double (*velocity)(double),
-                            double (*theta)(double))
+static double flux_error(const struct gm_view *view)
 {
-    draw_profile(picture, lanes, count, place, line, false, velocity, "u");
-    draw_profile(picture, lanes, count, place, line, true, theta, "θ");
-    picture->caption = "Grey, dashed: exact.";
+    const struct shear *shear = shear_of(view->problem);
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    double error = 0, size = 0;
+    for (size_t e = 0; e < complex->edges; e++) {
+        double from[2], to[2];
+        dual_end(complex, e, 1, from);
+        dual_end(complex, e, 0, to);
+        /* Simpson's rule is exact for a parabola */
+        const double exact =
+            (to[0] - from[0]) *
+            (shear->velocity(from[1]) + 4 * shear->velocity((from[1] + to[1]) / 2) + shear->velocity(to[1])) /
+            6;
+        const double circulation =
+            -complex->star1[e] * (view->state[complex->edge[2 * e + 1]] - view->state[complex->edge[2 * e]]);
+        error += complex->length[e] * (circulation - exact) * (circulation - exact);
+        size += complex->length[e] * exact * exact;
+    }
+    return sqrt(error / size);
 }
+
+static double velocity_error(const struct gm_view *view)
+{
+    const struct shear *shear = shear_of(view->problem);
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    double error = 0, size = 0;
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double u[2], p[6];
+        gm_flow_velocity(complex, view->state, t, u);
+        gm_complex_corners(complex, t, p);
+        const double exact = shear->velocity((p[1] + p[3] + p[5]) / 3);
+        error += complex->area[t] * ((u[0] - exact) * (u[0] - exact) + u[1] * u[1]);
+        size += complex->area[t] * exact * exact;
+    }
+    return sqrt(error / size);
+}
+
+/* The error of the total pressure over the triangles whose circumcentre is further than `margin` from the
+   boundary of the unit square; both pressures with mean 0 there. */
+static double pressure_error_within(const struct gm_view *view, double margin)
+{
+    const struct shear *shear = shear_of(view->problem);
+    const struct gm_complex *complex = gm_flow_of(view->problem)->complex;
+    double *pressure = malloc(3 * complex->triangles * sizeof *pressure);
+    if (!pressure || !gm_flow_pressure(gm_flow_of(view->problem), view->state, pressure)) {
+        free(pressure);
+        return NAN;
+    }
+    double *exact = pressure + complex->triangles, *area = exact + complex->triangles;
+    double mean = 0, exact_mean = 0, total = 0, error = 0, size = 0;
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double centre[2];
+        gm_complex_circumcentre(complex, t, centre);
+        const double to_wall = fmin(fmin(centre[0], 1 - centre[0]), fmin(centre[1], 1 - centre[1]));
+        exact[t] = total_pressure(shear, centre, gm_flow_of(view->problem)->viscosity);
+        area[t] = to_wall >= margin ? complex->area[t] : 0;
+        mean += area[t] * pressure[t];
+        exact_mean += area[t] * exact[t];
+        total += area[t];
+    }
+    for (size_t t = 0; t < complex->triangles; t++) {
+        const double truth = exact[t] - exact_mean / total, away = pressure[t] - mean / total - truth;
+        error += area[t] * away * away;
+        size += area[t] * truth * truth;
+    }
+    free(pressure);
+    return sqrt(error / size);
+}
+
+static double pressure_error(const struct gm_view *view)
+{
+    return pressure_error_within(view, -INFINITY);
+}
+
+static double pressure_error_middle(const struct gm_view *view)
+{
+    return pressure_error_within(view, 0.2);
+}
+
+static const struct gm_observable observables[] = {
+    GM_LOG_OBSERVABLE("solution_error", solution_error, "error of ψ"),
+    GM_LOG_OBSERVABLE("psi_error", psi_error, "relative error of ψ"),
+    GM_LOG_OBSERVABLE("theta_error", theta_error, "relative error of θ"),
+    GM_LOG_OBSERVABLE("flux_error", flux_error, "relative error of the flux"),
+    GM_LOG_OBSERVABLE("velocity_error", velocity_error, "relative error of the velocity"),
+    GM_LOG_OBSERVABLE("pressure_error", pressure_error, "relative error of the total pressure"),
+    GM_LOG_OBSERVABLE("pressure_error_middle", pressure_error_middle,
+                      "relative error of the total pressure away from the walls"),
+    GM_OBSERVABLE("mean_edge", gm_flows_mean_edge, "mean edge"),
+    GM_FLOWS_DIVERGENCE,
+    GM_FLOWS_ENERGY,
+    GM_FLOWS_CHANGE,
+    GM_FLOWS_TRIANGLES,
+};
+
+static const struct gm_profile middle = {"middle", {0.5, 0}, {0.5, 1}, 101, NULL};
+
+static double reference(const struct gm_view *view, double s)
+{
+    return shear_of(view->problem)->velocity(s);
+}
+
+static void profile(const struct gm_view *view, const char *front, FILE *stream)
+{
+    struct gm_profile line = middle;
+    line.reference = reference;
+    gm_flows_write_profile(view, front, &line, stream);
+}
+
+static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
+                     enum gm_place place)
+{
+    const struct shear *shear = shear_of(&lanes[0]->problem);
+    gm_flows_draw_profiles(lanes, count, picture, place, &middle, shear->velocity, height);
+}
+
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    return gm_picture_text(
+        picture, "%s%s",
+        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
+        gm_flows_mesh_and_scheme(picture, lanes, count));
+}
+
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    static const struct gm_look_error errors[] = {{"psi_error", "ψ"},
+                                                  {"theta_error", "θ"},
+                                                  {"flux_error", "flux"},
+                                                  {"velocity_error", "velocity"},
+                                                  {"pressure_error", "total pressure"},
+                                                  {NULL, NULL}};
+    const struct shear *shear = shear_of(&lanes[0]->problem);
+    const struct gm_look look = {
+        .title = shear->title,
+        .subtitle = subtitle,
+        .clock_unit = "H²/ν",
+        .scalar_high = 1,
+        .vorticity_range = shear->vorticity_range,
+        .speed_high = 1,
+        .graphs = {"psi_error", "divergence"},
+        .graph_low = {0, 1e-17},
+        .graph_high = {0, 1e-15},
+        .profiles = profiles,
+        .errors = errors,
+    };
+    gm_flows_draw(lanes, count, picture, &look);
+}
+
+static const char *const schemes[] = {"semi-implicit", NULL};
+
+static const double edges[] = {6, 12, 24, 48, 96}, errors[] = {1e-2, 1e-3, 1e-4};
+
+static const struct gm_work work = {
+    .arguments = "until=1",
+    .measure = "psi_error",
+    .coarsest = 0.2,
+    .halvings = 4,
+    .resolution = "rows",
+    .resolutions = edges,
+    .resolution_count = GM_COUNT(edges),
+    .errors = errors,
+};
+
+static const struct gm_figure couette_figures[] = {
+    {
+        .name = "razafindralandy-32",
+        .statement =
+            "orders 1.84 of the stream function, 2 of the temperature, 1 of flux and velocity, 1.65 of the pressure",
+        .arguments = "scheme=steady rows=6,12,24,48,96 irregular=0.25 dt=1 until=6 show=convergence",
+    },
+    {
+        .name = "razafindralandy-34-couette",
+        .statement = "the divergence stays below 2e-16 at all times",
+        .arguments = "rows=24 irregular=0.25 until=2 show=divergence",
+    },
+};
+
+static const struct gm_figure poiseuille_figures[] = {
+    {
+        .name = "razafindralandy-33",
+        .statement = "orders 1.37 of the stream function, 1.95 of the temperature, 1 of flux and velocity",
+        .arguments = "scheme=steady rows=6,12,24,48,96 irregular=0.25 dt=1 until=6 show=convergence",
+    },
+    {
+        .name = "razafindralandy-34-poiseuille",
+        .statement = "the divergence stays below 2e-16 at all times",
+        .arguments = "rows=24 irregular=0.25 until=2 show=divergence",
+    },
+};
+
+#define FIELDS_OF_BOTH                                                                                       \
+    .watch = "Watch the divergence: it is zero to the last digit on every mesh, however coarse.",            \
+    .time = "H²/ν, the height squared over the viscosity", .size = sizeof(struct gm_flows),                  \
+    .parameters = parameters, .parameter_count = GM_COUNT(parameters), .schemes = schemes,                   \
+    .observables = observables, .observable_count = GM_COUNT(observables), .work = &work,                    \
+    .close = gm_flows_close, .start = gm_flows_start, .draw = draw, .profile = profile
+
+const struct gm_scene gm_scene_couette = {
+    .name = "couette",
+    .title = "Couette flow",
+    .blurb =
+        "The flow between a wall at rest and one that moves, in a square. Its stream function converges with the square of the edge length, its velocity with the length itself.",
+    .figures = couette_figures,
+    .figure_count = GM_COUNT(couette_figures),
+    .setup = setup_couette,
+    FIELDS_OF_BOTH,
+};
+
+const struct gm_scene gm_scene_poiseuille = {
+    .name = "poiseuille",
+    .title = "Poiseuille flow",
+    .blurb =
+        "The flow that a pressure drives between two walls, in a square. Its stream function converges with the square of the edge length, its velocity with the length itself.",
+    .figures = poiseuille_figures,
+    .figure_count = GM_COUNT(poiseuille_figures),
+    .setup = setup_poiseuille,
+    FIELDS_OF_BOTH,
+};
