@@ -12,9 +12,9 @@
        figure 26   a self-similar viscous shock */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "scenes/field/burgers_draw.h"
+#include "scenes/field/field.h"
 
 static const char *const tests[] = {"front", "shock", NULL};
 static const char *const frames[] = {"each", "fixed", "moving", NULL};
@@ -54,25 +54,9 @@ static double t0(const void *own)
 static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
 {
     struct gm_burgers_scene *scene = own;
-    bool dt = false, courant = false;
-    for (size_t i = 0; i < count; i++) {
-        dt |= strcmp(keys[i], "dt") == 0;
-        courant |= strcmp(keys[i], "courant") == 0;
-    }
     const double length = 2 * half_length(scene);
     scene->dx = length / fmax(2, round(length / scene->dx));
-    const double follows = scene->courant * scene->dx;
-    if (dt && courant && fabs(follows - scene->timing.dt) > 1e-9 * follows) {
-        snprintf(sentence, GM_SENTENCE,
-                 "dt= and courant= are both given; one of them follows from the other");
-        return false;
-    }
-    if (dt) {
-        scene->courant = scene->timing.dt / scene->dx;
-    } else {
-        scene->timing.dt = follows;
-    }
-    return true;
+    return gm_settle_courant(keys, count, scene->dx, &scene->timing, &scene->courant, sentence);
 }
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)

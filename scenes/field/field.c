@@ -4,8 +4,55 @@
 #include "scenes/field/field.h"
 
 #include <math.h>
+#include <stdio.h>
+
+#include "core/field/multisymplectic.h"
 
 enum { DRAWN = 1600 /* most points of a profile */ };
+
+struct gm_line gm_ring(double half_length, long points)
+{
+    return (struct gm_line){
+        .points = (size_t)points, .dx = 2 * half_length / (double)points, .first = -half_length};
+}
+
+bool gm_settle_courant(const char *const *keys, size_t count, double dx, struct gm_timing *timing,
+                       double *courant, char *sentence)
+{
+    const double follows = *courant * dx;
+    const bool dt = gm_is_given("dt", keys, count);
+    if (dt && gm_is_given("courant", keys, count) && fabs(follows - timing->dt) > 1e-9 * follows) {
+        snprintf(sentence, GM_SENTENCE,
+                 "dt= and courant= are both given; one of them follows from the other");
+        return false;
+    }
+    if (dt) {
+        *courant = timing->dt / dx;
+    } else {
+        timing->dt = follows;
+    }
+    return true;
+}
+
+double gm_field_u(const struct gm_view *view, size_t node)
+{
+    return view->state[node];
+}
+
+double gm_field_error(const struct gm_view *view, double (*exact)(const struct gm_view *view, double x))
+{
+    double largest = 0;
+    for (size_t i = 0; i < view->problem->line.points; i++) {
+        const double error = fabs(view->state[i] - exact(view, gm_line_node(&view->problem->line, i)));
+        largest = error > largest || isnan(error) ? error : largest;
+    }
+    return largest;
+}
+
+double gm_field_form_residual(const struct gm_view *view)
+{
+    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
+}
 
 static size_t columns_of(const struct gm_problem *problem)
 {
@@ -30,6 +77,11 @@ void gm_surface_record(const struct gm_view *view, double (*value)(const struct 
     for (size_t k = 0; k < columns; k++) {
         entry[k] = value(view, k * points / columns);
     }
+}
+
+void gm_surface_record_u(const struct gm_view *view, double *entry)
+{
+    gm_surface_record(view, gm_field_u, entry);
 }
 
 static double end_of(const struct gm_line *line)

@@ -29,18 +29,37 @@ struct gm_field_look {
 #define GM_POINTS(own, member, standard, least, help)                                                        \
     GM_INTEGER_ROW(own, member, "points", standard, least, 1e7, help, .logarithmic = true)
 
-/* The track of the surface; `record_row` fills a row by gm_surface_record. */
-#define GM_SURFACE_TRACK(record_row)                                                                         \
+/* A ring from -half_length to half_length. */
+struct gm_line gm_ring(double half_length, long points);
+
+/* Either the time step is given or the Courant number dt / dx, and the other follows. False with a sentence
+   where both are given and contradict. */
+bool gm_settle_courant(const char *const *keys, size_t count, double dx, struct gm_timing *timing,
+                       double *courant, char *sentence);
+
+/* The component u at a node; what most scenes show. */
+double gm_field_u(const struct gm_view *view, size_t node);
+
+/* The largest difference of u from its exact value; NaN where that is not known. */
+double gm_field_error(const struct gm_view *view, double (*exact)(const struct gm_view *view, double x));
+
+/* How far the scheme is from its discrete multisymplectic law (core/field/multisymplectic.h). */
+double gm_field_form_residual(const struct gm_view *view);
+#define GM_FORM_RESIDUAL                                                                                     \
+    GM_LOG_OBSERVABLE("multisymplectic_residual", gm_field_form_residual,                                    \
+                      "residual of the multisymplectic law", .missing = GM_NO_LAW)
+
+/* The track of the surface; `record` fills a row by gm_surface_record, gm_surface_record_u with u. */
+#define GM_SURFACE_TRACK(record_)                                                                            \
     {                                                                                                        \
         .key = "surface", .width = gm_surface_width, .interval = gm_surface_interval,                        \
-        .bound = GM_SURFACE_ROWS, .record = record_row,                                                      \
+        .bound = GM_SURFACE_ROWS, .record = record_,                                                         \
     }
-
 size_t gm_surface_width(const struct gm_view *view);
 double gm_surface_interval(const void *parameters);
-/* Fills one row of the surface. */
 void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
                        double *entry);
+void gm_surface_record_u(const struct gm_view *view, double *entry);
 
 /* The whole picture but its titles: the clock, the surfaces from track 0, the profiles and `graph_count`
    graphs over time. */

@@ -9,7 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
 #include "scenes/field/field.h"
 
@@ -40,35 +39,25 @@ static const struct gm_parameter parameters[] = {
     GM_POINTS(struct scene, points, "1001", 5, "of the grid"),
 };
 
-static bool given(const char *key, const char *const *keys, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(keys[i], key) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* The ring, the dispersion and the end that belong to a start. */
 static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
 {
     (void)sentence;
     struct scene *scene = own;
-    if (!given("initial", keys, count)) {
+    if (!gm_is_given("initial", keys, count)) {
         return true;
     }
     const bool cosine = scene->kdv.initial == GM_KDV_COSINE;
-    if (!given("half_length", keys, count)) {
+    if (!gm_is_given("half_length", keys, count)) {
         scene->half_length = cosine ? 1 : scene->kdv.initial == GM_KDV_TWO ? 50 : 20;
     }
-    if (!given("mu", keys, count)) {
+    if (!gm_is_given("mu", keys, count)) {
         scene->kdv.mu = cosine ? 0.022 * 0.022 : 1;
     }
-    if (cosine && !given("until", keys, count)) {
+    if (cosine && !gm_is_given("until", keys, count)) {
         scene->timing.until = 3.6 / M_PI;
     }
-    if (cosine && !given("dt", keys, count)) {
+    if (cosine && !gm_is_given("dt", keys, count)) {
         scene->timing.dt = 1e-3;
     }
     return true;
@@ -80,12 +69,10 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     const struct scene *scene = own;
     *problem = gm_problem_kdv;
     problem->parameters = &scene->kdv;
-    problem->parameters = &scene->kdv;
-    problem->line = (struct gm_line){
-        .points = (size_t)scene->points,
-        .dx = 2 * scene->half_length / (double)scene->points,
-        .first = scene->kdv.initial == GM_KDV_COSINE ? 0 : -scene->half_length,
-    };
+    problem->line = gm_ring(scene->half_length, scene->points);
+    if (scene->kdv.initial == GM_KDV_COSINE) {
+        problem->line.first = 0;
+    }
     problem->n = gm_wave_size(problem->line.points);
     return true;
 }
@@ -93,11 +80,6 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
 static void start(const void *own, const struct gm_problem *problem, double *y)
 {
     gm_kdv_levels(problem, ((const struct gm_timing *)own)->dt, y);
-}
-
-static double value(const struct gm_view *view, size_t node)
-{
-    return view->state[node];
 }
 
 /* NaN where it is not known. */
@@ -127,17 +109,7 @@ static double energy(const struct gm_view *view)
 
 static double solution_error(const struct gm_view *view)
 {
-    double largest = 0;
-    for (size_t i = 0; i < view->problem->line.points; i++) {
-        const double error = fabs(view->state[i] - exact(view, gm_line_node(&view->problem->line, i)));
-        largest = error > largest || isnan(error) ? error : largest;
-    }
-    return largest;
-}
-
-static double form_residual(const struct gm_view *view)
-{
-    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
+    return gm_field_error(view, exact);
 }
 
 /* The halves of the cosine cancel in u and in u³: the integrals of |u| and η|u|³/6 over its period. */
@@ -161,16 +133,10 @@ static const struct gm_observable observables[] = {
         "solution_error", solution_error, "largest error of u",
         .missing =
             "no exact solution is known of the cosine, nor of solitons whose tails meet on a short ring"),
-    GM_LOG_OBSERVABLE("multisymplectic_residual", form_residual, "residual of the multisymplectic law",
-                      .missing = GM_NO_LAW),
+    GM_FORM_RESIDUAL,
 };
 
-static void record(const struct gm_view *view, double *entry)
-{
-    gm_surface_record(view, value, entry);
-}
-
-static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
+static const struct gm_track tracks[] = {GM_SURFACE_TRACK(gm_surface_record_u)};
 
 /* The one soliton starts there. */
 static size_t point(const void *own, double x, double u, struct gm_choice *choices)
@@ -190,7 +156,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const double highest = cosine                             ? 2.5
                            : scene->kdv.initial == GM_KDV_TWO ? 5 * scene->kdv.mu / scene->kdv.eta
                                                               : 3.2 * scene->kdv.velocity / scene->kdv.eta;
-    const struct gm_field_look look = {.value = value,
+    const struct gm_field_look look = {.value = gm_field_u,
                                        .exact = cosine ? NULL : exact,
                                        .name = "u",
                                        .low = cosine ? -1 : 0,

@@ -8,7 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
 #include "scenes/field/field.h"
 
@@ -41,12 +40,7 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     const struct scene *scene = own;
     *problem = gm_problem_nls;
     problem->parameters = &scene->nls;
-    problem->parameters = &scene->nls;
-    problem->line = (struct gm_line){
-        .points = (size_t)scene->points,
-        .dx = 2 * scene->half_length / (double)scene->points,
-        .first = -scene->half_length,
-    };
+    problem->line = gm_ring(scene->half_length, scene->points);
     problem->n = 2 * problem->line.points;
     return true;
 }
@@ -127,11 +121,6 @@ static double modulus_error(const struct gm_view *view)
     return largest;
 }
 
-static double form_residual(const struct gm_view *view)
-{
-    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
-}
-
 /* What a soliton at rest has; where it moves with c = 2a/√3 its energy is 0. */
 static double natural_energy(const void *own)
 {
@@ -151,8 +140,7 @@ static const struct gm_observable observables[] = {
                        .scale_text = "4a³/3 a soliton"),
     GM_LOG_OBSERVABLE("solution_error", solution_error, "largest error of ψ", .missing = missing_solution),
     GM_LOG_OBSERVABLE("modulus_error", modulus_error, "largest error of |ψ|", .missing = missing_solution),
-    GM_LOG_OBSERVABLE("multisymplectic_residual", form_residual, "residual of the multisymplectic law",
-                      .missing = GM_NO_LAW),
+    GM_FORM_RESIDUAL,
 };
 
 static void record(const struct gm_view *view, double *entry)

@@ -11,7 +11,6 @@
        figure 13   twice the time step, where the energy-conserving scheme blows up */
 #include <math.h>
 
-#include "core/field/multisymplectic.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
 #include "core/field/wave_laws.h"
@@ -47,12 +46,8 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     const struct scene *scene = own;
     *problem = gm_problem_sine_gordon;
     problem->parameters = &scene->solution;
-    problem->line = (struct gm_line){
-        .points = (size_t)scene->points,
-        .dx = 2 * scene->half_length / (double)scene->points,
-        .first = -scene->half_length,
-        .jump = gm_sine_gordon_jump(&scene->solution),
-    };
+    problem->line = gm_ring(scene->half_length, scene->points);
+    problem->line.jump = gm_sine_gordon_jump(&scene->solution);
     problem->n = gm_wave_size(problem->line.points);
     return true;
 }
@@ -72,11 +67,6 @@ static double exact(const struct gm_view *view, double x)
     return gm_sine_gordon_exact(&scene->solution, scene->half_length, x, view->t);
 }
 
-static double value(const struct gm_view *view, size_t node)
-{
-    return view->state[node];
-}
-
 static double energy(const struct gm_view *view)
 {
     return gm_wave_energy(view->problem, view->state);
@@ -92,6 +82,7 @@ static double momentum(const struct gm_view *view)
     return gm_wave_momentum(view->problem, view->state);
 }
 
+/* At the nodes as gm_sine_gordon_levels places them, so that the start has no error at all. */
 static double solution_error(const struct gm_view *view)
 {
     const struct gm_line *line = &view->problem->line;
@@ -122,11 +113,6 @@ static double momentum_residual(const struct gm_view *view)
     return gm_wave_momentum_residual(view->problem, view->scheme, view->dt, view->state);
 }
 
-static double form_residual(const struct gm_view *view)
-{
-    return gm_form_residual(view->problem, view->scheme, view->dt, view->state, view->memory);
-}
-
 /* A breather has none, a kink that of its mass 8 at its velocity. */
 static double natural_momentum(const void *own)
 {
@@ -146,16 +132,10 @@ static const struct gm_observable observables[] = {
                       .missing = GM_NO_LAW),
     GM_LOG_OBSERVABLE("local_momentum_residual", momentum_residual, "residual of the local momentum law",
                       .missing = GM_NO_LAW),
-    GM_LOG_OBSERVABLE("multisymplectic_residual", form_residual, "residual of the multisymplectic law",
-                      .missing = GM_NO_LAW),
+    GM_FORM_RESIDUAL,
 };
 
-static void record(const struct gm_view *view, double *entry)
-{
-    gm_surface_record(view, value, entry);
-}
-
-static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
+static const struct gm_track tracks[] = {GM_SURFACE_TRACK(gm_surface_record_u)};
 
 /* A kink starts there; of two that meet the other one at the mirror image. */
 static size_t point(const void *own, double x, double u, struct gm_choice *choices)
@@ -178,7 +158,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const bool whole = jump != 0;
     const double highest = scene->solution.initial == GM_BREATHER ? 5 : 2 * M_PI;
     struct gm_field_look look = {
-        .value = value, .exact = exact, .name = "u", .low = -highest, .high = highest};
+        .value = gm_field_u, .exact = exact, .name = "u", .low = -highest, .high = highest};
     look.map = whole ? GM_MAP_SEQUENTIAL : GM_MAP_DIVERGING;
     look.low = whole ? 0 : -highest;
     picture->title = titles[scene->solution.initial];

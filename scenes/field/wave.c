@@ -12,8 +12,6 @@
    occur in none. What to look at: the residuals of (67b) and (67c), which fail by tens of per cent cell by
    cell along exact waves, and the rank of the system. */
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "core/field/problems/wave.h"
 #include "core/field/wave_laws.h"
@@ -43,23 +41,8 @@ static const struct gm_parameter parameters[] = {
 static bool settle(void *own, const char *const *keys, size_t count, char *sentence)
 {
     struct scene *scene = own;
-    bool dt = false, courant = false;
-    for (size_t i = 0; i < count; i++) {
-        dt |= strcmp(keys[i], "dt") == 0;
-        courant |= strcmp(keys[i], "courant") == 0;
-    }
-    const double dx = 2 * M_PI / (double)scene->points, follows = scene->courant * dx;
-    if (dt && courant && fabs(follows - scene->timing.dt) > 1e-9 * follows) {
-        snprintf(sentence, GM_SENTENCE,
-                 "dt= and courant= are both given; one of them follows from the other");
-        return false;
-    }
-    if (dt) {
-        scene->courant = scene->timing.dt / dx;
-    } else {
-        scene->timing.dt = follows;
-    }
-    return true;
+    return gm_settle_courant(keys, count, 2 * M_PI / (double)scene->points, &scene->timing, &scene->courant,
+                             sentence);
 }
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
@@ -67,11 +50,7 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     (void)sentence;
     const struct scene *scene = own;
     *problem = gm_problem_wave;
-    problem->line = (struct gm_line){
-        .points = (size_t)scene->points,
-        .dx = 2 * M_PI / (double)scene->points,
-        .first = -M_PI,
-    };
+    problem->line = gm_ring(M_PI, scene->points);
     problem->n = gm_wave_size(problem->line.points);
     return true;
 }
@@ -99,11 +78,6 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
     y[2 * points] = scene->timing.dt;
 }
 
-static double value(const struct gm_view *view, size_t node)
-{
-    return view->state[node];
-}
-
 static double exact(const struct gm_view *view, double x)
 {
     return exact_at(view->parameters, x, view->t);
@@ -111,11 +85,7 @@ static double exact(const struct gm_view *view, double x)
 
 static double solution_error(const struct gm_view *view)
 {
-    double largest = 0;
-    for (size_t i = 0; i < view->problem->line.points; i++) {
-        largest = fmax(largest, fabs(view->state[i] - exact(view, gm_line_node(&view->problem->line, i))));
-    }
-    return largest;
+    return gm_field_error(view, exact);
 }
 
 static double energy(const struct gm_view *view)
@@ -227,17 +197,12 @@ static const struct gm_observable observables[] = {
     GM_OBSERVABLE("rank", rank, "rank of their Jacobian"),
 };
 
-static void record(const struct gm_view *view, double *entry)
-{
-    gm_surface_record(view, value, entry);
-}
-
-static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
+static const struct gm_track tracks[] = {GM_SURFACE_TRACK(gm_surface_record_u)};
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct scene *scene = lanes[0]->parameters;
-    const struct gm_field_look look = {.value = value,
+    const struct gm_field_look look = {.value = gm_field_u,
                                        .exact = exact,
                                        .name = "u",
                                        .low = -0.5,

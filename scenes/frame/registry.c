@@ -77,3 +77,13 @@ void gm_choose(struct gm_choice *choice, const char *key, double value)
     choice->key = key;
     snprintf(choice->value, sizeof choice->value, "%.3g", value == 0 ? 0.0 : value);
 }
+
+bool gm_is_given(const char *key, const char *const *keys, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(keys[i], key) == 0) {
+            return true;
+        }
+    }
+    return false;
+}

@@ -176,6 +176,9 @@ struct gm_scene {
 /* Writes the title, of an error with its formula: "energy error  |H − H₀| / max(|H₀|, 1/2)". */
 const char *gm_observable_title(const struct gm_observable *observable, char *text, size_t size);
 
+/* For settle: whether the key is among those that were given. */
+bool gm_is_given(const char *key, const char *const *keys, size_t count);
+
 /* A choice of three digits, which is what a place in a picture tells. */
 void gm_choose(struct gm_choice *choice, const char *key, double value);
 

@@ -61,15 +61,6 @@ static void turn_polygon(const struct gm_problem *problem, double t, const doubl
 
 static const struct gm_exact polygon = {.solution = turn_polygon};
 
-static bool is_given(const char *key, const char *const *keys, size_t count)
-{
-    bool given = false;
-    for (size_t i = 0; i < count; i++) {
-        given |= strcmp(keys[i], key) == 0;
-    }
-    return given;
-}
-
 /* A configuration comes with a strength and a step that show its point, unless they are given. */
 static bool settle(void *parameters_, const char *const *keys, size_t count, char *sentence)
 {
@@ -78,9 +69,9 @@ static bool settle(void *parameters_, const char *const *keys, size_t count, cha
     static const struct {
         const char *key, *in_collision;
     } follow[] = {{"strength", "2*pi"}, {"dt", ".5/800"}};
-    for (size_t i = 0; i < GM_COUNT(follow) && is_given("configuration", keys, count); i++) {
+    for (size_t i = 0; i < GM_COUNT(follow) && gm_is_given("configuration", keys, count); i++) {
         const struct gm_parameter *row = gm_scene_parameter(&gm_scene_vortices, follow[i].key);
-        if (!is_given(row->key, keys, count)) {
+        if (!gm_is_given(row->key, keys, count)) {
             gm_parameter_set(row, own,
                              own->configuration == GM_COLLISION ? follow[i].in_collision : row->standard);
         }
