@@ -268,11 +268,7 @@ void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lane
 
 const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    const double dt = lanes[0]->run->dt;
-    for (size_t i = 1; i < count; i++) {
-        if (lanes[i]->run->dt != dt) {
-            return "";
-        }
-    }
-    return gm_picture_text(picture, ",  Δt = %s", gm_step_text(picture, dt));
+    return gm_one_step(lanes, count)
+               ? gm_picture_text(picture, ",  Δt = %s", gm_step_text(picture, lanes[0]->run->dt))
+               : "";
 }

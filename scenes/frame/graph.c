@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the pictures of all scenes have in common: clocks, names of lanes, trails, graphs of observables. */
+/* Times, names and notes of lanes as pictures tell them, and observables over time. */
 #include "scenes/frame/graph.h"
 
 #include <math.h>
@@ -112,8 +112,10 @@ const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *con
                              : gm_picture_text(picture, "%s / %.3g", front, scale);
 }
 
-void gm_name_lanes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *const *lanes,
-                   size_t count, size_t p)
+/* Where several lanes share panel `p`: names each under its title, in its own colour and dash, in place of
+   the note on one of them. */
+static void name_lanes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *const *lanes,
+                       size_t count, size_t p)
 {
     size_t sharing = 0;
     for (size_t i = 0; i < count; i++) {
@@ -203,6 +205,42 @@ size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count)
         panels = lanes[i]->shown.panel >= panels ? lanes[i]->shown.panel + 1 : panels;
     }
     return panels;
+}
+
+bool gm_walk_next(struct gm_walk *walk)
+{
+    for (; walk->panel < gm_panel_count(walk->lanes, walk->count); walk->panel++) {
+        while (walk->next < walk->count) {
+            walk->lane = walk->lanes[walk->next++];
+            if (walk->lane->shown.panel == walk->panel) {
+                walk->first = !walk->begun;
+                walk->begun = true;
+                return true;
+            }
+        }
+        walk->next = 0;
+        walk->begun = false;
+    }
+    return false;
+}
+
+struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk *walk, const char *otherwise)
+{
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(walk->lane));
+    const char *failure = gm_lane_failure(picture, walk->lane);
+    panel->title_role = gm_lane_role(walk->lane->shown.colour);
+    panel->note = failure[0] ? failure : otherwise;
+    name_lanes(picture, panel, walk->lanes, walk->count, walk->panel);
+    return panel;
+}
+
+bool gm_one_step(const struct gm_lane *const *lanes, size_t count)
+{
+    bool one = true;
+    for (size_t i = 1; i < count; i++) {
+        one &= lanes[i]->run->dt == lanes[0]->run->dt;
+    }
+    return one;
 }
 
 /* What lies below a graph's floor is a gap. */

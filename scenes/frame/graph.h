@@ -15,11 +15,6 @@ const char *gm_time_text(struct gm_picture *picture, double t, double dt);
 /* A time step, to four digits or as a fraction of pi. */
 const char *gm_step_text(struct gm_picture *picture, double dt);
 
-/* Where several lanes share panel `p`: names each under its title, in its own colour and dash, in place of
-   the note on one of them. */
-void gm_name_lanes(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *const *lanes,
-                   size_t count, size_t p);
-
 /* The name of a lane's panel, and what its note ends with: how it stands if it has failed, what it has lost
    of what the exact motion keeps (gm_lane_lost), else "". */
 const char *gm_lane_title(const struct gm_lane *lane);
@@ -44,6 +39,25 @@ struct gm_style gm_lane_style(const struct gm_lane *lane, double alpha, double w
 
 /* One past the highest panel number of the lanes. */
 size_t gm_panel_count(const struct gm_lane *const *lanes, size_t count);
+
+/* Goes through the lanes panel by panel:
+       for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) */
+struct gm_walk {
+    const struct gm_lane *const *lanes;
+    size_t count;
+    const struct gm_lane *lane; /* where it is, */
+    bool first;                 /* and whether its panel begins with it */
+    size_t panel, next;         /* what comes next: that panel's lanes from number `next` on */
+    bool begun;
+};
+bool gm_walk_next(struct gm_walk *walk);
+
+/* Adds the panel of a state with the name and colour of the lane that it begins with. Its note says how the
+   lane stands (gm_lane_failure), or else `otherwise`; lanes that share it are named in place of that. */
+struct gm_panel *gm_walk_panel(struct gm_picture *picture, const struct gm_walk *walk, const char *otherwise);
+
+/* Whether all lanes have the time step of the first. */
+bool gm_one_step(const struct gm_lane *const *lanes, size_t count);
 
 /* The history of observable number `series` as points (t, value): at most 4 * GM_HISTORY_BINS doubles.
    Returns their number. */

@@ -86,36 +86,24 @@ static void draw_field(struct gm_picture *picture, struct gm_panel *panel, const
     }
 }
 
-/* How a lane stands: failed, or its error. */
-static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane)
+static const char *error_text(struct gm_picture *picture, const struct gm_lane *lane)
 {
-    const char *failure = gm_lane_failure(picture, lane);
     const double error = gm_lane_observe(lane, GM_SOLITON_ERROR);
-    return failure[0]        ? failure
-           : isfinite(error) ? gm_picture_text(picture, "solution error %.3f", error)
-                             : "";
+    return isfinite(error) ? gm_picture_text(picture, "solution error %.3f", error) : "";
 }
 
 static void draw_fields(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        struct gm_panel *panel = NULL;
-        for (size_t i = 0; i < count; i++) {
-            if (lanes[i]->shown.panel != p) {
-                continue;
-            }
-            if (!panel) {
-                const struct gm_view view = gm_lane_view(lanes[i]);
-                const struct gm_mesh mesh = gm_soliton_mesh(&view);
-                panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lanes[i]));
-                field_axes(panel, view.parameters, &mesh);
-                panel->title_role = gm_lane_role(lanes[i]->shown.colour);
-                panel->note = note_of(picture, lanes[i]);
-                gm_name_lanes(picture, panel, lanes, count, p);
-                draw_exact(picture, panel, &view);
-            }
-            draw_field(picture, panel, lanes[i]);
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        if (walk.first) {
+            const struct gm_view view = gm_lane_view(walk.lane);
+            const struct gm_mesh mesh = gm_soliton_mesh(&view);
+            panel = gm_walk_panel(picture, &walk, error_text(picture, walk.lane));
+            field_axes(panel, view.parameters, &mesh);
+            draw_exact(picture, panel, &view);
         }
+        draw_field(picture, panel, walk.lane);
     }
 }
 
@@ -143,31 +131,28 @@ static void draw_paths(struct gm_picture *picture, struct gm_panel *panel, const
 static void draw_meshes(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                         bool named)
 {
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        struct gm_panel *panel = NULL;
-        for (size_t i = 0; i < count; i++) {
-            if (lanes[i]->shown.panel != p) {
-                continue;
-            }
-            const struct gm_soliton_scene *soliton = lanes[i]->parameters;
-            if (!panel) {
-                panel = gm_panel_add(picture, GM_PLACE_STATE, named ? gm_lane_title(lanes[i]) : "");
-                panel->axes = true;
-                panel->title_role = gm_lane_role(lanes[i]->shown.colour);
-                panel->x =
-                    (struct gm_axis){.label = "X", .scale = GM_LINEAR, .low = 0, .high = soliton->own.length};
-                panel->y = (struct gm_axis){.label = "t", .scale = GM_LINEAR, .low = 0, .high = 0};
-                panel->note = named ? note_of(picture, lanes[i]) : "";
-                if (named) {
-                    gm_name_lanes(picture, panel, lanes, count, p);
-                }
-            }
-            const double *times = lanes[i]->entries[GM_SOLITON_PATHS].times;
-            panel->y.low = fmin(panel->y.low, fmin(times[0], lanes[i]->run->t));
-            panel->y.high = fmax(panel->y.high, fmax(soliton->timing.until, lanes[i]->run->t));
-            draw_paths(picture, panel, lanes[i], lanes[i]->entries[GM_SOLITON_PATHS].width > 40);
+    struct gm_panel *before = picture->last, *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        const struct gm_soliton_scene *soliton = walk.lane->parameters;
+        const struct gm_entries *paths = &walk.lane->entries[GM_SOLITON_PATHS];
+        const double t = walk.lane->run->t;
+        if (walk.first && named) {
+            panel = gm_walk_panel(picture, &walk, error_text(picture, walk.lane));
+        } else if (walk.first) {
+            panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+            panel->title_role = gm_lane_role(walk.lane->shown.colour);
         }
-        if (panel && !(panel->y.high > panel->y.low)) {
+        if (walk.first) {
+            panel->axes = true;
+            panel->x = (struct gm_axis){.label = "X", .low = 0, .high = soliton->own.length};
+            panel->y = (struct gm_axis){.label = "t", .low = 0, .high = 0};
+        }
+        panel->y.low = fmin(panel->y.low, fmin(paths->times[0], t));
+        panel->y.high = fmax(panel->y.high, fmax(soliton->timing.until, t));
+        draw_paths(picture, panel, walk.lane, paths->width > 40);
+    }
+    for (panel = before ? before->next : picture->first; panel; panel = panel->next) {
+        if (!(panel->y.high > panel->y.low)) {
             panel->y.high = panel->y.low + 1; /* nothing is asked to pass */
         }
     }

@@ -182,10 +182,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 {
     const struct abc *own = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
-    bool one_step = true;
-    for (size_t i = 1; i < count; i++) {
-        one_step &= lanes[i]->run->dt == dt;
-    }
+    const bool one_step = gm_one_step(lanes, count);
     const bool flow = own->system == ABC;
     picture->title = gm_picture_text(
         picture, flow ? "The ABC flow: section and volume, by %s" : "A linear flow of zero trace, by %s",
@@ -199,36 +196,27 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         "into shears does. The graph ends where the cell is drawn out too far.";
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        struct gm_panel *panel = NULL;
-        for (size_t i = 0; i < count; i++) {
-            const struct gm_lane *lane = lanes[i];
-            if (lane->shown.panel != p) {
-                continue;
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        const enum gm_role role = gm_lane_role(walk.lane->shown.colour);
+        if (walk.first) {
+            panel = gm_walk_panel(picture, &walk, "");
+            panel->axes = true;
+            panel->equal = flow;
+            panel->x = (struct gm_axis){.label = "x", .scale = GM_PI, .low = -M_PI, .high = M_PI};
+            panel->y = (struct gm_axis){.label = "y", .scale = GM_PI, .low = 0, .high = 2 * M_PI};
+            if (!flow) {
+                trail_range(lanes, count, &panel->x, &panel->y);
             }
-            const enum gm_role role = gm_lane_role(lane->shown.colour);
-            if (!panel) {
-                panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
-                panel->axes = true;
-                panel->title_role = role;
-                panel->note = gm_lane_failure(picture, lane);
-                gm_name_lanes(picture, panel, lanes, count, p);
-                panel->equal = flow;
-                panel->x = (struct gm_axis){.label = "x", .scale = GM_PI, .low = -M_PI, .high = M_PI};
-                panel->y = (struct gm_axis){.label = "y", .scale = GM_PI, .low = 0, .high = 2 * M_PI};
-                if (!flow) {
-                    trail_range(lanes, count, &panel->x, &panel->y);
-                }
-            }
-            if (flow) {
-                const struct gm_entries *section = &lane->entries[SECTION];
-                gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.85, .width = 3},
-                               section->values, section->count);
-            } else {
-                const struct gm_entries *trail = &lane->entries[TRAIL];
-                gm_draw_trail(picture, panel, (struct gm_style){role, 0.9, 1.8, GM_SOLID}, trail->values,
-                              trail->count);
-            }
+        }
+        if (flow) {
+            const struct gm_entries *section = &walk.lane->entries[SECTION];
+            gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.85, .width = 3},
+                           section->values, section->count);
+        } else {
+            const struct gm_entries *trail = &walk.lane->entries[TRAIL];
+            gm_draw_trail(picture, panel, (struct gm_style){role, 0.9, 1.8, GM_SOLID}, trail->values,
+                          trail->count);
         }
     }
     gm_draw_graph(picture, lanes, count,

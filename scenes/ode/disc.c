@@ -322,30 +322,20 @@ static void draw_states(struct gm_picture *picture, const struct gm_lane *const 
 {
     struct gm_axis x, y;
     state_range(lanes, count, &x, &y);
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        struct gm_panel *panel = NULL;
-        for (size_t i = 0; i < count; i++) {
-            if (lanes[i]->shown.panel != p) {
-                continue;
-            }
-            if (!panel) {
-                panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lanes[i]));
-                panel->x = x;
-                panel->y = y;
-                panel->equal = true;
-                panel->title_role = gm_lane_role(lanes[i]->shown.colour);
-                const struct gm_view view = gm_lane_view(lanes[i]);
-                struct gm_view before = view;
-                before.state = view.start;
-                const char *failure = gm_lane_failure(picture, lanes[i]);
-                panel->note = failure[0]
-                                  ? failure
-                                  : gm_picture_text(picture, "area × %.3f", area(&view) / area(&before));
-                gm_name_lanes(picture, panel, lanes, count, p);
-                draw_orbit(picture, panel, lanes[i]->parameters);
-            }
-            draw_lane(picture, panel, lanes[i]);
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        if (walk.first) {
+            const struct gm_view view = gm_lane_view(walk.lane);
+            struct gm_view before = view;
+            before.state = view.start;
+            panel = gm_walk_panel(picture, &walk,
+                                  gm_picture_text(picture, "area × %.3f", area(&view) / area(&before)));
+            panel->x = x;
+            panel->y = y;
+            panel->equal = true;
+            draw_orbit(picture, panel, walk.lane->parameters);
         }
+        draw_lane(picture, panel, walk.lane);
     }
 }
 
@@ -362,10 +352,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 {
     const struct disc *disc = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
-    bool one_step = true;
-    for (size_t i = 1; i < count; i++) {
-        one_step &= lanes[i]->run->dt == dt;
-    }
+    const bool one_step = gm_one_step(lanes, count);
     picture->title = gm_picture_text(picture, "%s, carried by %s",
                                      disc->show == SHOW_ENERGY ? "The energy of the disc’s centre"
                                                                : "A disc of initial conditions",
@@ -392,14 +379,14 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     if (disc->show == SHOW_ALL) {
         gm_draw_graph(picture, lanes, count, &error, -1, false);
     }
-    for (size_t p = 0; disc->show == SHOW_ENERGY && p < gm_panel_count(lanes, count); p++) {
-        for (size_t i = 0; i < count; i++) {
-            if (lanes[i]->shown.panel == p) {
-                error.title = gm_picture_text(picture, "%s: %s", gm_lane_title(lanes[i]),
-                                              gm_error_title(picture, lanes, count, ENERGY_ERROR));
-                gm_draw_graph(picture, lanes, count, &error, (long)p, true);
-                break;
-            }
+    if (disc->show != SHOW_ENERGY) {
+        return;
+    }
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        if (walk.first) {
+            error.title = gm_picture_text(picture, "%s: %s", gm_lane_title(walk.lane),
+                                          gm_error_title(picture, lanes, count, ENERGY_ERROR));
+            gm_draw_graph(picture, lanes, count, &error, (long)walk.panel, true);
         }
     }
 }

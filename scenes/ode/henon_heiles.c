@@ -136,17 +136,14 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 {
     const struct henon_heiles *orbit = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
-    bool one_step = true, one_energy = true;
+    const bool one_step = gm_one_step(lanes, count);
+    bool one_scheme = true, one_energy = true;
     double widest = 0;
     for (size_t i = 0; i < count; i++) {
         const struct henon_heiles *other = lanes[i]->parameters;
-        one_step &= lanes[i]->run->dt == dt;
+        one_scheme &= lanes[i]->scheme == lanes[0]->scheme;
         one_energy &= other->energy == orbit->energy;
         widest = fmax(widest, other->energy);
-    }
-    bool one_scheme = true;
-    for (size_t i = 1; i < count; i++) {
-        one_scheme &= lanes[i]->scheme == lanes[0]->scheme;
     }
     picture->title = gm_picture_text(picture, "A star in a galaxy: Poincaré section by %s",
                                      one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count));
@@ -162,32 +159,24 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const double tall = 1.08 * sqrt(2 * widest);
     double ends[2];
     ends_of(widest, ends);
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        struct gm_panel *panel = NULL;
-        for (size_t i = 0; i < count; i++) {
-            const struct gm_lane *lane = lanes[i];
-            if (lane->shown.panel != p) {
-                continue;
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        const struct henon_heiles *own = walk.lane->parameters;
+        if (walk.first) {
+            panel = gm_walk_panel(picture, &walk, "");
+            if (one_scheme && gm_panel_count(lanes, count) == 1) {
+                panel->title = walk.lane->scheme->title; /* that of all */
             }
-            const enum gm_role role = gm_lane_role(lane->shown.colour);
-            if (!panel) {
-                const bool of_all = one_scheme && gm_panel_count(lanes, count) == 1;
-                panel =
-                    gm_panel_add(picture, GM_PLACE_STATE, of_all ? lane->scheme->title : gm_lane_title(lane));
-                panel->x = (struct gm_axis){
-                    .label = "q₂", .scale = GM_LINEAR, .low = 1.1 * ends[0], .high = 1.08 * ends[1]};
-                panel->y = (struct gm_axis){.label = "p₂", .scale = GM_LINEAR, .low = -tall, .high = tall};
-                panel->axes = true;
-                panel->equal = true;
-                panel->title_role = role;
-                panel->note = gm_lane_failure(picture, lane);
-                gm_name_lanes(picture, panel, lanes, count, p);
-                draw_border(picture, panel, ((const struct henon_heiles *)lane->parameters)->energy);
-            }
-            const struct gm_entries *section = &lane->entries[0];
-            gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.75, .width = 2.2},
-                           section->values, section->count);
+            panel->x = (struct gm_axis){.label = "q₂", .low = 1.1 * ends[0], .high = 1.08 * ends[1]};
+            panel->y = (struct gm_axis){.label = "p₂", .low = -tall, .high = tall};
+            panel->axes = true;
+            panel->equal = true;
+            draw_border(picture, panel, own->energy);
         }
+        const struct gm_entries *section = &walk.lane->entries[0];
+        const enum gm_role role = gm_lane_role(walk.lane->shown.colour);
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.75, .width = 2.2},
+                       section->values, section->count);
     }
     gm_draw_graph(
         picture, lanes, count,

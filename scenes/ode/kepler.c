@@ -189,10 +189,6 @@ static void draw_exact(struct gm_picture *picture, struct gm_panel *panel, doubl
 static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane)
 {
     const double *state = gm_run_state(lane->run), r = hypot(state[Q1], state[Q2]);
-    const char *failure = gm_lane_failure(picture, lane);
-    if (failure[0]) {
-        return failure;
-    }
     if (has_left(lane)) {
         return gm_picture_text(picture, "%.3g from the sun, on a scale of its own", r);
     }
@@ -204,40 +200,29 @@ static void draw_orbits(struct gm_picture *picture, const struct gm_lane *const 
 {
     struct gm_axis x, y;
     range_of(lanes, count, farthest, &x, &y);
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        struct gm_panel *panel = NULL;
-        for (size_t i = 0; i < count; i++) {
-            const struct gm_lane *lane = lanes[i];
-            const struct kepler *kepler = lane->parameters;
-            if (lane->shown.panel != p) {
-                continue;
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        const struct kepler *kepler = walk.lane->parameters;
+        if (walk.first) {
+            panel = gm_walk_panel(picture, &walk, note_of(picture, walk.lane));
+            panel->x = x;
+            panel->y = y;
+            if (has_left(walk.lane)) {
+                range_of(&walk.lane, 1, INFINITY, &panel->x, &panel->y);
             }
-            const enum gm_role role = gm_lane_role(lane->shown.colour);
-            if (!panel) {
-                panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
-                panel->x = x;
-                panel->y = y;
-                if (has_left(lane)) {
-                    range_of(&lane, 1, INFINITY, &panel->x, &panel->y);
-                }
-                panel->equal = true;
-                panel->title_role = role;
-                panel->note = note_of(picture, lane);
-                gm_name_lanes(picture, panel, lanes, count, p);
-                const double sun[] = {0, 0};
-                gm_mark_points(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 9}, sun,
-                               1);
-            }
-            if (kepler->perturbation == 0) {
-                draw_exact(picture, panel, kepler->eccentricity);
-            }
-            const struct gm_entries *trail = &lane->entries[0];
-            gm_draw_trail(picture, panel, (struct gm_style){role, 0.9, 1.8, GM_SOLID}, trail->values,
-                          trail->count);
-            const double *state = gm_run_state(lane->run);
-            gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 10}, state,
-                           1);
+            panel->equal = true;
+            const double sun[] = {0, 0};
+            gm_mark_points(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 9}, sun, 1);
         }
+        if (kepler->perturbation == 0) {
+            draw_exact(picture, panel, kepler->eccentricity);
+        }
+        const struct gm_entries *trail = &walk.lane->entries[0];
+        const enum gm_role role = gm_lane_role(walk.lane->shown.colour);
+        gm_draw_trail(picture, panel, (struct gm_style){role, 0.9, 1.8, GM_SOLID}, trail->values,
+                      trail->count);
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 10},
+                       gm_run_state(walk.lane->run), 1);
     }
 }
 
@@ -253,10 +238,10 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 {
     const struct kepler *kepler = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
-    bool one_step = true, one_orbit = true;
+    const bool one_step = gm_one_step(lanes, count);
+    bool one_orbit = true;
     for (size_t i = 1; i < count; i++) {
         const struct kepler *other = lanes[i]->parameters;
-        one_step &= lanes[i]->run->dt == dt;
         one_orbit &=
             other->eccentricity == kepler->eccentricity && other->perturbation == kepler->perturbation;
     }

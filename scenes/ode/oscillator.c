@@ -148,47 +148,35 @@ static void draw_position(struct gm_picture *picture, const struct gm_lane *cons
             reach = fmax(reach, fmin(fabs(entries->values[2 * k + 1]), 10));
         }
     }
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        struct gm_panel *panel = NULL;
-        for (size_t i = 0; i < count; i++) {
-            const struct gm_lane *lane = lanes[i];
-            const struct oscillator *own = lane->parameters;
-            if (lane->shown.panel != p) {
-                continue;
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        const struct gm_lane *lane = walk.lane;
+        const struct oscillator *own = lane->parameters;
+        const enum gm_role role = gm_lane_role(lane->shown.colour);
+        if (walk.first) {
+            const double again = gm_lane_observe(lane, RESTARTS);
+            panel = gm_walk_panel(picture, &walk,
+                                  again > 0 ? gm_picture_text(picture, "%.0f restarts", again) : "");
+            panel->axes = true;
+            panel->x = time;
+            panel->y = (struct gm_axis){.label = "q", .low = -1.15 * reach, .high = 1.15 * reach};
+        }
+        if (walk.first && own->system == HARMONIC) {
+            double exact[2 * EXACT];
+            for (size_t k = 0; k < EXACT; k++) {
+                const double t = time.low + (time.high - time.low) * (double)k / (EXACT - 1);
+                exact[2 * k] = t;
+                exact[2 * k + 1] = own->q0 * cos(t - lane->t0) + own->p0 * sin(t - lane->t0);
             }
-            const enum gm_role role = gm_lane_role(lane->shown.colour);
-            if (!panel) {
-                panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
-                panel->axes = true;
-                panel->x = time;
-                panel->y = (struct gm_axis){
-                    .label = "q", .scale = GM_LINEAR, .low = -1.15 * reach, .high = 1.15 * reach};
-                panel->title_role = role;
-                const char *failure = gm_lane_failure(picture, lane);
-                const double again = gm_lane_observe(lane, RESTARTS);
-                panel->note = failure[0]  ? failure
-                              : again > 0 ? gm_picture_text(picture, "%.0f restarts", again)
-                                          : "";
-                gm_name_lanes(picture, panel, lanes, count, p);
-                if (own->system == HARMONIC) {
-                    double exact[2 * EXACT];
-                    for (size_t k = 0; k < EXACT; k++) {
-                        const double t = time.low + (time.high - time.low) * (double)k / (EXACT - 1);
-                        exact[2 * k] = t;
-                        exact[2 * k + 1] = own->q0 * cos(t - lane->t0) + own->p0 * sin(t - lane->t0);
-                    }
-                    gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, exact, EXACT,
-                                 false);
-                }
-            }
-            const struct gm_entries *entries = &lane->entries[0];
-            gm_mark_line(picture, panel, (struct gm_style){role, 0.8, 1.6, gm_lane_dash(lane->shown.colour)},
-                         entries->values, entries->count, false);
-            gm_mark_switches(picture, panel, lane, false);
-            if (entries->count < 1500) {
-                gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 3.4},
-                               entries->values, entries->count);
-            }
+            gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.4, GM_SOLID}, exact, EXACT, false);
+        }
+        const struct gm_entries *entries = &lane->entries[0];
+        gm_mark_line(picture, panel, (struct gm_style){role, 0.8, 1.6, gm_lane_dash(lane->shown.colour)},
+                     entries->values, entries->count, false);
+        gm_mark_switches(picture, panel, lane, false);
+        if (entries->count < 1500) {
+            gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 3.4},
+                           entries->values, entries->count);
         }
     }
 }

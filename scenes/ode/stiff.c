@@ -271,35 +271,23 @@ static void draw_exchange(struct gm_picture *picture, const struct gm_lane *cons
 
 static void draw_pendulum(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        struct gm_panel *panel = NULL;
-        for (size_t i = 0; i < count; i++) {
-            const struct gm_lane *lane = lanes[i];
-            if (lane->shown.panel != p) {
-                continue;
-            }
-            const enum gm_role role = gm_lane_role(lane->shown.colour);
-            if (!panel) {
-                panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
-                panel->x = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = -1.2, .high = 1.2};
-                panel->y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = -1.3, .high = 0.5};
-                panel->equal = true;
-                panel->title_role = role;
-                const char *failure = gm_lane_failure(picture, lane);
-                panel->note = failure[0] ? failure : ratio_text(picture, lane);
-                gm_name_lanes(picture, panel, lanes, count, p);
-            }
-            const double *state = gm_run_state(lane->run);
-            const double spring[] = {0, 0, state[0], state[1]};
-            const struct gm_entries *trail = &lane->entries[0];
-            gm_draw_trail(picture, panel, (struct gm_style){role, 0.8, 1.8, GM_SOLID}, trail->values,
-                          trail->count);
-            gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 1, 1.4, GM_SOLID}, spring, 2, false);
-            gm_mark_points(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 7}, spring,
-                           1);
-            gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 12}, state,
-                           1);
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        const enum gm_role role = gm_lane_role(walk.lane->shown.colour);
+        if (walk.first) {
+            panel = gm_walk_panel(picture, &walk, ratio_text(picture, walk.lane));
+            panel->x = (struct gm_axis){.label = "", .low = -1.2, .high = 1.2};
+            panel->y = (struct gm_axis){.label = "", .low = -1.3, .high = 0.5};
+            panel->equal = true;
         }
+        const double *state = gm_run_state(walk.lane->run);
+        const double spring[] = {0, 0, state[0], state[1]};
+        const struct gm_entries *trail = &walk.lane->entries[0];
+        gm_draw_trail(picture, panel, (struct gm_style){role, 0.8, 1.8, GM_SOLID}, trail->values,
+                      trail->count);
+        gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 1, 1.4, GM_SOLID}, spring, 2, false);
+        gm_mark_points(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 7}, spring, 1);
+        gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 1, .width = 12}, state, 1);
     }
 }
 
@@ -307,12 +295,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 {
     const struct stiff *stiff = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
-    bool one_system = true, one_step = true;
+    const bool one_step = gm_one_step(lanes, count);
+    bool one_system = true;
     for (size_t i = 1; i < count; i++) {
         const struct stiff *other = lanes[i]->parameters;
         one_system &= other->system == stiff->system && other->omega == stiff->omega &&
                       other->springs == stiff->springs;
-        one_step &= lanes[i]->run->dt == dt;
     }
     const double omega = stiff->system == FPU ? stiff->omega : sqrt(stiff->stiffness);
     static const char *const counted[] = {"A stiff spring keeps its", "Two stiff springs trade their",

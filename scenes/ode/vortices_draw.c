@@ -118,7 +118,7 @@ static void draw_positions(struct gm_picture *picture, struct gm_panel *panel, c
     }
 }
 
-/* How a lane stands: failed, its energy lost, or gone where nothing is drawn. */
+/* How many vortices have gone where nothing is drawn. */
 static const char *note_of(struct gm_picture *picture, const struct gm_lane *lane, double reach)
 {
     const size_t carried = gm_vortices_carried(lane->parameters);
@@ -127,9 +127,7 @@ static const char *note_of(struct gm_picture *picture, const struct gm_lane *lan
     for (size_t i = 0; i < carried; i++) {
         gone += fmax(fabs(state[i]), fabs(state[carried + i])) > reach;
     }
-    const char *failure = gm_lane_failure(picture, lane);
-    return failure[0]        ? failure
-           : gone == 0       ? ""
+    return gone == 0         ? ""
            : gone == carried ? "out of the picture"
                              : gm_picture_text(picture, "%zu of %zu out of the picture", gone, carried);
 }
@@ -137,27 +135,17 @@ static const char *note_of(struct gm_picture *picture, const struct gm_lane *lan
 static void draw_plane(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     const double reach = reach_of(lanes, count);
-    for (size_t p = 0; p < gm_panel_count(lanes, count); p++) {
-        struct gm_panel *panel = NULL;
-        for (size_t i = 0; i < count; i++) {
-            const struct gm_lane *lane = lanes[i];
-            if (lane->shown.panel != p) {
-                continue;
-            }
-            if (!panel) {
-                panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
-                panel->x = panel->y =
-                    (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = -reach, .high = reach};
-                panel->equal = true;
-                panel->title_role = gm_lane_role(lane->shown.colour);
-                panel->note = note_of(picture, lane, reach);
-                gm_name_lanes(picture, panel, lanes, count, p);
-            }
-            if (lane->problem.passive > 0) {
-                draw_tracers(picture, panel, lane, reach);
-            }
-            draw_positions(picture, panel, lane);
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        if (walk.first) {
+            panel = gm_walk_panel(picture, &walk, note_of(picture, walk.lane, reach));
+            panel->x = panel->y = (struct gm_axis){.label = "", .low = -reach, .high = reach};
+            panel->equal = true;
         }
+        if (walk.lane->problem.passive > 0) {
+            draw_tracers(picture, panel, walk.lane, reach);
+        }
+        draw_positions(picture, panel, walk.lane);
     }
 }
 
@@ -236,10 +224,10 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
         "one of a square turned",        "a random disc",     "a close pair and two more"};
     const struct gm_vortices *own = lanes[0]->parameters;
     const double dt = lanes[0]->run->dt;
-    bool one_step = true, one_start = true;
+    const bool one_step = gm_one_step(lanes, count);
+    bool one_start = true;
     for (size_t i = 1; i < count; i++) {
         const struct gm_vortices *other = lanes[i]->parameters;
-        one_step &= lanes[i]->run->dt == dt;
         one_start &= other->configuration == own->configuration && other->angle == own->angle;
     }
     const long vortices = own->configuration == GM_REDUCED ? 4 : own->count;
