@@ -24,7 +24,7 @@ bool gm_entries_open(struct gm_entries *entries, const struct gm_track *track, c
             return false;
         }
     }
-    entries->width = track->width(view);
+    entries->width = track->numbers > 0 ? track->numbers : track->width(view);
     entries->times = malloc(track->bound * sizeof *entries->times);
     entries->steps = malloc(track->bound * sizeof *entries->steps);
     entries->values = malloc(track->bound * entries->width * sizeof *entries->values);
@@ -146,7 +146,8 @@ static bool is_due(const struct gm_entries *entries, const struct gm_track *trac
         return true;
     }
     const double last = entries->times[entries->count - 1];
-    const double interval = track->interval(view->parameters) * (double)entries->every;
+    const double interval =
+        (track->interval ? track->interval(view->parameters) : track->every) * (double)entries->every;
     return interval > 0 ? intervals(view, interval, view->t) != intervals(view, interval, last)
                         : view->t != last;
 }

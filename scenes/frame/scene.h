@@ -50,14 +50,16 @@ struct gm_observable {
     bool logarithmic;                        /* drawn on a log axis */
 };
 
-/* A bounded record of the past: an entry of `width` numbers every `interval` of model time; or, with
+/* A bounded record of the past: an entry of so many numbers every so much of model time; or, with
    `section`, one wherever that function of the state passes zero upwards between two steps, at the state
    interpolated there. When `bound` entries are full every other one is dropped, or, of a `recent` track, the
    older half. Entry 0 of a track by intervals that is not recent is the start. */
 struct gm_track {
     const char *key;
-    size_t (*width)(const struct gm_view *view);
-    double (*interval)(const void *parameters);
+    size_t numbers;                                /* of an entry; 0: */
+    size_t (*width)(const struct gm_view *view);   /* as many as that says */
+    double every;                                  /* model time; 0: after each step that is looked at, or */
+    double (*interval)(const void *parameters);    /* what that says, where it is there */
     double (*section)(const struct gm_view *view); /* looks at active components only; m is 1 */
     size_t bound;
     bool recent;

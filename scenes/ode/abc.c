@@ -132,25 +132,11 @@ static void remember(const struct gm_view *view, double *entry)
     entry[1] = view->state[Y * view->problem->m];
 }
 
-static size_t two(const struct gm_view *view)
-{
-    return (void)view, 2;
-}
-static double every_moment(const void *own)
-{
-    return (void)own, 0.1;
-}
-
 enum { SECTION, TRAIL };
 static const struct gm_track tracks[] = {
     [SECTION] =
-        {.key = "section", .width = two, .section = level_z, .bound = CROSSINGS, .record = record_crossing},
-    [TRAIL] = {.key = "trail",
-               .width = two,
-               .interval = every_moment,
-               .bound = 400,
-               .recent = true,
-               .record = remember},
+        {.key = "section", .numbers = 2, .section = level_z, .bound = CROSSINGS, .record = record_crossing},
+    [TRAIL] = {.key = "trail", .numbers = 2, .every = 0.1, .bound = 400, .recent = true, .record = remember},
 };
 
 static void trail_range(const struct gm_lane *const *lanes, size_t count, struct gm_axis *x,

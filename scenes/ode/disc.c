@@ -179,11 +179,6 @@ static size_t remembered(const struct gm_view *view)
     return 2 * ((members + stride - 1) / stride);
 }
 
-static double every_shape(const void *own)
-{
-    return (void)own, M_PI / 6;
-}
-
 static void remember(const struct gm_view *view, double *entry)
 {
     const size_t m = view->problem->m, members = m - 1;
@@ -195,7 +190,7 @@ static void remember(const struct gm_view *view, double *entry)
 }
 
 static const struct gm_track tracks[] = {
-    {.key = "shapes", .width = remembered, .interval = every_shape, .bound = 96, .record = remember},
+    {.key = "shapes", .width = remembered, .every = M_PI / 6, .bound = 96, .record = remember},
 };
 
 /* The centre's exact orbit: the level line of its energy, as one or two polylines. */

@@ -10,6 +10,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/hamiltonian.h"
 
 enum { Q1, Q2, P1, P2 };
 enum { CROSSINGS = 1 << 14 };
@@ -56,25 +57,13 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
     y[P1] = sqrt(2 * (orbit->energy - potential(0, orbit->q2)) - orbit->p2 * orbit->p2);
 }
 
-static double energy(const struct gm_view *view)
-{
-    double value = 0;
-    gm_ode_of(view->problem)->hamiltonian->energy(view->problem, view->state, &value, 1);
-    return value;
-}
-
 static const struct gm_observable observables[] = {
-    GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error"),
+    GM_KEPT_OBSERVABLE("energy_error", gm_hamiltonian_energy, "H", "energy error"),
 };
 
 static double first_coordinate(const struct gm_view *view)
 {
     return view->state[Q1];
-}
-
-static size_t two(const struct gm_view *view)
-{
-    return (void)view, 2;
 }
 
 static void record_crossing(const struct gm_view *view, double *entry)
@@ -85,7 +74,7 @@ static void record_crossing(const struct gm_view *view, double *entry)
 
 static const struct gm_track tracks[] = {
     {.key = "section",
-     .width = two,
+     .numbers = 2,
      .section = first_coordinate,
      .bound = CROSSINGS,
      .record = record_crossing},

@@ -14,6 +14,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/hamiltonian.h"
 
 enum { Q1, Q2, P1, P2 };
 
@@ -50,13 +51,6 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
     y[P2] = sqrt((1 + e) / (1 - e));
 }
 
-static double energy(const struct gm_view *view)
-{
-    double value = 0;
-    gm_ode_of(view->problem)->hamiltonian->energy(view->problem, view->state, &value, 1);
-    return value;
-}
-
 static double angular_momentum(const struct gm_view *view)
 {
     const double *y = view->state;
@@ -90,7 +84,7 @@ static double natural_energy(const void *own)
 }
 
 static const struct gm_observable observables[] = {
-    GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error", .scale = natural_energy,
+    GM_KEPT_OBSERVABLE("energy_error", gm_hamiltonian_energy, "H", "energy error", .scale = natural_energy,
                        .scale_text = "1/2"),
     GM_KEPT_OBSERVABLE("angular_momentum_error", angular_momentum, "L", "angular momentum error"),
     {.key = "lrl_angle",
@@ -103,16 +97,6 @@ static const struct gm_observable observables[] = {
                       .missing = "no exact solution is known with a perturbation"),
 };
 
-static size_t two(const struct gm_view *view)
-{
-    return (void)view, 2;
-}
-
-static double every_moment(const void *own)
-{
-    return (void)own, 2 * M_PI / 160;
-}
-
 static void remember(const struct gm_view *view, double *entry)
 {
     entry[0] = view->state[Q1];
@@ -120,12 +104,7 @@ static void remember(const struct gm_view *view, double *entry)
 }
 
 static const struct gm_track tracks[] = {
-    {.key = "trail",
-     .width = two,
-     .interval = every_moment,
-     .bound = 320,
-     .recent = true,
-     .record = remember},
+    {.key = "trail", .numbers = 2, .every = 2 * M_PI / 160, .bound = 320, .recent = true, .record = remember},
 };
 
 /* A planet farther away than so many apocentres has left its orbit: its panel follows it, with a scale of its

@@ -15,6 +15,7 @@
 #include "core/ode/families/variational_time.h"
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/hamiltonian.h"
 
 enum { HARMONIC, PENDULUM };
 enum { Q, P };
@@ -65,13 +66,6 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
     y[P] = ((const struct oscillator *)own)->p0;
 }
 
-static double energy(const struct gm_view *view)
-{
-    double value = 0;
-    gm_ode_of(view->problem)->hamiltonian->energy(view->problem, view->state, &value, 1);
-    return value;
-}
-
 static bool varies_time(const struct gm_view *view)
 {
     return strncmp(view->scheme->name, "variational-", 12) == 0;
@@ -105,8 +99,8 @@ static double natural_energy(const void *own)
 }
 
 static const struct gm_observable observables[] = {
-    [ENERGY] = GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error", .scale = natural_energy,
-                                  .scale_text = "1 for the pendulum"),
+    [ENERGY] = GM_KEPT_OBSERVABLE("energy_error", gm_hamiltonian_energy, "H", "energy error",
+                                  .scale = natural_energy, .scale_text = "1 for the pendulum"),
     [TAU] = GM_LOG_OBSERVABLE("tau", tau, "time step τ"),
     [RESTARTS] = GM_OBSERVABLE("restarts", restarts, "restarts"),
     [PHASE] = {.key = "phase_error",
@@ -117,15 +111,6 @@ static const struct gm_observable observables[] = {
                .period = 2 * M_PI},
 };
 
-static size_t two(const struct gm_view *view)
-{
-    return (void)view, 2;
-}
-static double each_step(const void *own)
-{
-    return (void)own, 0;
-}
-
 static void remember(const struct gm_view *view, double *entry)
 {
     entry[0] = view->t;
@@ -133,7 +118,7 @@ static void remember(const struct gm_view *view, double *entry)
 }
 
 static const struct gm_track tracks[] = {
-    {.key = "entries", .width = two, .interval = each_step, .bound = 4096, .record = remember},
+    {.key = "entries", .numbers = 2, .bound = 4096, .record = remember},
 };
 
 static void draw_position(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)

@@ -13,6 +13,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/hamiltonian.h"
 
 enum { FPU, SPRING_PENDULUM };
 /* Places of observables; of so many springs each has one. */
@@ -65,13 +66,6 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
     y[3 * stiff->springs] = 1;
 }
 
-static double energy(const struct gm_view *view)
-{
-    double value = 0;
-    gm_ode_of(view->problem)->hamiltonian->energy(view->problem, view->state, &value, 1);
-    return value;
-}
-
 /* Of spring `i`; the pendulum has one. */
 static double spring_energy(const struct gm_view *view, size_t i)
 {
@@ -121,8 +115,8 @@ static double natural_energy(const void *own)
 static const char fewer[] = "there are fewer stiff springs";
 
 static const struct gm_observable observables[] = {
-    [ENERGY] = GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error", .scale = natural_energy,
-                                  .scale_text = "1 for the spring pendulum"),
+    [ENERGY] = GM_KEPT_OBSERVABLE("energy_error", gm_hamiltonian_energy, "H", "energy error",
+                                  .scale = natural_energy, .scale_text = "1 for the spring pendulum"),
     [FIRST] = GM_OBSERVABLE("stiff_energy_1", spring_1, "energy of the first stiff spring"),
     GM_OBSERVABLE("stiff_energy_2", spring_2, "energy of the second stiff spring", .missing = fewer),
     GM_OBSERVABLE("stiff_energy_3", spring_3, "energy of the third stiff spring", .missing = fewer),
@@ -131,16 +125,6 @@ static const struct gm_observable observables[] = {
                       .symbol = "I"),
 };
 
-static double every_moment(const void *own)
-{
-    return (void)own, 0.01;
-}
-
-static size_t two(const struct gm_view *view)
-{
-    return (void)view, 2;
-}
-
 static void remember(const struct gm_view *view, double *entry)
 {
     entry[0] = view->state[0];
@@ -148,12 +132,7 @@ static void remember(const struct gm_view *view, double *entry)
 }
 
 static const struct gm_track tracks[] = {
-    {.key = "trail",
-     .width = two,
-     .interval = every_moment,
-     .bound = 400,
-     .recent = true,
-     .record = remember},
+    {.key = "trail", .numbers = 2, .every = 0.01, .bound = 400, .recent = true, .record = remember},
 };
 
 /* Of the stiff energy to its start. */

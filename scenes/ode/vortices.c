@@ -12,6 +12,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/entries.h"
+#include "scenes/ode/hamiltonian.h"
 
 extern const struct gm_scene gm_scene_vortices;
 
@@ -109,13 +110,6 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
     problem->parameters = &own->strength;
     problem->exact = own->configuration == GM_SQUARE && tracers == 0 ? &polygon : NULL;
     return true;
-}
-
-static double energy(const struct gm_view *view)
-{
-    double value = 0;
-    gm_ode_of(view->problem)->hamiltonian->energy(view->problem, view->state, &value, 1);
-    return value;
 }
 
 /* Sums over the vortices, images included; of the reduced system each stands for two. */
@@ -256,7 +250,7 @@ static double radius(const void *own)
 }
 
 static const struct gm_observable observables[] = {
-    GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error", .scale = natural_energy,
+    GM_KEPT_OBSERVABLE("energy_error", gm_hamiltonian_energy, "H", "energy error", .scale = natural_energy,
                        .scale_text = "strength²/4π"),
     GM_KEPT_OBSERVABLE("impulse_x_error", impulse_x, "X", "impulse error, x", .scale = radius,
                        .scale_text = "1"),
@@ -280,11 +274,6 @@ static double turning_time(const void *parameters_)
     const struct gm_vortices *own = parameters_;
     const double count = own->configuration == GM_REDUCED ? 4 : (double)own->count;
     return 8 * M_PI * M_PI / (fabs(own->strength) * (count - 1));
-}
-
-static size_t one(const struct gm_view *view)
-{
-    return (void)view, 1;
 }
 
 /* Of so many vortices the past is kept. */
@@ -317,7 +306,7 @@ static double long_interval(const void *own)
 
 static const struct gm_track tracks[] = {
     [GM_SECTION] = {.key = "section",
-                    .width = one,
+                    .numbers = 1,
                     .section = quarter_turn,
                     .bound = 1 << 15,
                     .record = record_crossing},
