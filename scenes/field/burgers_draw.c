@@ -305,9 +305,9 @@ static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const 
         .observable = "sup_error", .scale = GM_LOG, .calm_low = 1e-2, .calm_high = 1};
     const struct gm_graph defect = {
         .observable = "galilean_defect", .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1};
-    gm_draw_graph(picture, lanes, count, &error, -1, false);
+    gm_draw_graphs(picture, lanes, count, &error, 1);
     if (boosted) {
-        gm_draw_graph(picture, lanes, count, &defect, -1, false);
+        gm_draw_graphs(picture, lanes, count, &defect, 1);
     }
 }
 

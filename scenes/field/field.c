@@ -261,9 +261,7 @@ void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lane
     gm_draw_clock(picture, lanes, count);
     draw_surfaces(picture, lanes, count, look);
     draw_profiles(picture, lanes, count, look);
-    for (size_t i = 0; i < graph_count; i++) {
-        gm_draw_graph(picture, lanes, count, &graphs[i], -1, false);
-    }
+    gm_draw_graphs(picture, lanes, count, graphs, graph_count);
 }
 
 const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)

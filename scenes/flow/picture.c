@@ -283,7 +283,7 @@ static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const 
             .time_label = steady ? "corrections" : time,
             .time_unit = steady ? fabs(lanes[0]->run->dt) : 0,
         };
-        gm_draw_graph(picture, lanes, count, &graph, -1, false);
+        gm_draw_graphs(picture, lanes, count, &graph, 1);
     }
 }
 
@@ -372,9 +372,12 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
         return;
     }
     if (own->show == GM_SHOW_DIVERGENCE) {
-        const struct gm_graph graph = {
-            .observable = "divergence", .scale = GM_LOG, .calm_low = 1e-18, .calm_high = 1e-15};
-        gm_draw_graph(picture, lanes, count, &graph, -1, true);
+        const struct gm_graph graph = {.observable = "divergence",
+                                       .scale = GM_LOG,
+                                       .calm_low = 1e-18,
+                                       .calm_high = 1e-15,
+                                       .named = true};
+        gm_draw_graphs(picture, lanes, count, &graph, 1);
         return;
     }
     double low = 0, high = 1;

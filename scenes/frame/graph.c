@@ -419,8 +419,8 @@ static void name_dashes(struct gm_picture *picture, struct gm_panel *panel,
     }
 }
 
-void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                   const struct gm_graph *graph, long only, bool named)
+static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                       const struct gm_graph *graph)
 {
     const struct gm_scene *scene = lanes[0]->scene;
     const int asked = gm_asked_series(picture, scene, graph->observable);
@@ -476,11 +476,11 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
         gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
                      panel->x.high, roundoff * pow(high / low, -0.07), GM_ANCHOR_RIGHT, "round-off");
     }
-    if (only < 0 && !named) {
+    if (!graph->panel_of && !graph->named) {
         name_dashes(picture, panel, lanes, count);
     }
     for (size_t i = 0; i < count; i++) {
-        if (only >= 0 && lanes[i]->shown.panel != (size_t)only) {
+        if (graph->panel_of && lanes[i]->shown.panel != graph->panel_of->shown.panel) {
             continue;
         }
         const double divisor = divisor_of(lanes[i], series, graph->relative);
@@ -489,14 +489,22 @@ void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lane
             cut(points, made, graph->floor);
         }
         struct gm_style style = gm_lane_style(lanes[i], 1, 2.4);
-        style.dash = only >= 0 && is_alone(lanes, count, i) ? GM_SOLID : style.dash;
+        style.dash = graph->panel_of && is_alone(lanes, count, i) ? GM_SOLID : style.dash;
         for (size_t k = 0; k < made && graph->time_unit > 0; k++) {
             points[2 * k] /= graph->time_unit;
         }
         gm_mark_line(picture, panel, style, points, made, false);
         gm_mark_switches(picture, panel, lanes[i], false);
-        if (named) {
+        if (graph->named) {
             gm_panel_key(picture, panel, style, lane_name(lanes[i]));
         }
+    }
+}
+
+void gm_draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                    const struct gm_graph *graphs, size_t graph_count)
+{
+    for (size_t i = 0; i < graph_count; i++) {
+        draw_graph(picture, lanes, count, &graphs[i]);
     }
 }

@@ -84,6 +84,8 @@ struct gm_graph {
     double time_unit;           /* that its values are told in; 0: 1 */
     bool to_last;               /* the time axis ends where the values do, not where the run does */
     double floor; /* log: values below are left out, such as those of the first steps; 0: none */
+    const struct gm_lane *panel_of; /* only this lane and those of its panel; NULL: all */
+    bool named;                     /* lanes are named under the title, where no panel carries their names */
 };
 
 /* The number of the observable that a picture asks for, -1 where the scene has none of that key: then an
@@ -91,9 +93,8 @@ struct gm_graph {
 #define GM_NO_OBSERVABLE "no observable "
 int gm_asked_series(struct gm_picture *picture, const struct gm_scene *scene, const char *key);
 
-/* Adds a graph of the lanes' histories; of all lanes, or of those of one panel (only >= 0). Where no
-   panel carries the lanes' names, `named` puts them under the graph's title. */
-void gm_draw_graph(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                   const struct gm_graph *graph, long only, bool named);
+/* Adds graphs of the lanes' histories. */
+void gm_draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                    const struct gm_graph *graphs, size_t graph_count);
 
 #endif

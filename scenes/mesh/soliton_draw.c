@@ -270,8 +270,9 @@ static void draw_energies(struct gm_picture *picture, const struct gm_lane *cons
         if (i > 0 && lanes[i]->shown.panel == lanes[i - 1]->shown.panel) {
             continue;
         }
-        const struct gm_graph graph = {.observable = "energy", .title = gm_lane_title(lanes[i])};
-        gm_draw_graph(picture, lanes, count, &graph, (long)lanes[i]->shown.panel, false);
+        const struct gm_graph graph = {
+            .observable = "energy", .title = gm_lane_title(lanes[i]), .panel_of = lanes[i]};
+        gm_draw_graphs(picture, lanes, count, &graph, 1);
         struct gm_panel *panel = picture->last;
         panel->place = GM_PLACE_STATE;
         panel->title_role = gm_lane_role(lanes[i]->shown.colour);
@@ -330,12 +331,12 @@ void gm_soliton_draw(const struct gm_lane *const *lanes, size_t count, struct gm
                                       .relative = true,
                                       .calm_low = 0.99,
                                       .calm_high = 1.01};
-        gm_draw_graph(picture, lanes, count, &kept, -1, false);
+        gm_draw_graphs(picture, lanes, count, &kept, 1);
         const struct gm_graph error = {.observable = "solution_error",
                                        .scale = GM_LOG,
                                        .calm_low = 1e-4,
                                        .calm_high = 10,
                                        .floor = 1e-4};
-        gm_draw_graph(picture, lanes, count, &error, -1, false);
+        gm_draw_graphs(picture, lanes, count, &error, 1);
     }
 }

@@ -205,15 +205,14 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                           trail->count);
         }
     }
-    gm_draw_graph(picture, lanes, count,
-                  &(const struct gm_graph){.observable = "log_volume",
-                                           .magnitude = true,
-                                           .highest = true,
-                                           .scale = GM_LOG,
-                                           .to_last = true,
-                                           .calm_low = 1e-12,
-                                           .calm_high = 1e-2},
-                  -1, false);
+    static const struct gm_graph graph = {.observable = "log_volume",
+                                          .magnitude = true,
+                                          .highest = true,
+                                          .scale = GM_LOG,
+                                          .to_last = true,
+                                          .calm_low = 1e-12,
+                                          .calm_high = 1e-2};
+    gm_draw_graphs(picture, lanes, count, &graph, 1);
 }
 
 static const char *const schemes[] = {

@@ -368,11 +368,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                             .scale = GM_LOG,
                                             .calm_low = 0.5,
                                             .calm_high = 2};
-        gm_draw_graph(picture, lanes, count, &area_ratio, -1, false);
+        gm_draw_graphs(picture, lanes, count, &area_ratio, 1);
     }
     struct gm_graph error = {.observable = "energy_error", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 1};
     if (disc->show == SHOW_ALL) {
-        gm_draw_graph(picture, lanes, count, &error, -1, false);
+        gm_draw_graphs(picture, lanes, count, &error, 1);
     }
     if (disc->show != SHOW_ENERGY) {
         return;
@@ -381,7 +381,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         if (walk.first) {
             error.title = gm_picture_text(picture, "%s: %s", gm_lane_title(walk.lane),
                                           gm_error_title(picture, lanes, count, ENERGY_ERROR));
-            gm_draw_graph(picture, lanes, count, &error, (long)walk.panel, true);
+            error.panel_of = walk.lane;
+            error.named = true;
+            gm_draw_graphs(picture, lanes, count, &error, 1);
         }
     }
 }

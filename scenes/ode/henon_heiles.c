@@ -167,11 +167,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.75, .width = 2.2},
                        section->values, section->count);
     }
-    gm_draw_graph(
-        picture, lanes, count,
-        &(const struct gm_graph){
-            .observable = "energy_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-6, .calm_high = 1},
-        -1, false);
+    static const struct gm_graph graph = {
+        .observable = "energy_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-6, .calm_high = 1};
+    gm_draw_graphs(picture, lanes, count, &graph, 1);
 }
 
 static const char *const schemes[] = {"verlet", "rk4",      "rk2",      "gauss4",

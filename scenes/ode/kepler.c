@@ -247,27 +247,22 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     draw_orbits(picture, lanes, count);
-    gm_draw_graph(
-        picture, lanes, count,
-        &(const struct gm_graph){
-            .observable = "energy_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-6, .calm_high = 1},
-        -1, false);
-    gm_draw_graph(picture, lanes, count,
-                  &(const struct gm_graph){.observable = "lrl_angle",
-                                           .title = "turn of the orbit's axis, rad",
-                                           .magnitude = true,
-                                           .highest = true,
-                                           .scale = GM_LOG,
-                                           .calm_low = 1e-4,
-                                           .calm_high = 1},
-                  -1, false);
-    gm_draw_graph(picture, lanes, count,
-                  &(const struct gm_graph){.observable = "angular_momentum_error",
-                                           .highest = true,
-                                           .scale = GM_LOG,
-                                           .calm_low = 1e-16,
-                                           .calm_high = 1e-2},
-                  -1, false);
+    static const struct gm_graph graphs[] = {
+        {.observable = "energy_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-6, .calm_high = 1},
+        {.observable = "lrl_angle",
+         .title = "turn of the orbit's axis, rad",
+         .magnitude = true,
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = 1e-4,
+         .calm_high = 1},
+        {.observable = "angular_momentum_error",
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = 1e-16,
+         .calm_high = 1e-2},
+    };
+    gm_draw_graphs(picture, lanes, count, graphs, GM_COUNT(graphs));
 }
 
 static const char *const schemes[] = {

@@ -195,17 +195,15 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
     draw_position(picture, lanes, count);
-    gm_draw_graph(
-        picture, lanes, count,
-        &(const struct gm_graph){.observable = "tau", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 0.1},
-        -1, false);
-    gm_draw_graph(picture, lanes, count,
-                  &(const struct gm_graph){.observable = "energy_error",
-                                           .highest = true,
-                                           .scale = GM_LOG,
-                                           .calm_low = 1e-17,
-                                           .calm_high = 1e-2},
-                  -1, false);
+    static const struct gm_graph graphs[] = {
+        {.observable = "tau", .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 0.1},
+        {.observable = "energy_error",
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = 1e-17,
+         .calm_high = 1e-2},
+    };
+    gm_draw_graphs(picture, lanes, count, graphs, GM_COUNT(graphs));
 }
 
 static const char *const schemes[] = {"variational-rectangle",

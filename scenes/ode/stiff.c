@@ -307,18 +307,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     } else {
         draw_pendulum(picture, lanes, count);
     }
-    gm_draw_graph(picture, lanes, count,
-                  &(const struct gm_graph){.observable = "adiabatic_error",
-                                           .highest = true,
-                                           .scale = GM_LOG,
-                                           .calm_low = 1e-3,
-                                           .calm_high = 2},
-                  -1, false);
-    gm_draw_graph(
-        picture, lanes, count,
-        &(const struct gm_graph){
-            .observable = "energy_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-6, .calm_high = 1},
-        -1, false);
+    static const struct gm_graph graphs[] = {
+        {.observable = "adiabatic_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-3, .calm_high = 2},
+        {.observable = "energy_error", .highest = true, .scale = GM_LOG, .calm_low = 1e-6, .calm_high = 1},
+    };
+    gm_draw_graphs(picture, lanes, count, graphs, GM_COUNT(graphs));
 }
 
 static const char *const schemes[] = {"verlet",     "rk4",       "midpoint",       "gauss4",       "impulse2",

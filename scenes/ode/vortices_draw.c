@@ -188,11 +188,9 @@ static void draw_section(struct gm_picture *picture, const struct gm_lane *const
 static void draw_log(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                      const char *key)
 {
-    gm_draw_graph(
-        picture, lanes, count,
-        &(const struct gm_graph){
-            .observable = key, .highest = true, .scale = GM_LOG, .calm_low = 1e-15, .calm_high = 1e-2},
-        -1, false);
+    const struct gm_graph graph = {
+        .observable = key, .highest = true, .scale = GM_LOG, .calm_low = 1e-15, .calm_high = 1e-2};
+    gm_draw_graphs(picture, lanes, count, &graph, 1);
 }
 
 /* 35.12 degrees: beyond, the centrally symmetric motion of two-turned vortices is unstable */
