@@ -29,21 +29,17 @@ static const struct gm_parameter parameters[] = {
     GM_FLOWS_LOOKS("vorticity", "yes"),
 };
 
+static unsigned char side_at(const double middle[2])
+{
+    return middle[1] == 1 ? GM_EDGE_LID : GM_EDGE_WALL;
+}
+
 static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **sides, char *sentence)
 {
     struct gm_rectangle rectangle = {
         .width = 1, .height = 1, .edges = own->columns, .strips = own->rows, .irregular = own->irregular};
-    struct gm_complex *complex = gm_flows_rectangle(&rectangle, sentence);
-    struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
-    *sides = flow ? calloc(complex->boundary, 1) : NULL;
-    for (size_t b = 0; *sides && b < complex->boundary; b++) {
-        double middle[2];
-        gm_flows_middle(complex, b, middle);
-        (*sides)[b] = middle[1] == 1 ? GM_EDGE_LID : GM_EDGE_WALL;
-    }
-    if (complex && !*sides) {
-        snprintf(sentence, GM_SENTENCE, "not enough memory");
-    }
+    struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
+    *sides = flow ? gm_flows_sides(flow, side_at, sentence) : NULL;
     return flow;
 }
 

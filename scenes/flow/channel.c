@@ -11,7 +11,7 @@
 
 #include "scenes/flow/flows.h"
 
-static const double hot = 20;
+static const double hot = 20, length = 2 * M_PI;
 
 static const struct gm_parameter parameters[] = {
     GM_DT("0.01", 1e-7, 10),
@@ -46,6 +46,11 @@ static double psi(double y)
     return 2 * y * y - 4.0 / 3 * y * y * y;
 }
 
+static unsigned char side_at(const double middle[2])
+{
+    return middle[0] == 0 ? GM_EDGE_INLET : middle[0] == length ? GM_EDGE_OUTLET : GM_EDGE_WALL;
+}
+
 static bool setup(const void *parameters_of, struct gm_problem *problem, char *sentence)
 {
     const struct gm_flows *own = parameters_of;
@@ -58,30 +63,21 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
         snprintf(sentence, GM_SENTENCE, "outlet=%.60s is none of: soft, dirichlet, free", own->outlet);
         return false;
     }
-    const double length = 2 * M_PI;
     struct gm_rectangle rectangle = {.width = length,
                                      .height = 1,
                                      .edges = own->rows,
                                      .strips = own->columns,
                                      .transposed = true,
                                      .irregular = own->irregular};
-    struct gm_complex *complex = gm_flows_rectangle(&rectangle, sentence);
-    struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
-    unsigned char *sides = flow ? calloc(complex->boundary, 1) : NULL;
-    for (size_t b = 0; sides && b < complex->boundary; b++) {
-        double middle[2];
-        gm_flows_middle(complex, b, middle);
-        sides[b] = middle[0] == 0 ? GM_EDGE_INLET : middle[0] == length ? GM_EDGE_OUTLET : GM_EDGE_WALL;
-    }
-    if (complex && !sides) {
-        snprintf(sentence, GM_SENTENCE, "not enough memory");
-    }
+    struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
+    unsigned char *sides = flow ? gm_flows_sides(flow, side_at, sentence) : NULL;
     const bool good = sides && gm_flows_boundary(gm_flow_set_boundary(flow, sides, 1, outlet, 0), sentence);
     free(sides);
     if (!good) {
         gm_flow_close(flow);
         return false;
     }
+    const struct gm_complex *complex = flow->complex;
     for (size_t b = 0; b < complex->boundary; b++) {
         const int v = complex->boundary_vertex[b];
         flow->theta[v] = flow->theta_fixed[v] && complex->point[2 * v + 1] == 1 ? hot : 0;

@@ -105,7 +105,7 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
     }
 }
 
-struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
+struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence)
 {
     const long best =
         gm_rectangle_strips(rectangle->width, rectangle->height, rectangle->edges, rectangle->transposed);
@@ -127,8 +127,13 @@ struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sent
     struct gm_complex *complex = gm_rectangle_open(rectangle, &fault);
     if (!complex) {
         explain("the mesh", &fault, sentence);
+        return NULL;
     }
-    return complex;
+    struct gm_flow *flow = gm_flow_open(complex);
+    if (!flow) {
+        refuse(sentence, "not enough memory");
+    }
+    return flow;
 }
 
 bool gm_flows_file(const char *path, struct gm_triangulation *mesh, char *sentence)
@@ -276,6 +281,22 @@ void gm_flows_middle(const struct gm_complex *complex, size_t boundary_edge, dou
     for (int c = 0; c < 2; c++) {
         middle[c] = (complex->point[2 * edge[0] + c] + complex->point[2 * edge[1] + c]) / 2;
     }
+}
+
+unsigned char *gm_flows_sides(const struct gm_flow *flow, unsigned char (*side)(const double middle[2]),
+                              char *sentence)
+{
+    const size_t count = flow->complex->boundary;
+    unsigned char *sides = calloc(count, 1);
+    for (size_t b = 0; sides && b < count; b++) {
+        double middle[2];
+        gm_flows_middle(flow->complex, b, middle);
+        sides[b] = side(middle);
+    }
+    if (!sides) {
+        refuse(sentence, "not enough memory");
+    }
+    return sides;
 }
 
 void gm_flows_start(const void *parameters, const struct gm_problem *problem, double *y)

@@ -53,9 +53,8 @@ struct gm_flows {
 
 extern const char *const gm_flows_shows[];
 
-/* The mesh of a rectangle: `rows` edges on the walls that strips end at, `columns` strips (0: chosen). NULL
-   with a sentence. */
-struct gm_complex *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence);
+/* A flow on the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence. */
+struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence);
 
 /* The mesh of a file. False with a sentence that names the line or triangle. */
 bool gm_flows_file(const char *path, struct gm_triangulation *mesh, char *sentence);
@@ -89,6 +88,10 @@ bool gm_flows_idle(const void *parameters, const char *key);
 
 /* The middle of a boundary edge. */
 void gm_flows_middle(const struct gm_complex *complex, size_t boundary_edge, double middle[2]);
+
+/* What each boundary edge is (enum gm_edge_kind), by where its middle is. NULL with a sentence. */
+unsigned char *gm_flows_sides(const struct gm_flow *flow, unsigned char (*side)(const double middle[2]),
+                              char *sentence);
 
 /* The start without vorticity. */
 void gm_flows_start(const void *parameters, const struct gm_problem *problem, double *y);

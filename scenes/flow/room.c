@@ -40,6 +40,13 @@ static const struct gm_parameter parameters[] = {
     GM_FLOWS_LOOKS("scalar", "yes"),
 };
 
+static unsigned char side_at(const double middle[2])
+{
+    return middle[0] == 0 && middle[1] > side - 1 ? GM_EDGE_INLET
+           : middle[0] == side && middle[1] < 1   ? GM_EDGE_OUTLET
+                                                  : GM_EDGE_WALL;
+}
+
 static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **sides, char *sentence)
 {
     if (own->rows % 5 != 0) {
@@ -58,19 +65,8 @@ static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **s
                                      .irregular = own->irregular,
                                      .fixed = lips,
                                      .fixed_count = 2};
-    struct gm_complex *complex = gm_flows_rectangle(&rectangle, sentence);
-    struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
-    *sides = flow ? calloc(complex->boundary, 1) : NULL;
-    for (size_t b = 0; *sides && b < complex->boundary; b++) {
-        double middle[2];
-        gm_flows_middle(complex, b, middle);
-        (*sides)[b] = middle[0] == 0 && middle[1] > side - 1 ? GM_EDGE_INLET
-                      : middle[0] == side && middle[1] < 1   ? GM_EDGE_OUTLET
-                                                             : GM_EDGE_WALL;
-    }
-    if (complex && !*sides) {
-        snprintf(sentence, GM_SENTENCE, "not enough memory");
-    }
+    struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
+    *sides = flow ? gm_flows_sides(flow, side_at, sentence) : NULL;
     return flow;
 }
 

@@ -79,14 +79,11 @@ static bool make(const struct gm_flows *own, const struct shear *shear, struct g
 {
     struct gm_rectangle rectangle = {
         .width = 1, .height = 1, .edges = own->rows, .strips = own->columns, .irregular = own->irregular};
-    struct gm_complex *complex = gm_flows_rectangle(&rectangle, sentence);
-    struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
+    struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
     if (!flow) {
-        if (complex) {
-            snprintf(sentence, GM_SENTENCE, "not enough memory");
-        }
         return false;
     }
+    const struct gm_complex *complex = flow->complex;
     for (size_t b = 0; b < complex->boundary; b++) {
         const int v = complex->boundary_vertex[b];
         const double z = complex->point[2 * v + 1];

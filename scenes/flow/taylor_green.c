@@ -38,14 +38,11 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
                                      .strips = own->rows,
                                      .torus = own->domain == GM_DOMAIN_TORUS,
                                      .irregular = own->irregular};
-    struct gm_complex *complex = gm_flows_rectangle(&rectangle, sentence);
-    struct gm_flow *flow = complex ? gm_flow_open(complex) : NULL;
+    struct gm_flow *flow = gm_flows_rectangle(&rectangle, sentence);
     if (!flow) {
-        if (complex) {
-            snprintf(sentence, GM_SENTENCE, "not enough memory");
-        }
         return false;
     }
+    const struct gm_complex *complex = flow->complex;
     for (size_t b = 0; b < complex->boundary; b++) {
         const int v = complex->boundary_vertex[b];
         flow->kind[v] = GM_VERTEX_SLIP;
