@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reading PNG: the texts of any file, the pixels of one of ours. Files are not trusted. */
+/* PNG files: their texts, and their pixels. */
 #include "render/files/png.h"
 
 #include <libdeflate.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Opening what is read: regular files alone. */
+/* A whole file, if it is one. */
 #include "render/files/regular_file.h"
 
 #include <errno.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files that are written beside their place and renamed when they are complete. */
+/* Names for files that are not complete yet, and what becomes of those that were left behind. */
 #include "render/files/temporary.h"
 
 #include <dirent.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A picture's memory, and how panels and marks come into it. */
+/* The arena that a picture lives in, and what is added to it: panels, marks, keys, texts. */
 #include "render/picture/picture.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a mesh and values at its vertices to the triangles that are drawn. */
+/* A mesh is not drawn as it is: colours that are linear on coarse triangles show these, and a torus has no
+   edge. */
 #include "scenes/flow/sheet.h"
 
 #include <math.h>

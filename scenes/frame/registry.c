@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* All scenes there are, from the list scenes.def, and what is looked up in a scene by its key. */
+/* The scenes that there are (scenes/scenes.def), and what is asked of any of them by name. */
 #include <stdio.h>
 #include <string.h>
 

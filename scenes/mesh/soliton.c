@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solitons between walls on linear elements whose nodes follow them: r-adaptive variational integrators.
-   Tyranowski & Desbrun (2019), section 5, figures 2 to 14. */
+/* Solitons between walls on linear elements whose nodes follow them: r-adaptive variational integrators, by
+   multipliers that hold the mesh to its density and by a mesh that is steered, beside one that stands still.
+   It is here to show what so few nodes can do if they go along, and what it costs. Tyranowski & Desbrun
+   (2019), section 5, figures 2 to 14. */
 #include "scenes/mesh/soliton_draw.h"
 
 #include <math.h>

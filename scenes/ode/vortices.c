@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Point vortices of equal strength in the plane, and passive tracers that they carry.
-   Razafindralandy, Hamdouni & Chhay (2018), section "Vortex dynamic", figures 7 to 10; with the factor and
-   the sense of rotation of Kirchhoff's equations mended. In `reduced` z3 = -z1 and z4 = -z2 are built in, so
-   that rounding cannot break the symmetry; beyond a turn of 35.12 degrees it does so in the full system,
-   whatever the scheme. */
+/* Point vortices of equal strength in the plane, and passive tracers that they carry. They are here because
+   they are Hamiltonian without being separable, and because their section tells a quasi-periodic motion from
+   one that wanders off its curve. Razafindralandy, Hamdouni & Chhay (2018), section "Vortex dynamic", figures
+   7 to 10; with the factor and the sense of rotation of Kirchhoff's equations mended. In `reduced` z3 = -z1
+   and z4 = -z2 are built in, so that rounding cannot break the symmetry; beyond a turn of 35.12 degrees it
+   does so in the full system, whatever the scheme. */
 #include "scenes/ode/vortices_draw.h"
 
 #include <math.h>
