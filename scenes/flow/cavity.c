@@ -193,14 +193,6 @@ static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm
     picture->caption = "Red: Ghia, Ghia & Shin (1982).";
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
-{
-    return gm_picture_text(
-        picture, "%s%s",
-        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
-        gm_flows_mesh_and_scheme(picture, lanes, count));
-}
-
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     static const double levels[] = {-0.1175, -0.115, -0.11, -0.1,  -0.09,  -0.07, -0.05, -0.03,
@@ -208,7 +200,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                     1e-4,    2.5e-4, 5e-4,  1e-3,  1.5e-3, 3e-3};
     const struct gm_look look = {
         .title = "A cavity driven by its lid",
-        .subtitle = subtitle,
+        .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds)}},
         .clock_unit = "L/U",
         .vorticity_range = 5,
         .speed_high = 1,

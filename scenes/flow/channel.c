@@ -157,19 +157,12 @@ static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm
     gm_flows_draw_profiles(lanes, count, picture, place, &line, velocity, theta);
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
-{
-    return gm_picture_text(
-        picture, "%s%s,  profiles at x = 3 L/4",
-        gm_flows_common(picture, lanes, count, "viscosity", offsetof(struct gm_flows, viscosity)),
-        gm_flows_mesh_and_scheme(picture, lanes, count));
-}
-
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_look look = {
         .title = "A channel with a hot wall",
-        .subtitle = subtitle,
+        .told = {{"viscosity", offsetof(struct gm_flows, viscosity)}},
+        .remark = ",  profiles at x = 3 L/4",
         .clock_unit = "H²/ν",
         .scalar_high = hot,
         .vorticity_range = 4,

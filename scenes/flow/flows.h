@@ -133,7 +133,13 @@ struct gm_profile {
 /* What a scene's picture shows besides the field. */
 struct gm_look {
     const char *title;
-    const char *(*subtitle)(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count);
+    /* The subtitle: real parameters by name and place in struct gm_flows, those that all lanes share (where
+       they differ, the panels tell); then mesh and scheme, and a remark. */
+    struct {
+        const char *name;
+        size_t offset;
+    } told[2];
+    const char *remark;      /* NULL: none */
     const char *clock_unit;  /* after the clock's time; "" */
     const char *axes[2];     /* of the field, x and y, where one lane is shown; NULL: none are drawn */
     double scalar_high;      /* the scalar's range; 0: inlet_scalar */
@@ -151,13 +157,6 @@ struct gm_look {
         const char *observable, *name;
     } * errors; /* of the convergence picture, ended by NULL */
 };
-/* "NAME VALUE,  " of the real parameter at this offset of struct gm_flows; "" where lanes differ in it: then
-   their panels tell. */
-const char *gm_flows_common(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                            const char *name, size_t offset);
-/* "6600 triangles,  semi-implicit"; the scheme where it is the same in all lanes */
-const char *gm_flows_mesh_and_scheme(struct gm_picture *picture, const struct gm_lane *const *lanes,
-                                     size_t count);
 
 void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture,
                    const struct gm_look *look);

@@ -177,16 +177,9 @@ static bool is_common(const struct gm_lane *const *lanes, size_t count, size_t o
     return common;
 }
 
-const char *gm_flows_common(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                            const char *name, size_t offset)
-{
-    double value = 0;
-    memcpy(&value, (const char *)lanes[0]->parameters + offset, sizeof value);
-    return is_common(lanes, count, offset) ? gm_picture_text(picture, "%s %.6g,  ", name, value) : "";
-}
-
-const char *gm_flows_mesh_and_scheme(struct gm_picture *picture, const struct gm_lane *const *lanes,
-                                     size_t count)
+/* "6600 triangles,  semi-implicit"; the scheme where it is the same in all lanes */
+static const char *mesh_and_scheme(struct gm_picture *picture, const struct gm_lane *const *lanes,
+                                   size_t count)
 {
     size_t fewest = flow_of(lanes[0])->complex->triangles, most = fewest;
     bool one_scheme = true;
@@ -199,6 +192,22 @@ const char *gm_flows_mesh_and_scheme(struct gm_picture *picture, const struct gm
     const char *mesh = fewest == most ? gm_picture_text(picture, "%zu triangles", most)
                                       : gm_picture_text(picture, "%zu to %zu triangles", fewest, most);
     return one_scheme ? gm_picture_text(picture, "%s,  %s", mesh, lanes[0]->schemes) : mesh;
+}
+
+static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                            const struct gm_look *look)
+{
+    const char *told = "";
+    for (size_t i = 0; i < GM_COUNT(look->told) && look->told[i].name; i++) {
+        const size_t offset = look->told[i].offset;
+        double value = 0;
+        memcpy(&value, (const char *)lanes[0]->parameters + offset, sizeof value);
+        if (is_common(lanes, count, offset)) {
+            told = gm_picture_text(picture, "%s%s %.6g,  ", told, look->told[i].name, value);
+        }
+    }
+    return gm_picture_text(picture, "%s%s%s", told, mesh_and_scheme(picture, lanes, count),
+                           look->remark ? look->remark : "");
 }
 
 /* Whether all lanes look for a steady state, so that there is no time. */
@@ -360,7 +369,7 @@ void gm_flows_draw(const struct gm_lane *const *lanes, size_t count, struct gm_p
 {
     const struct gm_flows *own = lanes[0]->parameters;
     picture->title = look->title;
-    picture->subtitle = look->subtitle(picture, lanes, count);
+    picture->subtitle = subtitle(picture, lanes, count, look);
     picture->graphs_below = true;
     draw_clock(picture, lanes, count, look);
     if (own->show == GM_SHOW_CONVERGENCE && look->errors) {

@@ -169,15 +169,6 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
     }
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
-{
-    return gm_picture_text(
-        picture, "%s%s%s;  τ = %.4g h/U, the perimeter / U",
-        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
-        gm_flows_common(picture, lanes, count, "Schmidt number", offsetof(struct gm_flows, schmidt)),
-        gm_flows_mesh_and_scheme(picture, lanes, count), gm_flow_of(&lanes[0]->problem)->time_unit);
-}
-
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_flows *own = lanes[0]->parameters;
@@ -190,7 +181,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     }
     const struct gm_look look = {
         .title = "A polluted room",
-        .subtitle = subtitle,
+        .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds)},
+                 {"Schmidt number", offsetof(struct gm_flows, schmidt)}},
+        .remark = gm_picture_text(picture, ";  τ = %.4g h/U, the perimeter / U", flow->time_unit),
         .clock_unit = "τ",
         .axes = {"x / h", "y / h"},
         .vorticity_range = 6,

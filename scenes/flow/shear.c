@@ -281,14 +281,6 @@ static void profiles(const struct gm_lane *const *lanes, size_t count, struct gm
     gm_flows_draw_profiles(lanes, count, picture, place, &middle, shear->velocity, height);
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
-{
-    return gm_picture_text(
-        picture, "%s%s",
-        gm_flows_common(picture, lanes, count, "Reynolds number", offsetof(struct gm_flows, reynolds)),
-        gm_flows_mesh_and_scheme(picture, lanes, count));
-}
-
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     static const struct gm_look_error errors[] = {{"psi_error", "ψ"},
@@ -300,7 +292,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const struct shear *shear = shear_of(&lanes[0]->problem);
     const struct gm_look look = {
         .title = shear->title,
-        .subtitle = subtitle,
+        .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds)}},
         .clock_unit = "H²/ν",
         .scalar_high = 1,
         .vorticity_range = shear->vorticity_range,

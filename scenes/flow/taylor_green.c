@@ -131,16 +131,6 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
     gm_flows_write_profile(view, front, &line, stream);
 }
 
-static const char *subtitle(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
-{
-    const struct gm_flows *own = lanes[0]->parameters;
-    return gm_picture_text(
-        picture, "%s%s,  %s",
-        gm_flows_common(picture, lanes, count, "viscosity", offsetof(struct gm_flows, viscosity)),
-        gm_flows_mesh_and_scheme(picture, lanes, count),
-        own->domain == GM_DOMAIN_TORUS ? "torus" : "walls without friction");
-}
-
 static const struct gm_look_error errors[] = {{"psi_error", "ψ"}, {NULL, NULL}};
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
@@ -150,7 +140,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .title = own->speed == 0      ? "Taylor–Green vortices"
                  : own->viscosity > 0 ? "Taylor–Green vortices among other waves"
                                       : "Taylor–Green vortices among other waves, in an ideal fluid",
-        .subtitle = subtitle,
+        .told = {{"viscosity", offsetof(struct gm_flows, viscosity)}},
+        .remark = own->domain == GM_DOMAIN_TORUS ? ",  torus" : ",  walls without friction",
         .clock_unit = "",
         .vorticity_range = 2 * wave_number(own) * (1 + own->speed),
         .speed_high = 1,

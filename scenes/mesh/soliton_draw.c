@@ -224,10 +224,10 @@ static const char *subtitle(struct gm_picture *picture, const struct gm_lane *co
 {
     const struct gm_soliton_scene *soliton = lanes[0]->parameters;
     const bool named = soliton->show != GM_SOLITON_CONVERGENCE;
-    bool one_step = true, one_size = true, one_scheme = lanes[0]->shown.panel_name[0] && named;
+    const bool one_step = gm_one_step(lanes, count);
+    bool one_size = true, one_scheme = lanes[0]->shown.panel_name[0] && named;
     for (size_t i = 1; i < count; i++) {
         const struct gm_soliton_scene *other = lanes[i]->parameters;
-        one_step &= lanes[i]->run->dt == lanes[0]->run->dt;
         one_size &= other->own.points == soliton->own.points;
         one_scheme &= strcmp(lanes[i]->schemes, lanes[0]->schemes) == 0;
     }
