@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Letters drawn once and kept. */
+/* Fonts as they are installed, and their letters, drawn once and kept. */
 #include "render/gl/glyphs.h"
 
 #include <errno.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include <fontconfig/fontconfig.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_MODULE_H
 #include FT_OUTLINE_H
 
 #include "render/cells/text.h"
-#include "render/gl/fonts.h"
 
 /* Letters are hinted upwards only and stand at quarters of a pixel sideways: stems keep their distances and
    horizontal strokes are sharp. Large ones need no such care. */
@@ -74,6 +75,48 @@ static bool start_library(struct gm_glyphs *glyphs)
     return true;
 }
 
+static char *find_in(FcConfig *config, const char *family, bool bold)
+{
+    char *file = NULL;
+    FcPattern *wanted = FcPatternCreate();
+    if (wanted == NULL) {
+        return NULL;
+    }
+    FcPatternAddString(wanted, FC_FAMILY, (const FcChar8 *)family);
+    FcPatternAddInteger(wanted, FC_WEIGHT, bold ? FC_WEIGHT_BOLD : FC_WEIGHT_REGULAR);
+    FcPatternAddInteger(wanted, FC_SLANT, FC_SLANT_ROMAN);
+    FcPatternAddBool(wanted, FC_SCALABLE, FcTrue);
+    FcConfigSubstitute(config, wanted, FcMatchPattern);
+    FcDefaultSubstitute(wanted);
+    FcResult result;
+    FcPattern *found = FcFontMatch(config, wanted, &result);
+    FcChar8 *name = NULL;
+    if (found != NULL && FcPatternGetString(found, FC_FILE, 0, &name) == FcResultMatch) {
+        file = strdup((const char *)name);
+    }
+    if (found != NULL) {
+        FcPatternDestroy(found);
+    }
+    FcPatternDestroy(wanted);
+    return file;
+}
+
+/* The file of the installed font nearest to a family; malloc'ed. NULL if no font is installed. */
+static char *find_font(const char *family, bool bold)
+{
+    /* FcFini ends what other threads may be using, so only one is inside at a time. */
+    static pthread_mutex_t inside = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&inside);
+    FcConfig *config = FcInitLoadConfigAndFonts();
+    char *file = config != NULL ? find_in(config, family, bold) : NULL;
+    if (config != NULL) {
+        FcConfigDestroy(config);
+    }
+    FcFini();
+    pthread_mutex_unlock(&inside);
+    return file;
+}
+
 struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
 {
     static const struct {
@@ -92,7 +135,7 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
     }
     for (int i = 0; i < GM_FONT_COUNT; i++) {
         errno = 0;
-        char *file = gm_font_find(wanted[i].family, wanted[i].bold);
+        char *file = find_font(wanted[i].family, wanted[i].bold);
         const bool missing = file == NULL && errno != ENOMEM;
         const FT_Error error =
             file != NULL ? FT_New_Face(glyphs->library, file, 0, &glyphs->faces[i]) : FT_Err_Out_Of_Memory;
