@@ -51,9 +51,7 @@ static void paint_text(struct painter *painter, double x, int row, enum gm_ancho
                        enum gm_role role, bool bold, bool on_paper)
 {
     int width = gm_text_width(text, painter->ascii);
-    double left = x / CELL_WIDTH - (anchor == GM_ANCHOR_RIGHT    ? width
-                                    : anchor == GM_ANCHOR_CENTRE ? 0.5 * width
-                                                                 : 0);
+    double left = x / CELL_WIDTH - gm_anchor_share(anchor) * width;
     if (!(fabs(left) < 1e6) || width == 0) {
         return;
     }
@@ -163,16 +161,6 @@ static bool is_outline(const struct gm_mark *before, const struct gm_mark *mark)
            mark->count == before->count && mark->style.role == before->style.role;
 }
 
-static enum gm_map map_of(const struct gm_panel *panel)
-{
-    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
-        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
-            return mark->map;
-        }
-    }
-    return GM_MAP_SEQUENTIAL;
-}
-
 /* What of the marks a raster takes. */
 struct taking {
     bool grid;     /* dotted, beneath the marks */
@@ -184,11 +172,11 @@ struct taking {
 static bool is_filled(const struct gm_panel *panel)
 {
     for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
-        if (mark->kind == GM_MARK_POLYGON || mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
+        if (mark->kind == GM_MARK_POLYGON) {
             return true;
         }
     }
-    return false;
+    return gm_panel_field(panel) != NULL;
 }
 
 static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout, struct taking taking)
@@ -208,8 +196,9 @@ static bool paint_marks(struct gm_raster *raster, const struct gm_layout *layout
                 ok = gm_marks_draw(raster, frame, mark, taking.areas && is_outline(before, mark));
             }
         }
-        if (frame->colour_bar.width > 0) {
-            gm_marks_bar(raster, &frame->colour_bar, map_of(frame->panel));
+        const struct gm_mark *field = gm_panel_field(frame->panel);
+        if (frame->colour_bar.width > 0 && field) {
+            gm_marks_bar(raster, &frame->colour_bar, field->map);
         }
     }
     return ok;
@@ -225,8 +214,8 @@ static int row_of(double y)
 static int label_row(const struct painter *painter, const struct gm_layout *layout,
                      const struct gm_label *label)
 {
-    double left = label->x, width = CELL_WIDTH * gm_text_width(label->text, painter->ascii);
-    left -= label->anchor == GM_ANCHOR_RIGHT ? width : label->anchor == GM_ANCHOR_CENTRE ? 0.5 * width : 0;
+    double width = CELL_WIDTH * gm_text_width(label->text, painter->ascii);
+    double left = label->x - gm_anchor_share(label->anchor) * width;
     int row = row_of(label->y + 0.5 * CELL_HEIGHT);
     for (size_t i = 0; i < layout->frame_count && label->size != GM_TEXT_TITLE; i++) {
         const struct gm_box *box = &layout->frames[i].box;

@@ -76,12 +76,10 @@ static void draw_colour_bar(struct gm_painter *painter, const struct gm_frame *f
     const struct gm_box bar = frame->colour_bar;
     const struct gm_ink ink = gm_ink_of(painter->theme, GM_SECONDARY, 1.0);
     const double tick = 4.0 * painter->scale, right = bar.x + bar.width;
-    for (const struct gm_mark *mark = frame->panel->first; mark != NULL; mark = mark->next) {
-        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
-            gm_paint_colours(painter, bar, mark->map);
-            draw_tips(painter, frame, mark->map);
-            break;
-        }
+    const struct gm_mark *field = gm_panel_field(frame->panel);
+    if (field != NULL) {
+        gm_paint_colours(painter, bar, field->map);
+        draw_tips(painter, frame, field->map);
     }
     for (size_t i = 0; i < frame->bar_tick_count; i++) {
         horizontal_rule(painter, right, right + tick, frame->bar_ticks[i].position, ink);

@@ -88,11 +88,6 @@ static void write_text(struct gm_painter *painter, const struct writing *writing
     }
 }
 
-static double anchor_share(enum gm_anchor anchor)
-{
-    return anchor == GM_ANCHOR_LEFT ? 0.0 : anchor == GM_ANCHOR_CENTRE ? 0.5 : 1.0;
-}
-
 static void draw_label(struct gm_painter *painter, const struct gm_label *label)
 {
     struct writing writing = {.font = label->mono   ? GM_FONT_MONO
@@ -107,7 +102,7 @@ static void draw_label(struct gm_painter *painter, const struct gm_label *label)
         writing.x = label->x + ascent;
         writing.y = label->y + 0.5 * width;
     } else {
-        writing.x = label->x - anchor_share(label->anchor) * width;
+        writing.x = label->x - gm_anchor_share(label->anchor) * width;
         writing.y = label->y + ascent;
     }
     write_text(painter, &writing, label->text);

@@ -9,16 +9,6 @@ static const double tick_gap = 9.0, label_gap = 3.0, title_gap = 7.0, bar_gap = 
 
 enum { FEWEST_TICKS = 3, MOST_TICKS = 6 };
 
-static const struct gm_mark *field_of(const struct gm_panel *panel)
-{
-    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
-        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
-            return mark;
-        }
-    }
-    return NULL;
-}
-
 static struct gm_axis bar_axis(const struct gm_mark *field)
 {
     return (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = field->low, .high = field->high};
@@ -101,7 +91,7 @@ struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_
             border.bottom += metrics->line[GM_TEXT_LABEL] + label_gap * scale;
         }
     }
-    const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
+    const struct gm_mark *field = panel->colour_bar ? gm_panel_field(panel) : NULL;
     if (field != NULL && detail < GM_DETAIL_NO_TICKS) {
         const struct gm_axis axis = bar_axis(field);
         double right = (bar_gap + bar_width + tick_gap) * scale + widest_tick(list, &axis, calm);
@@ -303,7 +293,7 @@ static void label_axes(struct gm_label_list *list, struct gm_frame *frame, enum 
 static void find_beyond(const struct gm_picture *picture, const struct gm_mark *field, bool beyond[2])
 {
     for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next) {
-        const struct gm_mark *other = field_of(panel);
+        const struct gm_mark *other = gm_panel_field(panel);
         if (other != NULL && other->map == field->map && other->low == field->low &&
             other->high == field->high) {
             beyond[0] = beyond[0] || other->below;
@@ -372,7 +362,7 @@ void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const str
         label_axes(list, frame, fill->detail, fill->x_label,
                    gm_border_of(list, panel, fill->detail, fill->x_label, false).left);
     }
-    const struct gm_mark *field = panel->colour_bar ? field_of(panel) : NULL;
+    const struct gm_mark *field = panel->colour_bar ? gm_panel_field(panel) : NULL;
     if (field != NULL && fill->detail < GM_DETAIL_NO_TICKS && box.width > 0.0) {
         place_colour_bar(list, frame, field);
     }
@@ -396,8 +386,6 @@ static bool is_free(const struct gm_frame *frames, size_t count, size_t own, con
 void gm_frame_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
                    const struct gm_mark *mark)
 {
-    static const double shares[] = {
-        [GM_ANCHOR_LEFT] = 0.0, [GM_ANCHOR_CENTRE] = 0.5, [GM_ANCHOR_RIGHT] = 1.0};
     static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0}; /* in lines */
     const struct gm_metrics *metrics = list->metrics;
     const struct gm_frame *frame = &frames[own];
@@ -409,7 +397,8 @@ void gm_frame_note(struct gm_label_list *list, const struct gm_frame *frames, si
     }
     const double line = metrics->line[GM_TEXT_TICK], width = gm_labels_width(list, GM_TEXT_TICK, mark->text);
     const double air = 0.3 * line; /* to the edge of the surface */
-    const double left = fmax(air, fmin(x - shares[mark->anchor] * width, metrics->width - width - air));
+    const double left =
+        fmax(air, fmin(x - gm_anchor_share(mark->anchor) * width, metrics->width - width - air));
     const double within = fmax(data->x, fmin(left, data->x + data->width - width));
     for (size_t k = 0; k < 2 * sizeof shifts / sizeof *shifts; k++) {
         const double top = y + (shifts[k / 2] - 0.5) * line;

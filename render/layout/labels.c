@@ -25,10 +25,7 @@ static struct gm_box box_of(const struct gm_label_list *list, const struct gm_la
     if (label->vertical) {
         return (struct gm_box){label->x, label->y - 0.5 * width, line, width};
     }
-    const double shift = label->anchor == GM_ANCHOR_LEFT     ? 0.0
-                         : label->anchor == GM_ANCHOR_CENTRE ? 0.5
-                                                             : 1.0;
-    return (struct gm_box){label->x - shift * width, label->y, width, line};
+    return (struct gm_box){label->x - gm_anchor_share(label->anchor) * width, label->y, width, line};
 }
 
 bool gm_labels_add(struct gm_label_list *list, struct gm_label label)

@@ -230,15 +230,7 @@ static double choose_grid(struct gm_label_list *list, struct group *group, size_
 /* A panel whose data need not fill its box exactly: equal axes without ticks show more than their range. */
 static bool expands(const struct gm_panel *panel)
 {
-    if (panel->axes || panel->colour_bar) {
-        return false;
-    }
-    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
-        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
-            return false;
-        }
-    }
-    return true;
+    return !panel->axes && !panel->colour_bar && gm_panel_field(panel) == NULL;
 }
 
 /* Boxes narrower than their cell stand in its middle, or, with `leftmost`, under the picture's title. */

@@ -4,6 +4,21 @@
 
 #include <math.h>
 
+double gm_anchor_share(enum gm_anchor anchor)
+{
+    return anchor == GM_ANCHOR_LEFT ? 0.0 : anchor == GM_ANCHOR_CENTRE ? 0.5 : 1.0;
+}
+
+const struct gm_mark *gm_panel_field(const struct gm_panel *panel)
+{
+    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
+        if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
+            return mark;
+        }
+    }
+    return NULL;
+}
+
 static double frame_coordinate(const struct gm_axis *axis, double origin, double factor, double value)
 {
     if (axis->scale == GM_LOG) {

@@ -53,6 +53,12 @@ struct gm_frame { /* a panel on the surface */
     size_t bar_tick_count;
 };
 
+/* What of a text's width stands on the left of its anchor: 0, 1/2 or 1. */
+double gm_anchor_share(enum gm_anchor anchor);
+
+/* The mark of a panel whose values have colours, which a colour bar tells of; NULL if there is none. */
+const struct gm_mark *gm_panel_field(const struct gm_panel *panel);
+
 /* Surface coordinates of a value on a frame's axes. */
 double gm_frame_x(const struct gm_frame *frame, double value);
 double gm_frame_y(const struct gm_frame *frame, double value);
