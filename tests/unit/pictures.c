@@ -298,6 +298,30 @@ static void a_mesh_file_leaves_no_rows(void **state)
     assert_false(room->idle(&own, "inlet") || room->idle(&own, "reynolds"));
 }
 
+/* Lanes in the order of their panels, then in their own; a panel without lanes is passed over. */
+static void a_walk_goes_panel_by_panel(void **state)
+{
+    (void)state;
+    struct gm_lane made[5] = {0};
+    const struct gm_lane *lanes[5];
+    const size_t panels[5] = {3, 0, 3, 1, 0}, order[5] = {1, 4, 3, 0, 2};
+    const bool first[5] = {true, false, true, true, false};
+    for (size_t i = 0; i < 5; i++) {
+        made[i].shown.panel = panels[i];
+        lanes[i] = &made[i];
+    }
+    struct gm_walk walk = {.lanes = lanes, .count = 5};
+    for (size_t i = 0; i < 5; i++) {
+        assert_true(gm_walk_next(&walk));
+        assert_ptr_equal(walk.lane, lanes[order[i]]);
+        assert_int_equal(walk.panel, panels[order[i]]);
+        assert_int_equal(walk.first, first[i]);
+    }
+    assert_false(gm_walk_next(&walk));
+    struct gm_walk none = {.lanes = lanes};
+    assert_false(gm_walk_next(&none));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -309,6 +333,7 @@ int main(void)
         cmocka_unit_test(an_orbit_that_leaves_is_followed),
         cmocka_unit_test(graphs_say_what_they_show),
         cmocka_unit_test(a_mesh_file_leaves_no_rows),
+        cmocka_unit_test(a_walk_goes_panel_by_panel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
