@@ -239,6 +239,7 @@ static double pressure_error(const struct gm_view *view)
     return pressure_error_within(view, -INFINITY);
 }
 
+/* Away from the walls: there the layer of wrong vorticity along them, one cell wide, is not met. */
 static double pressure_error_middle(const struct gm_view *view)
 {
     return pressure_error_within(view, 0.2);
@@ -308,7 +309,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 
 static const char *const schemes[] = {"semi-implicit", NULL};
 
-static const double edges[] = {6, 12, 24, 48, 96}, errors[] = {1e-2, 1e-3, 1e-4};
+static const double edges[] = {6, 12, 24, 48, 96}, accuracies[] = {1e-2, 1e-3, 1e-4};
 
 static const struct gm_work work = {
     .arguments = "until=1",
@@ -318,7 +319,7 @@ static const struct gm_work work = {
     .resolution = "rows",
     .resolutions = edges,
     .resolution_count = GM_COUNT(edges),
-    .errors = errors,
+    .errors = accuracies,
 };
 
 static const struct gm_figure couette_figures[] = {
