@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a few sub-pixels to one character with two colours. */
+/* Sub-pixels as characters: half blocks, quadrants, braille and ASCII. */
 #include "render/cells/blocks.h"
 
 #include <stdlib.h>

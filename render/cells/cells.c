@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A picture on a terminal's cells: marks through the raster, then grid and texts as characters. */
+/* The terminal painter: a picture to character cells. */
 #include "render/cells/cells.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The raster itself, and the mask through which marks reach it. */
+/* The raster beneath the character cells: sub-pixels that know what they belong to. */
 #include "render/cells/raster.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* UTF-8, what of it a terminal may be shown, and how it is spelled in ASCII. */
+/* Text in character cells. */
 #include "render/cells/text.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* RFC 4648, section 4. */
+/* Base64, as terminals and pages of HTML want their pictures. */
 #include "render/files/base64.h"
 
 size_t gm_base64_size(size_t size)

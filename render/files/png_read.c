@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* PNG files: their texts, and their pixels. */
+/* Reading PNG: the texts of any file, the pixels of one of ours. Files are not trusted. */
 #include "render/files/png.h"
 
 #include <libdeflate.h>

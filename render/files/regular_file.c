@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A whole file, if it is one. */
+/* Opening what is read: regular files alone. */
 #include "render/files/regular_file.h"
 
 #include <errno.h>

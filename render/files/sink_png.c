@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbered PNG files, or one. */
+/* A sink of numbered PNG files, written by several threads. */
 #include "render/files/sink.h"
 
 #include <sched.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Names for files that are not complete yet, and what becomes of those that were left behind. */
+/* Files that are written beside their place and renamed when they are complete. */
 #include "render/files/temporary.h"
 
 #include <dirent.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Threads that leave signals to the main one. */
+/* Threads that leave signals to the one that expects them. */
 #include "render/files/thread.h"
 
 #include <signal.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Vertices and draw calls of a frame, gathered and then sent at once. */
+/* One stream of vertices and a short list of draw calls for a whole frame. */
 #include "render/gl/batch.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A framebuffer with its textures, and how it becomes a picture of bytes. */
+/* The GL painter: what is painted in which order, and the pixels read back. */
 #include "render/gl/canvas.h"
 
 #include <pthread.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which backend there is, and how a crash of Mesa ends with a sentence. */
+/* An OpenGL context without a screen, by OSMesa or EGL, whose libraries are loaded only when one is
+   wanted. */
 #include "render/gl/context.h"
 
 #include <signal.h>

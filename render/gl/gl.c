@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* OpenGL's functions, asked for once. */
+/* The functions of OpenGL, looked up in the context. */
 #include "render/gl/gl.h"
 
 const char *gm_gl_load(struct gm_gl *gl, const struct gm_context *context)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fonts as they are installed, and their letters, drawn once and kept. */
+/* Letters by FreeType, kept in an atlas. */
 #include "render/gl/glyphs.h"
 
 #include <errno.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Clipping, simplifying and dashing. */
+/* Polylines in pixels: cut to the frame, simplified, dashed. */
 #include "render/gl/polyline.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shaders: what a pixel of a stroke, a letter, a field or an image looks like. */
+/* The programs that run on the vertices of a frame. */
 #include "render/gl/shaders.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strokes, discs and polygons as triangles. */
+/* Strokes and discs as triangles whose edges fade. */
 #include "render/gl/strokes.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Letters: what a text measures, and where each of its letters goes. */
+/* The labels of a layout, painted. */
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The colour maps, as tables. */
 #include <math.h>
 #include <threads.h>
 

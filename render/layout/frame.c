@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One panel: what its texts take around its data, where its ticks, keys and colour bar stand. */
+/* One panel of a layout: the room for its texts, then its box and its axes. */
 #include "render/layout/frame.h"
 
 #include <math.h>

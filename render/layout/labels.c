@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Labels as they are taken: none over another one or over the edge; what is too long is made shorter. */
+/* Labels that keep off each other: one is taken only where there is room. */
 #include "render/layout/labels.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The whole picture: which grid of states and graphs makes their data largest, and what else has room. */
+/* Where everything of a picture goes on a surface of given size. */
 #include "render/layout/layout.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What roles look like on paper and on a screen. */
+/* Colours for paper and for a screen. */
 #include "render/layout/theme.h"
 
 /* The lanes' colours were searched for: as far as possible from each other (CIEDE2000) as people with normal

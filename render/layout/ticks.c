@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Round values of linear, logarithmic and π axes, and their labels. */
+/* Ticks of an axis: round values, multiples of pi, powers of ten, and their labels. */
 #include "render/layout/ticks.h"
 
 #include <float.h>

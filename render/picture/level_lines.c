@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Level lines of a field on triangles, joined to whole lines. */
 #include "render/picture/picture.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The arena that a picture lives in, and what is added to it: panels, marks, keys, texts. */
+/* A picture's memory, and how panels and marks come into it. */
 #include "render/picture/picture.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ranges of axes that grow with values and end on round ones. */
+/* Ranges of axes: widened by values, then rounded. */
 #include <math.h>
 
 #include "render/picture/picture.h"

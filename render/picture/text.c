@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The data painter: a picture as text. */
 #include "render/picture/picture.h"
 
 /* The data painter: pictures as text that tests compare number by number. Its format is part of the golden

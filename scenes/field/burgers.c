@@ -1,8 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Burgers' equation u_t + u u_x = nu u_xx seen from frames that move with lambda: the same front as many
-   profiles, which a scheme that commutes with the equation's symmetries lets fall on one another and a
-   standard scheme does not. It is here because that is what invariantisation of a scheme buys, and where it
-   does not. Razafindralandy, Hamdouni & Chhay (2018), section "Invariantisation", figures 24 to 26. */
+/* Burgers' equation, seen from frames that move with the velocity lambda:
+       u_t + u u_x = nu u_xx,   (t, x, u) -> (t, x + lambda t, u + lambda)
+   It is not Hamiltonian: what counts are its symmetries, boosts and projections among them, with which the
+   exact flow commutes. What to look at: the profiles, drawn at rest, from frames that are faster and faster.
+   Those of the invariantised schemes, on nodes that move along, are one and the same; the others part,
+   overshoot and blow up. With form=printed the convection is u D0 u as in the document, whose error grows at
+   the shock even at rest where nodes are coarse.
+
+   Razafindralandy, Hamdouni & Chhay (2018), section "Invariantisation":
+       figure 24   the standard schemes        figure 25   the invariantised ones
+       figure 26   a self-similar viscous shock */
 #include <math.h>
 #include <stdio.h>
 

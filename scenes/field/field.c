@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The picture that waves on a ring share: the field over space and time, its profile now over the exact one,
-   and what the scheme keeps; and what their scenes settle and observe alike. */
+/* The pictures of fields on a line: the profiles now over the exact one, and every lane's field so far as a
+   surface over space and time. */
 #include "scenes/field/field.h"
 
 #include <math.h>

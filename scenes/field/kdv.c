@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solitons of the Korteweg-de Vries equation u_t + eta u u_x + mu u_xxx = 0 on a ring: one, two that
-   overtake, or a cosine that breaks up. It is here to ask what a multisymplectic box gains on leapfrog: the
-   step, which the third derivative binds for explicit schemes, and not the error. Razafindralandy, Hamdouni &
-   Chhay (2018), section "Multisymplectic integrators"; Zabusky & Kruskal (1965). */
+/* Solitons of the Korteweg-de Vries equation on a ring:
+       u_t + eta u u_x + mu u_xxx = 0,   H = integral of mu u_x^2/2 - eta u^3/6
+   with the mass, the integral of u, and that of u^2. One soliton, two of which the faster overtakes the
+   other, or the cosine of Zabusky & Kruskal (Phys. Rev. Lett. 15 (1965) 240), which breaks up into solitons.
+   What to look at: how long a step each scheme bears, and what it keeps: leapfrog is bound by dx^3, the
+   multisymplectic box by no such limit. Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic
+   integrators", which has no figure of it. */
 #include <math.h>
 #include <string.h>
 

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solitons of the nonlinear Schroedinger equation i psi_t + psi_xx + |psi|^2 psi = 0 on a ring: one, or two
-   that pass each other. It is here for its charge: the box keeps that of cell means, the split step that of
-   the nodes, the Euler box neither, and none the energy while solitons meet. Razafindralandy, Hamdouni &
-   Chhay (2018), section "Multisymplectic integrators". */
+/* Solitons of the nonlinear Schroedinger equation on a ring:
+       i psi_t + psi_xx + |psi|^2 psi = 0,   H = integral of |psi_x|^2 - |psi|^4/2
+   with the charge, the integral of |psi|^2. One soliton, or two that meet. What to look at: the charge, which
+   the box keeps as that of cell means and the split step as that of the nodes, to round-off; the energy is
+   kept only nearly, and dips while the solitons meet. Razafindralandy, Hamdouni & Chhay (2018), section
+   "Multisymplectic integrators", which has no figure of it. */
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lid-driven cavity: a box of fluid whose lid moves, with one large vortex and weak ones in its corners.
-   It is here because its steady states have been tabulated: profiles are compared with Ghia, Ghia & Shin, J.
-   Comput. Phys. 48 (1982) 387. Lengths in the side L, velocities in the lid's U, time in L / U. */
+/* The lid-driven cavity: a box of fluid whose lid moves, with one large vortex and small ones in the corners.
+   Lengths in the side L, velocities in the lid's U, time in L / U; Reynolds number U L / nu. What to look at:
+   the velocities along both middle lines against the tables I and II of U. Ghia, K.N. Ghia & C.T. Shin,
+   J. Comput. Phys. 48 (1982) 387, and the least stream function. It reproduces no figure of the documents; it
+   is the common test of flow solvers. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

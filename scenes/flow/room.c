@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The polluted room: air enters top left with a parabolic profile and carries a pollutant, and leaves bottom
-   right. It is here as the flow that discrete exterior calculus is made for, on any mesh (mesh=FILE) and
-   without an exact solution: what can be held against it is the pollutant's budget. Razafindralandy, Hamdouni
-   & Chhay (2018), figures 35 to 37. Lengths in inlet heights h, velocities in the inlet's centre speed U;
-   time in return periods, perimeter / U. */
+   right; a square of side 5, or a mesh of Gmsh. Lengths in inlet heights h, velocities in the inlet's centre
+   speed U, time in return periods, perimeter / U; Reynolds number U h / nu. What to look at: the vortex fills
+   with pollutant long after the jet has found the outlet; the divergence and the pollutant's budget are zero
+   to the last digit.
+
+   Razafindralandy, Hamdouni & Chhay (2018):
+       figure 35   the room        figure 36   the grid
+       figure 37   streamlines and pollutant after half, one and two return periods */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

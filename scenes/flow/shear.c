@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Flow between two walls in a unit square, which is known exactly: Couette's, between a wall at rest and one
-   that moves, and Poiseuille's, which a pressure drives. They are here to read the convergence of discrete
-   exterior calculus off them: Razafindralandy, Hamdouni & Chhay (2018), figures 32 to 34. Lengths in H,
-   velocities in the U of the moving wall or of the centreline, time in H^2 / nu; kappa = nu, and theta = y.
- */
+/* Flow between two walls in a unit square, u = U(y) and theta = y: that of Couette, between a wall at rest and
+   one that moves, and that of Poiseuille, which a pressure drives,
+       couette   u = y,   psi = y^2/2        poiseuille   u = 4 y (1 - y),   psi = 2 y^2 - 4 y^3/3
+   Lengths in H, velocities in the U of the moving wall or of the centreline, time in H^2 / nu; kappa = nu. What
+   to look at: the errors over meshes, from which the convergence of discrete exterior calculus is read off, and
+   the divergence, which is zero on every mesh.
+
+   Razafindralandy, Hamdouni & Chhay (2018):
+       figures 32, 33   the orders of both        figure 34   the divergence */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A mesh is not drawn as it is: colours that are linear on coarse triangles show these, and a torus has no
-   edge. */
+/* From a mesh and values at its vertices to the triangles that are drawn. */
 #include "scenes/flow/sheet.h"
 
 #include <math.h>

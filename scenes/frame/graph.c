@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Times, names and notes of lanes as pictures tell them, and observables over time. */
+/* What the pictures of all scenes have in common: clocks, names of lanes, trails, graphs of observables. */
 #include "scenes/frame/graph.h"
 
 #include <math.h>

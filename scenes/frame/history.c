@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bins are filled, merged in pairs when there are no more, and hidden while an earlier step is looked at. */
+/* Bins of a history: filled, merged in pairs when they are full, looked at as they were. */
 #include "scenes/frame/history.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A lane is looked at, named, advanced, switched to another scheme and taken back. */
+/* Lanes: opened, advanced, looked at, switched and copied, with the bounded records of their past. */
 #include "scenes/frame/lane.h"
 
 #include <math.h>

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One walk over everything that a lane becomes in time measures, packs and unpacks it, so that the three
-   agree. */
+/* A lane as bytes, for checkpoints and copies. What comes from a file is believed only if a lane can be so. */
 #include "scenes/frame/lane_pack.h"
 
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* One walk over everything that a lane becomes in time measures, packs and unpacks it, so that the three
+   agree. */
 
 enum direction { MEASURE, PACK, UNPACK };
 

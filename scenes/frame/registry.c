@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scenes that there are (scenes/scenes.def), and what is asked of any of them by name. */
+/* All scenes there are, from the list scenes.def, and what is looked up in a scene by its key. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,8 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Solitons between walls on linear elements whose nodes follow them: r-adaptive variational integrators, by
-   multipliers that hold the mesh to its density and by a mesh that is steered, beside one that stands still.
-   It is here to show what so few nodes can do if they go along, and what it costs. Tyranowski & Desbrun
-   (2019), section 5, figures 2 to 14. */
+/* Solitons between two walls on linear elements whose nodes follow them: r-adaptive variational integrators.
+       L = integral of phi_t^2/2 - phi_X^2/2 - W(phi),   W = 1 - cos phi, or (phi^2 - 1)^2/4
+   What to look at: the paths of the nodes; the energy, which the multiplier strategy keeps and with the
+   control-theoretic one wanders, symplectic or not, although both meshes follow the soliton equally well; the
+   error over the number of nodes.
+
+   Tyranowski & Desbrun (2019), section 5:
+       figures 2, 3      the exact solutions
+       figures 4 to 7    the field on few nodes
+       figures 8, 9      the paths of the nodes
+       figure 10         nodes that stand still
+       figure 11         error over nodes
+       figure 12         which strategy gets ahead, which lags behind, and where they break down
+       figures 13, 14    the energy */
 #include "scenes/mesh/soliton_draw.h"
 
 #include <math.h>

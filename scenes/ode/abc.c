@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Flows without divergence in three dimensions: the ABC flow, and a linear one of zero trace. A small cell of
-   fluid keeps its volume; of the schemes only the volume-preserving splittings do. It is here because in
-   three dimensions volume is no consequence of being symplectic. The member 0 is an orbit; the others
-   surround it at two distances and give the derivative of the flow by extrapolated differences. */
+/* Flows without divergence in three dimensions: that of Arnold, Beltrami & Childress, and a linear one,
+       abc      x' = A sin z + C cos y,   y' = B sin x + A cos z,   z' = C sin y + B cos x
+       linear   x' = M x,   tr M = 0
+   They are not Hamiltonian: what the exact flow keeps is volume. What to look at: the volume of a small cell
+   of fluid, which only the volume-preserving splittings keep; a symplectic Runge-Kutta method does not.
+   K. Feng & Z.-J. Shang, Numer. Math. 71 (1995) 451; H. Ammari, lecture 5.
+
+   The member 0 is an orbit; the others surround it at two distances and give the derivative of the flow by
+   extrapolated differences. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Henon & Heiles (Astron. J. 69 (1964) 73): a star in a galaxy's plane, seen through the section q1 = 0, p1 >
-   0, where a quasi-periodic orbit draws a curve and a chaotic one fills an area. It is here because an
-   integrator that gains or loses energy smears curves, and so passes off its error as chaos. */
+/* A star in a galaxy's plane, after Henon & Heiles (Astron. J. 69 (1964) 73):
+       H = (|p|^2 + |q|^2)/2 + q1^2 q2 - q2^3/3
+   An orbit starts in the section q1 = 0, p1 > 0 at (q2, p2); p1 follows from the energy. What to look at: the
+   points (q2, p2) where it comes through that section. They lie on a curve if the orbit is quasi-periodic and
+   fill an area if it is chaotic, as more and more are from the energy 1/12 over 1/8 to 1/6; a scheme that is
+   not symplectic thickens curves. It reproduces no figure of the documents; it is the classic. */
 #include <math.h>
 #include <stdio.h>
 

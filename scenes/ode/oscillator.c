@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One oscillator under integrators whose time steps follow from the variational principle: time is varied as
-   well as place, and the discrete energy is kept. It is here to show the price: a slip in phase, and turning
-   points at which the printed scheme finds no real step. Razafindralandy, Hamdouni & Chhay (2018), section
-   "Total variation", equations 55 to 59, figures 16 and 17. */
+   well as place, and the discrete energy is kept.
+       harmonic   H = p^2/2 + q^2/2        pendulum   H = p^2/2 - cos q
+   What to look at: the step tau. By the rectangle rule as printed it grows without bound before a turning
+   point, and the run ends there; with restarts it goes on; by the midpoint rule it is constant for the
+   harmonic oscillator, where the rule is the implicit midpoint rule.
+
+   Razafindralandy, Hamdouni & Chhay (2018), section "Total variation", equations 55 to 59:
+       figure 16   q against the sine        figure 17   the energy error */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

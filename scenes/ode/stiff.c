@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Stiff oscillation: the chain of Fermi, Pasta & Ulam with some stiff springs, and the stiff spring pendulum.
-   The energy of the stiff springs is an adiabatic invariant: it wanders among them slowly, its sum nearly
-   stays. It is here because schemes treat that sum so differently: kept, blown up beyond h omega = 2, or let
-   die without a word. Hairer, Lubich & Wanner (2006), sections I.5 and XIII. */
+/* Stiff oscillation: the chain of Fermi, Pasta & Ulam with some stiff springs, and the stiff spring pendulum,
+       fpu               H = (|x'|^2 + |y'|^2 + omega^2 |y|^2)/2 + sum_i d_i^4/4
+                         (core/ode/problems/fpu.kernel.h)
+       spring-pendulum   H = |p|^2/2 + k (|q| - 1)^2/2 + q2
+   The energy of the stiff springs is an adiabatic invariant: it wanders among them slowly, its sum
+       I = sum_i I_i,   I_i = (y_i'^2 + omega^2 y_i^2)/2
+   nearly stays. What to look at: I. Verlet keeps it while h omega < 2 and blows up beyond, RK4 kills it
+   silently, the midpoint rule keeps it at any step. Hairer, Lubich & Wanner (2006), sections I.5 and XIII; no
+   figure of the documents. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Point vortices of equal strength in the plane, and passive tracers that they carry. They are here because
-   they are Hamiltonian without being separable, and because their section tells a quasi-periodic motion from
-   one that wanders off its curve. Razafindralandy, Hamdouni & Chhay (2018), section "Vortex dynamic", figures
-   7 to 10; with the factor and the sense of rotation of Kirchhoff's equations mended. In `reduced` z3 = -z1
-   and z4 = -z2 are built in, so that rounding cannot break the symmetry; beyond a turn of 35.12 degrees it
-   does so in the full system, whatever the scheme. */
+/* Point vortices of equal strength g in the plane, and passive tracers that they carry, z = x + i y:
+       H = -(1/2 pi) sum_{i<j} g^2 ln |z_i - z_j|,   q_i = g x_i,   p_i = y_i
+   Energy, impulse sum g z_i and angular impulse sum g |z_i|^2 are kept. In `reduced` z3 = -z1 and z4 = -z2
+   are built in, so that rounding cannot break the symmetry; beyond a turn of 35.12 degrees it does so in the
+   full system, whatever the scheme. What to look at: the Poincare section arg z2 - arg z1 = pi/2 of the
+   reduced system, a curve on which symplectic methods stay and RK4 does not; and the angular impulse.
+
+   Razafindralandy, Hamdouni & Chhay (2018), section "Vortex dynamic", with the factor and the sense of
+   rotation of Kirchhoff's equations (30) mended:
+       figures 7, 9     four vortices on a square
+       figures 8, 10    two opposite ones turned by an angle */
 #include "scenes/ode/vortices_draw.h"
 
 #include <math.h>
