@@ -64,17 +64,6 @@ static struct gm_context *open_kind(const struct gm_context_kind *kind, char *me
     return context;
 }
 
-/* Whether Mesa, with LLVM, has the address space that it takes. Where it has not, its own sentence is seldom
-   that; the program's malloc notes the refusal. */
-static bool has_room(void)
-{
-    const size_t least = (size_t)512 << 20;
-    void *volatile room = malloc(least); /* not to be optimised away */
-    const bool has = room != NULL;
-    free(room);
-    return has;
-}
-
 static void unknown_kind(const char *wanted, char *message, size_t size)
 {
     char known[64] = "";
@@ -107,10 +96,8 @@ struct gm_context *gm_context_open(char *message, size_t size)
         snprintf(message, size,
                  "This geomint was built without OSMesa and EGL, so it cannot paint pictures.");
     } else {
-        snprintf(message, size, "%s: %s%s%s.",
-                 has_room() ? "No OpenGL context could be opened"
-                            : "There is not enough memory for an OpenGL context",
-                 reasons[0], tried > 1 ? "; " : "", reasons[1]);
+        snprintf(message, size, "No OpenGL context could be opened: %s%s%s.", reasons[0],
+                 tried > 1 ? "; " : "", reasons[1]);
     }
     return NULL;
 }
@@ -161,7 +148,7 @@ static void make_sentence(void)
     const int length =
         snprintf(sentence, sizeof sentence, "geomint: Mesa, which paints the pictures, crashed");
     const size_t used = (size_t)length;
-    exit_status = driver == NULL && limited ? 5 : 3; /* not enough memory; a file that could not be written */
+    exit_status = driver == NULL && limited ? 5 : 3; /* not enough memory; no file was written */
     if (driver != NULL) {
         snprintf(sentence + used, sizeof sentence - used,
                  "; the environment variable GALLIUM_DRIVER asks for its driver \"%.60s\".\n", driver);

@@ -203,6 +203,10 @@ class Command:
             return f"exit {status}: {said} {output[:200]}"
         if not re.search(r"^geomint: \S+ \S+ \S+", said, re.M):
             return f"exit {status} without a sentence: {said}"
+        blamed = [line for line in said.splitlines() if line.startswith("geomint: ")]
+        blamed = [line for line in blamed if not re.search(r"memory|^geomint: (wrote|stopped) ", line)]
+        if kind == "memory" and blamed:
+            return f"memory is short, and this is blamed: {blamed}"
         for name, (content, _) in files.items():
             if name.endswith(".png") and name in usual[3] and not self.options.get("timed"):
                 if content != usual[3][name][0]:
@@ -263,7 +267,7 @@ def main():
             if arguments.only in words:
                 command = Command(words, options, arguments, folder)
                 jobs += [(words, kind, pool.submit(sweep, command, kind, arguments.all)) for kind in ("memory", "files")]
-        for megabytes in (40, 100, 180, 220, 260, 300, 400) if arguments.only in "prlimit" else ():
+        for megabytes in (40, 100, 180, 220, 240, 260, 280, 285, 290, 300, 400) if arguments.only in "prlimit" else ():
             runs += 1
             found = limit(arguments, megabytes, folder)
             print("".join(found), end="", flush=True)
