@@ -40,11 +40,14 @@ void gm_memory_heed_gsl(void)
 
 bool gm_memory_guard_gsl(bool (*work)(void *data), void *data)
 {
-    jmp_buf here;
+    jmp_buf here, *const outer = way_out;
     gm_memory_heed_gsl();
     way_out = &here;
-    const bool good = setjmp(here) == 0 && work(data);
-    way_out = NULL;
+    bool good = false;
+    if (setjmp(here) == 0) {
+        good = work(data);
+    }
+    way_out = outer;
     return good;
 }
 

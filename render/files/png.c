@@ -128,7 +128,7 @@ struct image {
 static bool write_structure(struct stream *stream, const struct image *image)
 {
     png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, stream, note_error, ignore_warning,
-                                                NULL, gm_png_take, gm_png_give_back);
+                                                &stream->error, gm_png_take, gm_png_give_back);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
         png_destroy_write_struct(&png, NULL);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "render/files/png.h"
 
+#include <errno.h>
 #include <libdeflate.h>
 #include <png.h>
 #include <stdint.h>
@@ -110,6 +111,7 @@ static size_t wanted(const struct search *search, const unsigned char *data, siz
 /* Reads a chunk of text, of which the file has `length` bytes and a checksum left. */
 static bool take_text(FILE *file, const char *type, size_t length, struct search *search, char *reason)
 {
+    errno = 0;
     unsigned char *bytes = malloc(TYPE + length + CHECKSUM);
     bool good = bytes && fread(bytes + TYPE, 1, length + CHECKSUM, file) == length + CHECKSUM;
     if (good) {
@@ -125,7 +127,8 @@ static bool take_text(FILE *file, const char *type, size_t length, struct search
         }
     }
     if (!good) {
-        snprintf(reason, GM_REGULAR_REASON, "a text of it is damaged or too large");
+        snprintf(reason, GM_REGULAR_REASON, "%s",
+                 errno == ENOMEM ? strerror(ENOMEM) : "a text of it is damaged or too large");
     }
     free(bytes);
     return good;
@@ -251,14 +254,14 @@ static void ignore_warning(png_structp png, png_const_charp text)
 
 /* Nothing here but the two structures outlives the jump out of libpng's errors. libpng's simple reader has
    memory of its own, of which no refusal is told. */
-static bool read_pixels(FILE *file, int width, int height, unsigned char *rgb, char *reason)
+static bool read_pixels(FILE *file, int width, int height, unsigned char *rgb, int *error, char *reason)
 {
     png_structp png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error, ignore_warning,
-                                               NULL, gm_png_take, gm_png_give_back);
+                                               error, gm_png_take, gm_png_give_back);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
         png_destroy_read_struct(&png, NULL, NULL);
-        snprintf(reason, GM_REGULAR_REASON, "not enough memory");
+        *error = ENOMEM;
         return false;
     }
     if (setjmp(png_jmpbuf(png))) {
@@ -293,12 +296,13 @@ bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, ch
     size_t size = 0;
     char reason[GM_REGULAR_REASON];
     FILE *file = gm_regular_open(path, LARGEST, &size, reason);
-    const bool good = file && read_pixels(file, width, height, rgb, reason);
+    int error = 0; /* errno, where memory is short */
+    const bool good = file && read_pixels(file, width, height, rgb, &error, reason);
     if (file) {
         fclose(file);
     }
     if (!good) {
-        snprintf(message, GM_MESSAGE, "cannot read %.360s: %s", path, reason);
+        snprintf(message, GM_MESSAGE, "cannot read %.360s: %s", path, error ? strerror(error) : reason);
     }
     return good;
 }

@@ -283,6 +283,9 @@ bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsig
 {
     take_turn();
     const bool painted = paint_alone(canvas, picture, rgb);
+    if (!painted) {
+        gm_address_space_has(TAKEN); /* notes a refusal that was Mesa's */
+    }
     end_turn();
     return painted;
 }

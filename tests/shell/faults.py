@@ -204,7 +204,7 @@ class Command:
         if not re.search(r"^geomint: \S+ \S+ \S+", said, re.M):
             return f"exit {status} without a sentence: {said}"
         blamed = [line for line in said.splitlines() if line.startswith("geomint: ")]
-        blamed = [line for line in blamed if not re.search(r"memory|^geomint: (wrote|stopped) ", line)]
+        blamed = [line for line in blamed if not re.search(r"memory|^geomint: (wrote|stopped|\d+ of) ", line)]
         if kind == "memory" and blamed:
             return f"memory is short, and this is blamed: {blamed}"
         for name, (content, _) in files.items():
