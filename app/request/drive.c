@@ -177,7 +177,8 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     }
 }
 
-/* By how much a run that is not failed ends after the end that was asked for; 0 for round-off. */
+/* By how much a run that is not failed ends after the end that was asked for (before it: negative); 0 for
+   round-off. */
 static double overshoot(const struct gm_drive *drive)
 {
     const struct gm_run *run = drive->lane->run;

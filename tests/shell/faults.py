@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The n-th allocation fails, the n-th file call fails: what comes of it is a sentence on standard error with its
-exit status, or what would have come anyway; never a crash, a hang, a wrong number or a damaged file.
+exit status, or what would have come anyway; never a crash, a hang, a wrong number or a damaged file. Where memory is
+short, nothing else is blamed.
 
     faults.py GEOMINT FAULTS_LIBRARY [--all] [--only WORDS]
 
