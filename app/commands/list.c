@@ -172,14 +172,12 @@ static void print_parameter_json(const struct gm_parameter *row)
 }
 
 /* What a command takes where nothing is said but the scene: "scheme=rk4,verlet"; malloc'ed, NULL with a
-   sentence. */
+   sentence, or when memory is short. */
 static char *default_lanes(const struct gm_scene *scene, size_t schemes, char *message)
 {
     char *words[] = {strdup(scene->name)}, *text = NULL;
     struct gm_request request;
-    if (!words[0]) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-    } else if (gm_request_parse(&request, 1, words, schemes, message)) {
+    if (words[0] && gm_request_parse(&request, 1, words, schemes, message)) {
         text = strdup(request.arguments + strlen(scene->name) + 1);
         gm_request_close(&request);
     }
@@ -217,7 +215,7 @@ static bool open_entry(struct entry *entry, const struct gm_scene *scene, char *
         }
     }
     /* half a list would be taken for a whole one */
-    if (entry->render && gm_memory_was_short()) {
+    if (gm_memory_was_short()) {
         snprintf(message, GM_MESSAGE, "not enough memory");
         return false;
     }

@@ -37,11 +37,11 @@ static void observe(struct outcome *outcome)
     }
 }
 
-/* How it ended, and a sentence on that; empty for "ok". */
+/* How it ended, and a sentence on that, or none. */
 static const char *tell_end(const struct outcome *outcome, char *sentence, size_t size)
 {
     const struct gm_lane *lane = outcome->drive.lane;
-    gm_failure_sentence(lane, sentence, size);
+    gm_drive_message(&outcome->drive, sentence, size);
     if (outcome->interrupted) {
         snprintf(sentence, size, "the run was interrupted after t = %.6g", lane->run->t);
         return "interrupted";

@@ -134,7 +134,7 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
         for (size_t k = 0; k < shot->observable_count; k++) {
             copy->values[k] = gm_lane_observe(lane, k);
         }
-        copy->lost = copy->status == GM_OK ? gm_scene_lost(session->scene, copy->values) : -1;
+        copy->lost = gm_lane_lost(lane);
         take_sparks(copy, lane, shot->observable_count);
     }
     shot->parameter_count = 0;

@@ -13,6 +13,7 @@
 #include "app/request/equal_cost.h"
 #include "app/request/nearest.h"
 #include "app/request/words.h"
+#include "core/memory.h"
 
 __attribute__((format(printf, 2, 3))) static bool refuse(char *message, const char *format, ...)
 {
@@ -388,12 +389,16 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
         given = instead;
     }
     struct gm_words words;
+    const unsigned long refusals = gm_memory_refusals();
     bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
     request->overlay = good && gm_words_chosen(&words, "overlay");
     good = good && make_lanes(request, &words, message);
     if (good) {
         request->arguments = gm_words_join(request->scene, &words);
         good = request->arguments || refuse(message, "not enough memory");
+    }
+    if (gm_memory_refusals() != refusals) { /* whatever was made of it: a fault of a mesh or of its file */
+        good = request->unreadable = refuse(message, "not enough memory");
     }
     gm_words_close(&words);
     if (!good) {

@@ -62,7 +62,9 @@ struct gm_tour *gm_tours_read(size_t *count, char *message)
     *count = 0;
     message[0] = '\0';
     DIR *directory = opendir(gm_tour_folder(folder, sizeof folder));
-    if (!directory || !tours) {
+    if (!tours) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+    } else if (!directory) {
         snprintf(message, GM_MESSAGE, "there is no folder %.300s with tours; GEOMINT_TOURS can name another",
                  folder);
     }
