@@ -262,7 +262,7 @@ static void every_key_is_told(void **state)
             }
         }
         for (size_t k = 0; k < 3; k++) {
-            assert_int_equal(told[k], 2);
+            assert_true(told[k] >= 2); /* a long name may take lines */
         }
         gm_picture_close(picture);
     }
@@ -292,6 +292,51 @@ static void keys_take_lines(void **state)
         assert_int_equal(told, 3);
     }
     gm_picture_close(picture);
+}
+
+/* What a value is called gives way before it does; a scheme's name goes on below. */
+static void keys_keep_their_values(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *values;
+    } names[] = {{"Verlet, Δt = 0.1", "Verlet, 0.1"},
+                 {"symplectic Euler, Δt = pi/12, q0 = 2.5", "symplectic Euler, pi/12, 2.5"},
+                 {"Δt = 0.1, blow-up at t = 2.5", "0.1, blow-up at t = 2.5"},
+                 {"Δt = 0.05", "0.05"},
+                 {"Gauss 4", "Gauss 4"},
+                 {"", ""}};
+    char text[64];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        gm_name_without_keys(names[i].name, text, sizeof text);
+        assert_string_equal(text, names[i].values);
+    }
+    for (double width = 260; width <= 1280; width *= 1.3) {
+        struct gm_metrics metrics = metrics_of(width, 720);
+        struct gm_picture *picture = picture_of(3, 0, false, false);
+        picture->state_columns = 3;
+        for (struct gm_panel *panel = picture->first; panel; panel = panel->next) {
+            panel->note = "";
+            for (size_t k = 0; k < 2; k++) {
+                const struct gm_style style = {(enum gm_role)(GM_LANE + k), 1, 2, (enum gm_dash)k};
+                gm_panel_key(picture, panel, style, names[k].name);
+            }
+        }
+        check_layout(picture, &metrics);
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        static const char *const words[] = {"Verlet", "0.1", "symplectic", "Euler", "pi/12", "2.5"};
+        for (size_t w = 0; w < sizeof words / sizeof *words; w++) {
+            size_t told = 0;
+            for (size_t i = 0; i < layout->label_count; i++) {
+                const struct gm_label *label = &layout->labels[i];
+                told += label->role >= GM_LANE && label->size == GM_TEXT_LABEL &&
+                        strstr(label->text, words[w]) != NULL;
+                assert_true(label->role < GM_LANE || strstr(label->text, "…") == NULL);
+            }
+            assert_int_equal(told, 3);
+        }
+        gm_picture_close(picture);
+    }
 }
 
 /* The words before a number give way to it; no part of a number is ever shown. */
@@ -428,6 +473,7 @@ int main(void)
         cmocka_unit_test(three_states_stand_in_a_row),
         cmocka_unit_test(every_key_is_told),
         cmocka_unit_test(keys_take_lines),
+        cmocka_unit_test(keys_keep_their_values),
         cmocka_unit_test(numbers_are_whole),
         cmocka_unit_test(titles_are_told_apart),
         cmocka_unit_test(titles_go_on_below),
