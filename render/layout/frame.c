@@ -189,20 +189,31 @@ static double key_gap(const struct gm_label_list *list, const struct gm_panel *p
     return all > width ? 0.5 * gap : gap;
 }
 
-/* A key in lines of that width. Where it is wider than one the piece of its line gives way, for its colour
-   tells it too, then what its values are called; schemes and numbers are whole as long as lines can be. */
+/* A key in lines of that width. Where it has no room in one what its values are called gives way; then it
+   goes on below, and the piece of its line, which its colour stands for, gives way last. */
 static size_t key_lines(const struct gm_label_list *list, const struct gm_key *key, double width,
                         const char **lines)
 {
     char values[LONGEST_NAME];
     gm_name_without_keys(key->name, values, sizeof values);
-    const char *const texts[] = {key_text(list, key), key->name,
-                                 gm_picture_text(list->picture, "%s", values)};
-    size_t way = 0;
-    while (way < 2 && gm_labels_width(list, GM_TEXT_LABEL, texts[way]) > width) {
-        way++;
+    const struct gm_key short_key = {.style = key->style,
+                                     .name = gm_picture_text(list->picture, "%s", values)};
+    const struct {
+        const char *text;
+        size_t most;
+    } ways[] = {{key_text(list, key), 1},
+                {key_text(list, &short_key), 1},
+                {key_text(list, key), GM_KEY_LINES},
+                {key_text(list, &short_key), GM_KEY_LINES},
+                {short_key.name, GM_KEY_LINES}};
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        count = gm_labels_wrap(list, GM_TEXT_LABEL, ways[i].text, width, ways[i].most, lines);
+        if (gm_lines_are_whole(lines, count, ways[i].text)) {
+            break;
+        }
     }
-    return gm_labels_wrap(list, GM_TEXT_LABEL, texts[way], width, GM_KEY_LINES, lines);
+    return count;
 }
 
 /* Keys side by side, each behind a piece of its line, from (x, y) on in as many lines as they take, which is
