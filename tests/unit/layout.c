@@ -442,6 +442,40 @@ static void texts_among_marks_part(void **state)
     gm_picture_close(picture);
 }
 
+/* Where a text among the marks has no room it goes on below or is left out; it never stands across the axis
+   to its left, and half of it is never shown. */
+static void notes_stay_in_their_frame(void **state)
+{
+    (void)state;
+    static const char first[] = "Lax-Wendroff,", second[] = "invariant";
+    size_t lines[3] = {0};
+    for (double width = 140; width <= 1280; width *= 1.15) {
+        struct gm_metrics metrics = metrics_of(width, 400);
+        struct gm_picture *picture = picture_of(1, 0, false, false);
+        picture->first->axes = true;
+        picture->first->equal = false;
+        gm_mark_text(picture, picture->first, (struct gm_style){GM_INK, 1, 1, GM_SOLID}, 1, 0, GM_ANCHOR_LEFT,
+                     "Lax-Wendroff, invariant");
+        check_layout(picture, &metrics);
+        const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+        size_t shown = 0;
+        bool parts[2] = {false, false};
+        for (size_t i = 0; i < layout->label_count; i++) {
+            const struct gm_label *label = &layout->labels[i];
+            if (label->among_marks) {
+                shown++;
+                assert_true(label->x >= layout->frames[0].box.x - 1e-9);
+                parts[0] = parts[0] || strstr(label->text, first) != NULL;
+                parts[1] = parts[1] || strstr(label->text, second) != NULL;
+            }
+        }
+        assert_true(shown < 3 && parts[0] == (shown > 0) && parts[1] == (shown > 0));
+        lines[shown]++;
+        gm_picture_close(picture);
+    }
+    assert_true(lines[0] > 0 && lines[1] > 0 && lines[2] > 0);
+}
+
 /* A colour bar ends in a point where values lie beyond it. */
 static void bars_point_at_what_is_beyond(void **state)
 {
@@ -479,6 +513,7 @@ int main(void)
         cmocka_unit_test(titles_go_on_below),
         cmocka_unit_test(texts_among_marks_part),
         cmocka_unit_test(bars_point_at_what_is_beyond),
+        cmocka_unit_test(notes_stay_in_their_frame),
         cmocka_unit_test(a_bar_that_all_share_stands_beside_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
