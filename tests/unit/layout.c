@@ -332,6 +332,8 @@ static void keys_keep_their_values(void **state)
                 told += label->role >= GM_LANE && label->size == GM_TEXT_LABEL &&
                         strstr(label->text, words[w]) != NULL;
                 assert_true(label->role < GM_LANE || strstr(label->text, "…") == NULL);
+                const size_t length = strlen(label->text); /* a value stands beside its key */
+                assert_true(length < 2 || strcmp(label->text + length - 2, " =") != 0);
             }
             assert_int_equal(told, 3);
         }
