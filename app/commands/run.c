@@ -56,7 +56,10 @@ static void print_json_parameters(const struct gm_lane *lane)
     printf("\"parameters\":{");
     for (size_t i = 0; i < scene->parameter_count; i++) {
         const struct gm_parameter *row = &scene->parameters[i];
-        printf("%s\"%s\":", i ? "," : "", row->key);
+        if (gm_scene_idle(scene, lane->parameters, row->key)) {
+            continue;
+        }
+        printf("%s\"%s\":", i ? "," : "", row->key); /* the first, the step, always has an effect */
         if (row->type == GM_TEXT) {
             gm_json_text(gm_parameter_format(row, lane->parameters, text, sizeof text));
         } else if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {

@@ -74,9 +74,9 @@ static bool is_used(const struct gm_session *session, const struct gm_parameter 
 /* The explorer has no end, so `until` would move nothing. */
 static bool is_idle(const struct gm_session *session, const char *key)
 {
-    bool idle = session->scene->idle != NULL;
+    bool idle = true;
     for (size_t i = 0; idle && i < session->count; i++) {
-        idle = session->scene->idle(session->lanes[i]->parameters, key);
+        idle = gm_scene_idle(session->scene, session->lanes[i]->parameters, key) != NULL;
     }
     return idle;
 }

@@ -233,6 +233,24 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
     return true;
 }
 
+/* A key that has no effect in any lane is not taken: whoever types it expects one. */
+static bool check_effects(const struct gm_request *request, const struct gm_words *words, char *message)
+{
+    for (size_t i = 0; i < words->count; i++) {
+        const char *key = words->list[i].key, *why = NULL;
+        for (size_t k = 0; k < request->count; k++) {
+            why = gm_scene_idle(request->scene, request->lanes[k].parameters, key);
+            if (!why) {
+                break;
+            }
+        }
+        if (why) {
+            return refuse(message, "%s= has no effect here: %s", key, why);
+        }
+    }
+    return true;
+}
+
 /* The lane that differs from `lane` in its scheme alone, and has the first one. */
 static size_t first_scheme(const struct gm_words *words, size_t lane)
 {
@@ -338,7 +356,7 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
             return false;
         }
     }
-    if (!find_schemes(request, message)) {
+    if (!check_effects(request, words, message) || !find_schemes(request, message)) {
         return false;
     }
     for (size_t k = 0; k < count; k++) {

@@ -156,13 +156,6 @@ static void paint_thin_grid(const struct painter *painter, const struct gm_frame
     }
 }
 
-/* Whether a line goes around the polygon before it. */
-static bool is_outline(const struct gm_mark *before, const struct gm_mark *mark)
-{
-    return before && before->kind == GM_MARK_POLYGON && mark->kind == GM_MARK_LINE && mark->closed &&
-           mark->count == before->count && mark->style.role == before->style.role;
-}
-
 static enum gm_map map_of(const struct gm_panel *panel)
 {
     for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
@@ -171,6 +164,35 @@ static enum gm_map map_of(const struct gm_panel *panel)
         }
     }
     return GM_MAP_SEQUENTIAL;
+}
+
+/* The points of a colour bar beyond whose ends values lie: in the cells of its ends. */
+static void paint_tips(const struct painter *painter, const struct gm_frame *frame)
+{
+    static const uint32_t glyphs[2] = {0x25BC, 0x25B2}, letters[2] = {'v', '^'};
+    const struct gm_box *bar = &frame->colour_bar;
+    const double places[2] = {bar->y + bar->height + 0.5 * frame->bar_tip[0],
+                              bar->y - 0.5 * frame->bar_tip[1]};
+    for (int end = 0; end < 2; end++) {
+        const int row = cell_of(places[end], CELL_HEIGHT);
+        for (int column = cell_of(bar->x, CELL_WIDTH);
+             frame->bar_tip[end] > 0 && row >= 0 && row < painter->cells->rows && column >= 0 &&
+             column < painter->cells->columns && column * CELL_WIDTH < bar->x + bar->width;
+             column++) {
+            painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column] =
+                (struct gm_cell){.glyph = painter->ascii ? letters[end] : glyphs[end],
+                                 .foreground = gm_map_colour(map_of(frame->panel), painter->theme, end),
+                                 .background = gm_theme_colour(painter->theme, GM_PAPER),
+                                 .role = GM_INK};
+        }
+    }
+}
+
+/* Whether a line goes around the polygon before it. */
+static bool is_outline(const struct gm_mark *before, const struct gm_mark *mark)
+{
+    return before && before->kind == GM_MARK_POLYGON && mark->kind == GM_MARK_LINE && mark->closed &&
+           mark->count == before->count && mark->style.role == before->style.role;
 }
 
 /* What of the marks a raster takes. */
@@ -319,6 +341,9 @@ bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_
         if (layout->frames[i].panel->axes) {
             paint_thin_grid(&painter, &layout->frames[i]);
         }
+    }
+    for (size_t i = 0; ok && i < layout->frame_count; i++) {
+        paint_tips(&painter, &layout->frames[i]);
     }
     if (ok) {
         paint_texts(&painter, layout);

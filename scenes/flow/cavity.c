@@ -19,8 +19,9 @@ static const struct gm_parameter parameters[] = {
     GM_FLOWS_WHOLE(columns, "edges at the bottom and on the lid", "128", 4, 2000),
     GM_FLOWS_WHOLE(rows, "strips of triangles along y; 0: the best", "168", 0, 3000),
     GM_FLOWS_IRREGULAR,
-    GM_FLOWS_WORD(lid, "name or tag of the mesh's lid", "lid", NULL),
-    GM_FLOWS_MESH("a Gmsh file (4.1, ASCII) of another cavity; none: the square"),
+    GM_FLOWS_WORD(lid, "name or tag of the lid, with mesh= alone", "lid", NULL),
+    GM_FLOWS_MESH(
+        "a Gmsh file (4.1, ASCII) of another cavity, instead of rows, columns and irregular; none: the square"),
     GM_FLOWS_TRACERS("0"),
     GM_FLOWS_LOOKS("vorticity", "yes"),
 };

@@ -27,8 +27,9 @@ static const struct gm_parameter parameters[] = {
     GM_FLOWS_IRREGULAR,
     GM_FLOWS_WORD(outlet, "soft, dirichlet or free; of a mesh also GROUP or GROUP:free", "soft",
                   gm_flows_outlets),
-    GM_FLOWS_WORD(inlet, "name or tag of the mesh's inlet", "inlet", NULL),
-    GM_FLOWS_MESH("a Gmsh file (4.1, ASCII) of another room; none: the square one"),
+    GM_FLOWS_WORD(inlet, "name or tag of the inlet, with mesh= alone", "inlet", NULL),
+    GM_FLOWS_MESH(
+        "a Gmsh file (4.1, ASCII) of another room, instead of rows, columns and irregular; none: the square"),
     GM_FLOWS_NUMBER(inlet_scalar, "concentration that enters", "1000", -1e300, 1e300, false),
     GM_FLOWS_TRACERS("350"),
     GM_FLOWS_LOOKS("scalar", "yes"),

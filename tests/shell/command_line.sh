@@ -56,6 +56,33 @@ refused 1 'did you mean --theme$' render disc --thm
 refused 1 '"nope"; see geomint --help$' nope
 refused 1 'no option --vtk; there are --json, --state, --max, --csv' run disc --vtk a
 refused 1 'no option --save; there are --json, --state, --max, --csv' run disc --save=a.npz
+refused 1 'did you mean kepler$' list keplr
+refused 1 'did you mean schemes$' list schems
+refused 1 'not "xyzzy"$' list xyzzy
+# what makes the square's mesh has no effect on one from a file, and nothing is named without a file
+refused 1 '^geomint: rows= has no effect here: the mesh comes from a file$' \
+    run room "mesh=$meshes/room-small.msh" rows=20,30 steps=1
+refused 1 'irregular= has no effect' render room "mesh=$meshes/room-small.msh" irregular=0.1 steps=1
+refused 1 'columns= has no effect' run cavity "mesh=$meshes/square-small.msh" columns=8 steps=1
+refused 1 'lid= has no effect here: it names an edge of a mesh=FILE$' run cavity lid=lid steps=1
+status 0 run room "mesh=none,$meshes/room-small.msh" rows=10 columns=0 steps=1 --json
+python3 -c '
+import json
+square, drawn = (json.loads(line)["parameters"] for line in open("out"))
+made, named = {"rows", "columns", "irregular"}, {"inlet"}
+assert made <= set(square) and not named & set(square), square
+assert named <= set(drawn) and not made & set(drawn), drawn' || fail 'parameters without effect in JSON'
+status 0 stability room "mesh=$meshes/room-small.msh" reynolds=10 dt=0.01
+# sentences on numbers that options do not take say which they do
+refused 1 '^geomint: --size 0x0 is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels$' render disc --size 0x0
+refused 1 '^geomint: --fps 0 is not a number from 0.01 to 1000$' render disc --fps 0
+refused 1 '^geomint: --every 0 is not a whole number from 1 to 1e9$' run disc --every 0
+refused 1 '^geomint: --shard 3/2 is not I/N, the I-th of N shares, with I from 1 to N$' render disc --shard 3/2
+refused 1 '^geomint: --out is empty$' render disc --out ''
+# a word that names no tour is wrong usage, a folder that cannot be read is not
+GEOMINT_TOURS=$folder refused 1 'there is no tour "nope"' tour nope
+GEOMINT_TOURS=$folder/none refused 3 'there is no folder' tour nope
+GEOMINT_TOURS=$folder/none refused 3 'there is no folder' tour
 # a comma where the decimal point belongs
 refused 1 'dt=0,01: the decimal mark is a point (0.01)' run kepler dt=0,01
 refused 1 'the decimal mark is a point (0.1)' run kepler dt=0,1
@@ -338,6 +365,7 @@ def listed(*words, columns=None):
 
 brought = ["compensated", "binding", "tau0", "tolerance"]
 standard = {"compensated": "yes", "binding": "1", "tau0": "0.01", "tolerance": "1e-6"}
+lists = [["scenes", "--long"], ["schemes"], ["figures"], ["schemes", "--long"], ["figures", "--long"]]
 for scene in [json.loads(line)["scene"] for line in open("out")]:
     told = json.loads(listed("list", scene, "--json")[1])
     keys = [row["key"] for row in told["parameters"]]
@@ -354,12 +382,12 @@ for scene in [json.loads(line)["scene"] for line in open("out")]:
     assert f"\n  run     {told['run']}\n" in text and f"\n  render  {told['render']}\n" in text, text
     lanes = [json.loads(line) for line in listed("run", scene, "steps=0", "--json")[1].splitlines()]
     assert told["run"] == "scheme=" + ",".join(lane["scheme"] for lane in lanes), (scene, told["run"])
-    for line in listed("list", scene, columns=80)[1].splitlines():
-        assert len(line) <= 80 or re.match("  render  [^ ]*$", line), line  # a word to type is not cut
+    lists.append([scene])
 assert "scheme=box,zabusky-kruskal dt=0.05,0.0025 points=501 zip=yes" in listed("list", "kdv")[1]
-for words in (["scenes", "--long"], ["schemes"], ["figures"]):
-    for line in listed("list", *words, columns=80)[1].splitlines():
-        assert len(line) <= 80, line
+for words in lists:
+    for columns in (40, 60, 80, 100):
+        for line in listed("list", *words, columns=columns)[1].splitlines():
+            assert len(line) <= columns, (words, columns, line)
 schemes = listed("list", "schemes")[1]
 assert "claims: S symplectic, = symmetric, R reversible, " in schemes
 rows = [line.split() for line in schemes.split("\n\n")[0].splitlines()]
