@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+#include <gsl/gsl_errno.h>
+
 #include "core/memory.h"
 
 static unsigned bit_of(enum gm_claim claim)
@@ -32,6 +34,30 @@ void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim
     verdict->measured = true;
 }
 
+struct solution {
+    const gsl_odeiv2_system *equations;
+    double tolerance, until, *y;
+};
+
+static bool solve(void *data)
+{
+    const struct solution *solution = data;
+    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(solution->equations, gsl_odeiv2_step_rk8pd,
+                                                              1e-3, solution->tolerance, solution->tolerance);
+    if (!driver) {
+        return false;
+    }
+    double t = 0;
+    const int status = gsl_odeiv2_driver_apply(driver, &t, solution->until, solution->y);
+    gsl_odeiv2_driver_free(driver);
+    return status == GSL_SUCCESS;
+}
+
+bool gm_certify_solve(const gsl_odeiv2_system *equations, double tolerance, double until, double *y)
+{
+    return gm_memory_guard_gsl(solve, &(struct solution){equations, tolerance, until, y});
+}
+
 struct gm_certificate gm_certify(const struct gm_scheme *scheme)
 {
     struct gm_certificate certificate = {.scheme = scheme, .order = NAN, .order_problem = ""};
@@ -40,7 +66,6 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
         certificate.claims[bit].tolerance = 1e-12;
         certificate.claims[bit].problem = "";
     }
-    gm_memory_heed_gsl();
     gm_certificate_claim(&certificate, GM_SYMPLECTIC)->tolerance = 1e-10;
     gm_certificate_claim(&certificate, GM_KEEPS_VOLUME)->tolerance = 1e-10;
     scheme->family->kind->certify(scheme, &certificate);

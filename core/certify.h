@@ -2,6 +2,8 @@
 #ifndef GM_CORE_CERTIFY_H
 #define GM_CORE_CERTIFY_H
 
+#include <gsl/gsl_odeiv2.h>
+
 #include "core/kind.h"
 
 /* Measures what a scheme's row claims. Order is a log-log slope on non-linear problems, against a solution of
@@ -35,5 +37,9 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme);
 void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
                          const char *problem);
 struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum gm_claim claim);
+
+/* y := the solution at the time `until` of these equations, from y at 0, by GSL's Prince-Dormand stepper with
+   this absolute and relative tolerance; false where it finds none or memory is short. */
+bool gm_certify_solve(const gsl_odeiv2_system *equations, double tolerance, double until, double *y);
 
 #endif

@@ -2,6 +2,7 @@
 /* The allocators of the whole program, wrapped: a refusal is noted, and handed on. */
 #include "core/memory.h"
 
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -11,6 +12,7 @@
 #include <gsl/gsl_errno.h>
 
 static _Thread_local unsigned long refusals;
+static _Thread_local jmp_buf *way_out; /* of GSL, while it is guarded */
 static atomic_bool was_short;
 
 void gm_memory_refused(void)
@@ -26,12 +28,28 @@ static void note_error(const char *reason, const char *file, int line, int error
     (void)line;
     if (error == GSL_ENOMEM) {
         gm_memory_refused();
+        if (way_out) {
+            longjmp(*way_out, 1);
+        }
     }
 }
 
 void gm_memory_heed_gsl(void)
 {
     gsl_set_error_handler(note_error);
+}
+
+bool gm_memory_guard_gsl(bool (*work)(void *data), void *data)
+{
+    jmp_buf here, *const outer = way_out;
+    gm_memory_heed_gsl();
+    way_out = &here;
+    bool good = false;
+    if (setjmp(here) == 0) {
+        good = work(data);
+    }
+    way_out = outer;
+    return good;
 }
 
 unsigned long gm_memory_refusals(void)
@@ -61,7 +79,6 @@ void *__real_aligned_alloc(size_t alignment, size_t size);
 char *__real_strdup(const char *text);
 char *__real_strndup(const char *text, size_t length);
 int __real_vasprintf(char **text, const char *format, va_list arguments);
-FILE *__real_open_memstream(char **text, size_t *size);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *memory, size_t size);
@@ -103,9 +120,61 @@ char *__wrap_strndup(const char *text, size_t length)
     return noted(__real_strndup(text, length));
 }
 
+/* The C library's own stream tells nobody of a refusal: it goes on with a part of the text. */
+struct growing {
+    char **text, *bytes;
+    size_t *size, used, room;
+    bool lost;
+};
+
+static ssize_t grow(void *cookie, const char *bytes, size_t size)
+{
+    struct growing *growing = cookie;
+    if (growing->used + size >= growing->room) { /* a byte is left for the end */
+        const size_t room = 2 * (growing->used + size + 1);
+        char *grown = growing->lost ? NULL : __wrap_realloc(growing->bytes, room);
+        if (!grown) {
+            growing->lost = true;
+            return 0;
+        }
+        growing->bytes = grown;
+        growing->room = room;
+    }
+    memcpy(growing->bytes + growing->used, bytes, size);
+    growing->used += size;
+    return (ssize_t)size;
+}
+
+static int hand_over(void *cookie)
+{
+    struct growing *growing = cookie;
+    grow(growing, "", 0); /* even an empty text has an end */
+    const bool whole = !growing->lost;
+    if (whole) {
+        growing->bytes[growing->used] = '\0';
+        *growing->text = growing->bytes;
+        *growing->size = growing->used;
+    } else {
+        free(growing->bytes);
+    }
+    free(growing);
+    return whole ? 0 : EOF;
+}
+
 FILE *__wrap_open_memstream(char **text, size_t *size)
 {
-    return noted(__real_open_memstream(text, size));
+    struct growing *growing = __wrap_calloc(1, sizeof *growing);
+    FILE *stream =
+        growing ? noted(fopencookie(growing, "w", (cookie_io_functions_t){.write = grow, .close = hand_over}))
+                : NULL;
+    *text = NULL;
+    *size = 0;
+    if (!stream) {
+        free(growing);
+        return NULL;
+    }
+    *growing = (struct growing){.text = text, .size = size};
+    return stream;
 }
 
 int __wrap_vasprintf(char **text, const char *format, va_list arguments)

@@ -24,6 +24,8 @@ static void print_json(const struct gm_certificate *certificate)
     gm_json_pair("scheme", scheme->name);
     printf(",");
     gm_json_pair("family", scheme->family->title);
+    printf(",");
+    gm_json_pair("for", gm_scheme_problems(scheme));
     printf(",\"order\":%d,\"measured_order\":", scheme->order);
     gm_json_number(certificate->order);
     printf(",");
@@ -50,7 +52,7 @@ static void print_text(const struct gm_certificate *certificate)
 {
     const struct gm_scheme *scheme = certificate->scheme;
     const char *broken = certificate->order_holds ? "" : "  BROKEN";
-    printf("%s (%s)\n", scheme->name, scheme->family->title);
+    printf("%s (%s, for %s)\n", scheme->name, scheme->family->title, gm_scheme_problems(scheme));
     if (scheme->order == 0) {
         printf("  order of its own choice, error ~ tolerance^%.3f (%s)%s\n", certificate->order,
                certificate->order_problem, broken);

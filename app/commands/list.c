@@ -9,6 +9,7 @@
 #include "app/output/json.h"
 #include "app/output/wrapped.h"
 #include "app/request/drive.h"
+#include "app/request/nearest.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 
@@ -41,25 +42,31 @@ static void list_scenes(const struct gm_options *options)
 static void print_formula(const char *text)
 {
     while (*text) {
-        const int length = (int)strcspn(text, "\n");
-        printf("  %.*s\n", length, text);
+        char line[512];
+        const size_t length = strcspn(text, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, text);
+        gm_print_wrapped(line, printf("  "), 4);
         text += length + (text[length] == '\n');
     }
 }
 
+/* The widths of the columns of schemes' names, and up to their titles. */
+enum { NAME = 29, TITLE = 42 };
+
 /* `kinds`: rows of one name say which kind of problem each is for. */
 static void list_scheme(const struct gm_scheme *scheme, const struct gm_options *options, bool kinds)
 {
-    char letters[GM_CLAIM_COUNT + 1], text[160];
+    char letters[GM_CLAIM_COUNT + 1], text[512];
     gm_catalogue_letters(scheme, letters);
     if (!options->json) {
         const bool several = options->longer || (kinds && gm_catalogue_shares_name(scheme));
         snprintf(text, sizeof text, "%s%s%s", scheme->title, several ? ", for " : "",
                  several ? gm_scheme_problems(scheme) : "");
-        gm_print_wrapped(text, printf("%-30s %d  %-8s ", scheme->name, scheme->order, letters), 43);
+        gm_print_wrapped(text, printf("%-*s %d  %s ", NAME, scheme->name, scheme->order, letters), TITLE);
         if (options->longer) {
             print_formula(scheme->formula);
-            printf("  %s; %s\n", scheme->family->title, scheme->reference);
+            snprintf(text, sizeof text, "%s; %s", scheme->family->title, scheme->reference);
+            gm_print_wrapped(text, printf("  "), 2);
         }
         return;
     }
@@ -139,7 +146,7 @@ static void list_figures(const struct gm_options *options)
             } else {
                 gm_print_wrapped(figure->statement, printf("%-22s ", figure->name), 23);
                 if (options->longer) {
-                    printf("  geomint render %s %s\n", scene->name, figure->arguments);
+                    gm_print_wrapped(figure->arguments, printf("  geomint render %s ", scene->name), 2);
                 }
             }
         }
@@ -154,7 +161,7 @@ static void print_parameter(const struct gm_parameter *row)
     char range[256], text[512];
     gm_catalogue_range(row, range, sizeof range);
     snprintf(text, sizeof text, "%s%s%s [%s]", row->help, row->unit[0] ? ", in " : "", row->unit, range);
-    gm_print_wrapped(text, printf("  %-*s %-*s ", KEY, row->key, DEFAULT, row->standard), KEY + DEFAULT + 4);
+    gm_print_wrapped(text, printf("  %-*s %s ", KEY, row->key, row->standard), KEY + DEFAULT + 4);
 }
 
 static void print_parameter_json(const struct gm_parameter *row)
@@ -172,14 +179,12 @@ static void print_parameter_json(const struct gm_parameter *row)
 }
 
 /* What a command takes where nothing is said but the scene: "scheme=rk4,verlet"; malloc'ed, NULL with a
-   sentence. */
+   sentence, or when memory is short. */
 static char *default_lanes(const struct gm_scene *scene, size_t schemes, char *message)
 {
     char *words[] = {strdup(scene->name)}, *text = NULL;
     struct gm_request request;
-    if (!words[0]) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-    } else if (gm_request_parse(&request, 1, words, schemes, message)) {
+    if (words[0] && gm_request_parse(&request, 1, words, schemes, message)) {
         text = strdup(request.arguments + strlen(scene->name) + 1);
         gm_request_close(&request);
     }
@@ -217,7 +222,7 @@ static bool open_entry(struct entry *entry, const struct gm_scene *scene, char *
         }
     }
     /* half a list would be taken for a whole one */
-    if (entry->render && gm_memory_was_short()) {
+    if (gm_memory_was_short()) {
         snprintf(message, GM_MESSAGE, "not enough memory");
         return false;
     }
@@ -240,7 +245,8 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
     char unit[GM_SENTENCE];
     snprintf(unit, sizeof unit, "The unit of time is %s.", scene->time);
     gm_print_wrapped(unit, 0, 0);
-    printf("\n%-*s %-*s meaning [range]\n", KEY + 2, "parameter", DEFAULT, "default");
+    printf("\n");
+    gm_print_wrapped("meaning [range]", printf("%-*s default ", KEY + 2, "parameter"), KEY + DEFAULT + 4);
     for (size_t i = 0; i < entry->row_count; i++) {
         print_parameter(entry->rows[i]);
     }
@@ -249,12 +255,13 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
         const struct gm_observable *observable = &scene->observables[i];
         char title[GM_SENTENCE];
         gm_print_wrapped(gm_observable_title(observable, title, sizeof title),
-                         printf("  %-*s ", KEY + 8, observable->key), KEY + 11);
+                         printf("  %s ", observable->key), KEY + 11);
     }
     printf("\nlanes, where nothing more is said\n");
     gm_print_wrapped(entry->run, printf("  run     "), 10);
     gm_print_wrapped(entry->render, printf("  render  "), 10);
-    printf("\nschemes that fit               order claims\n");
+    printf("\n");
+    gm_print_wrapped("order claims", printf("%-*s ", NAME, "schemes that fit"), NAME + 1);
     for (size_t i = 0; i < entry->scheme_count; i++) {
         list_scheme(entry->schemes[i], options, false);
     }
@@ -308,6 +315,9 @@ static bool list_scene(const struct gm_scene *scene, const struct gm_options *op
     return good;
 }
 
+/* The lists beside those of a scene. */
+enum { LISTS = 3 };
+
 static int list_markdown(const char *what)
 {
     if (strcmp(what, "scenes") == 0) {
@@ -319,6 +329,12 @@ static int list_markdown(const char *what)
         return GM_EXIT_USAGE;
     }
     return gm_finish(GM_EXIT_OK);
+}
+
+static const char *list_name(size_t i, const void *data)
+{
+    static const char *const lists[LISTS] = {"scenes", "schemes", "figures"};
+    return (void)data, i < LISTS ? lists[i] : gm_scene_at(i - LISTS)->name;
 }
 
 int gm_command_list(const struct gm_options *options)
@@ -342,7 +358,9 @@ int gm_command_list(const struct gm_options *options)
             return GM_EXIT_USAGE;
         }
     } else {
-        gm_complain("list knows scenes, schemes, figures and the names of scenes, not \"%.60s\"", what);
+        const char *near = gm_nearest(what, LISTS + gm_scene_count(), list_name, NULL);
+        gm_complain("list knows scenes, schemes, figures and the names of scenes, not \"%.60s\"%s%s", what,
+                    near ? "; did you mean " : "", near ? near : "");
         return GM_EXIT_USAGE;
     }
     return gm_finish(GM_EXIT_OK);

@@ -62,7 +62,7 @@ enum { ROWS = sizeof rows / sizeof rows[0] };
 
 static bool refuse(char *message, const char *name, const char *value, const char *what)
 {
-    snprintf(message, GM_MESSAGE, "%s %.60s: %s", name, value, what);
+    snprintf(message, GM_MESSAGE, "%s %.60s%s%s", name, value, *value ? " " : "", what);
     return false;
 }
 
@@ -116,7 +116,8 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         int width = 0, height = 0, used = 0;
         if (sscanf(value, "%5dx%5d%n", &width, &height, &used) != 2 || value[used] || width < 64 ||
             height < 64 || width > 16384 || height > 16384) {
-            return refuse(message, row->name, value, "is not WIDTHxHEIGHT, each from 64 to 16384");
+            return refuse(message, row->name, value,
+                          "is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels");
         }
         options->width = width;
         options->height = height;
@@ -128,7 +129,7 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         int used = 0;
         if (sscanf(value, "%6ld/%6ld%n", &shard, &shards, &used) != 2 || value[used] || shard < 1 ||
             shard > shards) {
-            return refuse(message, row->name, value, "is not I/N, with I from 1 to N");
+            return refuse(message, row->name, value, "is not I/N, the I-th of N shares, with I from 1 to N");
         }
         options->shard = shard;
         options->shards = shards;

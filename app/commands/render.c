@@ -472,7 +472,7 @@ static bool take_changes(struct gm_request *request, const char *list, char *mes
     free(text);
     if (!good) {
         snprintf(message, GM_MESSAGE,
-                 "--changes %.60s: is not LANE:STEP:KEY=VALUE,... of lanes that there are", list);
+                 "--changes %.60s is not LANE:STEP:KEY=VALUE,... of lanes that there are", list);
     }
     for (size_t i = 0; good && i < request->change_count; i++) {
         char sentence[GM_MESSAGE];

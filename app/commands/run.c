@@ -37,11 +37,11 @@ static void observe(struct outcome *outcome)
     }
 }
 
-/* How it ended, and a sentence on that; empty for "ok". */
+/* How it ended, and a sentence on that, or none. */
 static const char *tell_end(const struct outcome *outcome, char *sentence, size_t size)
 {
     const struct gm_lane *lane = outcome->drive.lane;
-    gm_failure_sentence(lane, sentence, size);
+    gm_drive_message(&outcome->drive, sentence, size);
     if (outcome->interrupted) {
         snprintf(sentence, size, "the run was interrupted after t = %.6g", lane->run->t);
         return "interrupted";
@@ -56,7 +56,10 @@ static void print_json_parameters(const struct gm_lane *lane)
     printf("\"parameters\":{");
     for (size_t i = 0; i < scene->parameter_count; i++) {
         const struct gm_parameter *row = &scene->parameters[i];
-        printf("%s\"%s\":", i ? "," : "", row->key);
+        if (gm_scene_idle(scene, lane->parameters, row->key)) {
+            continue;
+        }
+        printf("%s\"%s\":", i ? "," : "", row->key); /* the first, the step, always has an effect */
         if (row->type == GM_TEXT) {
             gm_json_text(gm_parameter_format(row, lane->parameters, text, sizeof text));
         } else if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {

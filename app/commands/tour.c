@@ -57,7 +57,7 @@ static int make_movie(const struct gm_tour *tour, const struct gm_options *optio
     struct gm_options painted = *options;
     const bool dark = options->look && strcmp(options->look, "dark") == 0;
     if (options->look && !dark && strcmp(options->look, "light") != 0) {
-        gm_complain("--theme %.60s: is none of: light, dark", options->look);
+        gm_complain("--theme %.60s is none of: light, dark", options->look);
         return GM_EXIT_USAGE;
     }
     painted.theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
@@ -81,13 +81,10 @@ int gm_command_tour(const struct gm_options *options)
     if (options->word_count == 0) {
         return list_tours();
     }
-    if (!gm_tour_find(options->words[0], path, sizeof path, message)) {
+    const bool found = gm_tour_find(options->words[0], path, sizeof path, &file, message);
+    if (!found || !gm_tour_read(&tour, path, message)) {
         gm_complain("%s", message);
-        return GM_EXIT_USAGE;
-    }
-    if (!gm_tour_read(&tour, path, &file, message)) {
-        gm_complain("%s", message);
-        return file ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        return found || file ? GM_EXIT_FILE : GM_EXIT_USAGE;
     }
     int status = GM_EXIT_OK;
     if (options->listing) {

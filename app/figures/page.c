@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/memory.h"
+
 /* Paper and ink are the pictures' own, so that a picture has no edge on the page. */
 static const char style[] =
     ":root{color-scheme:light dark;--paper:#fcfcfa;--ink:#1d1f24;--soft:#6b6f78;--line:#e4e4df;--tint:#f2f2ee;"
@@ -403,7 +405,8 @@ bool gm_figures_page_write(const struct gm_options *options, const struct gm_fig
         good = good && rename(partial, path) == 0;
     }
     if (!good) {
-        snprintf(message, GM_MESSAGE, "%.200s could not be written: %s", path, strerror(errno));
+        snprintf(message, GM_MESSAGE, "%.200s could not be written: %s", path,
+                 gm_memory_was_short() ? "not enough memory" : strerror(errno));
         remove(partial);
     }
     free(path);

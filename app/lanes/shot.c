@@ -74,9 +74,9 @@ static bool is_used(const struct gm_session *session, const struct gm_parameter 
 /* The explorer has no end, so `until` would move nothing. */
 static bool is_idle(const struct gm_session *session, const char *key)
 {
-    bool idle = session->scene->idle != NULL;
+    bool idle = true;
     for (size_t i = 0; idle && i < session->count; i++) {
-        idle = session->scene->idle(session->lanes[i]->parameters, key);
+        idle = gm_scene_idle(session->scene, session->lanes[i]->parameters, key) != NULL;
     }
     return idle;
 }
@@ -134,7 +134,7 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
         for (size_t k = 0; k < shot->observable_count; k++) {
             copy->values[k] = gm_lane_observe(lane, k);
         }
-        copy->lost = copy->status == GM_OK ? gm_scene_lost(session->scene, copy->values) : -1;
+        copy->lost = gm_lane_lost(lane);
         take_sparks(copy, lane, shot->observable_count);
     }
     shot->parameter_count = 0;

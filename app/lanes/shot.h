@@ -26,7 +26,7 @@ struct gm_shot_lane {
     struct gm_shown shown; /* named as at its start */
     const struct gm_scheme *scheme, *first_scheme;
     enum gm_status status;
-    long lost; /* the observable that tells of it, gm_scene_lost; -1: nothing, or the lane has failed */
+    long lost; /* the observable that tells of it, gm_lane_lost; -1: nothing, or the lane has failed */
     double t;
     double from_start; /* largest difference from the start's components */
     double values[GM_SHOT_OBSERVABLES];

@@ -58,8 +58,10 @@ static char *all_parameters(const struct gm_request *request)
         const struct gm_lane_spec *spec = &request->lanes[i];
         fprintf(stream, "scheme=%s", spec->scheme->name);
         for (size_t k = 0; k < scene->parameter_count; k++) {
-            fprintf(stream, " %s=%s", scene->parameters[k].key,
-                    gm_parameter_format(&scene->parameters[k], spec->parameters, value, sizeof value));
+            if (!gm_scene_idle(scene, spec->parameters, scene->parameters[k].key)) {
+                fprintf(stream, " %s=%s", scene->parameters[k].key,
+                        gm_parameter_format(&scene->parameters[k], spec->parameters, value, sizeof value));
+            }
         }
         for (const struct gm_parameter *const *row = spec->scheme->family->parameters; row && *row; row++) {
             fprintf(stream, " %s=%s", (*row)->key,

@@ -2,6 +2,7 @@
 /* Text on standard output, wrapped to its width. */
 #include "app/output/wrapped.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,27 +34,44 @@ static int letters_of(const char *text, size_t bytes)
     return letters;
 }
 
+/* The bytes of the first word; where that has no room in a line those up to the last comma that has, else up
+   to the first. */
+static size_t first_part(const char *text, int room)
+{
+    const size_t word = strcspn(text, " ");
+    size_t part = word;
+    for (size_t i = 1; room > 0 && letters_of(text, word) > room && i < word; i++) {
+        if (text[i - 1] == ',' && (part == word || letters_of(text, i) <= room)) {
+            part = i;
+        }
+    }
+    return part;
+}
+
 void gm_print_wrapped(const char *text, int before, int indent)
 {
     const int columns = gm_output_columns();
-    int at = before;
-    if (columns > 0 && indent > columns - ROOM) {
-        indent = LEAST_INDENT;
+    const int further = columns > 0 && indent > columns - ROOM ? LEAST_INDENT : indent;
+    int at = before, blanks = 0; /* before the next word */
+    if (before < indent && (columns == 0 || indent + letters_of(text, strcspn(text, " ")) <= columns)) {
+        printf("%*s", indent - before, "");
+        at = indent;
+    } else if (before < indent) {
+        at = columns; /* on in the next line */
     }
-    const char *blank = "";
     while (*text) {
-        const size_t bytes = strcspn(text, " ");
+        const size_t bytes = first_part(text, columns - further);
         const int letters = letters_of(text, bytes);
-        if (columns > 0 && at + (int)strlen(blank) + letters > columns && at > indent) {
-            printf("\n%*s", indent, "");
-            at = indent;
-            blank = "";
+        if (columns > 0 && at + blanks + letters > columns && at > further) {
+            printf("\n%*s", further, "");
+            at = further;
+            blanks = 0;
         }
-        printf("%s%.*s", blank, (int)bytes, text);
-        at += (int)strlen(blank) + letters;
-        blank = " ";
+        printf("%*s%.*s", blanks, "", (int)bytes, text);
+        at += blanks + letters;
         text += bytes;
-        text += strspn(text, " ");
+        blanks = (int)strspn(text, " ");
+        text += blanks;
     }
     putchar('\n');
 }

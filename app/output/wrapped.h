@@ -8,8 +8,10 @@
  * length. */
 int gm_output_columns(void);
 
-/* Prints text and a newline; between its words it goes on in further lines that are indented by so many
-   columns, fewer where that would leave no room. `before` columns of the first line are filled already. */
+/* Prints text and a newline; between its words, and behind commas in words longer than a line, it goes on in
+   further lines that are indented by so many columns, fewer where that would leave no room. `before` columns
+   of the first line are filled already, the last with a blank; the text stands behind them, or at the indent
+   if that is farther. */
 void gm_print_wrapped(const char *text, int before, int indent);
 
 #endif

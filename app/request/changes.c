@@ -12,6 +12,17 @@
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
+/* Whether the parameter has no effect in any lane; such a one is not told. */
+static bool is_idle(const struct gm_request *request, const char *key)
+{
+    for (size_t i = 0; i < request->count; i++) {
+        if (!gm_scene_idle(request->scene, request->lanes[i].parameters, key)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* One key of the formatted request: the value of every lane. */
 static void format_key(FILE *stream, const struct gm_request *request, const char *key,
                        const char *(*value)(const struct gm_request *, size_t lane, const void *row,
@@ -69,7 +80,9 @@ char *gm_request_format(const struct gm_request *request)
     format_key(stream, request, "scheme", scheme_value, NULL, NULL, &lists);
     for (size_t i = 0; i < request->scene->parameter_count; i++) {
         const struct gm_parameter *row = &request->scene->parameters[i];
-        format_key(stream, request, row->key, parameter_value, row, row->standard, &lists);
+        if (!is_idle(request, row->key)) {
+            format_key(stream, request, row->key, parameter_value, row, row->standard, &lists);
+        }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         const struct gm_parameter *row = &gm_settings_parameters[i];

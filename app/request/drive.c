@@ -178,18 +178,34 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     }
 }
 
+/* By how much a run that is not failed ends after the end that was asked for (before it: negative); 0 for
+   round-off. */
+static double overshoot(const struct gm_drive *drive)
+{
+    const struct gm_run *run = drive->lane->run;
+    const double until = drive->request->lanes[drive->index].until; /* NAN: not asked for */
+    const bool there = !(fabs(run->t - until) > 1e-9 * fmax(fabs(until), fabs(run->dt)));
+    return run->status != GM_OK || there ? 0 : run->t - until;
+}
+
+void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)
+{
+    gm_failure_sentence(drive->lane, text, size);
+    if (drive->lane->scheme->family->own_time && overshoot(drive) > 0) {
+        snprintf(text, size,
+                 "the scheme chooses its steps: the first that reaches until = %.10g ends at t = %.10g",
+                 drive->request->lanes[drive->index].until, drive->lane->run->t);
+    }
+}
+
 void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size)
 {
-    const struct gm_lane *lane = drive->lane;
-    const struct gm_run *run = lane->run;
-    const double until = drive->request->lanes[drive->index].until;
-    gm_lane_warning(lane, text, size);
-    if (run->status == GM_OK && fabs(run->t - until) > 1e-9 * fmax(fabs(until), fabs(run->dt))) {
+    gm_lane_warning(drive->lane, text, size);
+    if (!drive->lane->scheme->family->own_time && overshoot(drive) != 0) {
         const size_t used = strlen(text);
-        snprintf(text + used, size - used, "%sthe run ends at t = %.10g and not at until = %.10g: %s",
-                 used ? "; " : "", run->t, until,
-                 lane->scheme->family->own_time ? "the scheme chooses its steps"
-                                                : "that is no whole number of steps");
+        snprintf(text + used, size - used,
+                 "%sthe run ends at t = %.10g and not at until = %.10g: that is no whole number of steps",
+                 used ? "; " : "", drive->lane->run->t, drive->request->lanes[drive->index].until);
     }
 }
 

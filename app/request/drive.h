@@ -40,8 +40,12 @@ __attribute__((format(printf, 1, 2))) void gm_say(const char *format, ...);
 /* Writes one sentence on how a failed lane stands; empty for GM_OK. */
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size);
 
-/* Writes what a run that is not failed has to be told of all the same: gm_lane_warning, an end that is not
-   the until asked for; empty if there is nothing. */
+/* Writes one sentence on how a run ended: gm_failure_sentence, or where a scheme that chooses its steps came
+   to its end, which is after the until asked for; empty if there is nothing to say. */
+void gm_drive_message(const struct gm_drive *drive, char *text, size_t size);
+
+/* Writes what is wrong with a run that is not failed: gm_lane_warning, an end that steps of the length asked
+   for cannot make the until asked for; empty if there is nothing. */
 void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size);
 
 /* Flushes standard output. The status to exit with: `status`, or 3 with a complaint if it could not be

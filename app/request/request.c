@@ -13,6 +13,7 @@
 #include "app/request/equal_cost.h"
 #include "app/request/nearest.h"
 #include "app/request/words.h"
+#include "core/memory.h"
 
 __attribute__((format(printf, 2, 3))) static bool refuse(char *message, const char *format, ...)
 {
@@ -232,6 +233,24 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
     return true;
 }
 
+/* A key that has no effect in any lane is not taken: whoever types it expects one. */
+static bool check_effects(const struct gm_request *request, const struct gm_words *words, char *message)
+{
+    for (size_t i = 0; i < words->count; i++) {
+        const char *key = words->list[i].key, *why = NULL;
+        for (size_t k = 0; k < request->count; k++) {
+            why = gm_scene_idle(request->scene, request->lanes[k].parameters, key);
+            if (!why) {
+                break;
+            }
+        }
+        if (why) {
+            return refuse(message, "%s= has no effect here: %s", key, why);
+        }
+    }
+    return true;
+}
+
 /* The lane that differs from `lane` in its scheme alone, and has the first one. */
 static size_t first_scheme(const struct gm_words *words, size_t lane)
 {
@@ -337,7 +356,7 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
             return false;
         }
     }
-    if (!find_schemes(request, message)) {
+    if (!check_effects(request, words, message) || !find_schemes(request, message)) {
         return false;
     }
     for (size_t k = 0; k < count; k++) {
@@ -388,12 +407,16 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
         given = instead;
     }
     struct gm_words words;
+    const unsigned long refusals = gm_memory_refusals();
     bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
     request->overlay = good && gm_words_chosen(&words, "overlay");
     good = good && make_lanes(request, &words, message);
     if (good) {
         request->arguments = gm_words_join(request->scene, &words);
         good = request->arguments || refuse(message, "not enough memory");
+    }
+    if (gm_memory_refusals() != refusals) { /* whatever was made of it: a fault of a mesh or of its file */
+        good = request->unreadable = refuse(message, "not enough memory");
     }
     gm_words_close(&words);
     if (!good) {

@@ -20,6 +20,29 @@ static bool refuse(char *message, const char *text)
     return false;
 }
 
+/* Whether what the user typed leaves a word of the plan without effect, as a mesh file does its rows. */
+static bool is_idle(const struct gm_scene *scene, const struct gm_options *options, const char *word)
+{
+    char key[64];
+    void *own = calloc(1, scene->size);
+    if (!own) {
+        return false;
+    }
+    gm_parameters_reset(scene->parameters, scene->parameter_count, own);
+    for (int i = 1; i < options->word_count; i++) {
+        const char *value = strchr(options->words[i], '=');
+        snprintf(key, sizeof key, "%.*s", (int)strcspn(options->words[i], "="), options->words[i]);
+        const struct gm_parameter *row = gm_scene_parameter(scene, key);
+        if (row && value) {
+            gm_parameter_set(row, own, value + 1); /* a list, or nonsense, is the request's to judge */
+        }
+    }
+    snprintf(key, sizeof key, "%.*s", (int)strcspn(word, "="), word);
+    const bool idle = gm_scene_idle(scene, own, key) != NULL;
+    free(own);
+    return idle;
+}
+
 /* The scene, the plan's arguments and schemes unless overridden, and the user's words. */
 static bool parse(struct gm_stability_table *table, const struct gm_options *options, char *message)
 {
@@ -36,7 +59,7 @@ static bool parse(struct gm_stability_table *table, const struct gm_options *opt
     if (scene) {
         snprintf(arguments, sizeof arguments, "%s", scene->stability->arguments);
         for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
-            if (!gm_options_have(options, word)) {
+            if (!gm_options_have(options, word) && !is_idle(scene, options, word)) {
                 words[count++] = word;
             }
         }

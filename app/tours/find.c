@@ -62,7 +62,9 @@ struct gm_tour *gm_tours_read(size_t *count, char *message)
     *count = 0;
     message[0] = '\0';
     DIR *directory = opendir(gm_tour_folder(folder, sizeof folder));
-    if (!directory || !tours) {
+    if (!tours) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+    } else if (!directory) {
         snprintf(message, GM_MESSAGE, "there is no folder %.300s with tours; GEOMINT_TOURS can name another",
                  folder);
     }
@@ -75,9 +77,8 @@ struct gm_tour *gm_tours_read(size_t *count, char *message)
             break;
         }
         tours = more;
-        bool file = false;
         snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        if (gm_tour_read(&tours[*count], path, &file, sentence)) {
+        if (gm_tour_read(&tours[*count], path, sentence)) {
             (*count)++;
         } else if (!message[0]) {
             snprintf(message, GM_MESSAGE, "%s", sentence);
@@ -105,9 +106,10 @@ static const char *name_at(size_t i, const void *data)
     return ((const struct gm_tour *)data)[i].name;
 }
 
-bool gm_tour_find(const char *word, char *path, size_t size, char *message)
+bool gm_tour_find(const char *word, char *path, size_t size, bool *file, char *message)
 {
     char folder[4096];
+    *file = false;
     if (strchr(word, '/') || has_ending(word)) {
         snprintf(path, size, "%s", word);
         return true;
@@ -125,7 +127,8 @@ bool gm_tour_find(const char *word, char *path, size_t size, char *message)
             found = true;
         }
     }
-    if (!found && count > 0) {
+    *file = !found && count == 0 && message[0] != '\0';
+    if (!found && !*file) {
         const char *near = gm_nearest(word, count, name_at, tours);
         snprintf(message, GM_MESSAGE, "there is no tour \"%.60s\"%s%s", word,
                  near ? "; did you mean " : "; geomint tour lists them, and a file has the ending .tour",

@@ -127,9 +127,12 @@ bool gm_tour_read_lines(struct gm_tour_reader *reader, const char *text, size_t 
     while (good && size > 0) {
         const char *end = memchr(text, '\n', size);
         const size_t length = end ? (size_t)(end - text) : size;
-        char *copy = memchr(text, '\0', length) ? NULL : strndup(text, length);
-        if (!copy) {
+        if (memchr(text, '\0', length)) {
             return gm_tour_refuse(reader, line, "it holds a byte 0, so this is no text");
+        }
+        char *copy = strndup(text, length);
+        if (!copy) {
+            return gm_tour_short_of_memory(reader);
         }
         good = read_line(reader, line++, copy);
         free(copy);

@@ -105,13 +105,12 @@ static void shorten_name(struct gm_tour *tour)
     }
 }
 
-bool gm_tour_read(struct gm_tour *tour, const char *path, bool *file, char *message)
+bool gm_tour_read(struct gm_tour *tour, const char *path, char *message)
 {
     *tour = (struct gm_tour){0};
     size_t size = 0;
     char reason[GM_REGULAR_REASON];
     char *text = gm_regular_read(path, MOST_BYTES, &size, reason);
-    *file = text == NULL;
     if (!text) {
         snprintf(message, GM_MESSAGE, "%.300s could not be read: %s", path, reason);
     }

@@ -45,8 +45,8 @@ struct gm_tour {
 };
 
 /* Reads a tour and tries out everything that it shows. False with one sentence that names file and line
-   (GM_MESSAGE bytes); *file tells that the file could not be read at all. The tour is then empty. */
-bool gm_tour_read(struct gm_tour *tour, const char *path, bool *file, char *message);
+   (GM_MESSAGE bytes); the tour is then empty. */
+bool gm_tour_read(struct gm_tour *tour, const char *path, char *message);
 /* The same from memory; `name` stands for the file in sentences. */
 bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, size_t size, char *message);
 void gm_tour_close(struct gm_tour *tour);
@@ -61,8 +61,9 @@ double gm_tour_begin(const struct gm_tour *tour, size_t step);
 /* The folder: that of GEOMINT_TOURS, or beside the installed program, or where it was installed to. */
 const char *gm_tour_folder(char *path, size_t size);
 
-/* The path of the tour that a word names: a file, a name in the folder, or a title. False with a sentence. */
-bool gm_tour_find(const char *word, char *path, size_t size, char *message);
+/* The path of the tour that a word names: a file, a name in the folder, or a title. False with a sentence;
+ *file: because the folder could not be read. */
+bool gm_tour_find(const char *word, char *path, size_t size, bool *file, char *message);
 
 /* The readable tours of the folder in their order; sets *count. Those that cannot be read are left out, the
    sentence of the first of them in message, which is otherwise empty. malloc'ed; free with gm_tours_close. */

@@ -12,10 +12,10 @@
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
-#include <gsl/gsl_odeiv2.h>
 
 #include "core/flow/boundary.h"
 #include "core/flow/rectangle.h"
+#include "core/memory.h"
 #include "core/run.h"
 
 enum { EDGES = 6, STRIPS = 8, MOST = EDGES * STRIPS };
@@ -84,19 +84,16 @@ static int rates(double t, const double *omega, double *rate, void *data)
     return GSL_SUCCESS;
 }
 
-/* NULL when memory is short */
-static gsl_matrix *invert_poisson(const struct gm_complex *complex)
+/* Under the guard: no allocation returns without memory. */
+static bool invert_poisson(void *data)
 {
+    struct semi_discrete *system = data;
+    const struct gm_complex *complex = system->flow->complex;
     const size_t n = complex->vertices;
-    gsl_matrix *matrix = gsl_matrix_calloc(n - 1, n - 1), *inverse = gsl_matrix_alloc(n - 1, n - 1);
+    gsl_matrix *matrix = gsl_matrix_calloc(n - 1, n - 1);
     gsl_permutation *permutation = gsl_permutation_alloc(n - 1);
     int sign = 0;
-    if (!matrix || !inverse || !permutation) {
-        gsl_matrix_free(matrix);
-        gsl_matrix_free(inverse);
-        gsl_permutation_free(permutation);
-        return NULL;
-    }
+    system->inverse = gsl_matrix_alloc(n - 1, n - 1);
     for (size_t e = 0; e < complex->edges; e++) {
         const size_t ends[2] = {(size_t)complex->edge[2 * e], (size_t)complex->edge[2 * e + 1]};
         for (int i = 0; i < 2; i++) {
@@ -108,26 +105,18 @@ static gsl_matrix *invert_poisson(const struct gm_complex *complex)
         }
     }
     gsl_linalg_LU_decomp(matrix, permutation, &sign);
-    gsl_linalg_LU_invert(matrix, permutation, inverse);
+    gsl_linalg_LU_invert(matrix, permutation, system->inverse);
     gsl_matrix_free(matrix);
     gsl_permutation_free(permutation);
-    return inverse;
+    return true;
 }
 
 static bool solve_by_gsl(const struct gm_flow *flow, double until, double *omega)
 {
-    struct semi_discrete system = {flow, invert_poisson(flow->complex)};
-    if (!system.inverse) {
-        return false;
-    }
-    gsl_odeiv2_system equations = {rates, NULL, flow->complex->vertices, &system};
-    gsl_odeiv2_driver *driver =
-        gsl_odeiv2_driver_alloc_y_new(&equations, gsl_odeiv2_step_rk8pd, 1e-3, 1e-13, 1e-13);
-    double t = 0;
-    const bool good = driver && gsl_odeiv2_driver_apply(driver, &t, until, omega) == GSL_SUCCESS;
-    if (driver) {
-        gsl_odeiv2_driver_free(driver);
-    }
+    struct semi_discrete system = {.flow = flow};
+    const gsl_odeiv2_system equations = {rates, NULL, flow->complex->vertices, &system};
+    const bool good =
+        gm_memory_guard_gsl(invert_poisson, &system) && gm_certify_solve(&equations, 1e-13, until, omega);
     gsl_matrix_free(system.inverse);
     return good;
 }

@@ -154,6 +154,29 @@ static void paint_thin_grid(const struct painter *painter, const struct gm_frame
     }
 }
 
+/* The points of a colour bar beyond whose ends values lie: in the cells of its ends. */
+static void paint_tips(const struct painter *painter, const struct gm_frame *frame)
+{
+    static const uint32_t glyphs[2] = {0x25BC, 0x25B2}, letters[2] = {'v', '^'};
+    const struct gm_mark *field = gm_panel_field(frame->panel);
+    const struct gm_box *bar = &frame->colour_bar;
+    const double places[2] = {bar->y + bar->height + 0.5 * frame->bar_tip[0],
+                              bar->y - 0.5 * frame->bar_tip[1]};
+    for (int end = 0; end < 2; end++) {
+        const int row = cell_of(places[end], CELL_HEIGHT);
+        for (int column = cell_of(bar->x, CELL_WIDTH);
+             field && frame->bar_tip[end] > 0 && row >= 0 && row < painter->cells->rows && column >= 0 &&
+             column < painter->cells->columns && column * CELL_WIDTH < bar->x + bar->width;
+             column++) {
+            painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column] =
+                (struct gm_cell){.glyph = painter->ascii ? letters[end] : glyphs[end],
+                                 .foreground = gm_map_colour(field->map, painter->theme, end),
+                                 .background = gm_theme_colour(painter->theme, GM_PAPER),
+                                 .role = GM_INK};
+        }
+    }
+}
+
 /* Whether a line goes around the polygon before it. */
 static bool is_outline(const struct gm_mark *before, const struct gm_mark *mark)
 {
@@ -308,6 +331,9 @@ bool gm_cells_paint(struct gm_cells *cells, struct gm_picture *picture, enum gm_
         if (layout->frames[i].panel->axes) {
             paint_thin_grid(&painter, &layout->frames[i]);
         }
+    }
+    for (size_t i = 0; ok && i < layout->frame_count; i++) {
+        paint_tips(&painter, &layout->frames[i]);
     }
     if (ok) {
         paint_texts(&painter, layout);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "render/files/png.h"
 
+#include "render/files/png_memory.h"
 #include "render/files/temporary.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <libdeflate.h>
 #include <png.h>
-#include <pthread.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -61,24 +61,6 @@ static void note_error(png_structp png, png_const_charp text)
     png_longjmp(png, 1);
 }
 
-/* The libraries' memory is the program's, where a refusal is noted. */
-static png_voidp take(png_structp png, png_alloc_size_t size)
-{
-    (void)png;
-    return malloc(size);
-}
-
-static void give_back(png_structp png, png_voidp block)
-{
-    (void)png;
-    free(block);
-}
-
-static void let_deflate_take(void)
-{
-    libdeflate_set_memory_allocator(malloc, free);
-}
-
 static void write_bytes(png_structp png, png_bytep bytes, size_t size)
 {
     struct stream *stream = png_get_io_ptr(png);
@@ -101,8 +83,7 @@ static unsigned char *deflate_rows(int width, int height, const unsigned char *r
     size_t row = (size_t)width * 3;
     size_t total = (row + 1) * (size_t)height;
     unsigned char *rows = malloc(total);
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, let_deflate_take);
+    gm_deflate_prepare();
     struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(LEVEL);
     size_t bound = compressor ? libdeflate_zlib_compress_bound(compressor, total) : 0;
     unsigned char *packed = bound ? malloc(bound) : NULL;
@@ -147,7 +128,7 @@ struct image {
 static bool write_structure(struct stream *stream, const struct image *image)
 {
     png_structp png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, stream, note_error, ignore_warning,
-                                                NULL, take, give_back);
+                                                &stream->error, gm_png_take, gm_png_give_back);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info) {
         png_destroy_write_struct(&png, NULL);

@@ -2,6 +2,7 @@
 /* Reading PNG: the texts of any file, the pixels of one of ours. Files are not trusted. */
 #include "render/files/png.h"
 
+#include <errno.h>
 #include <libdeflate.h>
 #include <png.h>
 #include <stdint.h>
@@ -9,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/files/png_memory.h"
 #include "render/files/regular_file.h"
 #include "render/message.h"
 
@@ -40,6 +42,7 @@ static char *copy_of(const void *bytes, size_t size)
 /* A text packed in zlib's format; NULL if it is damaged or larger than the room. */
 static char *unpack(const unsigned char *packed, size_t size, size_t room)
 {
+    gm_deflate_prepare();
     struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
     char *bytes = decompressor ? malloc(room + 1) : NULL, *text = NULL;
     size_t length = 0;
@@ -109,6 +112,7 @@ static size_t wanted(const struct search *search, const unsigned char *data, siz
 /* Reads a chunk of text, of which the file has `length` bytes and a checksum left. */
 static bool take_text(FILE *file, const char *type, size_t length, struct search *search, char *reason)
 {
+    errno = 0;
     unsigned char *bytes = malloc(TYPE + length + CHECKSUM);
     bool good = bytes && fread(bytes + TYPE, 1, length + CHECKSUM, file) == length + CHECKSUM;
     if (good) {
@@ -124,7 +128,8 @@ static bool take_text(FILE *file, const char *type, size_t length, struct search
         }
     }
     if (!good) {
-        snprintf(reason, GM_REGULAR_REASON, "a text of it is damaged or too large");
+        snprintf(reason, GM_REGULAR_REASON, "%s",
+                 errno == ENOMEM ? strerror(ENOMEM) : "a text of it is damaged or too large");
     }
     free(bytes);
     return good;
@@ -236,29 +241,69 @@ bool gm_png_tells(const char *path, const char *key, const char *text)
     return told && whole;
 }
 
+static void note_error(png_structp png, png_const_charp text)
+{
+    snprintf(png_get_error_ptr(png), GM_REGULAR_REASON, "%s", text);
+    png_longjmp(png, 1);
+}
+
+static void ignore_warning(png_structp png, png_const_charp text)
+{
+    (void)png;
+    (void)text;
+}
+
+/* Nothing here but the two structures outlives the jump out of libpng's errors. libpng's simple reader has
+   memory of its own, of which no refusal is told. */
+static bool read_pixels(FILE *file, int width, int height, unsigned char *rgb, int *error, char *reason)
+{
+    png_structp png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, reason, note_error, ignore_warning,
+                                               error, gm_png_take, gm_png_give_back);
+    png_infop info = png ? png_create_info_struct(png) : NULL;
+    if (!info) {
+        png_destroy_read_struct(&png, NULL, NULL);
+        *error = ENOMEM;
+        return false;
+    }
+    if (setjmp(png_jmpbuf(png))) {
+        png_destroy_read_struct(&png, &info, NULL);
+        return false;
+    }
+    png_init_io(png, file);
+    png_read_info(png, info);
+    png_set_expand(png);
+    png_set_scale_16(png);
+    png_set_strip_alpha(png);
+    png_set_gray_to_rgb(png);
+    const int passes = png_set_interlace_handling(png);
+    png_read_update_info(png, info);
+    const size_t row = 3 * (size_t)width;
+    if (png_get_image_height(png, info) != (png_uint_32)height || png_get_rowbytes(png, info) != row) {
+        snprintf(reason, GM_REGULAR_REASON, "it is no picture of %dx%d", width, height);
+        png_longjmp(png, 1);
+    }
+    for (int pass = 0; pass < passes; pass++) {
+        for (size_t y = 0; y < (size_t)height; y++) {
+            png_read_row(png, rgb + y * row, NULL);
+        }
+    }
+    png_read_end(png, NULL);
+    png_destroy_read_struct(&png, &info, NULL);
+    return true;
+}
+
 bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, char *message)
 {
-    png_image image = {.version = PNG_IMAGE_VERSION};
     size_t size = 0;
     char reason[GM_REGULAR_REASON];
     FILE *file = gm_regular_open(path, LARGEST, &size, reason);
-    if (!file) {
-        snprintf(message, GM_MESSAGE, "cannot read %.360s: %s", path, reason);
-        return false;
+    int error = 0; /* errno, where memory is short */
+    const bool good = file && read_pixels(file, width, height, rgb, &error, reason);
+    if (file) {
+        fclose(file);
     }
-    bool good = false;
-    if (png_image_begin_read_from_stdio(&image, file)) {
-        if (image.width == (png_uint_32)width && image.height == (png_uint_32)height) {
-            image.format = PNG_FORMAT_RGB;
-            good = png_image_finish_read(&image, NULL, rgb, 0, NULL);
-        } else {
-            snprintf(image.message, sizeof image.message, "it is no picture of %dx%d", width, height);
-        }
-        png_image_free(&image);
-    }
-    fclose(file);
     if (!good) {
-        snprintf(message, GM_MESSAGE, "cannot read %.360s: %.64s", path, image.message);
+        snprintf(message, GM_MESSAGE, "cannot read %.360s: %s", path, error ? strerror(error) : reason);
     }
     return good;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The queue of frames and its workers. */
 #include "render/files/sink.h"
+#include "render/address_space.h"
 #include "render/files/thread.h"
 
 #include <pthread.h>
@@ -10,6 +11,8 @@
 
 /* A frame waits in `queue` from put until a worker takes it, and in `idle` when nobody has use for it. There
    are `limit` frames in all, made when first asked for: put never waits, gm_sink_frame does. */
+
+enum { STACK = 8 << 20 /* bytes, of a thread */ };
 
 struct job {
     unsigned char *frame;
@@ -132,6 +135,9 @@ static bool start_workers(struct gm_sink *sink, int workers)
     while (sink->worker_count < workers &&
            gm_thread_start(&sink->workers[sink->worker_count], work, sink) == 0) {
         sink->worker_count++;
+    }
+    if (sink->worker_count == 0) {
+        gm_address_space_has(STACK); /* notes what pthread_create does not tell: whether it was memory */
     }
     return sink->worker_count > 0;
 }

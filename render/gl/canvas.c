@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "render/address_space.h"
 #include "render/gl/painter.h"
 
 enum { MAP_STEPS = 256, MAP_ROWS = 2 };
@@ -265,10 +266,15 @@ static void end_turn(void)
     pthread_mutex_unlock(&turn);
 }
 
+enum { TAKEN = 512 << 20 /* bytes of the address space, by Mesa and what it loads */ };
+
 struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message)
 {
     take_turn();
     struct gm_canvas *canvas = open_alone(width, height, theme, message);
+    if (canvas == NULL && !gm_address_space_has(TAKEN)) {
+        snprintf(message, GM_MESSAGE, "There is not enough memory to paint pictures.");
+    }
     end_turn();
     return canvas;
 }
@@ -284,6 +290,9 @@ bool gm_canvas_paint(struct gm_canvas *canvas, struct gm_picture *picture, unsig
 {
     take_turn();
     const bool painted = paint_alone(canvas, picture, rgb);
+    if (!painted) {
+        gm_address_space_has(TAKEN); /* notes a refusal that was Mesa's */
+    }
     end_turn();
     return painted;
 }

@@ -106,15 +106,17 @@ const char *gm_context_name(const struct gm_context *context)
 }
 
 static const int crashes[] = {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL};
-enum { CRASHES = sizeof crashes / sizeof crashes[0], CRASHED = 3 /* the exit status */ };
-static char sentence[GM_MESSAGE]; /* made before it is needed: a crash is no time to format */
+enum { CRASHES = sizeof crashes / sizeof crashes[0] };
+/* made before they are needed: a crash is no time to format */
+static char sentence[GM_MESSAGE];
+static int exit_status;
 
 static void end(int number)
 {
     (void)number;
     const ssize_t written = write(STDERR_FILENO, sentence, strlen(sentence));
     (void)written;
-    _exit(CRASHED);
+    _exit(exit_status);
 }
 
 static void make_sentence(void)
@@ -125,6 +127,7 @@ static void make_sentence(void)
     const int length =
         snprintf(sentence, sizeof sentence, "geomint: Mesa, which paints the pictures, crashed");
     const size_t used = (size_t)length;
+    exit_status = driver == NULL && limited ? 5 : 3; /* not enough memory; no file was written */
     if (driver != NULL) {
         snprintf(sentence + used, sizeof sentence - used,
                  "; the environment variable GALLIUM_DRIVER asks for its driver \"%.60s\".\n", driver);

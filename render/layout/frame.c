@@ -160,6 +160,8 @@ static double title_start(const struct gm_fill *fill, double width)
     return fmax(fill->title_left, fmin(fill->box.x, fill->title_left + fill->title_width - width));
 }
 
+enum { LONGEST_NAME = 256 };
+
 static const char *key_text(const struct gm_label_list *list, const struct gm_key *key)
 {
     static const char *const samples[GM_DASH_COUNT] = {"───", "╌╌", "···", "─·", "╴╴╴", "─··"};
@@ -177,32 +179,62 @@ static double key_gap(const struct gm_label_list *list, const struct gm_panel *p
     return all > width ? 0.5 * gap : gap;
 }
 
+/* A key in lines of that width. Where it has no room in one what its values are called gives way; then it
+   goes on below, and the piece of its line, which its colour stands for, gives way last. */
+static size_t key_lines(const struct gm_label_list *list, const struct gm_key *key, double width,
+                        const char **lines)
+{
+    char values[LONGEST_NAME];
+    gm_name_without_keys(key->name, values, sizeof values);
+    const struct gm_key short_key = {.style = key->style,
+                                     .name = gm_picture_text(list->picture, "%s", values)};
+    const struct {
+        const char *text;
+        size_t most;
+    } ways[] = {{key_text(list, key), 1},
+                {key_text(list, &short_key), 1},
+                {key_text(list, key), GM_KEY_LINES},
+                {key_text(list, &short_key), GM_KEY_LINES},
+                {short_key.name, GM_KEY_LINES}};
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        count = gm_labels_wrap(list, GM_TEXT_LABEL, ways[i].text, width, ways[i].most, lines);
+        if (gm_lines_are_whole(lines, count, ways[i].text)) {
+            break;
+        }
+    }
+    return count;
+}
+
 /* Keys side by side, each behind a piece of its line, from (x, y) on in as many lines as they take, which is
-   returned; a name that is longer than a line is shortened. Without `out` they are only counted. */
+   returned. Without `out` they are only counted. */
 static size_t set_keys(const struct gm_label_list *list, const struct gm_panel *panel, double x, double y,
                        double width, struct gm_label_list *out)
 {
-    const double gap = key_gap(list, panel, width);
+    const double gap = key_gap(list, panel, width), line = list->metrics->line[GM_TEXT_LABEL];
     double at = 0.0;
-    size_t lines = 1;
+    size_t row = 0;
     for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
-        const char *text = key_text(list, key);
-        const double wide = gm_labels_width(list, GM_TEXT_LABEL, text);
+        const char *lines[GM_KEY_LINES];
+        const size_t count = key_lines(list, key, width, lines);
+        const double wide = count > 1 ? width : gm_labels_width(list, GM_TEXT_LABEL, count ? lines[0] : "");
         if (at > 0.0 && at + wide > width) {
-            lines++;
+            row++;
             at = 0.0;
         }
-        if (out != NULL) {
-            gm_labels_add(
-                out, (struct gm_label){.text = gm_labels_shorten(out, GM_TEXT_LABEL, text, width),
-                                       .size = GM_TEXT_LABEL,
-                                       .role = key->style.role,
-                                       .x = x + at,
-                                       .y = y + (double)(lines - 1) * list->metrics->line[GM_TEXT_LABEL]});
+        for (size_t i = 0; i < count; i++) {
+            row += i > 0;
+            if (out != NULL) {
+                gm_labels_add(out, (struct gm_label){.text = lines[i],
+                                                     .size = GM_TEXT_LABEL,
+                                                     .role = key->style.role,
+                                                     .x = x + at,
+                                                     .y = y + (double)row * line});
+            }
         }
         at += wide + gap;
     }
-    return lines;
+    return row + 1;
 }
 
 size_t gm_key_lines(const struct gm_label_list *list, const struct gm_panel *panel, double width)
@@ -228,8 +260,14 @@ static void label_panel(struct gm_label_list *list, const struct gm_panel *panel
     const enum gm_text_size size = fill->small_title ? GM_TEXT_TICK : title_size(panel);
     const size_t most = fill->title_lines > 1 ? fill->title_lines : 1;
     const char *lines[GM_TITLE_LINES];
-    const size_t count =
-        gm_labels_wrap(list, size, panel->title + fill->title_skip, fill->title_width, most, lines);
+    const char *title = panel->title + fill->title_skip;
+    size_t count = gm_labels_wrap(list, size, title, fill->title_width, most, lines);
+    if (state && !gm_lines_are_whole(lines, count, title)) {
+        char values[LONGEST_NAME];
+        gm_name_without_keys(title, values, sizeof values);
+        title = gm_picture_text(list->picture, "%s", values);
+        count = gm_labels_wrap(list, size, title, fill->title_width, most, lines);
+    }
     const char *note = gm_labels_shorten_number(list, GM_TEXT_LABEL, panel->note, fill->title_width);
     double wider = fill->detail < GM_DETAIL_NO_NOTE ? gm_labels_width(list, GM_TEXT_LABEL, note) : 0.0;
     for (size_t i = 0; i < count; i++) {
@@ -383,19 +421,16 @@ static bool is_free(const struct gm_frame *frames, size_t count, size_t own, con
     return is_free;
 }
 
-void gm_frame_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
-                   const struct gm_mark *mark)
+/* Adds a line of a note whose anchor is at (x, y), moved a little where that makes it free. False if it finds
+   no place. */
+static bool add_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
+                     const struct gm_mark *mark, const char *text, double x, double y)
 {
     static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0}; /* in lines */
     const struct gm_metrics *metrics = list->metrics;
     const struct gm_frame *frame = &frames[own];
     const struct gm_box *data = &frame->box;
-    const double x = gm_frame_x(frame, mark->points[0]), y = gm_frame_y(frame, mark->points[1]);
-    if (!(x >= data->x - 1.0 && x <= data->x + data->width + 1.0 && y >= data->y - 1.0 &&
-          y <= data->y + data->height + 1.0)) {
-        return;
-    }
-    const double line = metrics->line[GM_TEXT_TICK], width = gm_labels_width(list, GM_TEXT_TICK, mark->text);
+    const double line = metrics->line[GM_TEXT_TICK], width = gm_labels_width(list, GM_TEXT_TICK, text);
     const double air = 0.3 * line; /* to the edge of the surface */
     const double left =
         fmax(air, fmin(x - gm_anchor_share(mark->anchor) * width, metrics->width - width - air));
@@ -405,13 +440,43 @@ void gm_frame_note(struct gm_label_list *list, const struct gm_frame *frames, si
         const struct gm_box box = {k % 2 == 0 ? left : within, fmax(0.0, fmin(top, metrics->height - line)),
                                    width, line};
         if (is_free(frames, count, own, &box) &&
-            gm_labels_add(list, (struct gm_label){.text = mark->text,
+            gm_labels_add(list, (struct gm_label){.text = text,
                                                   .size = GM_TEXT_TICK,
                                                   .role = mark->style.role,
                                                   .x = box.x,
                                                   .y = box.y,
                                                   .among_marks = true})) {
-            return;
+            return true;
         }
+    }
+    return false;
+}
+
+/* A note that is wider than the room on its side of the place goes on in a second line, where all of it then
+   fits: otherwise it would stand across the frame's edge, and one that is wider than that is left out. */
+void gm_frame_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
+                   const struct gm_mark *mark)
+{
+    const struct gm_metrics *metrics = list->metrics;
+    const struct gm_frame *frame = &frames[own];
+    const struct gm_box *data = &frame->box;
+    const double x = gm_frame_x(frame, mark->points[0]), y = gm_frame_y(frame, mark->points[1]);
+    if (!(x >= data->x - 1.0 && x <= data->x + data->width + 1.0 && y >= data->y - 1.0 &&
+          y <= data->y + data->height + 1.0)) {
+        return;
+    }
+    const double line = metrics->line[GM_TEXT_TICK];
+    const double room = mark->anchor == GM_ANCHOR_LEFT    ? metrics->width - 0.3 * line - x
+                        : mark->anchor == GM_ANCHOR_RIGHT ? x - data->x
+                                                          : data->width;
+    const char *lines[2];
+    const size_t made = gm_labels_wrap(list, GM_TEXT_TICK, mark->text, room, 2, lines);
+    if (made < 2 || !gm_lines_are_whole(lines, made, mark->text)) {
+        if (gm_labels_width(list, GM_TEXT_TICK, mark->text) <= data->width) {
+            add_note(list, frames, count, own, mark, mark->text, x, y);
+        }
+    } else if (add_note(list, frames, count, own, mark, lines[0], x, y - 0.5 * line)) {
+        const double below = list->labels[list->count - 1].y + 1.5 * line;
+        add_note(list, frames, count, own, mark, lines[1], x, below);
     }
 }

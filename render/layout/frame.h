@@ -16,7 +16,7 @@ enum gm_detail {
 };
 
 /* Most lines of a title that goes on below. */
-enum { GM_TITLE_LINES = 3 };
+enum { GM_TITLE_LINES = 3, GM_KEY_LINES = 3 };
 
 struct gm_border {
     double left, right, top, bottom;

@@ -2,6 +2,7 @@
 /* Labels that keep off each other: one is taken only where there is room. */
 #include "render/layout/labels.h"
 
+#include <stdio.h>
 #include <string.h>
 
 bool gm_labels_open(struct gm_label_list *list, struct gm_picture *picture, const struct gm_metrics *metrics,
@@ -59,7 +60,7 @@ static bool continues_character(char byte)
 }
 
 /* The first `length` bytes of text, shortened with an ellipsis. */
-static const char *ellipsised(struct gm_label_list *list, const char *text, size_t length)
+static const char *ellipsised(const struct gm_label_list *list, const char *text, size_t length)
 {
     while (length > 0 && (continues_character(text[length]) || text[length - 1] == ' ')) {
         length--;
@@ -116,7 +117,8 @@ static size_t before_cut_number(const char *text, size_t length)
 }
 
 /* As many letters of a text as fit with an ellipsis; "" if none do. */
-static const char *cut(struct gm_label_list *list, enum gm_text_size size, const char *text, double width)
+static const char *cut(const struct gm_label_list *list, enum gm_text_size size, const char *text,
+                       double width)
 {
     size_t fits = 0, too_long = strlen(text);
     while (too_long - fits > 1) {
@@ -131,7 +133,7 @@ static const char *cut(struct gm_label_list *list, enum gm_text_size size, const
     return fits > 0 ? ellipsised(list, text, fits) : "";
 }
 
-const char *gm_labels_shorten(struct gm_label_list *list, enum gm_text_size size, const char *text,
+const char *gm_labels_shorten(const struct gm_label_list *list, enum gm_text_size size, const char *text,
                               double width)
 {
     if (text == NULL || gm_labels_width(list, size, text) <= width) {
@@ -187,8 +189,23 @@ const char *gm_labels_shorten_number(struct gm_label_list *list, enum gm_text_si
     return "";
 }
 
-size_t gm_labels_wrap(struct gm_label_list *list, enum gm_text_size size, const char *text, double width,
-                      size_t most, const char **lines)
+void gm_name_without_keys(const char *name, char *text, size_t size)
+{
+    static const char equals[] = " = ", between[] = ", ";
+    size_t used = 0;
+    text[0] = '\0';
+    for (const char *part = name; part != NULL && used < size;) {
+        const char *next = strstr(part, between), *value = strstr(part, equals);
+        const bool key = value != NULL && value == part + strcspn(part, ", "); /* one word is */
+        value = key ? value + strlen(equals) : part;
+        used += (size_t)snprintf(text + used, size - used, "%s%.*s", part == name ? "" : between,
+                                 (int)(next != NULL ? (size_t)(next - value) : strlen(value)), value);
+        part = next != NULL ? next + strlen(between) : NULL;
+    }
+}
+
+size_t gm_labels_wrap(const struct gm_label_list *list, enum gm_text_size size, const char *text,
+                      double width, size_t most, const char **lines)
 {
     size_t count = 0;
     while (text != NULL && *text != '\0' && count < most) {
@@ -198,6 +215,9 @@ size_t gm_labels_wrap(struct gm_label_list *list, enum gm_text_size size, const 
         }
         const char *end = NULL; /* of the longest line that fits */
         for (const char *blank = strchr(text, ' '); blank != NULL; blank = strchr(blank + 1, ' ')) {
+            if (blank[1] == '=' || (blank > text && blank[-1] == '=')) {
+                continue; /* a value stands beside its key */
+            }
             const char *line = gm_picture_text(list->picture, "%.*s", (int)(blank - text), text);
             if (gm_labels_width(list, size, line) > width) {
                 break;
@@ -213,4 +233,13 @@ size_t gm_labels_wrap(struct gm_label_list *list, enum gm_text_size size, const 
         text = end + 1;
     }
     return count;
+}
+
+bool gm_lines_are_whole(const char *const *lines, size_t count, const char *text)
+{
+    size_t shown = count > 0 ? count - 1 : 0; /* a blank at each end of a line but the last */
+    for (size_t i = 0; i < count; i++) {
+        shown += strlen(lines[i]);
+    }
+    return shown == strlen(text);
 }

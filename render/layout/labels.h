@@ -26,7 +26,7 @@ double gm_labels_width(const struct gm_label_list *list, enum gm_text_size size,
 
 /* The text, shortened to width with an ellipsis where needed; "" if not even that fits. A word with a
    figure in it is not cut. */
-const char *gm_labels_shorten(struct gm_label_list *list, enum gm_text_size size, const char *text,
+const char *gm_labels_shorten(const struct gm_label_list *list, enum gm_text_size size, const char *text,
                               double width);
 
 /* The same for a text that tells a number, such as "energy error 2.4·10⁻³": what stands before the number
@@ -39,8 +39,15 @@ const char *gm_labels_shorten_number(struct gm_label_list *list, enum gm_text_si
 const char *gm_labels_whole(struct gm_label_list *list, enum gm_text_size size, const char *text,
                             double width);
 
+/* Writes the name of a lane without the keys of its values, which are one word: of "Verlet, Δt = 0.1"
+   "Verlet, 0.1". */
+void gm_name_without_keys(const char *name, char *text, size_t size);
+
 /* Breaks a text at blanks into at most `most` lines of a width, the last shortened; returns their number. */
-size_t gm_labels_wrap(struct gm_label_list *list, enum gm_text_size size, const char *text, double width,
-                      size_t most, const char **lines);
+size_t gm_labels_wrap(const struct gm_label_list *list, enum gm_text_size size, const char *text,
+                      double width, size_t most, const char **lines);
+
+/* Whether lines of gm_labels_wrap hold all of the text. */
+bool gm_lines_are_whole(const char *const *lines, size_t count, const char *text);
 
 #endif

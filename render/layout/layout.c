@@ -165,11 +165,7 @@ static bool titles_are_cut(struct gm_label_list *list, const struct group *group
     for (size_t i = 0; i < group->count && group->place == GM_PLACE_STATE; i++) {
         const char *title = group->frames[i].panel->title + skip, *lines[GM_TITLE_LINES];
         const size_t count = gm_labels_wrap(list, GM_TEXT_TICK, title, width, most, lines);
-        size_t shown = count > 0 ? count - 1 : 0; /* a blank at each end of a line but the last */
-        for (size_t k = 0; k < count; k++) {
-            shown += strlen(lines[k]);
-        }
-        if (shown != strlen(title)) {
+        if (!gm_lines_are_whole(lines, count, title)) {
             return true;
         }
     }
@@ -341,7 +337,7 @@ static double place_caption(struct gm_label_list *list, const struct gm_picture 
     if ((double)count * metrics->line[GM_TEXT_LABEL] > 0.2 * metrics->height) {
         count = 0;
     }
-    if (count == 0) {
+    if (count == 0 || strstr(lines[count - 1], "…") != NULL) { /* half a sentence says nothing */
         return bottom;
     }
     bottom = metrics->height - 0.6 * bottom_margin * metrics->scale;
@@ -555,7 +551,7 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
     struct gm_frame *frames = gm_picture_memory(picture, (panel_count + 1) * sizeof *frames);
     if (layout == NULL || frames == NULL ||
         !gm_labels_open(&list, picture, metrics,
-                        8 + MOST_TOLD + key_count + note_count +
+                        8 + MOST_TOLD + GM_KEY_LINES * key_count + 2 * note_count +
                             panel_count * (4 + GM_TITLE_LINES + 3 * GM_TICK_MAX))) {
         return NULL;
     }

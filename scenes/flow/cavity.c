@@ -22,9 +22,11 @@ static const struct gm_parameter parameters[] = {
     GM_INTEGER_ROW(struct gm_flows, rows, "rows", "168", 0, 3000, "strips of triangles along y; 0: the best",
                    .logarithmic = true),
     GM_FLOWS_IRREGULAR,
-    GM_TEXT_ROW(struct gm_flows, lid, "lid", "lid", "name or tag of the mesh's lid"),
-    GM_TEXT_ROW(struct gm_flows, mesh, "mesh", "none",
-                "a Gmsh file (4.1, ASCII) of another cavity; none: the square", .file = true),
+    GM_TEXT_ROW(struct gm_flows, lid, "lid", "lid", "name or tag of the lid, with mesh= alone"),
+    GM_TEXT_ROW(
+        struct gm_flows, mesh, "mesh", "none",
+        "a Gmsh file (4.1, ASCII) of another cavity, instead of rows, columns and irregular; none: the square",
+        .file = true),
     GM_FLOWS_TRACERS("0"),
     GM_FLOWS_LOOKS("vorticity", "yes"),
 };

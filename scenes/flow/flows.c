@@ -261,18 +261,17 @@ double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters)
     return time;
 }
 
-bool gm_flows_idle(const void *parameters, const char *key)
+const char *gm_flows_idle(const void *parameters, const char *key)
 {
-    static const char *const made[] = {"rows", "columns", "irregular"}, *const named[] = {"inlet", "lid"};
+    static const char *const made[] = {"rows", "columns", "irregular", NULL}, *const named[] = {"inlet",
+                                                                                                "lid", NULL};
     const bool from_file = strcmp(((const struct gm_flows *)parameters)->mesh, "none") != 0;
-    bool idle = false;
-    for (size_t i = 0; i < GM_COUNT(made); i++) {
-        idle = idle || (from_file && strcmp(key, made[i]) == 0);
+    for (const char *const *name = from_file ? made : named; *name; name++) {
+        if (strcmp(key, *name) == 0) {
+            return from_file ? "the mesh comes from a file" : "it names an edge of a mesh=FILE";
+        }
     }
-    for (size_t i = 0; i < GM_COUNT(named); i++) {
-        idle = idle || (!from_file && strcmp(key, named[i]) == 0);
-    }
-    return idle;
+    return NULL;
 }
 
 void gm_flows_middle(const struct gm_complex *complex, size_t boundary_edge, double middle[2])

@@ -84,7 +84,7 @@ typedef bool gm_flows_setup(const void *parameters, struct gm_problem *problem, 
 double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters);
 
 /* With a mesh file nothing makes a mesh, and without one nothing is named in it. */
-bool gm_flows_idle(const void *parameters, const char *key);
+const char *gm_flows_idle(const void *parameters, const char *key);
 
 /* The middle of a boundary edge. */
 void gm_flows_middle(const struct gm_complex *complex, size_t boundary_edge, double middle[2]);

@@ -384,14 +384,19 @@ static double last_value(const struct gm_lane *const *lanes, size_t count, size_
     return last;
 }
 
-static void set_time_axis(struct gm_axis *axis, const struct gm_lane *const *lanes, size_t count,
-                          size_t series, const struct gm_graph *graph)
+/* The panel's time axis; where it ends before the run does the title says so. */
+static void set_time_axis(struct gm_picture *picture, struct gm_panel *panel,
+                          const struct gm_lane *const *lanes, size_t count, size_t series,
+                          const struct gm_graph *graph)
 {
+    struct gm_axis *axis = &panel->x;
     gm_time_axis(axis, lanes, count);
     const double last = graph->to_last ? last_value(lanes, count, series) : NAN;
     if (last > axis->low && last < lanes[0]->run->t) {
         axis->high = last;
         gm_range_round(&axis->low, &axis->high, axis->scale);
+        panel->title = gm_picture_text(picture, "%s  measurable up to t = %s", panel->title,
+                                       gm_time_text(picture, last, lanes[0]->run->dt));
     }
     if (graph->time_label) {
         axis->label = graph->time_label;
@@ -436,7 +441,7 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, title);
     panel->axes = true;
     panel->title_role = GM_INK;
-    set_time_axis(&panel->x, lanes, count, series, graph);
+    set_time_axis(picture, panel, lanes, count, series, graph);
     panel->y = (struct gm_axis){.label = "", .scale = graph->scale, .low = 1, .high = 0};
 
     double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);

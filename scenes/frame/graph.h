@@ -82,7 +82,7 @@ struct gm_graph {
     double calm_low, calm_high; /* the range shown at least; equal: none */
     const char *time_label;     /* of the time axis; NULL: "t" */
     double time_unit;           /* that its values are told in; 0: 1 */
-    bool to_last;               /* the time axis ends where the values do, not where the run does */
+    bool to_last;               /* the time axis ends where the values do, not where the run does; says so */
     double floor; /* log: values below are left out, such as those of the first steps; 0: none */
     const struct gm_lane *panel_of; /* only this lane and those of its panel; NULL: all */
     bool named;                     /* lanes are named under the title, where no panel carries their names */

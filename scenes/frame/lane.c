@@ -77,35 +77,46 @@ double gm_lane_divisor(const struct gm_lane *lane, size_t observable)
     return divisor_of(&lane->scene->observables[observable], &view, &initial);
 }
 
-long gm_scene_lost(const struct gm_scene *scene, const double *values)
+long gm_lane_lost(const struct gm_lane *lane)
 {
-    double most = GM_LOSS;
+    const struct gm_view view = gm_lane_view(lane);
+    double most = 0;
     long lost = -1;
-    for (size_t i = 0; i < scene->observable_count; i++) {
-        if (scene->observables[i].kept && values[i] > most) {
-            most = values[i];
+    for (size_t i = 0; lane->run->status == GM_OK && i < lane->scene->observable_count; i++) {
+        const struct gm_observable *observable = &lane->scene->observables[i];
+        if (!observable->kept) {
+            continue;
+        }
+        double initial = 0;
+        const double divisor = divisor_of(observable, &view, &initial), value = observable->evaluate(&view);
+        const double error = fabs(value - initial) / divisor;
+        /* against a scale above it, what was small at the start may be smaller and no less right */
+        const bool decayed = divisor == fabs(initial) && fabs(value) < GM_LOST_BELOW * divisor;
+        if ((error > GM_LOST_ABOVE || decayed) && error > most) {
+            most = error;
             lost = (long)i;
         }
     }
     return lost;
 }
 
-long gm_lane_lost(const struct gm_lane *lane)
-{
-    double values[MOST_OBSERVABLES] = {0};
-    for (size_t i = 0; lane->run->status == GM_OK && i < lane->scene->observable_count; i++) {
-        values[i] = lane->scene->observables[i].kept ? gm_lane_observe(lane, i) : 0;
-    }
-    return gm_scene_lost(lane->scene, values);
-}
-
 void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
 {
     const long lost = gm_lane_lost(lane);
     text[0] = '\0';
-    if (lost >= 0) {
-        snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost",
-                 lane->scene->observables[lost].key, gm_lane_observe(lane, (size_t)lost));
+    if (lost < 0) {
+        return;
+    }
+    const struct gm_observable *observable = &lane->scene->observables[lost];
+    const struct gm_view view = gm_lane_view(lane);
+    const double error = gm_lane_observe(lane, (size_t)lost);
+    if (error > GM_LOST_ABOVE) {
+        snprintf(text, size, "%s is %.3g: what the exact motion keeps is lost", observable->key, error);
+    } else {
+        double initial = 0;
+        divisor_of(observable, &view, &initial);
+        snprintf(text, size, "%s is %.3g: of what the exact motion keeps a part of %.1e is left",
+                 observable->key, error, observable->evaluate(&view) / initial);
     }
 }
 
@@ -410,13 +421,15 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
     lane->scheme = lane->first_scheme = scheme;
     gm_lane_show(lane, &(const struct gm_shown){0});
     lane->parameters = copy_of(parameters, scene->size);
-    if (!prepare(lane, sentence)) {
-        gm_lane_close(lane);
-        return NULL;
+    bool good = prepare(lane, sentence);
+    if (good) {
+        gm_lane_record(lane);
     }
-    gm_lane_record(lane);
-    if (gm_memory_refusals() != refusals) { /* in a start or an observable, which cannot say so */
-        refuse(sentence, "not enough memory");
+    if (gm_memory_refusals() != refusals) {
+        /* whatever was made of it: a start or an observable cannot say so, a search for a mesh found none */
+        good = refuse(sentence, "not enough memory");
+    }
+    if (!good) {
         gm_lane_close(lane);
         return NULL;
     }

@@ -59,11 +59,12 @@ double gm_lane_observe(const struct gm_lane *lane, size_t observable);
 /* What an error is divided by in this lane. */
 double gm_lane_divisor(const struct gm_lane *lane, size_t observable);
 
-/* An error of what the exact motion keeps that is above this tells of a loss. */
-#define GM_LOSS 10.
-/* The observable that tells of the greatest loss, of the scene's observables with these values; -1: none. */
-long gm_scene_lost(const struct gm_scene *scene, const double *values);
-/* Likewise in this lane now; -1 where the run has failed, which says more. */
+/* What the exact motion keeps is lost if its error is above the one, or if less than the other is left of its
+   start, where that is what the error is divided by. */
+#define GM_LOST_ABOVE 10.
+#define GM_LOST_BELOW 0.01
+/* The observable that tells of the greatest loss in this lane now; -1: none, or the run has failed, which
+   says more. */
 long gm_lane_lost(const struct gm_lane *lane);
 /* One sentence on it; "" where there is none. */
 void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size);

@@ -52,6 +52,11 @@ double gm_scene_t0(const struct gm_scene *scene, const void *parameters)
     return scene->t0 ? scene->t0(parameters) : 0;
 }
 
+const char *gm_scene_idle(const struct gm_scene *scene, const void *parameters, const char *key)
+{
+    return scene->idle ? scene->idle(parameters, key) : NULL;
+}
+
 const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key)
 {
     for (size_t i = 0; i < scene->parameter_count; i++) {

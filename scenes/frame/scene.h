@@ -144,8 +144,8 @@ struct gm_scene {
 
     /* The time at the start; NULL: 0. */
     double (*t0)(const void *parameters);
-    /* Whether the parameter of that key has no effect with these; NULL: all have one. */
-    bool (*idle)(const void *parameters, const char *key);
+    /* Why the parameter of that key has no effect with these, NULL if it has one; no hook: all have one. */
+    const char *(*idle)(const void *parameters, const char *key);
     /* Makes parameters agree that follow from others, after those of these keys were set; false with a
        sentence if they contradict. NULL: none do. */
     bool (*settle)(void *parameters, const char *const *keys, size_t count, char *sentence);
@@ -190,6 +190,9 @@ const struct gm_scene *gm_scene_find(const char *name);
 double gm_scene_t0(const struct gm_scene *scene, const void *parameters);
 /* The number of the observable of that key; -1 if there is none. */
 int gm_scene_observable(const struct gm_scene *scene, const char *key);
+/* Why the parameter of that key has no effect with these: "the mesh comes from a file"; NULL if it has one.
+ */
+const char *gm_scene_idle(const struct gm_scene *scene, const void *parameters, const char *key);
 /* NULL if there is none of that key */
 const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key);
 

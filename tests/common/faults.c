@@ -5,8 +5,8 @@
        GM_FAULT=files:17      the 17th call that touches a file fails, with ENOSPC or EIO
        GM_FAULT_COUNT=FILE    where the number of such calls is written at the end
 
-   What counts are calls by the program itself, and allocations that SuiteSparse, libpng, libdeflate and
-   FreeType make for it and report to it. Others (Mesa, fontconfig, ncurses, BLAS, GSL's drivers) may end a
+   What counts are calls by the program itself, and allocations that SuiteSparse, GSL, libpng, libdeflate and
+   FreeType make for it and report to it. Others (Mesa, fontconfig, ncurses, BLAS) may end a
    process whose allocations fail; nobody could do anything about that. The count runs on in processes that
    the program forks, and ends where another program is executed. */
 #include <dirent.h>
@@ -45,8 +45,8 @@ void *__libc_memalign(size_t alignment, size_t size);
 static int add_ranges(struct dl_phdr_info *info, size_t size, void *data)
 {
     static const char *const libraries[] = {
-        "libcholmod", "libumfpack",           "libamd",   "libcolamd",  "libccolamd",
-        "libcamd",    "libsuitesparseconfig", "libpng16", "libdeflate", "libfreetype",
+        "libcholmod",           "libumfpack", "libamd",     "libcolamd",   "libccolamd", "libcamd",
+        "libsuitesparseconfig", "libpng16",   "libdeflate", "libfreetype", "libgsl",
     };
     (void)size;
     (void)data;
@@ -186,10 +186,10 @@ int vasprintf(char **text, const char *format, va_list arguments)
         memcpy(&next, &found, sizeof next);                                                                  \
     }
 
-FILE *open_memstream(char **text, size_t *size)
+FILE *fopencookie(void *cookie, const char *mode, cookie_io_functions_t functions)
 {
-    NEXT(open_memstream)
-    return NO_MEMORY_HERE ? none() : next(text, size);
+    NEXT(fopencookie)
+    return NO_MEMORY_HERE ? none() : next(cookie, mode, functions);
 }
 
 #define NO_FILE_HERE fails(FILES, __builtin_return_address(0))

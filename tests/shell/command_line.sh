@@ -56,6 +56,33 @@ refused 1 'did you mean --theme$' render disc --thm
 refused 1 '"nope"; see geomint --help$' nope
 refused 1 'no option --vtk; there are --json, --state, --max, --csv' run disc --vtk a
 refused 1 'no option --save; there are --json, --state, --max, --csv' run disc --save=a.npz
+refused 1 'did you mean kepler$' list keplr
+refused 1 'did you mean schemes$' list schems
+refused 1 'not "xyzzy"$' list xyzzy
+# what makes the square's mesh has no effect on one from a file, and nothing is named without a file
+refused 1 '^geomint: rows= has no effect here: the mesh comes from a file$' \
+    run room "mesh=$meshes/room-small.msh" rows=20,30 steps=1
+refused 1 'irregular= has no effect' render room "mesh=$meshes/room-small.msh" irregular=0.1 steps=1
+refused 1 'columns= has no effect' run cavity "mesh=$meshes/square-small.msh" columns=8 steps=1
+refused 1 'lid= has no effect here: it names an edge of a mesh=FILE$' run cavity lid=lid steps=1
+status 0 run room "mesh=none,$meshes/room-small.msh" rows=10 columns=0 steps=1 --json
+python3 -c '
+import json
+square, drawn = (json.loads(line)["parameters"] for line in open("out"))
+made, named = {"rows", "columns", "irregular"}, {"inlet"}
+assert made <= set(square) and not named & set(square), square
+assert named <= set(drawn) and not made & set(drawn), drawn' || fail 'parameters without effect in JSON'
+status 0 stability room "mesh=$meshes/room-small.msh" reynolds=10 dt=0.01
+# sentences on numbers that options do not take say which they do
+refused 1 '^geomint: --size 0x0 is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels$' render disc --size 0x0
+refused 1 '^geomint: --fps 0 is not a number from 0.01 to 1000$' render disc --fps 0
+refused 1 '^geomint: --every 0 is not a whole number from 1 to 1e9$' run disc --every 0
+refused 1 '^geomint: --shard 3/2 is not I/N, the I-th of N shares, with I from 1 to N$' render disc --shard 3/2
+refused 1 '^geomint: --out is empty$' render disc --out ''
+# a word that names no tour is wrong usage, a folder that cannot be read is not
+GEOMINT_TOURS=$folder refused 1 'there is no tour "nope"' tour nope
+GEOMINT_TOURS=$folder/none refused 3 'there is no folder' tour nope
+GEOMINT_TOURS=$folder/none refused 3 'there is no folder' tour
 # a comma where the decimal point belongs
 refused 1 'dt=0,01: the decimal mark is a point (0.01)' run kepler dt=0,01
 refused 1 'the decimal mark is a point (0.1)' run kepler dt=0,1
@@ -213,11 +240,22 @@ warns 'energy_error is' kepler scheme=lobatto4 dt=10 steps=300
 warns 'energy_error is' wave scheme=gauss-box2 dt=100 steps=10
 warns 'the run ends at t = 0.6 and not at until = 0.5' disc until=0.5 dt=0.3
 warns 'the run ends at t = 0 and not at until = 0.1' disc until=0.1 dt=0.3
-warns 'not at until = 20: the scheme chooses' oscillator scheme=variational-midpoint until=20
+# what decays is lost like what grows
+warns 'area_error is 1: of what the exact motion keeps a part of 2.6e-07' disc scheme=implicit-euler until=60
+status 0 run disc scheme=implicit-euler until=60
+grep -q '^  status  *ok (with a warning)$' out || fail "$(cat out)"
+warns 'a part of' stiff scheme=implicit-euler
 status 0 run kepler scheme=verlet eccentricity=0.9999 steps=30
 grep -q '^  status  *ok (with a warning)$' out && grep -q '^  warning  *energy_error is' out || fail "$(cat out)"
 status 2 run kepler scheme=verlet eccentricity=0.9999 steps=30 --strict
 status 0 run kepler scheme=verlet steps=30 --strict
+status 2 run disc scheme=implicit-euler until=60 --strict
+# a scheme that chooses its steps ends where it ends: that is told, and no fault
+status 0 run oscillator scheme=variational-midpoint until=20 --strict --json
+grep -q '"status":"ok","message":"the scheme chooses its steps: the first that reaches until = 20 ends at t = 20\.[0-9]*","warning":"","t":20\.' out ||
+    fail "$(cat out)"
+status 0 run oscillator scheme=variational-midpoint until=20
+grep -q '^  status  *ok$' out && grep -q '^  message  *the scheme chooses its steps' out || fail "$(cat out)"
 for quiet in 'stiff' 'wave' 'wave courant=.5' 'disc until=0.6 dt=0.3' 'disc steps=7 dt=0.3' 'kepler scheme=rk2'; do
     # shellcheck disable=SC2086
     status 0 run $quiet --json
@@ -225,6 +263,8 @@ for quiet in 'stiff' 'wave' 'wave courant=.5' 'disc until=0.6 dt=0.3' 'disc step
 done
 status 0 render kepler scheme=verlet eccentricity=0.9999 steps=30 --size 300x200 --out warned
 grep -q 'verlet: warning: energy_error is 9.87e+12' err || fail "render tells the warning: $(cat err)"
+status 0 render disc scheme=implicit-euler until=60 --size 300x200 --out warned
+grep -q 'implicit-euler: warning: area_error is 1: of what the exact motion keeps a part of 2.6e-07 is left' err || fail "render tells the warning: $(cat err)"
 
 # what is signed has its largest magnitude as its maximum; what is not there has a reason
 status 0 run kepler scheme=verlet steps=2000 --json --max
@@ -296,12 +336,12 @@ cp out first
 status 0 certify all
 tail -n 1 out | grep -q ', 0 broken$' || fail "certify all: $(tail -n 1 out)"
 status 0 certify rk4 --json
-# JSON has no infinity, and rows of one name differ in their family or in what they were measured on
+# JSON has no infinity, and rows of one name differ in what they are for
 status 0 certify all --json
 python3 - out <<'END' || fail 'certify all --json'
 import json, sys
 rows = [json.loads(line, parse_constant=lambda word: sys.exit(word + " is no JSON")) for line in open(sys.argv[1])]
-names = [(row["scheme"], row["family"], row["order_problem"]) for row in rows]
+names = [(row["scheme"], row["for"]) for row in rows]
 if len(rows) < 90 or len(set(names)) != len(names):
     sys.exit("rows that cannot be told apart")
 END
@@ -325,6 +365,7 @@ def listed(*words, columns=None):
 
 brought = ["compensated", "binding", "tau0", "tolerance"]
 standard = {"compensated": "yes", "binding": "1", "tau0": "0.01", "tolerance": "1e-6"}
+lists = [["scenes", "--long"], ["schemes"], ["figures"], ["schemes", "--long"], ["figures", "--long"]]
 for scene in [json.loads(line)["scene"] for line in open("out")]:
     told = json.loads(listed("list", scene, "--json")[1])
     keys = [row["key"] for row in told["parameters"]]
@@ -341,12 +382,12 @@ for scene in [json.loads(line)["scene"] for line in open("out")]:
     assert f"\n  run     {told['run']}\n" in text and f"\n  render  {told['render']}\n" in text, text
     lanes = [json.loads(line) for line in listed("run", scene, "steps=0", "--json")[1].splitlines()]
     assert told["run"] == "scheme=" + ",".join(lane["scheme"] for lane in lanes), (scene, told["run"])
-    for line in listed("list", scene, columns=80)[1].splitlines():
-        assert len(line) <= 80 or re.match("  render  [^ ]*$", line), line  # a word to type is not cut
+    lists.append([scene])
 assert "scheme=box,zabusky-kruskal dt=0.05,0.0025 points=501 zip=yes" in listed("list", "kdv")[1]
-for words in (["scenes", "--long"], ["schemes"], ["figures"]):
-    for line in listed("list", *words, columns=80)[1].splitlines():
-        assert len(line) <= 80, line
+for words in lists:
+    for columns in (40, 60, 80, 100):
+        for line in listed("list", *words, columns=columns)[1].splitlines():
+            assert len(line) <= columns, (words, columns, line)
 schemes = listed("list", "schemes")[1]
 assert "claims: S symplectic, = symmetric, R reversible, " in schemes
 rows = [line.split() for line in schemes.split("\n\n")[0].splitlines()]

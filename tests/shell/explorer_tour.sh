@@ -149,7 +149,7 @@ settled | LC_ALL=C grep -q '[^ -~]' && fail "a tour in ASCII has other letters"
 keys q
 wait_for 'left 0'
 [ "$(GEOMINT_TOURS="$tours" "$geomint" tour area --theme mono --movie "$folder/x.mp4" 2>&1)" = \
-    'geomint: --theme mono: is none of: light, dark' ] || fail "a movie in no colours"
+    'geomint: --theme mono is none of: light, dark' ] || fail "a movie in no colours"
 
 # ---- studies ----
 

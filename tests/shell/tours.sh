@@ -31,7 +31,7 @@ refused() {
 # broken PATTERN: the tour on standard input is refused with that
 broken() {
     cat >broken.tour
-    refused 1 "$1" tour ./broken.tour --list
+    refused 3 "$1" tour ./broken.tour --list
 }
 
 # ---- the list, and every tour without a screen ----

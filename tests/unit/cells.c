@@ -219,11 +219,40 @@ static void fields(void **state)
     }
 }
 
+/* A colour bar has a point at an end beyond which values lie, and none at the other. */
+static void bars_point(void **state)
+{
+    (void)state;
+    for (int blocks = 0; blocks < GM_BLOCKS_COUNT; blocks++) {
+        for (int end = 0; end < 2; end++) {
+            struct gm_picture *picture = gm_picture_open();
+            picture->title = picture->subtitle = picture->clock = picture->caption = "";
+            struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, "");
+            panel->note = panel->colour_bar_label = "";
+            panel->x = panel->y = (struct gm_axis){.label = "", .scale = GM_LINEAR, .low = 0, .high = 1};
+            panel->colour_bar = true;
+            gm_mark_image(picture, panel, GM_MAP_SEQUENTIAL, 0, 1, (const double[]){0, 0, 1, 1},
+                          (const double[]){0, 0.5, end ? 2 : -1, 1}, 2, 2);
+            struct gm_cells cells = cells_of(60, 20);
+            assert_true(gm_cells_paint(&cells, picture, GM_THEME_DARK, (enum gm_blocks)blocks));
+            size_t points[2] = {0, 0};
+            for (int i = 0; i < 60 * 20; i++) {
+                const uint32_t glyph = cells.cells[i].glyph;
+                points[0] += glyph == (blocks == GM_ASCII ? 'v' : 0x25BC);
+                points[1] += glyph == (blocks == GM_ASCII ? '^' : 0x25B2);
+            }
+            assert_true(points[end] > 0 && points[!end] == 0);
+            free(cells.cells);
+            gm_picture_close(picture);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_block), cmocka_unit_test(blank_is_a_space), cmocka_unit_test(half_blocks_fill),
-        cmocka_unit_test(any_size),    cmocka_unit_test(fields),
+        cmocka_unit_test(any_size),    cmocka_unit_test(fields),           cmocka_unit_test(bars_point),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A lane that was packed and unpacked goes on as if nothing had happened: every scene, every scheme. */
+/* A lane that was packed and unpacked goes on as if nothing had happened: every scene, every scheme. What a
+   lane tells of its losses, and of memory that it was refused. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,6 +14,7 @@
 
 #include "app/request/request.h"
 #include "core/flow/flow.h"
+#include "core/memory.h"
 #include "core/schemes.h"
 #include "scenes/frame/lane_pack.h"
 
@@ -216,13 +219,66 @@ static void clocks_follow_the_step(void **unused)
     }
 }
 
+/* Implicit Euler divides the area by 1 + h^2 in each step, explicit Euler multiplies it. */
+static void losses_are_told(void **unused)
+{
+    (void)unused;
+    const double h = 0.5, factor = 1 + h * h;
+    const struct {
+        const char *arguments, *part;
+        int steps; /* the first after which it is lost */
+    } wanted[] = {
+        {"disc points=8 dt=0.5 scheme=implicit-euler", "is left", (int)ceil(log(100) / log(factor))},
+        {"disc points=8 dt=0.5 scheme=explicit-euler", "is lost", (int)ceil(log(11) / log(factor))},
+    };
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        char text[GM_SENTENCE];
+        struct gm_lane *lane = open_lane(wanted[i].arguments, NULL);
+        assert_non_null(lane);
+        advance(lane, wanted[i].steps - 1);
+        gm_lane_warning(lane, text, sizeof text);
+        assert_string_equal(text, "");
+        advance(lane, 1);
+        gm_lane_warning(lane, text, sizeof text);
+        assert_non_null(strstr(text, "_error is")); /* of the area, or of the energy, which does the same */
+        assert_non_null(strstr(text, wanted[i].part));
+        gm_lane_close(lane);
+    }
+}
+
+static bool find_no_mesh(const void *own, const struct gm_problem *problem, const struct gm_scheme *scheme,
+                         double *y, char *sentence)
+{
+    (void)own;
+    (void)problem;
+    (void)scheme;
+    (void)y;
+    gm_memory_refused();
+    snprintf(sentence, GM_SENTENCE, "no mesh was found");
+    return false;
+}
+
+static void refused_memory_is_no_fault_of_a_mesh(void **unused)
+{
+    (void)unused;
+    struct gm_scene scene = *gm_scene_find("soliton");
+    scene.start_with = find_no_mesh;
+    void *parameters = calloc(1, scene.size);
+    assert_non_null(parameters);
+    gm_parameters_reset(scene.parameters, scene.parameter_count, parameters);
+    char sentence[GM_SENTENCE] = "";
+    const struct gm_settings settings = {0};
+    assert_null(gm_lane_open(&scene, parameters, &settings, gm_scheme_find("multiplier-lobatto4"), sentence));
+    assert_string_equal(sentence, "not enough memory");
+    free(parameters);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clocks_follow_the_step),
-        cmocka_unit_test(packed_lanes_go_on),
-        cmocka_unit_test(channels_have_their_walls),
-        cmocka_unit_test(damaged_bytes_are_refused),
+        cmocka_unit_test(clocks_follow_the_step),    cmocka_unit_test(packed_lanes_go_on),
+        cmocka_unit_test(losses_are_told),           cmocka_unit_test(refused_memory_is_no_fault_of_a_mesh),
+        cmocka_unit_test(channels_have_their_walls), cmocka_unit_test(damaged_bytes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

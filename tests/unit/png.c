@@ -85,9 +85,39 @@ static void pixels_survive(void **state)
         char message[MESSAGE] = "";
         assert_true(gm_png_write(in_folder("a.png"), width, height, rgb, NULL, 0, message));
         check_pixels(in_folder("a.png"), width, height, rgb);
+        unsigned char *read = malloc((size_t)width * (size_t)height * 3);
+        assert_non_null(read);
+        assert_true(gm_png_read(in_folder("a.png"), width, height, read, message));
+        assert_memory_equal(read, rgb, (size_t)width * (size_t)height * 3);
+        assert_false(gm_png_read(in_folder("a.png"), width + 1, height, read, message));
+        assert_non_null(strstr(message, "it is no picture of"));
+        free(read);
         free(rgb);
     }
     assert_int_equal(folder_count(folder), 1);
+}
+
+/* Grey, and with an alpha that is opaque. */
+static void pixels_of_others_are_read(void **state)
+{
+    (void)state;
+    enum { WIDTH = 5, HEIGHT = 3 };
+    const png_uint_32 formats[] = {PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGBA};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        const size_t channels = PNG_IMAGE_SAMPLE_CHANNELS(formats[i]);
+        unsigned char given[4 * WIDTH * HEIGHT], read[3 * WIDTH * HEIGHT];
+        for (size_t k = 0; k < channels * WIDTH * HEIGHT; k++) {
+            given[k] = k % channels == 3 || (channels == 2 && k % 2 == 1) ? 255 : (unsigned char)(7 * k);
+        }
+        png_image image = {
+            .version = PNG_IMAGE_VERSION, .width = WIDTH, .height = HEIGHT, .format = formats[i]};
+        assert_int_not_equal(png_image_write_to_file(&image, in_folder("o.png"), 0, given, 0, NULL), 0);
+        char message[MESSAGE] = "";
+        assert_true(gm_png_read(in_folder("o.png"), WIDTH, HEIGHT, read, message));
+        for (size_t k = 0; k < sizeof read; k++) {
+            assert_int_equal(read[k], given[k / 3 * channels + (channels == 4 ? k % 3 : 0)]);
+        }
+    }
 }
 
 static const struct gm_png_text texts[] = {
@@ -383,6 +413,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, make_folder, remove_folder)
         TEST(pixels_survive),
+        TEST(pixels_of_others_are_read),
         TEST(texts_survive),
         TEST(long_text_survives),
         TEST(text_behind_pixels_is_found),

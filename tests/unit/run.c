@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <gsl/gsl_errno.h>
 
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
@@ -265,6 +266,29 @@ static void refused_memory_is_no_step(void **unused)
     gm_run_close(run);
 }
 
+/* GSL as it is where it does not look: after its handler it goes on with the null pointer. */
+static bool use_gsl(void *data)
+{
+    int *error = data;
+    gsl_error("failed to allocate space", __FILE__, __LINE__, *error);
+    *error = 0; /* it went on */
+    return true;
+}
+
+static void gsl_is_left_where_it_is_refused_memory(void **unused)
+{
+    (void)unused;
+    const unsigned long before = gm_memory_refusals();
+    int error = GSL_ENOMEM;
+    assert_false(gm_memory_guard_gsl(use_gsl, &error));
+    assert_int_equal(error, GSL_ENOMEM);
+    assert_int_equal(gm_memory_refusals(), before + 1);
+    error = GSL_EMAXITER;
+    assert_true(gm_memory_guard_gsl(use_gsl, &error));
+    assert_int_equal(error, 0);
+    assert_int_equal(gm_memory_refusals(), before + 1);
+}
+
 /* Explicit Euler on the oscillator: |y| = (1 + dt^2)^(n/2) |y_0|, so the step that leaves the bound is known.
  */
 static void blow_up_is_found_to_the_step(void **unused)
@@ -408,12 +432,18 @@ static void segments_continue_time(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pieces_do_not_matter),           cmocka_unit_test(members_do_not_feel_each_other),
-        cmocka_unit_test(instruction_sets_agree),         cmocka_unit_test(snapshots_resume_bit_for_bit),
-        cmocka_unit_test(refused_memory_is_no_step),      cmocka_unit_test(blow_up_is_found_to_the_step),
-        cmocka_unit_test(failed_solves_are_told),         cmocka_unit_test(newton_takes_over_at_large_steps),
-        cmocka_unit_test(newton_agrees_with_fixed_point), cmocka_unit_test(evaluations_are_counted),
+        cmocka_unit_test(pieces_do_not_matter),
+        cmocka_unit_test(members_do_not_feel_each_other),
+        cmocka_unit_test(instruction_sets_agree),
+        cmocka_unit_test(snapshots_resume_bit_for_bit),
+        cmocka_unit_test(refused_memory_is_no_step),
+        cmocka_unit_test(blow_up_is_found_to_the_step),
+        cmocka_unit_test(failed_solves_are_told),
+        cmocka_unit_test(newton_takes_over_at_large_steps),
+        cmocka_unit_test(newton_agrees_with_fixed_point),
+        cmocka_unit_test(evaluations_are_counted),
         cmocka_unit_test(segments_continue_time),
+        cmocka_unit_test(gsl_is_left_where_it_is_refused_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/explorer/view/sections.h"
+#include "render/layout/labels.h"
 
 /* ---- schemes ---- */
 
@@ -48,8 +49,8 @@ static int title_column(const struct gm_sheet *sheet)
 }
 
 /* What a scheme claims, and its order, right of a title so wide: where that is not whole beside the letters
-   in their columns, they stand close, and those of a lane, which its page tells too, give way at last.
-   Returns where the title's room ends. */
+   in their columns, they stand close, and those of a lane, which its page tells too, give way at last, and
+   then its order. Returns where the title's room ends. */
 static int scheme_facts(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme, int title_end,
                         unsigned columns, bool give_way, enum gm_role role)
 {
@@ -65,6 +66,9 @@ static int scheme_facts(const struct gm_sheet *sheet, int row, const struct gm_s
         }
         if (give_way && title_end >= end - gm_sheet_width(sheet, text)) {
             snprintf(text, sizeof text, "…");
+            if (title_end >= end - gm_sheet_width(sheet, text)) {
+                return sheet->width;
+            }
         }
     }
     gm_sheet_right(sheet, end, row, text, role, false);
@@ -100,14 +104,20 @@ static void lane_difference(const struct gm_shot_lane *lane, bool overlaid, char
     snprintf(text, size, "%s%s%s%s", panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
 }
 
-/* Up to a column: where room is short the scheme's title is cut before the difference is. */
+/* Up to a column: where room is short the difference keeps its values alone, and then the scheme's title is
+   cut before they are. */
 static void lane_title(const struct gm_sheet *sheet, int row, const struct gm_shot_lane *lane,
                        const char *difference, int end, bool bold)
 {
     enum { LEAST_TITLE = 5 };
-    char text[320];
+    char text[320], values[256];
     const int column = title_column(sheet), room = end - column;
-    const int tail = gm_sheet_width(sheet, difference), title = gm_sheet_width(sheet, lane->scheme->title);
+    const int title = gm_sheet_width(sheet, lane->scheme->title);
+    if (title + gm_sheet_width(sheet, difference) > room) {
+        gm_name_without_keys(difference, values, sizeof values);
+        difference = values;
+    }
+    const int tail = gm_sheet_width(sheet, difference);
     if (title + tail <= room || room - tail < LEAST_TITLE) {
         const struct gm_sheet left = gm_sheet_part(sheet, 0, 0, end, sheet->height);
         snprintf(text, sizeof text, "%s%s", lane->scheme->title, difference);
@@ -124,18 +134,18 @@ static int lane_trouble(const struct gm_sheet *sheet, int row, const struct gm_s
                         const struct gm_shot_lane *lane, int title_end)
 {
     char texts[3][160];
-    int ways = 2, way = 0;
+    int way = 0;
     if (lane->status != GM_OK) {
         snprintf(texts[0], sizeof texts[0], "✕ %s, t = %.4g", gm_status_name(lane->status), lane->t);
         snprintf(texts[1], sizeof texts[1], "✕ %s", gm_status_name(lane->status));
+        snprintf(texts[2], sizeof texts[2], "✕");
     } else {
         snprintf(texts[0], sizeof texts[0], "! %s %.1g", shot->scene->observables[lane->lost].title,
                  lane->values[lane->lost]);
         snprintf(texts[1], sizeof texts[1], "! lost");
         snprintf(texts[2], sizeof texts[2], "!");
-        ways = 3;
     }
-    while (way + 1 < ways && title_end >= sheet->width - gm_sheet_width(sheet, texts[way])) {
+    while (way < 2 && title_end >= sheet->width - gm_sheet_width(sheet, texts[way])) {
         way++;
     }
     gm_sheet_right(sheet, sheet->width, row, texts[way], GM_INITIAL, true);

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
 
+#include "core/certify.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/kernel/loops.h"
 #include "core/run.h"
@@ -25,16 +25,7 @@ static int field_for_gsl(double t, const double y[], double f[], void *problem)
 static bool solve_by_gsl(const struct gm_problem *problem, double until, double *y)
 {
     struct gm_problem copy = *problem;
-    gsl_odeiv2_system system = {field_for_gsl, NULL, problem->n, &copy};
-    gsl_odeiv2_driver *driver =
-        gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-15, 1e-15);
-    if (!driver) {
-        return false;
-    }
-    double t = 0;
-    const int status = gsl_odeiv2_driver_apply(driver, &t, until, y);
-    gsl_odeiv2_driver_free(driver);
-    return status == GSL_SUCCESS;
+    return gm_certify_solve(&(gsl_odeiv2_system){field_for_gsl, NULL, problem->n, &copy}, 1e-15, until, y);
 }
 
 /* The solution at k until / TIMES, k = 1.., one after the other. */

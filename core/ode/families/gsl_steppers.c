@@ -78,8 +78,10 @@ static void workspace_close(void *pointer)
     free(workspace);
 }
 
-static bool make_drivers(struct workspace *workspace)
+/* Under the guard. */
+static bool make_drivers(void *data)
 {
+    struct workspace *workspace = data;
     const gsl_odeiv2_step_type *const types[] = {
         [RK4] = gsl_odeiv2_step_rk4,
         [RK8PD] = gsl_odeiv2_step_rk8pd,
@@ -90,6 +92,7 @@ static bool make_drivers(struct workspace *workspace)
     for (size_t i = 0; i < workspace->problem->m; i++) {
         if (workspace->drivers[i]) {
             gsl_odeiv2_driver_free(workspace->drivers[i]);
+            workspace->drivers[i] = NULL;
         }
         workspace->drivers[i] = gsl_odeiv2_driver_alloc_y_new(&workspace->system, types[workspace->stepper],
                                                               workspace->dt, tolerance, tolerance);
@@ -106,7 +109,6 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     if (!workspace) {
         return NULL;
     }
-    gm_memory_heed_gsl();
     workspace->problem = problem;
     workspace->stepper = *(const enum stepper *)scheme->coefficients;
     workspace->system = (gsl_odeiv2_system){field, jacobian, problem->n, workspace};
@@ -115,7 +117,8 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     workspace->drivers = calloc(problem->m, sizeof *workspace->drivers);
     workspace->state = malloc(problem->n * problem->m * sizeof *workspace->state);
     workspace->y = malloc(problem->n * sizeof *workspace->y);
-    if (!workspace->drivers || !workspace->state || !workspace->y || !make_drivers(workspace)) {
+    if (!workspace->drivers || !workspace->state || !workspace->y ||
+        !gm_memory_guard_gsl(make_drivers, workspace)) {
         workspace_close(workspace);
         return NULL;
     }
@@ -177,6 +180,28 @@ static bool set_up(const struct gm_task *task, struct workspace *workspace)
     return true;
 }
 
+struct stretch {
+    const struct gm_task *task;
+    long done;
+};
+
+/* Under the guard: a stepper solves its linear equations in memory that it takes at every step. */
+static bool make_steps(void *data)
+{
+    struct stretch *stretch = data;
+    const struct gm_task *task = stretch->task;
+    struct workspace *workspace = task->workspace;
+    if (!set_up(task, workspace)) {
+        return false;
+    }
+    while (stretch->done < task->steps && workspace->status == GM_OK) {
+        /* a time of the library's own that does not depend on how the run was cut; problems are autonomous */
+        workspace->status = step(task, workspace, (double)(task->steps_before + stretch->done) * task->dt);
+        stretch->done += workspace->status == GM_OK ? 1 : 0;
+    }
+    return true;
+}
+
 static struct gm_progress loop(const struct gm_task *task)
 {
     struct workspace *workspace = task->workspace;
@@ -193,17 +218,13 @@ static struct gm_progress loop(const struct gm_task *task)
     workspace->solves = 0;
     workspace->status = GM_OK;
     memcpy(workspace->state, task->y, size);
-    if (!set_up(task, workspace)) {
-        workspace->status = GM_NO_CONVERGENCE;
+    struct stretch stretch = {.task = task};
+    if (!gm_memory_guard_gsl(make_steps, &stretch)) {
+        workspace->status = GM_OUT_OF_MEMORY;
+        workspace->tolerance = NAN; /* that of no driver: they are to be made anew */
     }
-    long done = 0;
-    while (done < task->steps && workspace->status == GM_OK) {
-        /* a time of the library's own that does not depend on how the run was cut; problems are autonomous */
-        workspace->status = step(task, workspace, (double)(task->steps_before + done) * task->dt);
-        done += workspace->status == GM_OK ? 1 : 0;
-    }
-    workspace->good = task->steps_before + done;
-    progress.done = done;
+    workspace->good = task->steps_before + stretch.done;
+    progress.done = stretch.done;
     progress.status = workspace->status;
     progress.evaluations = workspace->evaluations;
     progress.solves = workspace->solves;

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_RENDER_FILES_PNG_MEMORY_H
+#define GM_RENDER_FILES_PNG_MEMORY_H
+
+#include <png.h>
+
+/* The memory of libpng and libdeflate is the program's, where a refusal is noted. */
+
+/* For png_create_read_struct_2 and png_create_write_struct_2, whose pointer for them is an int: ENOMEM goes
+   there, because libpng takes a refusal now and then for something else. */
+png_voidp gm_png_take(png_structp png, png_alloc_size_t size);
+void gm_png_give_back(png_structp png, png_voidp block);
+
+/* Before the first allocation of libdeflate's. */
+void gm_deflate_prepare(void);
+
+#endif
