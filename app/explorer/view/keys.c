@@ -1,38 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The keys while a scene is open: one table. */
+/* The keys of a scene, one row each. */
 #include "app/explorer/view/keys.h"
 
 #include <curses.h>
-#include <stdio.h>
 
-#include "app/explorer/view/modes.h"
-
-enum { ESCAPE = 27, REDRAW = 'L' - '@' };
-
-bool gm_key_is_enter(int key)
-{
-    return key == '\n' || key == '\r' || key == KEY_ENTER;
-}
-
-bool gm_key_is_erase(int key)
-{
-    return key == KEY_BACKSPACE || key == 127 || key == 8;
-}
-
-bool gm_key_is_escape(int key)
-{
-    return key == ESCAPE;
-}
-
-enum gm_key_result gm_key_order(const struct gm_press *press, struct gm_order order)
-{
-    gm_worker_order(press->worker, order);
-    return GM_KEY_ORDER;
-}
+#include "app/explorer/view/chooser.h"
+#include "app/explorer/view/prompt.h"
 
 static enum gm_key_result order(const struct gm_press *press, enum gm_order_kind kind, int amount)
 {
-    return gm_key_order(press, (struct gm_order){.kind = kind, .amount = amount});
+    return gm_press_order(press, (struct gm_order){.kind = kind, .amount = amount});
 }
 
 /* ---- time ---- */
@@ -55,11 +32,11 @@ static enum gm_key_result press_speed(const struct gm_press *press)
 static enum gm_key_result press_past(const struct gm_press *press)
 {
     bool ends = press->key == KEY_HOME || press->key == KEY_END;
-    return gm_key_order(press, (struct gm_order){.kind = GM_ORDER_VISIT,
-                                                 .amount = ends                      ? 0
-                                                           : press->key == KEY_PPAGE ? -1
-                                                                                     : 1,
-                                                 .value = press->key == KEY_END ? press->shot->reach : 0});
+    return gm_press_order(press, (struct gm_order){.kind = GM_ORDER_VISIT,
+                                                   .amount = ends                      ? 0
+                                                             : press->key == KEY_PPAGE ? -1
+                                                                                       : 1,
+                                                   .value = press->key == KEY_END ? press->shot->reach : 0});
 }
 
 static enum gm_key_result press_turn(const struct gm_press *press)
@@ -124,7 +101,7 @@ static enum gm_key_result order_parameter(const struct gm_press *press, enum gm_
         return GM_KEY_FACE;
     }
     const struct gm_shot_parameter *parameter = &press->shot->parameters[chosen];
-    return gm_key_order(
+    return gm_press_order(
         press, (struct gm_order){
                    .kind = kind, .amount = amount, .row = parameter->row, .of_scheme = parameter->of_scheme});
 }
@@ -215,7 +192,7 @@ static enum gm_key_result press_help(const struct gm_press *press)
 
 static enum gm_key_result press_formula(const struct gm_press *press)
 {
-    return gm_page_open_scheme(press, press->shot->lanes[press->shot->selected].scheme);
+    return gm_press_scheme_page(press, press->shot->lanes[press->shot->selected].scheme);
 }
 
 static enum gm_key_result press_scenes(const struct gm_press *press)
@@ -306,21 +283,13 @@ const struct gm_key_row gm_key_rows[] = {
      press_tour},
     {{'l'}, "l", "scenes", 19, "back to the list of scenes", press_scenes},
     {{'?'}, "?", "help", 1, "this page; in a list of schemes, the page of the chosen one", press_help},
-    {{REDRAW}, "ctrl-L", NULL, 0, "draw the screen again", press_redraw},
+    {{GM_KEY_REDRAW}, "ctrl-L", NULL, 0, "draw the screen again", press_redraw},
     {{'q'}, "q", "quit", 3, "quit", press_leave},
 };
 const size_t gm_key_row_count = sizeof gm_key_rows / sizeof *gm_key_rows;
 
 enum gm_key_result gm_key_press(const struct gm_press *press)
 {
-    press->face->read = press->shot->message_number;
-    enum gm_key_result result = GM_KEY_IGNORED;
-    if (press->key == REDRAW) {
-        return GM_KEY_REPAINT;
-    }
-    if (gm_mode_press(press, &result)) {
-        return result;
-    }
     press->face->explaining = false;
     for (size_t i = 0; i < gm_key_row_count; i++) {
         for (size_t k = 0; k < GM_KEY_CODES && gm_key_rows[i].codes[k]; k++) {

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A diagram that is measured in the background, in a thread of its own. */
-#include "app/explorer/view/study.h"
+#include "app/explorer/background/study.h"
 
 #include <errno.h>
 #include <math.h>
@@ -10,13 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "app/output/chart.h"
 #include "app/request/words.h"
 #include "app/studies/stability.h"
 #include "app/studies/work.h"
+#include "render/files/clock.h"
 #include "render/files/thread.h"
 
 enum { MOST_WORDS = 64, NICE = 10 };
@@ -64,13 +63,6 @@ const char *gm_study_words(const struct gm_study *study)
     return study->words;
 }
 
-static double wall_time(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static void draw(const void *self, struct gm_picture *picture)
 {
     const struct gm_study *study = self;
@@ -103,7 +95,7 @@ static void show(struct gm_study *study)
     look->picture = picture;
     gm_picture_clear(picture);
     draw(study, picture);
-    study->looked = wall_time();
+    study->looked = gm_clock_seconds();
     const uint64_t one = 1;
     pthread_mutex_lock(&study->lock);
     study->ready = true;
@@ -180,7 +172,7 @@ static void hear(void *self, const char *what, size_t done, size_t all)
     study->now.done = done;
     study->now.all = all;
     save_if_wanted(study);
-    if (wall_time() - study->looked >= look_seconds) {
+    if (gm_clock_seconds() - study->looked >= look_seconds) {
         show(study);
     }
 }

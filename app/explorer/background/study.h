@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_STUDY_H
-#define GM_APP_EXPLORER_VIEW_STUDY_H
+#ifndef GM_APP_EXPLORER_BACKGROUND_STUDY_H
+#define GM_APP_EXPLORER_BACKGROUND_STUDY_H
 
 #include "app/tours/tour.h"
 #include "render/layout/theme.h"

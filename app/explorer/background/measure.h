@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_MEASURE_H
-#define GM_APP_EXPLORER_VIEW_MEASURE_H
+#ifndef GM_APP_EXPLORER_BACKGROUND_MEASURE_H
+#define GM_APP_EXPLORER_BACKGROUND_MEASURE_H
 
 #include <sys/types.h>
 
