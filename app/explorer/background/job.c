@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Work beside the screen, one piece at a time: pictures of pixels, frames of a movie. */
+/* Work beside the screen: studies, pictures of pixels, frames of a movie. */
 #include "app/explorer/background/job.h"
 
 #include <stdint.h>
@@ -15,15 +15,17 @@ static void *go_on(void *self)
     struct gm_job *job = self;
     const uint64_t one = 1;
     pthread_mutex_lock(&job->lock);
-    while (job->busy || !job->leave) {
-        if (!job->busy) {
+    while (job->asked || !job->leave) {
+        if (!job->asked) {
             pthread_cond_wait(&job->news, &job->lock);
             continue;
         }
+        job->asked = false;
+        job->working = true;
         pthread_mutex_unlock(&job->lock);
         job->work(job->self);
         pthread_mutex_lock(&job->lock);
-        job->busy = false;
+        job->working = false;
         if (job->wake >= 0 && write(job->wake, &one, sizeof one) < 0) {
             /* the count is full: who waits is awake already */
         }
@@ -66,13 +68,13 @@ void gm_job_close(struct gm_job *job)
 
 void gm_job_begin(struct gm_job *job)
 {
-    tell(job, &job->busy);
+    tell(job, &job->asked);
 }
 
 bool gm_job_is_busy(struct gm_job *job)
 {
     pthread_mutex_lock(&job->lock);
-    const bool busy = job->busy;
+    const bool busy = job->asked || job->working;
     pthread_mutex_unlock(&job->lock);
     return busy;
 }

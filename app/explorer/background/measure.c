@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A child process that certifies, and its output. */
 #include "app/explorer/background/measure.h"
 
 #include <errno.h>

@@ -6,7 +6,8 @@
 
 #include "core/scheme.h"
 
-/* What `geomint certify` measures of a scheme, by a child process, while the explorer goes on. */
+/* What `geomint certify` measures of a scheme, while the explorer goes on: by a child process, because
+   nothing but its end stops certifying when another scheme is asked for. */
 
 struct gm_measure {
     const struct gm_scheme *scheme; /* NULL: none was asked for */
