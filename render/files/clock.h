@@ -4,8 +4,11 @@
 
 #include <stdint.h>
 
-/* The clock on the wall since some moment; it never goes back. No result depends on it. */
+/* The clock on the wall since some moment; it never goes back. It paces and tells, no number depends on it. */
 double gm_clock_seconds(void);
 int64_t gm_clock_milliseconds(void);
+
+/* What this thread has used of a processor. */
+double gm_clock_processor_seconds(void);
 
 #endif
