@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-/* The clock on the wall since some moment; it never goes back. It paces and tells, no number depends on it. */
+/* The clock on the wall since some moment; it never goes back. It paces and tells: no state depends on it. */
 double gm_clock_seconds(void);
 int64_t gm_clock_milliseconds(void);
 
