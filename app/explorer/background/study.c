@@ -14,6 +14,7 @@
 
 #include "app/explorer/background/job.h"
 #include "app/output/chart.h"
+#include "app/output/folder.h"
 #include "app/request/words.h"
 #include "app/studies/stability.h"
 #include "app/studies/work.h"
@@ -102,26 +103,17 @@ static void show(struct gm_study *study)
     }
 }
 
-/* The first name of the kind that is free, as it is without a number. */
-static void free_name(const struct gm_study *study, char *name, size_t size)
-{
-    char path[160];
-    int number = 1;
-    do {
-        snprintf(name, size, "%.60s-%s-%04d", study->options.words[0], gm_study_name(study->kind), number);
-        snprintf(path, sizeof path, "%.120s.png", name);
-    } while (access(path, F_OK) == 0 && number++ < 9999);
-}
-
 static void save(struct gm_study *study, enum gm_theme theme)
 {
-    char name[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
+    char kind[96], name[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
     struct gm_chart chart;
     struct gm_options options = study->options;
     options.width = 1920;
     options.height = 1080;
     options.theme = theme;
-    free_name(study, name, sizeof name);
+    snprintf(kind, sizeof kind, "%.60s-%s", study->options.words[0], gm_study_name(study->kind));
+    gm_folder_free_file(kind, ".png", name, sizeof name);
+    name[strlen(name) - strlen(".png")] = '\0';
     bool good = gm_chart_open(&chart, &options, gm_study_name(study->kind), name, message) &&
                 gm_chart_paint(&chart, study, draw, message);
     if (good) {

@@ -5,24 +5,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "app/lanes/course.h"
+#include "app/output/folder.h"
 #include "app/output/still.h"
 #include "app/request/words.h"
 #include "render/files/clock.h"
 
 /* 300 dots an inch on 32 cm, 600 on the 16 cm of a text column. */
 enum { PRINT_WIDTH = 3840, PRINT_HEIGHT = 2160 };
-
-/* SCENE-0001.png, or the first number that is free. */
-static void free_name(const struct gm_session *session, const char *ending, char *path, size_t size)
-{
-    int number = 1;
-    do {
-        snprintf(path, size, "%.80s-%04d%s", session->scene->name, number, ending);
-    } while (access(path, F_OK) == 0 && number++ < 9999);
-}
 
 /* Where the lanes are goes into the log. */
 static void note_steps(struct gm_session *session)
@@ -36,7 +27,7 @@ void gm_capture_save(struct gm_play *play, enum gm_theme theme)
 {
     struct gm_session *session = &play->session;
     char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
-    free_name(session, ".png", path, sizeof path);
+    gm_folder_free_file(session->scene->name, ".png", path, sizeof path);
     note_steps(session);
     bool ok = gm_still_write(path, PRINT_WIDTH, PRINT_HEIGHT, theme, &session->log,
                              (const struct gm_lane *const *)session->lanes, message);
@@ -70,7 +61,7 @@ void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm
         gm_play_say(play, sentence);
         return;
     }
-    free_name(&play->session, ".mp4", path, sizeof path);
+    gm_folder_free_file(play->session.scene->name, ".mp4", path, sizeof path);
     capture->recorder = gm_recorder_open(path, theme, message);
     if (capture->recorder) {
         snprintf(sentence, sizeof sentence, "Recording %.100s; R ends it.", path);
