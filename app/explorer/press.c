@@ -131,11 +131,8 @@ void gm_explorer_press(struct gm_explorer *explorer, int key)
         gm_explorer_copy(explorer);
         explorer->dirty = true;
         break;
-    case GM_KEY_FACE:
-    case GM_KEY_ORDER:
+    case GM_KEY_DONE:
         explorer->dirty = true;
-        break;
-    case GM_KEY_IGNORED:
         break;
     }
 }

@@ -62,7 +62,7 @@ enum gm_key_result gm_chooser_open(const struct gm_press *press, enum gm_choosin
     press->face->choosing = choosing;
     press->face->typed[0] = '\0';
     press->face->choice = press->shot->scheme_count > 0 ? first_choice(press->shot) : NULL;
-    return GM_KEY_FACE;
+    return GM_KEY_DONE;
 }
 
 /* The next listed scheme up or down from the chosen one. */
@@ -99,11 +99,11 @@ enum gm_key_result gm_chooser_press(const struct gm_press *press)
     struct gm_face *face = press->face;
     if (gm_key_is_escape(press->key) || (gm_key_is_erase(press->key) && !face->typed[0])) {
         face->choosing = GM_CHOOSE_NOTHING;
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     }
     if (gm_key_is_enter(press->key)) {
         if (!face->choice) {
-            return GM_KEY_FACE;
+            return GM_KEY_DONE;
         }
         enum gm_order_kind kind = face->choosing == GM_CHOOSE_FORK ? GM_ORDER_FORK : GM_ORDER_SWITCH;
         face->choosing = GM_CHOOSE_NOTHING;
@@ -113,24 +113,24 @@ enum gm_key_result gm_chooser_press(const struct gm_press *press)
     case KEY_UP:
     case KEY_BTAB:
         move_choice(face, press->shot, -1);
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     case KEY_DOWN:
     case '\t':
         move_choice(face, press->shot, 1);
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     case KEY_PPAGE:
         move_choice(face, press->shot, -PAGE);
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     case KEY_NPAGE:
         move_choice(face, press->shot, PAGE);
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     case '?':
-        return face->choice ? gm_press_scheme_page(press, face->choice) : GM_KEY_FACE;
+        return face->choice ? gm_press_scheme_page(press, face->choice) : GM_KEY_DONE;
     default:
         if (gm_typed_key(face->typed, press->key)) {
             choose_best(face, press->shot);
         }
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     }
 }
 

@@ -18,6 +18,7 @@ struct gm_key_row {
     int rank;                /* of the hint: the smallest comes first */
     const char *text;        /* for the help; NULL: another row says it */
     enum gm_key_result (*press)(const struct gm_press *press);
+    enum gm_key_result result; /* without `press`: it is for the explorer */
 };
 extern const struct gm_key_row gm_key_rows[];
 extern const size_t gm_key_row_count;

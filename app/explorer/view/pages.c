@@ -258,17 +258,17 @@ enum gm_key_result gm_pages_press(int key, struct gm_face *face)
         return GM_KEY_LEAVE;
     case KEY_UP:
         face->scroll--;
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     case KEY_DOWN:
         face->scroll++;
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     case KEY_PPAGE:
         face->scroll -= PAGE;
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     case KEY_NPAGE:
     case ' ':
         face->scroll += PAGE;
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     case 'y':
         if (face->page == GM_PAGE_COMMAND) {
             face->command = (face->command + 1) % GM_COMMANDS;
@@ -279,5 +279,5 @@ enum gm_key_result gm_pages_press(int key, struct gm_face *face)
         break;
     }
     face->page = GM_PAGE_SCENE;
-    return GM_KEY_FACE;
+    return GM_KEY_DONE;
 }

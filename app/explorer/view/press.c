@@ -40,7 +40,7 @@ bool gm_typed_key(char *typed, int key)
 enum gm_key_result gm_press_order(const struct gm_press *press, struct gm_order order)
 {
     gm_worker_order(press->worker, order);
-    return GM_KEY_ORDER;
+    return GM_KEY_DONE;
 }
 
 enum gm_key_result gm_press_scheme_page(const struct gm_press *press, const struct gm_scheme *scheme)
@@ -48,5 +48,5 @@ enum gm_key_result gm_press_scheme_page(const struct gm_press *press, const stru
     press->face->page = GM_PAGE_SCHEME;
     press->face->explained = scheme;
     press->face->scroll = 0;
-    return GM_KEY_FACE;
+    return GM_KEY_DONE;
 }

@@ -8,9 +8,7 @@
 /* A key that is pressed while a scene is open: what it acts on, and what came of it. */
 
 enum gm_key_result {
-    GM_KEY_IGNORED,
-    GM_KEY_FACE,    /* the screen itself changed */
-    GM_KEY_ORDER,   /* an order went to the worker */
+    GM_KEY_DONE,    /* all that it does */
     GM_KEY_BLOCKS,  /* another way to show pictures is wanted */
     GM_KEY_REPAINT, /* everything is to be written again */
     GM_KEY_THEME,   /* the same, in other colours */

@@ -14,11 +14,11 @@ enum gm_key_result gm_prompt_open(const struct gm_press *press, enum gm_prompt p
 {
     struct gm_face *face = press->face;
     if (prompt == GM_PROMPT_VALUE && face->parameter >= press->shot->parameter_count) {
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     }
     face->prompt = prompt;
     face->typed[0] = '\0';
-    return GM_KEY_FACE;
+    return GM_KEY_DONE;
 }
 
 enum gm_key_result gm_prompt_press(const struct gm_press *press)
@@ -26,16 +26,16 @@ enum gm_key_result gm_prompt_press(const struct gm_press *press)
     struct gm_face *face = press->face;
     if (gm_key_is_escape(press->key)) {
         face->prompt = GM_PROMPT_NONE;
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     }
     if (!gm_key_is_enter(press->key)) {
         gm_typed_key(face->typed, press->key);
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     }
     enum gm_prompt prompt = face->prompt;
     face->prompt = GM_PROMPT_NONE;
     if (!face->typed[0] && prompt == GM_PROMPT_VALUE) {
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     }
     struct gm_order order = {.kind = prompt == GM_PROMPT_AHEAD ? GM_ORDER_AHEAD : GM_ORDER_TYPE};
     if (face->typed[0]) {
