@@ -22,7 +22,7 @@ void gm_screen_close(struct gm_screen *screen);
 
 /* The whole screen, blank. */
 struct gm_sheet gm_screen_clear(struct gm_screen *screen, const struct gm_face *face);
-/* A screen so small has no room for a panel, or for two rows below the rest. */
+/* From so many on there is room for a panel, and for two rows below the rest. */
 enum { GM_SCREEN_COLUMNS = 60, GM_SCREEN_ROWS = 12 };
 /* The rows below the rest: a rule and the last one, that alone, or none. */
 int gm_screen_rows_below(const struct gm_cells *cells);

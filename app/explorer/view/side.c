@@ -10,8 +10,6 @@
 #include "app/explorer/view/schemes.h"
 #include "render/layout/labels.h"
 
-/* Every section draws from a row on and returns the one after it. */
-
 /* The rows of the sections. */
 struct plan {
     bool lanes;     /* they are listed */
@@ -23,11 +21,6 @@ struct plan {
     int gap;         /* blank rows before a section */
     bool more;       /* schemes than rows */
 };
-
-static void draw_heading(const struct gm_sheet *sheet, int row, const char *text)
-{
-    gm_sheet_text(sheet, 0, row, text, GM_SECONDARY, true);
-}
 
 /* ---- how the rows are shared out ---- */
 
@@ -109,7 +102,7 @@ static struct plan plan_all(int rows, const struct gm_shot *shot)
     return plan;
 }
 
-/* ---- schemes ---- */
+/* ---- schemes: this section, as the others, draws from a row on and returns the one after it ---- */
 
 /* Where a lane's title begins, after the mark of the selected one and the lane's line. */
 static int title_column(const struct gm_sheet *sheet)
@@ -237,6 +230,11 @@ static int draw_schemes(const struct gm_sheet *sheet, int row, const struct gm_s
 }
 
 /* ---- parameters ---- */
+
+static void draw_heading(const struct gm_sheet *sheet, int row, const char *text)
+{
+    gm_sheet_text(sheet, 0, row, text, GM_SECONDARY, true);
+}
 
 enum { VALUE_LETTERS = 9 };
 
