@@ -89,14 +89,7 @@ static void put_claims(struct page *page)
 /* Lines as they are. */
 static void put_lines(struct page *page, int column, const char *text, enum gm_role role)
 {
-    for (const char *at = text; at && *at;) {
-        char line[256];
-        size_t length = strcspn(at, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)length, at);
-        put(page, column, line, role, false);
-        page->row++;
-        at += length + (at[length] == '\n');
-    }
+    page->row += gm_sheet_lines(&page->sheet, column, page->row - page->scroll, text, role);
 }
 
 static void put_scheme(struct page *page, const struct gm_scheme *scheme, enum gm_role role)

@@ -110,12 +110,6 @@ int gm_schemes_formula_rows(const struct gm_scheme *scheme)
 
 void gm_schemes_formula(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme)
 {
-    for (const char *at = scheme->formula; at && *at; row++) {
-        char line[256];
-        size_t length = strcspn(at, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)length, at);
-        gm_sheet_text(sheet, 0, row, line, GM_INK, false);
-        at += length + (at[length] == '\n');
-    }
+    row += gm_sheet_lines(sheet, 0, row, scheme->formula, GM_INK);
     gm_sheet_cut(sheet, 0, row, scheme->reference ? scheme->reference : "", GM_SECONDARY, false);
 }

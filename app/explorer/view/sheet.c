@@ -117,6 +117,19 @@ void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, do
     }
 }
 
+int gm_sheet_lines(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role)
+{
+    int taken = 0;
+    for (const char *at = text; at && *at; taken++) {
+        char line[256];
+        const size_t length = strcspn(at, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, at);
+        gm_sheet_text(sheet, column, row + taken, line, role, false);
+        at += length + (at[length] == '\n');
+    }
+    return taken;
+}
+
 static bool is_wide(const struct gm_sheet *sheet, const char *text, size_t length, int room)
 {
     char line[512];

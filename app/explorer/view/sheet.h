@@ -58,6 +58,8 @@ int gm_sheet_width(const struct gm_sheet *sheet, const char *text);
 void gm_sheet_number(double value, char *text, size_t size);
 /* A bar with a mark at a part of it, 0 to 1; `chosen` stands out. */
 void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, double position, bool chosen);
+/* Writes a text of several lines as they are; NULL: none. Returns the rows it takes. */
+int gm_sheet_lines(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role);
 /* Breaks a text at its blanks, and words that are too long at their commas or anywhere, in at most `rows`
    rows from `row` on, that begin at `column`; returns the rows it takes. */
 int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows, const char *text,
