@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is kept of a session: a picture, a movie, the words that redo it. */
 #include "app/explorer/worker/capture.h"
 
 #include <math.h>
