@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a key does on the main screen, and what has to happen because of it. */
 #ifndef GM_APP_EXPLORER_VIEW_KEYS_H
 #define GM_APP_EXPLORER_VIEW_KEYS_H
 
