@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "render/files/clock.h"
 #include "render/files/sink_kind.h"
 #include "render/files/temporary.h"
 
@@ -132,13 +133,6 @@ static int end_ffmpeg(struct movie_sink *self)
 
 /* ---- waiting for it ---- */
 
-static int64_t milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
-
 /* What ffmpeg has used of the processors, in nanoseconds; -1 if the system does not tell. */
 static int64_t processor_time(const struct movie_sink *self)
 {
@@ -158,7 +152,7 @@ struct wait {
 
 static struct wait begin_wait(const struct movie_sink *self, int patience)
 {
-    const int64_t now = milliseconds();
+    const int64_t now = gm_clock_milliseconds();
     return (struct wait){.begun = now, .idle = now, .used = processor_time(self), .patience = patience};
 }
 
@@ -169,7 +163,7 @@ static int interruptions_of(const struct movie_sink *self)
 
 static bool is_in_vain(const struct movie_sink *self, struct wait *wait)
 {
-    const int64_t now = milliseconds(), used = processor_time(self);
+    const int64_t now = gm_clock_milliseconds(), used = processor_time(self);
     if (used != wait->used) {
         wait->used = used;
         wait->idle = now;
