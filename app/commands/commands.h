@@ -23,6 +23,9 @@ int gm_command_manual(const struct gm_options *options);
 /* Takes the words as they are: an unfinished option is no mistake here. */
 int gm_command_complete(int count, char *const words[]);
 
+/* What the options say of the terminal. */
+struct gm_overrides gm_overrides_of(const struct gm_options *options);
+
 struct gm_command_row {
     const char *name, *synopsis, *help;
     enum gm_command bit;

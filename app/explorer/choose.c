@@ -5,15 +5,16 @@
 #include <curses.h>
 #include <string.h>
 
-#include "app/explorer/view/keys.h"
-#include "app/explorer/view/modes.h"
+#include "app/explorer/view/pages.h"
+#include "app/explorer/view/search.h"
+#include "render/files/clock.h"
 
 /* The choice in the list of scenes rests for this long before it is looked at. */
 enum { REST_MILLISECONDS = 150 };
 
 static const struct gm_start_entry *chosen(const struct gm_explorer *explorer)
 {
-    const struct gm_start *start = &explorer->start;
+    const struct gm_start *start = &explorer->list.start;
     return start->choice < start->count ? &start->found[start->choice] : NULL;
 }
 
@@ -21,9 +22,9 @@ static const struct gm_start_entry *chosen(const struct gm_explorer *explorer)
 static bool is_open(const struct gm_explorer *explorer, const struct gm_start_entry *entry)
 {
     if (entry->tour) {
-        return explorer->touring && strcmp(entry->tour->name, explorer->guide.tour->name) == 0;
+        return explorer->open.touring && strcmp(entry->tour->name, explorer->open.guide.tour->name) == 0;
     }
-    return !explorer->touring && entry->scene == explorer->scene;
+    return !explorer->open.touring && entry->scene == explorer->open.scene;
 }
 
 bool gm_explorer_is_looked_at(const struct gm_explorer *explorer)
@@ -36,15 +37,17 @@ void gm_explorer_look_soon(struct gm_explorer *explorer)
 {
     const struct gm_start_entry *entry = chosen(explorer);
     bool due = entry && entry->scene && !is_open(explorer, entry);
-    explorer->look_due = due ? gm_explorer_milliseconds() + REST_MILLISECONDS : -1;
+    explorer->list.look_due = due ? gm_clock_milliseconds() + REST_MILLISECONDS : -1;
     explorer->dirty = true;
 }
 
 void gm_explorer_look(struct gm_explorer *explorer)
 {
-    explorer->look_due = -1;
-    explorer->kept = false;
-    gm_explorer_open_scene(explorer, chosen(explorer)->scene, true);
+    explorer->list.look_due = -1;
+    explorer->list.kept = false;
+    if (!gm_open_scene(&explorer->open, chosen(explorer)->scene, true, explorer->message)) {
+        gm_explorer_leave(explorer, GM_EXIT_USAGE);
+    }
 }
 
 /* Takes what is found into the list, from place `first` on: the best answer to what was typed comes first. */
@@ -73,7 +76,7 @@ static void choose(struct gm_start *start, const struct gm_start_entry *before)
 
 static void find_all(struct gm_explorer *explorer)
 {
-    struct gm_start *start = &explorer->start;
+    struct gm_start *start = &explorer->list.start;
     const struct gm_start_entry before = chosen(explorer) ? *chosen(explorer) : (struct gm_start_entry){0};
     start->count = 0;
     for (size_t i = 0; i < gm_scene_count(); i++) {
@@ -83,8 +86,8 @@ static void find_all(struct gm_explorer *explorer)
         find(start, 0, (struct gm_start_entry){.scene = scene}, texts);
     }
     start->scenes = start->count;
-    for (size_t i = 0; i < explorer->tour_count; i++) {
-        const struct gm_tour *tour = &explorer->tours[i];
+    for (size_t i = 0; i < explorer->list.tour_count; i++) {
+        const struct gm_tour *tour = &explorer->list.tours[i];
         const char *texts[] = {tour->name, tour->title, tour->about ? tour->about : "", "tour", NULL};
         find(start, start->scenes, (struct gm_start_entry){.tour = tour}, texts);
     }
@@ -95,32 +98,37 @@ static void find_all(struct gm_explorer *explorer)
 void gm_explorer_show_start(struct gm_explorer *explorer)
 {
     char message[GM_MESSAGE]; /* a tour that cannot be read is for `geomint tour` to tell */
-    if (!explorer->tours) {
-        explorer->tours = gm_tours_read(&explorer->tour_count, message);
+    if (!explorer->list.tours) {
+        explorer->list.tours = gm_tours_read(&explorer->list.tour_count, message);
     }
-    explorer->at_start = true;
-    explorer->start.typed[0] = '\0';
+    explorer->list.shown = true;
+    explorer->list.start.typed[0] = '\0';
     find_all(explorer);
-    for (size_t i = 0; i < explorer->start.count; i++) {
-        if (is_open(explorer, &explorer->start.found[i])) {
-            explorer->start.choice = i;
+    for (size_t i = 0; i < explorer->list.start.count; i++) {
+        if (is_open(explorer, &explorer->list.start.found[i])) {
+            explorer->list.start.choice = i;
         }
     }
-    explorer->kept = explorer->scene != NULL;
+    explorer->list.kept = explorer->open.scene != NULL;
     gm_explorer_look_soon(explorer);
 }
 
 /* A tour that was left goes on with the step where it was. */
-static void enter_tour(struct gm_explorer *explorer, const struct gm_tour *tour)
+static bool enter_tour(struct gm_explorer *explorer, const struct gm_tour *tour)
 {
-    struct gm_guide *guide = &explorer->guide;
+    struct gm_guide *guide = &explorer->open.guide;
     if (!guide->tour || strcmp(guide->tour->name, tour->name) != 0) {
         *guide = gm_guide_open(tour);
         explorer->face.guide = guide;
     }
-    if (!gm_explorer_open_step(explorer)) {
-        gm_explorer_leave(explorer, GM_EXIT_USAGE);
-    }
+    return gm_open_step(&explorer->open, explorer->message);
+}
+
+static bool enter_scene(struct gm_explorer *explorer, const struct gm_scene *scene)
+{
+    explorer->open.guide.tour = NULL;
+    explorer->face.guide = NULL;
+    return gm_open_scene(&explorer->open, scene, false, explorer->message);
 }
 
 void gm_explorer_enter(struct gm_explorer *explorer)
@@ -129,24 +137,20 @@ void gm_explorer_enter(struct gm_explorer *explorer)
     if (!entry) {
         return;
     }
-    if (explorer->kept && is_open(explorer, entry)) {
-        explorer->look_due = -1;
-    } else if (entry->tour) {
-        enter_tour(explorer, entry->tour);
-    } else {
-        gm_explorer_open_scene(explorer, entry->scene, false);
-        explorer->guide.tour = NULL;
-        explorer->face.guide = NULL;
+    if (!explorer->list.kept || !is_open(explorer, entry)) {
         explorer->face.parameter = 0;
+        if (!(entry->tour ? enter_tour(explorer, entry->tour) : enter_scene(explorer, entry->scene))) {
+            gm_explorer_leave(explorer, GM_EXIT_USAGE);
+        }
     }
-    explorer->at_start = false;
+    explorer->list.shown = false;
     explorer->dirty = explorer->fresh = true;
 }
 
 /* From the scenes to the tours and back. */
 static void go_to_others(struct gm_explorer *explorer)
 {
-    struct gm_start *start = &explorer->start;
+    struct gm_start *start = &explorer->list.start;
     size_t other = start->choice < start->scenes ? start->scenes : 0;
     if (other < start->count) {
         start->choice = other;
@@ -154,13 +158,13 @@ static void go_to_others(struct gm_explorer *explorer)
     }
 }
 
-void gm_explorer_press_at_start(struct gm_explorer *explorer, int key)
+void gm_explorer_press_in_list(struct gm_explorer *explorer, int key)
 {
-    struct gm_start *start = &explorer->start;
+    struct gm_start *start = &explorer->list.start;
     size_t count = start->count;
     explorer->dirty = true;
     if (explorer->face.page != GM_PAGE_SCENE) {
-        if (gm_page_press(key, &explorer->face) == GM_KEY_LEAVE) {
+        if (gm_pages_press(key, &explorer->face) == GM_KEY_LEAVE) {
             gm_explorer_leave(explorer, GM_EXIT_OK);
         }
     } else if (key == '?') {

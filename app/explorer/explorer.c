@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The explorer: opens its parts, and goes from key to screen until it is left. */
+/* The explorer from its beginning to its end, and the loop in between that waits for keys and news. */
 #include "app/explorer/explorer.h"
 
 #include <curses.h>
@@ -11,27 +11,14 @@
 #include <stdlib.h>
 #include <sys/eventfd.h>
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "app/explorer/events.h"
 #include "app/explorer/terminal/console.h"
 #include "app/request/drive.h"
+#include "render/files/clock.h"
 
 enum { FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
-
-int64_t gm_explorer_milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
-
-void gm_explorer_leave(struct gm_explorer *explorer, int status)
-{
-    explorer->leave = true;
-    explorer->status = status;
-}
 
 /* Letters may have changed their size, which the system does not always know. */
 static void read_cell_size(struct gm_explorer *explorer)
@@ -50,7 +37,7 @@ static void read_keys(struct gm_explorer *explorer)
 {
     for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
         struct gm_mouse_event event;
-        enum gm_mouse_result result = gm_mouse_feed(&explorer->mouse, key, &event);
+        enum gm_mouse_result result = gm_mouse_feed(&explorer->pointer.mouse, key, &event);
         if (result == GM_MOUSE_NOT && key != KEY_RESIZE) { /* a size is no key: a page stays open */
             gm_explorer_press(explorer, key);
         } else if (result == GM_MOUSE_EVENT) {
@@ -92,11 +79,11 @@ static void read_picture(struct gm_explorer *explorer)
 /* Command lines that were asked for are shown, and the first is offered to the clipboard. */
 static void read_command(struct gm_explorer *explorer)
 {
-    const struct gm_shot *shot = explorer->shot;
-    if (shot->command_number == explorer->told) {
+    const struct gm_shot *shot = explorer->open.shot;
+    if (shot->command_number == explorer->open.told) {
         return;
     }
-    explorer->told = shot->command_number;
+    explorer->open.told = shot->command_number;
     explorer->face.page = GM_PAGE_COMMAND;
     explorer->face.scroll = 0;
     explorer->face.command = GM_COMMAND_PICTURE;
@@ -108,7 +95,7 @@ static void read_command(struct gm_explorer *explorer)
 static int64_t next_time(int64_t last, int period)
 {
     enum { LEAST_PAUSE = 10 };
-    int64_t now = gm_explorer_milliseconds();
+    int64_t now = gm_clock_milliseconds();
     return last + period > now + LEAST_PAUSE ? last + period : now + LEAST_PAUSE;
 }
 
@@ -128,23 +115,23 @@ static void read_news(struct gm_explorer *explorer)
         gm_explorer_resize(explorer);
     }
     read_picture(explorer);
-    explorer->dirty = gm_studies_look(&explorer->studies) || explorer->dirty;
-    struct gm_shot *shot = explorer->worker ? gm_worker_take(explorer->worker) : NULL;
+    explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty;
+    struct gm_shot *shot = explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL;
     if (shot) {
-        explorer->shot = shot;
+        explorer->open.shot = shot;
         read_command(explorer);
-        explorer->asked = false;
-        explorer->next_shot =
-            next_time(explorer->next_shot, explorer->at_start ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
+        explorer->open.asked = false;
+        explorer->open.next_shot = next_time(explorer->open.next_shot,
+                                             explorer->list.shown ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
         explorer->dirty = true;
         explorer->fresh = explorer->fresh || shot->drawn;
         if (shot->drawn) {
             gm_display_renew(&explorer->display);
         }
-    } else if (explorer->worker && !explorer->shot && !explorer->said[0] &&
-               gm_worker_failed(explorer->worker, explorer->said)) {
+    } else if (explorer->open.worker && !explorer->open.shot && !explorer->open.said[0] &&
+               gm_worker_failed(explorer->open.worker, explorer->open.said)) {
         explorer->dirty = true;
-        if (!explorer->at_start) {
+        if (!explorer->list.shown) {
             gm_explorer_show_start(explorer);
         }
     }
@@ -195,7 +182,7 @@ static void run(struct gm_explorer *explorer)
 static int explore(const struct gm_request *request, const struct gm_tour *tour,
                    const struct gm_overrides *overrides)
 {
-    struct gm_explorer explorer = {.wake = -1, .look_due = -1, .measure = {.fd = -1}};
+    struct gm_explorer explorer = {.wake = -1, .list = {.look_due = -1}, .measure = {.fd = -1}};
     if (!gm_terminal_detect(&explorer.terminal, overrides, explorer.message) ||
         !gm_terminal_serves(&explorer.terminal, explorer.message)) {
         gm_complain("%s", explorer.message);
@@ -207,18 +194,20 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
                                      .few_colours = explorer.terminal.colours < GM_COLOURS_256,
                                      .monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
                                      .only_monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
-                                     .studies = &explorer.studies};
+                                     .studies = &explorer.open.studies};
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+    explorer.open.wake = explorer.wake;
+    explorer.open.display = &explorer.display;
     /* The lanes are opened before the terminal is taken over: a mistake is best read in the shell. */
     bool ok = explorer.wake >= 0;
     if (!ok) {
         snprintf(explorer.message, GM_MESSAGE, "The system has no eventfd to spare.");
     } else if (tour) {
-        explorer.guide = gm_guide_open(tour);
-        explorer.face.guide = &explorer.guide;
-        ok = gm_explorer_open_step(&explorer);
+        explorer.open.guide = gm_guide_open(tour);
+        explorer.face.guide = &explorer.open.guide;
+        ok = gm_open_step(&explorer.open, explorer.message);
     } else if (request && request->scene) {
-        ok = gm_explorer_open_request(&explorer, request, NULL);
+        ok = gm_open_request(&explorer.open, request, explorer.message);
     } else {
         gm_explorer_show_start(&explorer);
     }
@@ -232,12 +221,12 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     }
     gm_console_close();
     gm_measure_close(&explorer.measure);
-    gm_explorer_close_worker(&explorer);
-    gm_studies_close(&explorer.studies);
+    gm_open_close(&explorer.open);
+    gm_studies_close(&explorer.open.studies);
     gm_screen_close(&explorer.screen);
-    gm_tours_close(explorer.tours, explorer.tour_count);
-    fputs(explorer.partings ? explorer.partings : "", stderr);
-    free(explorer.partings);
+    gm_tours_close(explorer.list.tours, explorer.list.tour_count);
+    fputs(explorer.open.partings ? explorer.open.partings : "", stderr);
+    free(explorer.open.partings);
     gm_console_release();
     if (explorer.wake >= 0) {
         close(explorer.wake);

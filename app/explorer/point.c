@@ -14,44 +14,45 @@ static double part_of(const struct gm_hit *hit, int column)
 /* Sliders follow the button while it is down. */
 static void drag(struct gm_explorer *explorer, int column)
 {
-    const struct gm_shot *shot = explorer->shot;
-    struct gm_order order = {.value = part_of(&explorer->held, column)};
+    const struct gm_shot *shot = explorer->open.shot;
+    struct gm_order order = {.value = part_of(&explorer->pointer.held, column)};
     if (!shot) {
         return;
     }
-    if (explorer->held.kind == GM_HIT_PAST) {
+    if (explorer->pointer.held.kind == GM_HIT_PAST) {
         order.kind = GM_ORDER_VISIT;
         order.value *= shot->reach;
-    } else if (explorer->held.kind == GM_HIT_SLIDER && explorer->held.index < shot->parameter_count) {
+    } else if (explorer->pointer.held.kind == GM_HIT_SLIDER &&
+               explorer->pointer.held.index < shot->parameter_count) {
         order.kind = GM_ORDER_SLIDE;
-        order.row = shot->parameters[explorer->held.index].row;
-        order.of_scheme = shot->parameters[explorer->held.index].of_scheme;
+        order.row = shot->parameters[explorer->pointer.held.index].row;
+        order.of_scheme = shot->parameters[explorer->pointer.held.index].of_scheme;
     } else {
         return;
     }
-    gm_worker_order(explorer->worker, order);
+    gm_worker_order(explorer->open.worker, order);
 }
 
 static void click_scheme(struct gm_explorer *explorer, const struct gm_scheme *scheme)
 {
     bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
     explorer->face.choosing = GM_CHOOSE_NOTHING;
-    gm_worker_order(explorer->worker,
+    gm_worker_order(explorer->open.worker,
                     (struct gm_order){.kind = fork ? GM_ORDER_FORK : GM_ORDER_SWITCH, .scheme = scheme});
 }
 
 /* A choice has no slider: a click takes the next one. */
 static void click_parameter(struct gm_explorer *explorer, size_t index)
 {
-    const struct gm_shot_parameter *parameter = &explorer->shot->parameters[index];
+    const struct gm_shot_parameter *parameter = &explorer->open.shot->parameters[index];
     bool again = explorer->face.parameter == index;
     explorer->face.parameter = index;
     explorer->face.explaining = true;
     if (again && parameter->position < 0) {
-        gm_worker_order(explorer->worker, (struct gm_order){.kind = GM_ORDER_MOVE,
-                                                            .amount = 1,
-                                                            .row = parameter->row,
-                                                            .of_scheme = parameter->of_scheme});
+        gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_MOVE,
+                                                                 .amount = 1,
+                                                                 .row = parameter->row,
+                                                                 .of_scheme = parameter->of_scheme});
     }
 }
 
@@ -59,49 +60,49 @@ static void click_picture(struct gm_explorer *explorer, const struct gm_mouse_ev
 {
     struct gm_order order = {.kind = GM_ORDER_POINT};
     const struct gm_screen *screen = &explorer->screen;
-    if (!explorer->shot->scene->point) {
+    if (!explorer->open.shot->scene->point) {
         return;
     }
-    struct gm_picture *picture = explorer->shot->picture;
+    struct gm_picture *picture = explorer->open.shot->picture;
     const struct gm_panel *panel =
         screen->pixels.columns > 0
             ? gm_display_locate(&explorer->display, picture, event->column, event->row, &order.x, &order.y)
-            : gm_cells_locate(&screen->picture, picture, screen->blocks,
+            : gm_cells_locate(&screen->picture.cells, picture, screen->picture.blocks,
                               event->column - screen->picture_column, event->row - screen->picture_row,
                               &order.x, &order.y);
     if (panel) {
-        gm_worker_order(explorer->worker, order);
+        gm_worker_order(explorer->open.worker, order);
     }
 }
 
 static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
     const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
-    explorer->holding = hit != NULL;
+    explorer->pointer.holding = hit != NULL;
     if (!hit) {
         return;
     }
-    explorer->held = *hit;
+    explorer->pointer.held = *hit;
     if (hit->kind == GM_HIT_KEY) {
         gm_explorer_press(explorer, (int)hit->index);
         return;
     }
     if (hit->kind == GM_HIT_SCENE) {
-        if (explorer->start.choice == hit->index) {
+        if (explorer->list.start.choice == hit->index) {
             gm_explorer_enter(explorer);
         } else {
-            explorer->start.choice = hit->index;
+            explorer->list.start.choice = hit->index;
             gm_explorer_look_soon(explorer);
         }
         return;
     }
-    if (explorer->at_start || !explorer->shot) {
+    if (explorer->list.shown || !explorer->open.shot) {
         return;
     }
-    explorer->face.read = explorer->shot->message_number;
+    explorer->face.read = explorer->open.shot->message_number;
     switch (hit->kind) {
     case GM_HIT_LANE:
-        gm_worker_order(explorer->worker,
+        gm_worker_order(explorer->open.worker,
                         (struct gm_order){.kind = GM_ORDER_SELECT, .value = (double)hit->index});
         break;
     case GM_HIT_SCHEME:
@@ -129,7 +130,7 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
 
 void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
-    bool lists = explorer->at_start || explorer->face.page != GM_PAGE_SCENE ||
+    bool lists = explorer->list.shown || explorer->face.page != GM_PAGE_SCENE ||
                  explorer->face.choosing != GM_CHOOSE_NOTHING;
     explorer->dirty = true;
     switch (event->kind) {
@@ -137,12 +138,12 @@ void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event
         click(explorer, event);
         break;
     case GM_MOUSE_DRAG:
-        if (explorer->holding && !explorer->at_start) {
+        if (explorer->pointer.holding && !explorer->list.shown) {
             drag(explorer, event->column);
         }
         break;
     case GM_MOUSE_RELEASE:
-        explorer->holding = false;
+        explorer->pointer.holding = false;
         break;
     case GM_MOUSE_UP:
         gm_explorer_press(explorer, lists ? KEY_UP : ']');

@@ -2,7 +2,10 @@
 /* Keys, as they act on the explorer. */
 #include "app/explorer/events.h"
 
+#include "app/explorer/view/chooser.h"
 #include "app/explorer/view/keys.h"
+#include "app/explorer/view/pages.h"
+#include "app/explorer/view/prompt.h"
 
 /* In other colours, or none. */
 static void repaint(struct gm_explorer *explorer)
@@ -26,37 +29,81 @@ static void next_graphics(struct gm_explorer *explorer)
 
 void gm_explorer_copy(struct gm_explorer *explorer)
 {
-    const char *command = explorer->shot->commands[explorer->face.command];
+    const char *command = explorer->open.shot->commands[explorer->face.command];
     if (command) {
         gm_writer_copy(&explorer->display.writer, command);
     }
 }
 
-void gm_explorer_press(struct gm_explorer *explorer, int key)
+/* Another step of the tour, if there is one. */
+static void press_in_tour(struct gm_explorer *explorer, int key)
 {
-    if (explorer->at_start) {
-        gm_explorer_press_at_start(explorer, key);
+    struct gm_open *open = &explorer->open;
+    if (!open->guide.tour) {
         return;
     }
-    if (!explorer->shot) { /* before the first picture there is only leaving */
+    explorer->dirty = true;
+    switch (gm_guide_press(&open->guide, key)) {
+    case GM_GUIDE_OPEN:
+        explorer->face.parameter = 0;
+        if (!gm_open_step(open, explorer->message)) {
+            gm_explorer_leave(explorer, GM_EXIT_USAGE);
+        }
+        break;
+    case GM_GUIDE_RUN:
+        gm_open_study(open);
+        gm_worker_order(open->worker, (struct gm_order){.kind = GM_ORDER_RUN});
+        break;
+    case GM_GUIDE_END:
+        break;
+    }
+}
+
+/* A key of an open scene: it belongs to what is open above it, or is one of the table. */
+static enum gm_key_result press_in_scene(const struct gm_press *press)
+{
+    struct gm_face *face = press->face;
+    face->read = press->shot->message_number;
+    if (press->key == GM_KEY_REDRAW) {
+        return GM_KEY_REPAINT;
+    }
+    if (press->shot->running_ahead && press->key != 'q') { /* any key stops it */
+        return gm_press_order(press, (struct gm_order){.kind = GM_ORDER_HALT});
+    }
+    if (face->page != GM_PAGE_SCENE) {
+        return gm_pages_press(press->key, face);
+    }
+    if (face->choosing != GM_CHOOSE_NOTHING) {
+        return gm_chooser_press(press);
+    }
+    return face->prompt != GM_PROMPT_NONE ? gm_prompt_press(press) : gm_key_press(press);
+}
+
+void gm_explorer_press(struct gm_explorer *explorer, int key)
+{
+    if (explorer->list.shown) {
+        gm_explorer_press_in_list(explorer, key);
+        return;
+    }
+    if (!explorer->open.shot) { /* before the first picture there is only leaving */
         if (key == 'q') {
             gm_explorer_leave(explorer, GM_EXIT_OK);
         } else if (key == 'l') {
             gm_explorer_show_start(explorer);
         } else if (key == 'n' || key == 'N' || key == 'a') {
-            gm_explorer_press_in_tour(explorer, key);
+            press_in_tour(explorer, key);
         }
         return;
     }
     const struct gm_face *face = &explorer->face;
     const bool plain =
         face->page == GM_PAGE_SCENE && face->choosing == GM_CHOOSE_NOTHING && face->prompt == GM_PROMPT_NONE;
-    if (plain && gm_studies_press(&explorer->studies, key, face->theme)) {
+    if (plain && gm_studies_press(&explorer->open.studies, key, face->theme)) {
         explorer->dirty = true;
         return;
     }
-    const struct gm_press one = {key, &explorer->face, explorer->shot, explorer->worker};
-    switch (gm_key_press(&one)) {
+    const struct gm_press one = {key, &explorer->face, explorer->open.shot, explorer->open.worker};
+    switch (press_in_scene(&one)) {
     case GM_KEY_LEAVE:
         gm_explorer_leave(explorer, GM_EXIT_OK);
         break;
@@ -70,25 +117,22 @@ void gm_explorer_press(struct gm_explorer *explorer, int key)
         repaint(explorer);
         break;
     case GM_KEY_SCENES:
-        explorer->studies.shown = GM_STUDY_NONE;
+        explorer->open.studies.shown = GM_STUDY_NONE;
         gm_explorer_show_start(explorer);
         break;
     case GM_KEY_STUDY:
-        gm_studies_begin(&explorer->studies, key, explorer->shot, explorer->wake);
+        gm_studies_begin(&explorer->open.studies, key, explorer->open.shot, explorer->wake);
         explorer->dirty = true;
         break;
     case GM_KEY_TOUR:
-        gm_explorer_press_in_tour(explorer, key);
+        press_in_tour(explorer, key);
         break;
     case GM_KEY_COPY:
         gm_explorer_copy(explorer);
         explorer->dirty = true;
         break;
-    case GM_KEY_FACE:
-    case GM_KEY_ORDER:
+    case GM_KEY_DONE:
         explorer->dirty = true;
-        break;
-    case GM_KEY_IGNORED:
         break;
     }
 }

@@ -2,6 +2,9 @@
 /* What is shown, and when. */
 #include "app/explorer/events.h"
 
+#include "app/explorer/view/scene.h"
+#include "render/files/clock.h"
+
 void gm_explorer_resize(struct gm_explorer *explorer)
 {
     int columns, rows;
@@ -22,7 +25,7 @@ static void ask_measure(struct gm_explorer *explorer)
 {
     struct gm_face *face = &explorer->face;
     if (face->page == GM_PAGE_HELP) {
-        face->explained = explorer->shot->lanes[explorer->shot->selected].scheme;
+        face->explained = explorer->open.shot->lanes[explorer->open.shot->selected].scheme;
     }
     if (face->page == GM_PAGE_HELP || face->page == GM_PAGE_SCHEME) {
         gm_measure_ask(&explorer->measure, face->explained);
@@ -33,25 +36,31 @@ static void ask_measure(struct gm_explorer *explorer)
 static void draw(struct gm_explorer *explorer)
 {
     struct gm_screen *screen = &explorer->screen;
-    struct gm_picture *picture = explorer->shot ? explorer->shot->picture : NULL;
-    if (explorer->at_start) {
+    if (explorer->list.shown) {
         bool looked = gm_explorer_is_looked_at(explorer);
-        gm_screen_draw_start(screen, &explorer->face, &explorer->start, looked ? explorer->shot : NULL,
-                             explorer->fresh, looked ? explorer->said : "");
-    } else if (explorer->shot) {
+        gm_screen_draw_start(screen, &explorer->face, &explorer->list.start,
+                             looked ? explorer->open.shot : NULL, explorer->fresh,
+                             looked ? explorer->open.said : "");
+    } else if (explorer->open.shot) {
         ask_measure(explorer);
-        gm_screen_draw(screen, &explorer->face, explorer->shot, explorer->fresh);
+        gm_screen_draw_scene(screen, &explorer->face, explorer->open.shot, explorer->fresh);
     } else {
         return;
     }
     explorer->fresh = false;
-    explorer->dirty = !gm_display_show(&explorer->display, screen, &explorer->face, picture);
+    explorer->dirty = !gm_display_show(
+        &explorer->display,
+        &(const struct gm_composed){.cells = &screen->cells,
+                                    .room = screen->pixels,
+                                    .pixels = explorer->face.pixels,
+                                    .theme = explorer->face.theme,
+                                    .picture = explorer->open.shot ? explorer->open.shot->picture : NULL});
 }
 
 int gm_explorer_output(struct gm_explorer *explorer)
 {
-    int64_t now = gm_explorer_milliseconds();
-    if (explorer->at_start && explorer->look_due >= 0 && explorer->look_due <= now) {
+    int64_t now = gm_clock_milliseconds();
+    if (explorer->list.shown && explorer->list.look_due >= 0 && explorer->list.look_due <= now) {
         gm_explorer_look(explorer);
     }
     bool good = gm_display_send(&explorer->display);
@@ -62,20 +71,20 @@ int gm_explorer_output(struct gm_explorer *explorer)
     if (!good) {
         gm_explorer_leave(explorer, GM_EXIT_FILE);
     }
-    if (explorer->at_start && explorer->look_due >= 0) {
-        return (int)(explorer->look_due - now);
+    if (explorer->list.shown && explorer->list.look_due >= 0) {
+        return (int)(explorer->list.look_due - now);
     }
     if (!gm_display_takes(&explorer->display)) {
         return gm_display_patience(&explorer->display);
     }
-    if (!explorer->worker || explorer->asked || explorer->dirty) {
+    if (!explorer->open.worker || explorer->open.asked || explorer->dirty) {
         return -1;
     }
-    int64_t wait = explorer->next_shot - now;
+    int64_t wait = explorer->open.next_shot - now;
     if (wait > 0) {
         return (int)wait;
     }
-    gm_worker_want(explorer->worker);
-    explorer->asked = true;
+    gm_worker_want(explorer->open.worker);
+    explorer->open.asked = true;
     return -1;
 }

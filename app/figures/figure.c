@@ -7,11 +7,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "app/output/still.h"
 #include "app/request/drive.h"
 #include "core/memory.h"
+#include "render/files/clock.h"
 
 enum { MOST_WORDS = 64, WORDS_SIZE = 512, FEW_SCHEMES = 3 };
 
@@ -435,10 +435,9 @@ static int make(const struct gm_figure_job *job, const struct gm_options *option
 void gm_figure_make(const struct gm_figure_job *job, const struct gm_options *options,
                     struct gm_outcome *outcome)
 {
-    struct timespec begin, end;
     struct gm_request request;
     struct gm_lane *lanes[GM_FIGURE_LANES] = {NULL};
-    clock_gettime(CLOCK_MONOTONIC, &begin);
+    const double begun = gm_clock_seconds();
     outcome->status = GM_EXIT_USAGE;
     if (parse(&request, job, outcome->message)) {
         outcome->status = make(job, options, &request, lanes, outcome);
@@ -447,8 +446,7 @@ void gm_figure_make(const struct gm_figure_job *job, const struct gm_options *op
         }
         gm_request_close(&request);
     }
-    clock_gettime(CLOCK_MONOTONIC, &end);
-    outcome->seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
+    outcome->seconds = gm_clock_seconds() - begun;
     outcome->progress = outcome->status == GM_EXIT_OK ? GM_MADE : GM_NOT_MADE;
 }
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "render/message.h"
 
@@ -55,4 +56,12 @@ bool gm_folder_make_for(const char *file, char *message)
     }
     free(folder);
     return good;
+}
+
+void gm_folder_free_file(const char *name, const char *ending, char *file, size_t size)
+{
+    int number = 1;
+    do {
+        snprintf(file, size, "%.80s-%04d%s", name, number, ending);
+    } while (access(file, F_OK) == 0 && number++ < 9999);
 }

@@ -35,7 +35,6 @@ struct show {
     struct gm_sink *sink; /* of a movie; NULL: pictures */
     unsigned char *rgb;   /* the picture that stands */
     double fps;
-    long frames;       /* of the movie, so far */
     bool answered;     /* the step's question is, if it has one */
     const void *table; /* of a study, that is drawn instead of the scene; NULL: none */
     bool failed;
@@ -105,14 +104,10 @@ static bool paint(struct show *show)
 /* What stands, for so many frames more. False after a failure: the sink tells of it when it is closed. */
 static bool put(struct show *show, long count)
 {
-    const size_t size = 3 * (size_t)show->options->width * (size_t)show->options->height;
     for (long i = 0; show->sink && i < count && !gm_interrupted; i++) {
-        unsigned char *frame = gm_sink_frame(show->sink);
-        if (!frame) {
+        if (!gm_sink_hold(show->sink, show->rgb, 1)) {
             return false;
         }
-        memcpy(frame, show->rgb, size);
-        gm_sink_put(show->sink, frame, show->frames++, NULL, 0);
     }
     return true;
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The program's allocators, as libpng and libdeflate want them. */
 #include "render/files/png_memory.h"
 
 #include <errno.h>

@@ -213,6 +213,21 @@ bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const 
     return taken;
 }
 
+bool gm_sink_hold(struct gm_sink *sink, const unsigned char *rgb, long count)
+{
+    for (long i = 0; i < count; i++) {
+        unsigned char *frame = gm_sink_frame(sink);
+        if (!frame) {
+            return false;
+        }
+        memcpy(frame, rgb, sink->frame_size);
+        if (!gm_sink_put(sink, frame, i, NULL, 0)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool gm_sink_flush(struct gm_sink *sink)
 {
     pthread_mutex_lock(&sink->lock);

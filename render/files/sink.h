@@ -41,6 +41,8 @@ unsigned char *gm_sink_frame(struct gm_sink *sink);
    in which frames are put). Extra texts (this frame's time) are copied. */
 bool gm_sink_put(struct gm_sink *sink, unsigned char *frame, long number, const struct gm_png_text *texts,
                  size_t count);
+/* Hands copies of a picture over, for so many frames of a movie. False after a failure. */
+bool gm_sink_hold(struct gm_sink *sink, const unsigned char *rgb, long count);
 /* Waits until every frame that was put is written; no frame may be in hand. False after a failure. */
 bool gm_sink_flush(struct gm_sink *sink);
 /* Finishes what was put (keep) or gives the movie up (not keep; finished PNGs stay). False if any frame

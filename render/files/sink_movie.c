@@ -10,6 +10,7 @@
               one pass: a palette for every frame             9.3   21       127
 
    The first two lose nothing that can be seen (50 dB and more), so the fast settings are the right ones. */
+#include "render/files/clock.h"
 #include "render/files/sink.h"
 #include "render/files/temporary.h"
 
@@ -131,13 +132,6 @@ static int end_ffmpeg(struct movie_sink *self)
 
 /* ---- waiting for it ---- */
 
-static int64_t milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
-
 /* What ffmpeg has used of the processors, in nanoseconds; -1 if the system does not tell. */
 static int64_t processor_time(const struct movie_sink *self)
 {
@@ -157,7 +151,7 @@ struct wait {
 
 static struct wait begin_wait(const struct movie_sink *self, int patience)
 {
-    const int64_t now = milliseconds();
+    const int64_t now = gm_clock_milliseconds();
     return (struct wait){.begun = now, .idle = now, .used = processor_time(self), .patience = patience};
 }
 
@@ -168,7 +162,7 @@ static int interruptions_of(const struct movie_sink *self)
 
 static bool is_in_vain(const struct movie_sink *self, struct wait *wait)
 {
-    const int64_t now = milliseconds(), used = processor_time(self);
+    const int64_t now = gm_clock_milliseconds(), used = processor_time(self);
     if (used != wait->used) {
         wait->used = used;
         wait->idle = now;

@@ -3,6 +3,7 @@
 #include "render/layout/frame.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Distances in pixels of a picture 720 high. */
 static const double tick_gap = 9.0, label_gap = 3.0, title_gap = 7.0, bar_gap = 16.0, bar_width = 14.0;
@@ -179,21 +180,40 @@ static double key_gap(const struct gm_label_list *list, const struct gm_panel *p
     return all > width ? 0.5 * gap : gap;
 }
 
+/* The key without ", blow-up at t = 3" or ", lost: ..." as far as it is wider than a line: first without when,
+   then without what; the panels that have room tell it, and in the explorer the list of lanes. */
+static struct gm_key without_failure(const struct gm_label_list *list, const struct gm_key *key, double width)
+{
+    struct gm_key shown = *key;
+    const char *when = strstr(key->name, " at t = "), *what = strstr(key->name, ", lost: ");
+    for (const char *at = key->name; when && (at = strstr(at, ", ")) != NULL && at < when; at++) {
+        what = at;
+    }
+    const char *const ends[] = {when, what};
+    for (size_t i = 0; i < 2; i++) {
+        if (ends[i] && gm_labels_width(list, GM_TEXT_LABEL, key_text(list, &shown)) > width) {
+            shown.name = gm_picture_text(list->picture, "%.*s", (int)(ends[i] - key->name), key->name);
+        }
+    }
+    return shown;
+}
+
 /* A key in lines of that width. Where it has no room in one what its values are called gives way; then it
    goes on below, and the piece of its line, which its colour stands for, gives way last. */
 static size_t key_lines(const struct gm_label_list *list, const struct gm_key *key, double width,
                         const char **lines)
 {
     char values[LONGEST_NAME];
-    gm_name_without_keys(key->name, values, sizeof values);
+    const struct gm_key long_key = without_failure(list, key, width);
+    gm_name_without_keys(long_key.name, values, sizeof values);
     const struct gm_key short_key = {.style = key->style,
                                      .name = gm_picture_text(list->picture, "%s", values)};
     const struct {
         const char *text;
         size_t most;
-    } ways[] = {{key_text(list, key), 1},
+    } ways[] = {{key_text(list, &long_key), 1},
                 {key_text(list, &short_key), 1},
-                {key_text(list, key), GM_KEY_LINES},
+                {key_text(list, &long_key), GM_KEY_LINES},
                 {key_text(list, &short_key), GM_KEY_LINES},
                 {short_key.name, GM_KEY_LINES}};
     size_t count = 0;

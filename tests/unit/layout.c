@@ -341,6 +341,27 @@ static void keys_keep_their_values(void **state)
     }
 }
 
+/* That a lane failed gives way to what it is called, and takes no line of its own. */
+static void failures_give_way(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"Δt = 0.1, blow-up at t = 2.5", "Δt = 0.05, lost: energy error 12"};
+    struct gm_metrics metrics = metrics_of(300, 200);
+    struct gm_picture *picture = picture_of(3, 0, false, false);
+    picture->state_columns = 3;
+    for (struct gm_panel *panel = picture->first; panel; panel = panel->next) {
+        panel->note = "";
+        for (size_t k = 0; k < 2; k++) {
+            gm_panel_key(picture, panel, (struct gm_style){GM_LANE, 1, 2, GM_SOLID}, names[k]);
+        }
+    }
+    check_layout(picture, &metrics);
+    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
+    assert_non_null(find_label(layout, "─── Δt = 0.1"));
+    assert_non_null(find_label(layout, "─── Δt = 0.05"));
+    gm_picture_close(picture);
+}
+
 /* The words before a number give way to it; no part of a number is ever shown. */
 static void numbers_are_whole(void **state)
 {
@@ -510,6 +531,7 @@ int main(void)
         cmocka_unit_test(every_key_is_told),
         cmocka_unit_test(keys_take_lines),
         cmocka_unit_test(keys_keep_their_values),
+        cmocka_unit_test(failures_give_way),
         cmocka_unit_test(numbers_are_whole),
         cmocka_unit_test(titles_are_told_apart),
         cmocka_unit_test(titles_go_on_below),

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "app/explorer/view/screen.h"
+#include "app/explorer/view/search.h"
 #include "app/lanes/session.h"
 #include "app/lanes/slider.h"
 #include "app/request/drive.h"

@@ -9,8 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <termios.h>
-#include <time.h>
 #include <unistd.h>
+
+#include "render/files/clock.h"
 
 /* ---- one answer ---- */
 
@@ -205,13 +206,6 @@ size_t gm_answers_sort(struct gm_answers *answers, const char *bytes, size_t cou
 
 /* ---- asking ---- */
 
-static int milliseconds_since(const struct timespec *begun)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int)((now.tv_sec - begun->tv_sec) * 1000 + (now.tv_nsec - begun->tv_nsec) / 1000000);
-}
-
 static void send_all(const char *text)
 {
     for (size_t left = strlen(text); left > 0;) {
@@ -229,14 +223,13 @@ static void send_all(const char *text)
 static void ask(struct gm_answers *answers, const char *questions, int patience, char *typed,
                 size_t *typed_size)
 {
-    struct timespec begun;
-    clock_gettime(CLOCK_MONOTONIC, &begun);
+    const int64_t until = gm_clock_milliseconds() + patience;
     answers->attributes = false;
     send_all(questions);
     send_all("\033[c");
     while (!answers->attributes) {
         char bytes[512], keys[sizeof bytes + GM_ANSWER_LONGEST];
-        int left = patience - milliseconds_since(&begun);
+        const int left = (int)(until - gm_clock_milliseconds());
         struct pollfd watched = {.fd = STDIN_FILENO, .events = POLLIN};
         if (left <= 0 || *typed_size + sizeof keys > GM_TYPED_AHEAD) {
             return;
@@ -271,10 +264,9 @@ int gm_answers_ask(struct gm_answers *answers, enum gm_ask which, int patience, 
         [GM_ASK_ALL] = ASK_IMAGES ASK_GROUND ASK_TRUE_COLOUR ASK_SYNCHRONISED,
     };
     struct termios before, raw;
-    struct timespec begun;
+    const int64_t begun = gm_clock_milliseconds();
     *answers = (struct gm_answers){0};
     *typed_size = 0;
-    clock_gettime(CLOCK_MONOTONIC, &begun);
     /* who is in the background may not change the terminal's settings */
     if (tcgetpgrp(STDIN_FILENO) != getpgrp() || tcgetattr(STDIN_FILENO, &before) != 0) {
         return 0;
@@ -298,5 +290,5 @@ int gm_answers_ask(struct gm_answers *answers, enum gm_ask which, int patience, 
         raise(SIGINT);
     }
     sigprocmask(SIG_SETMASK, &unblocked, NULL);
-    return milliseconds_since(&begun);
+    return (int)(gm_clock_milliseconds() - begun);
 }

@@ -16,9 +16,10 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "app/explorer/view/mouse.h"
+#include "app/explorer/terminal/mouse.h"
 #include "app/request/drive.h"
 #include "app/request/request.h"
+#include "render/files/clock.h"
 
 static SCREEN *screen;
 static WINDOW *keys; /* a pad: reading a key from it does not make ncurses draw */
@@ -27,7 +28,7 @@ static int wake_fd = -1;
 static FILE *input;
 static int feed_fd = -1;
 static struct gm_answers *answers;
-static struct timespec heard; /* when the last byte came */
+static int64_t heard;         /* when the last byte came */
 static struct termios before; /* as the shell had it */
 static char parting[256];     /* what restores the terminal, for handlers that may call hardly anything */
 static size_t parting_size;
@@ -377,9 +378,7 @@ int gm_console_patience(void)
     if (answers->count == 0) {
         return -1;
     }
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    long passed = (now.tv_sec - heard.tv_sec) * 1000 + (now.tv_nsec - heard.tv_nsec) / 1000000;
+    const int64_t passed = gm_clock_milliseconds() - heard;
     return passed < BELONGS_TOGETHER ? (int)(BELONGS_TOGETHER - passed) : 0;
 }
 
@@ -391,7 +390,7 @@ static void feed(void)
     if (poll(&(struct pollfd){.fd = STDIN_FILENO, .events = POLLIN}, 1, 0) > 0) {
         ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
         if (count > 0) {
-            clock_gettime(CLOCK_MONOTONIC, &heard);
+            heard = gm_clock_milliseconds();
             size = gm_answers_sort(answers, bytes, (size_t)count, typed);
         }
     } else if (gm_console_patience() == 0) {

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "app/explorer/terminal/console.h"
+#include "render/files/clock.h"
 #include "render/message.h"
 
 bool gm_display_open(struct gm_display *display, struct gm_terminal *terminal, int wake)
@@ -86,15 +87,14 @@ static bool same_kind(const struct gm_pixels_job *a, const struct gm_pixels_job 
 }
 
 /* Begins the picture that the screen leaves room for, unless it is there. */
-static bool begin(struct gm_display *display, const struct gm_screen *screen, const struct gm_face *face,
-                  struct gm_picture *picture)
+static bool begin(struct gm_display *display, const struct gm_composed *screen)
 {
     char message[GM_MESSAGE];
     const struct gm_terminal *terminal = display->terminal;
     struct gm_pixels_job job = {
-        .kind = face->pixels,
-        .theme = face->theme,
-        .place = screen->pixels,
+        .kind = screen->pixels,
+        .theme = screen->theme,
+        .place = screen->room,
         .most_width = terminal->answers.most_width,
         .most_height = terminal->answers.most_height,
     };
@@ -117,15 +117,14 @@ static bool begin(struct gm_display *display, const struct gm_screen *screen, co
     job.whole = display->lost;
     display->job = job;
     display->painted = display->stale = display->lost = false;
-    gm_pixels_paint(display->painter, picture, &job);
+    gm_pixels_paint(display->painter, screen->picture, &job);
     return true;
 }
 
-bool gm_display_show(struct gm_display *display, const struct gm_screen *screen, const struct gm_face *face,
-                     struct gm_picture *picture)
+bool gm_display_show(struct gm_display *display, const struct gm_composed *screen)
 {
-    bool pixels = screen->pixels.columns > 0 && picture;
-    if (pixels && begin(display, screen, face, picture)) {
+    bool pixels = screen->room.columns > 0 && screen->picture;
+    if (pixels && begin(display, screen)) {
         return false;
     }
     if (!pixels && display->shown) {
@@ -133,7 +132,7 @@ bool gm_display_show(struct gm_display *display, const struct gm_screen *screen,
     }
     bool new = pixels && display->painted;
     const struct gm_writer_image image = {.bytes = display->bytes, .size = display->size};
-    gm_writer_draw(&display->writer, &screen->cells, new ? &image : NULL);
+    gm_writer_draw(&display->writer, screen->cells, new ? &image : NULL);
     if (new) {
         display->shown = display->job.kind;
         display->painted = false;
@@ -153,20 +152,13 @@ const struct gm_panel *gm_display_locate(struct gm_display *display, struct gm_p
                             (row - place->row + 0.5) * place->cell_height, x, y);
 }
 
-static int64_t milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
-
 /* Sends what is queued and waits for what the terminal was asked, for a while. */
 static void drain(struct gm_display *display)
 {
     enum { PATIENCE = 1000 };
     struct gm_writer *writer = &display->writer;
-    int64_t until = milliseconds() + PATIENCE;
-    for (int64_t left = PATIENCE; left > 0; left = until - milliseconds()) {
+    int64_t until = gm_clock_milliseconds() + PATIENCE;
+    for (int64_t left = PATIENCE; left > 0; left = until - gm_clock_milliseconds()) {
         bool good = gm_writer_send(writer);
         gm_writer_takes(writer, display->terminal->answers.ready);
         if (!good || (gm_writer_idle(writer) && gm_writer_patience(writer) < 0)) {

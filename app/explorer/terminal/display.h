@@ -4,7 +4,7 @@
 
 #include "app/explorer/terminal/pixels.h"
 #include "app/explorer/terminal/writer.h"
-#include "app/explorer/view/screen.h"
+#include "render/cells/cells.h"
 
 /* Shows composed screens on the terminal, with the picture of pixels that a screen leaves room for. Such a
    picture is painted beside, so a screen with a new one is shown a little later than it was composed, both
@@ -29,12 +29,20 @@ struct gm_display {
 bool gm_display_open(struct gm_display *display, struct gm_terminal *terminal, int wake);
 void gm_display_close(struct gm_display *display);
 
+/* A composed screen. */
+struct gm_composed {
+    const struct gm_cells *cells;
+    struct gm_inline_place room; /* cells without a glyph, for a picture of pixels; no columns: none */
+    enum gm_inline_kind pixels;  /* of what kind */
+    enum gm_theme theme;
+    struct gm_picture *picture; /* for that room; NULL: none */
+};
+
 /* Whether a screen can be shown now. Until then also the picture of the last one may be in use. */
 bool gm_display_takes(struct gm_display *display);
-/* Shows a screen, composed with this face, and `picture` in the room it leaves for one. False if the picture
-   has to be painted first: then it is in use until gm_display_takes, and the screen is to be shown again. */
-bool gm_display_show(struct gm_display *display, const struct gm_screen *screen, const struct gm_face *face,
-                     struct gm_picture *picture);
+/* Shows a screen. False if its picture has to be painted first: then that is in use until gm_display_takes,
+   and the screen is to be shown again. */
+bool gm_display_show(struct gm_display *display, const struct gm_composed *screen);
 /* Sends what the terminal takes now. False when it is gone. */
 bool gm_display_send(struct gm_display *display);
 /* How long to wait for the terminal, in milliseconds; -1: there is nothing to wait for. */

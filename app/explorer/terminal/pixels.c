@@ -1,28 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Painting and encoding for terminals that show pixels, in a thread: keys and steps do not wait for it. */
+/* Pictures painted and encoded beside the screen. */
 #include "app/explorer/terminal/pixels.h"
 
-#include <pthread.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "render/files/thread.h"
+#include "app/explorer/background/job.h"
 #include "render/gl/canvas.h"
 #include "render/message.h"
 
 struct gm_pixels {
-    pthread_t thread;
-    int wake;
-
-    /* shared, under the lock */
-    pthread_mutex_t lock;
-    pthread_cond_t news;
-    bool begun, ready, leave;
-
-    bool busy; /* the caller's */
+    struct gm_job painting;
+    bool busy; /* a picture was begun and not yet taken */
 
     /* the caller's and the thread's in turn */
     struct gm_picture *picture;
@@ -38,8 +28,9 @@ struct gm_pixels {
     unsigned char *rgb;
 };
 
-static void forget(struct gm_pixels *pixels)
+static void forget(void *self)
 {
+    struct gm_pixels *pixels = self;
     gm_canvas_close(pixels->canvas);
     gm_inline_close(pixels->image);
     free(pixels->rgb);
@@ -73,8 +64,9 @@ static bool prepare(struct gm_pixels *pixels)
     return pixels->image && pixels->rgb;
 }
 
-static void paint(struct gm_pixels *pixels)
+static void paint(void *self)
 {
+    struct gm_pixels *pixels = self;
     snprintf(pixels->message, sizeof pixels->message, "There is not enough memory for a picture.");
     pixels->bytes = NULL;
     pixels->size = 0;
@@ -87,30 +79,6 @@ static void paint(struct gm_pixels *pixels)
     }
 }
 
-static void *work(void *self)
-{
-    struct gm_pixels *pixels = self;
-    pthread_mutex_lock(&pixels->lock);
-    while (!pixels->leave) {
-        if (!pixels->begun) {
-            pthread_cond_wait(&pixels->news, &pixels->lock);
-            continue;
-        }
-        pixels->begun = false;
-        pthread_mutex_unlock(&pixels->lock);
-        paint(pixels);
-        pthread_mutex_lock(&pixels->lock);
-        pixels->ready = true;
-        const uint64_t one = 1;
-        if (write(pixels->wake, &one, sizeof one) < 0) {
-            /* the count is full: it is awake already */
-        }
-    }
-    pthread_mutex_unlock(&pixels->lock);
-    forget(pixels); /* here, because the context is this thread's */
-    return NULL;
-}
-
 struct gm_pixels *gm_pixels_open(int wake, char *message)
 {
     struct gm_pixels *pixels = calloc(1, sizeof *pixels);
@@ -118,12 +86,8 @@ struct gm_pixels *gm_pixels_open(int wake, char *message)
         snprintf(message, GM_MESSAGE, "There is not enough memory.");
         return NULL;
     }
-    pixels->wake = wake;
-    pthread_mutex_init(&pixels->lock, NULL);
-    pthread_cond_init(&pixels->news, NULL);
-    const int error = gm_thread_start(&pixels->thread, work, pixels);
-    if (error != 0) {
-        snprintf(message, GM_MESSAGE, "No thread could be started: %s.", strerror(error));
+    /* the context of GL is the thread's: it is closed there */
+    if (!gm_job_open(&pixels->painting, paint, forget, pixels, wake, message)) {
         free(pixels);
         return NULL;
     }
@@ -132,17 +96,10 @@ struct gm_pixels *gm_pixels_open(int wake, char *message)
 
 void gm_pixels_close(struct gm_pixels *pixels)
 {
-    if (!pixels) {
-        return;
+    if (pixels) {
+        gm_job_close(&pixels->painting);
+        free(pixels);
     }
-    pthread_mutex_lock(&pixels->lock);
-    pixels->leave = true;
-    pthread_cond_signal(&pixels->news);
-    pthread_mutex_unlock(&pixels->lock);
-    pthread_join(pixels->thread, NULL);
-    pthread_cond_destroy(&pixels->news);
-    pthread_mutex_destroy(&pixels->lock);
-    free(pixels);
 }
 
 void gm_pixels_paint(struct gm_pixels *pixels, struct gm_picture *picture, const struct gm_pixels_job *job)
@@ -150,10 +107,7 @@ void gm_pixels_paint(struct gm_pixels *pixels, struct gm_picture *picture, const
     pixels->picture = picture;
     pixels->job = *job;
     pixels->busy = true;
-    pthread_mutex_lock(&pixels->lock);
-    pixels->begun = true;
-    pthread_cond_signal(&pixels->news);
-    pthread_mutex_unlock(&pixels->lock);
+    gm_job_begin(&pixels->painting);
 }
 
 bool gm_pixels_busy(const struct gm_pixels *pixels)
@@ -163,17 +117,14 @@ bool gm_pixels_busy(const struct gm_pixels *pixels)
 
 bool gm_pixels_take(struct gm_pixels *pixels, const char **bytes, size_t *size, char *message)
 {
-    pthread_mutex_lock(&pixels->lock);
-    bool ready = pixels->ready;
-    pixels->ready = false;
-    pthread_mutex_unlock(&pixels->lock);
-    if (ready) {
-        pixels->busy = false;
-        *bytes = pixels->bytes;
-        *size = pixels->size;
-        snprintf(message, GM_MESSAGE, "%s", pixels->message);
+    if (!pixels->busy || gm_job_is_busy(&pixels->painting)) {
+        return false;
     }
-    return ready;
+    pixels->busy = false;
+    *bytes = pixels->bytes;
+    *size = pixels->size;
+    snprintf(message, GM_MESSAGE, "%s", pixels->message);
+    return true;
 }
 
 const struct gm_panel *gm_pixels_locate(struct gm_pixels *pixels, struct gm_picture *picture, double across,

@@ -9,11 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "app/explorer/terminal/palette.h"
 #include "render/files/base64.h"
+#include "render/files/clock.h"
 
 /* ---- the line of bytes ---- */
 
@@ -200,13 +200,6 @@ static void take_look(struct gm_writer *writer, const struct look *look)
 
 /* ---- screens ---- */
 
-static int64_t milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
-
 static bool same_cell(const struct gm_cell *a, const struct gm_cell *b)
 {
     bool ground = a->background.r == b->background.r && a->background.g == b->background.g &&
@@ -325,7 +318,7 @@ void gm_writer_draw(struct gm_writer *writer, const struct gm_cells *cells,
     }
     if (writer->asks && writer->asked - writer->answered < GM_WRITER_FLYING) {
         put_text(writer, GM_ASK_READY);
-        writer->asked_at = milliseconds();
+        writer->asked_at = gm_clock_milliseconds();
         writer->flying[writer->asked % GM_WRITER_FLYING] = writer->length;
         writer->sent_at[writer->asked++ % GM_WRITER_FLYING] = writer->asked_at;
     }
@@ -360,7 +353,7 @@ static size_t flying(const struct gm_writer *writer)
 
 bool gm_writer_takes(struct gm_writer *writer, unsigned long ready)
 {
-    const int64_t now = milliseconds();
+    const int64_t now = gm_clock_milliseconds();
     if (ready > writer->asked) { /* answers to questions of before */
         ready = writer->asked;
     }
@@ -385,7 +378,7 @@ int gm_writer_patience(const struct gm_writer *writer)
         return -1;
     }
     /* the line may take a kilobyte a second */
-    const int64_t left = writer->asked_at + LOST + (int64_t)flying(writer) - milliseconds();
+    const int64_t left = writer->asked_at + LOST + (int64_t)flying(writer) - gm_clock_milliseconds();
     return left > 0 ? (int)left : 0;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A tour in the explorer: its step, its text below the picture, its keys. */
+/* A tour in the explorer: its keys, and what it tells below the picture. */
 #include "app/explorer/view/guide.h"
 
 #include <stdio.h>
@@ -92,7 +92,7 @@ static int draw_keys(const struct gm_sheet *sheet, const struct gm_guide *guide)
     for (int i = sheet->width - width; i < sheet->width; i++) {
         gm_sheet_glyph(sheet, i, 0, ' ', GM_GRID, false);
     }
-    return gm_hints_draw(sheet, 1, hints);
+    return gm_sheet_hints(sheet, 1, hints);
 }
 
 void gm_guide_draw(const struct gm_sheet *sheet, const struct gm_guide *guide)

@@ -1,38 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The keys while a scene is open: one table. */
+/* The keys of a scene, one row each. */
 #include "app/explorer/view/keys.h"
 
 #include <curses.h>
-#include <stdio.h>
 
-#include "app/explorer/view/modes.h"
-
-enum { ESCAPE = 27, REDRAW = 'L' - '@' };
-
-bool gm_key_is_enter(int key)
-{
-    return key == '\n' || key == '\r' || key == KEY_ENTER;
-}
-
-bool gm_key_is_erase(int key)
-{
-    return key == KEY_BACKSPACE || key == 127 || key == 8;
-}
-
-bool gm_key_is_escape(int key)
-{
-    return key == ESCAPE;
-}
-
-enum gm_key_result gm_key_order(const struct gm_press *press, struct gm_order order)
-{
-    gm_worker_order(press->worker, order);
-    return GM_KEY_ORDER;
-}
+#include "app/explorer/view/chooser.h"
+#include "app/explorer/view/prompt.h"
 
 static enum gm_key_result order(const struct gm_press *press, enum gm_order_kind kind, int amount)
 {
-    return gm_key_order(press, (struct gm_order){.kind = kind, .amount = amount});
+    return gm_press_order(press, (struct gm_order){.kind = kind, .amount = amount});
 }
 
 /* ---- time ---- */
@@ -55,11 +32,11 @@ static enum gm_key_result press_speed(const struct gm_press *press)
 static enum gm_key_result press_past(const struct gm_press *press)
 {
     bool ends = press->key == KEY_HOME || press->key == KEY_END;
-    return gm_key_order(press, (struct gm_order){.kind = GM_ORDER_VISIT,
-                                                 .amount = ends                      ? 0
-                                                           : press->key == KEY_PPAGE ? -1
-                                                                                     : 1,
-                                                 .value = press->key == KEY_END ? press->shot->reach : 0});
+    return gm_press_order(press, (struct gm_order){.kind = GM_ORDER_VISIT,
+                                                   .amount = ends                      ? 0
+                                                             : press->key == KEY_PPAGE ? -1
+                                                                                       : 1,
+                                                   .value = press->key == KEY_END ? press->shot->reach : 0});
 }
 
 static enum gm_key_result press_turn(const struct gm_press *press)
@@ -113,7 +90,7 @@ static enum gm_key_result press_choose(const struct gm_press *press)
         press->face->parameter = (press->face->parameter + (press->key == KEY_UP ? count - 1 : 1)) % count;
     }
     press->face->explaining = true;
-    return GM_KEY_FACE;
+    return GM_KEY_DONE;
 }
 
 static enum gm_key_result order_parameter(const struct gm_press *press, enum gm_order_kind kind, int amount)
@@ -121,10 +98,10 @@ static enum gm_key_result order_parameter(const struct gm_press *press, enum gm_
     size_t chosen = press->face->parameter;
     press->face->explaining = true;
     if (chosen >= press->shot->parameter_count) {
-        return GM_KEY_FACE;
+        return GM_KEY_DONE;
     }
     const struct gm_shot_parameter *parameter = &press->shot->parameters[chosen];
-    return gm_key_order(
+    return gm_press_order(
         press, (struct gm_order){
                    .kind = kind, .amount = amount, .row = parameter->row, .of_scheme = parameter->of_scheme});
 }
@@ -155,7 +132,7 @@ static enum gm_key_result press_default(const struct gm_press *press)
 static enum gm_key_result press_side(const struct gm_press *press)
 {
     press->face->side = (enum gm_side)((press->face->side + 1) % GM_SIDE_COUNT);
-    return GM_KEY_FACE;
+    return GM_KEY_DONE;
 }
 
 static enum gm_key_result press_theme(const struct gm_press *press)
@@ -173,12 +150,6 @@ static enum gm_key_result press_theme(const struct gm_press *press)
     return GM_KEY_THEME;
 }
 
-static enum gm_key_result press_blocks(const struct gm_press *press)
-{
-    (void)press;
-    return GM_KEY_BLOCKS;
-}
-
 static enum gm_key_result press_save(const struct gm_press *press)
 {
     return order(press, GM_ORDER_SAVE, (int)press->face->theme);
@@ -194,140 +165,133 @@ static enum gm_key_result press_tell(const struct gm_press *press)
     return order(press, GM_ORDER_TELL, (int)press->face->theme);
 }
 
-static enum gm_key_result press_study(const struct gm_press *press)
-{
-    (void)press;
-    return GM_KEY_STUDY;
-}
-
-static enum gm_key_result press_tour(const struct gm_press *press)
-{
-    (void)press;
-    return GM_KEY_TOUR;
-}
-
 static enum gm_key_result press_help(const struct gm_press *press)
 {
     press->face->page = GM_PAGE_HELP;
     press->face->scroll = 0;
-    return GM_KEY_FACE;
+    return GM_KEY_DONE;
 }
 
 static enum gm_key_result press_formula(const struct gm_press *press)
 {
-    return gm_page_open_scheme(press, press->shot->lanes[press->shot->selected].scheme);
-}
-
-static enum gm_key_result press_scenes(const struct gm_press *press)
-{
-    (void)press;
-    return GM_KEY_SCENES;
-}
-
-static enum gm_key_result press_redraw(const struct gm_press *press)
-{
-    (void)press;
-    return GM_KEY_REPAINT;
-}
-
-static enum gm_key_result press_leave(const struct gm_press *press)
-{
-    (void)press;
-    return GM_KEY_LEAVE;
+    return gm_press_scheme_page(press, press->shot->lanes[press->shot->selected].scheme);
 }
 
 /* In the order of the help. A further key is a further row. */
 const struct gm_key_row gm_key_rows[] = {
-    {{' '}, "space", "pause", 2, "pause and go on", press_pause},
-    {{'.', ','}, ". ,", "step", 9, "one step forward, one step back; this pauses", press_step},
+    {{' '}, "space", "pause", 2, "pause and go on", .press = press_pause},
+    {{'.', ','}, ". ,", "step", 9, "one step forward, one step back; this pauses", .press = press_step},
     {{'[', ']'},
      "[ ]",
      "speed",
      10,
      "slower, faster: model time per second, down to single steps",
-     press_speed},
+     .press = press_speed},
     {{KEY_PPAGE, KEY_NPAGE, KEY_HOME, KEY_END},
      "PgUp PgDn",
      NULL,
      0,
      "through the snapshots of the past; Home, End: the first, the last",
-     press_past},
-    {{'B'}, "B", "back in time", 14, "turn time, dt to −dt, and see which scheme returns", press_turn},
-    {{'>'}, ">", "ahead", 15, "run ahead to a time, without drawing", press_ahead},
-    {{'r'}, "r", "restart", 8, "restart", press_restart},
-    {{'\t', KEY_BTAB}, "tab", "lane", 12, "select a lane", press_select},
-    {{'s'}, "s", "scheme", 4, "switch its scheme in flight, from the present state on", press_switch},
-    {{'f'}, "f", "fork", 6, "fork it: from here on with another scheme as well", press_fork},
-    {{'i'}, "i", NULL, 0, "its scheme: formula, order, claims as measured, reference", press_formula},
-    {{'c', 'x'}, "c x", "compare", 5, "add a lane from the start; remove the selected one", press_lanes},
-    {{'o'}, "o", "overlay", 13, "lanes in one panel, or side by side", press_overlay},
-    {{KEY_UP, KEY_DOWN}, "↑ ↓", NULL, 0, "choose a parameter", press_choose},
+     .press = press_past},
+    {{'B'},
+     "B",
+     "back in time",
+     14,
+     "turn time, dt to −dt, and see which scheme returns",
+     .press = press_turn},
+    {{'>'}, ">", "ahead", 15, "run ahead to a time, without drawing", .press = press_ahead},
+    {{'r'}, "r", "restart", 8, "restart", .press = press_restart},
+    {{'\t', KEY_BTAB}, "tab", "lane", 12, "select a lane", .press = press_select},
+    {{'s'},
+     "s",
+     "scheme",
+     4,
+     "switch its scheme in flight, from the present state on",
+     .press = press_switch},
+    {{'f'}, "f", "fork", 6, "fork it: from here on with another scheme as well", .press = press_fork},
+    {{'i'},
+     "i",
+     NULL,
+     0,
+     "its scheme: formula, order, claims as measured, reference",
+     .press = press_formula},
+    {{'c', 'x'},
+     "c x",
+     "compare",
+     5,
+     "add a lane from the start; remove the selected one",
+     .press = press_lanes},
+    {{'o'}, "o", "overlay", 13, "lanes in one panel, or side by side", .press = press_overlay},
+    {{KEY_UP, KEY_DOWN}, "↑ ↓", NULL, 0, "choose a parameter", .press = press_choose},
     {{KEY_LEFT, KEY_RIGHT},
      "← →",
      "change",
      7,
      "change it; live ones act at once, others start again",
-     press_change},
+     .press = press_change},
     {{'-', '+', KEY_SLEFT, KEY_SRIGHT},
      "- +",
      NULL,
      0,
      "change it finely, by about a tenth of that; shift with ← → does the same",
-     press_nudge},
-    {{'\n', '\r', KEY_ENTER}, "enter", NULL, 0, "type its value: 0.013, 1e-3, pi/60", press_type},
-    {{KEY_BACKSPACE, 127, 8}, "⌫", NULL, 0, "set it to its default", press_default},
-    {{'v'}, "v", "view", 16, "more room for: schemes, parameters, observables, the picture", press_side},
-    {{'t'}, "t", "theme", 18, "dark, light, monochrome", press_theme},
+     .press = press_nudge},
+    {{'\n', '\r', KEY_ENTER}, "enter", NULL, 0, "type its value: 0.013, 1e-3, pi/60", .press = press_type},
+    {{KEY_BACKSPACE, 127, 8}, "⌫", NULL, 0, "set it to its default", .press = press_default},
+    {{'v'},
+     "v",
+     "view",
+     16,
+     "more room for: schemes, parameters, observables, the picture",
+     .press = press_side},
+    {{'t'}, "t", "theme", 18, "dark, light, monochrome", .press = press_theme},
     {{'b'},
      "b",
      "blocks",
      17,
      "pixels, braille, quadrants, half blocks, ASCII: what the terminal has",
-     press_blocks},
-    {{'p'}, "p", "save", 11, "save the picture as PNG; `geomint again` redoes it", press_save},
-    {{'R'}, "R", "record", 20, "begin a movie of what is seen; again: end it", press_record},
+     .result = GM_KEY_BLOCKS},
+    {{'p'}, "p", "save", 11, "save the picture as PNG; `geomint again` redoes it", .press = press_save},
+    {{'R'}, "R", "record", 20, "begin a movie of what is seen; again: end it", .press = press_record},
     {{'y'},
      "y",
      "command",
      21,
      "command lines: of this view as a picture, and of the explorer; copied too",
-     press_tell},
+     .press = press_tell},
     {{'w', 'm'},
      "w m",
      "diagrams",
      20,
      "in the background: what an accuracy costs (work-precision); which step is stable (a map)",
-     press_study},
+     .result = GM_KEY_STUDY},
     {{'n', 'N', 'a'},
      "n N a",
      NULL,
      0,
      "in a tour: answer or next step, step before, this one again",
-     press_tour},
-    {{'l'}, "l", "scenes", 19, "back to the list of scenes", press_scenes},
-    {{'?'}, "?", "help", 1, "this page; in a list of schemes, the page of the chosen one", press_help},
-    {{REDRAW}, "ctrl-L", NULL, 0, "draw the screen again", press_redraw},
-    {{'q'}, "q", "quit", 3, "quit", press_leave},
+     .result = GM_KEY_TOUR},
+    {{'l'}, "l", "scenes", 19, "back to the list of scenes", .result = GM_KEY_SCENES},
+    {{'?'},
+     "?",
+     "help",
+     1,
+     "this page; in a list of schemes, the page of the chosen one",
+     .press = press_help},
+    {{GM_KEY_REDRAW}, "ctrl-L", NULL, 0, "draw the screen again", .result = GM_KEY_REPAINT},
+    {{'q'}, "q", "quit", 3, "quit", .result = GM_KEY_LEAVE},
 };
 const size_t gm_key_row_count = sizeof gm_key_rows / sizeof *gm_key_rows;
 
 enum gm_key_result gm_key_press(const struct gm_press *press)
 {
-    press->face->read = press->shot->message_number;
-    enum gm_key_result result = GM_KEY_IGNORED;
-    if (press->key == REDRAW) {
-        return GM_KEY_REPAINT;
-    }
-    if (gm_mode_press(press, &result)) {
-        return result;
-    }
     press->face->explaining = false;
     for (size_t i = 0; i < gm_key_row_count; i++) {
         for (size_t k = 0; k < GM_KEY_CODES && gm_key_rows[i].codes[k]; k++) {
             if (gm_key_rows[i].codes[k] == press->key) {
-                return gm_key_rows[i].press(press);
+                const struct gm_key_row *row = &gm_key_rows[i];
+                return row->press ? row->press(press) : row->result;
             }
         }
     }
-    return GM_KEY_FACE; /* any other key dismisses a message */
+    return GM_KEY_DONE; /* any other key dismisses a message */
 }

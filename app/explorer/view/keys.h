@@ -1,32 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a key does on the main screen, and what has to happen because of it. */
 #ifndef GM_APP_EXPLORER_VIEW_KEYS_H
 #define GM_APP_EXPLORER_VIEW_KEYS_H
 
-#include "app/explorer/view/screen.h"
-#include "app/explorer/worker/worker.h"
+#include "app/explorer/view/press.h"
 
-enum gm_key_result {
-    GM_KEY_IGNORED,
-    GM_KEY_FACE,    /* the screen itself changed */
-    GM_KEY_ORDER,   /* an order went to the worker */
-    GM_KEY_BLOCKS,  /* another way to show pictures is wanted */
-    GM_KEY_REPAINT, /* everything is to be written again */
-    GM_KEY_THEME,   /* the same, in other colours */
-    GM_KEY_SCENES,  /* to the list of scenes */
-    GM_KEY_STUDY,   /* a diagram in the background, by the key */
-    GM_KEY_TOUR,    /* another step of a tour, by the key */
-    GM_KEY_COPY,    /* the chosen command line to the clipboard */
-    GM_KEY_LEAVE,
-};
-
-/* A key, and what it acts on. */
-struct gm_press {
-    int key; /* as ncurses numbers it */
-    struct gm_face *face;
-    const struct gm_shot *shot;
-    struct gm_worker *worker;
-};
+/* The keys while a scene is open, and nothing else takes them: one table. */
 
 enum { GM_KEY_CODES = 4 };
 
@@ -39,19 +17,12 @@ struct gm_key_row {
     int rank;                /* of the hint: the smallest comes first */
     const char *text;        /* for the help; NULL: another row says it */
     enum gm_key_result (*press)(const struct gm_press *press);
+    enum gm_key_result result; /* without `press`: it is for the explorer */
 };
 extern const struct gm_key_row gm_key_rows[];
 extern const size_t gm_key_row_count;
 
 /* What a key does while a scene is open. */
 enum gm_key_result gm_key_press(const struct gm_press *press);
-
-/* Sends an order; for rows of other files. */
-enum gm_key_result gm_key_order(const struct gm_press *press, struct gm_order order);
-
-/* Which keys mean the same everywhere. */
-bool gm_key_is_enter(int key);
-bool gm_key_is_erase(int key);
-bool gm_key_is_escape(int key);
 
 #endif

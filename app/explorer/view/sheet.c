@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Text into a rectangle of the screen, cut to it, with what a click on it means. */
+/* Writing into a rectangle of the screen: text, sliders, hints, a picture. */
 #include "app/explorer/view/sheet.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "render/cells/text.h"
@@ -67,6 +69,39 @@ void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t 
     cell->bold = bold;
 }
 
+void gm_sheet_number(double value, char *text, size_t size)
+{
+    char digits[40];
+    if (!isfinite(value)) {
+        snprintf(text, size, "–"); /* there is no such number here */
+        return;
+    }
+    if (fabs(value) >= 1e-4 && fabs(value) < 1e-3) { /* shorter so than with all its zeros */
+        snprintf(digits, sizeof digits, "%.3ge-4", value * 1e4);
+    } else {
+        snprintf(digits, sizeof digits, "%.3g", value);
+    }
+    /* a true minus sign, and no zeros or plus signs to fill an exponent */
+    size_t at = 0;
+    text[0] = '\0';
+    for (const char *c = digits; *c && at + 4 < size; c++) {
+        if (*c == '-') {
+            at += (size_t)snprintf(text + at, size - at, "−");
+        } else if (*c != '+') {
+            at += (size_t)snprintf(text + at, size - at, "%c", *c);
+        }
+        if (*c == 'e') {
+            bool minus = c[1] == '-';
+            while (c[1] == '-' || c[1] == '+' || (c[1] == '0' && c[2])) {
+                c++;
+            }
+            if (minus) {
+                at += (size_t)snprintf(text + at, size - at, "−");
+            }
+        }
+    }
+}
+
 void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, double position, bool chosen)
 {
     int at = from + (int)(position * (to - from - 1) + 0.5);
@@ -80,6 +115,19 @@ void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, do
                                          : GM_GRID,
                        false);
     }
+}
+
+int gm_sheet_lines(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role)
+{
+    int taken = 0;
+    for (const char *at = text; at && *at; taken++) {
+        char line[256];
+        const size_t length = strcspn(at, "\n");
+        snprintf(line, sizeof line, "%.*s", (int)length, at);
+        gm_sheet_text(sheet, column, row + taken, line, role, false);
+        at += length + (at[length] == '\n');
+    }
+    return taken;
 }
 
 static bool is_wide(const struct gm_sheet *sheet, const char *text, size_t length, int room)
@@ -140,6 +188,78 @@ int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows
     }
     return taken;
 }
+
+int gm_sheet_hints(const struct gm_sheet *sheet, int from, const struct gm_hint *hints)
+{
+    int widths = 0, count = 0;
+    for (; hints[count].key; count++) {
+        int width =
+            gm_sheet_width(sheet, hints[count].key) + 1 + gm_sheet_width(sheet, hints[count].word) + 3;
+        if (from + widths + width > sheet->width) {
+            break;
+        }
+        widths += width;
+    }
+    int begin = sheet->width - widths + 2, column = begin;
+    for (int i = 0; i < count; i++) {
+        int first = column;
+        column += gm_sheet_text(sheet, column, 0, hints[i].key, GM_INK, true) + 1;
+        column += gm_sheet_text(sheet, column, 0, hints[i].word, GM_SECONDARY, false) + 3;
+        if (hints[i].code) {
+            gm_sheet_hit(sheet, first, 0, column - first - 2,
+                         (struct gm_hit){.kind = GM_HIT_KEY, .index = (size_t)hints[i].code});
+        }
+    }
+    return begin;
+}
+
+/* ---- pictures ---- */
+
+bool gm_cells_resize(struct gm_cells *cells, int columns, int rows)
+{
+    struct gm_cell *more = realloc(cells->cells, sizeof *more * (size_t)columns * (size_t)rows);
+    if (!more) {
+        return false;
+    }
+    *cells = (struct gm_cells){.columns = columns, .rows = rows, .cells = more};
+    return true;
+}
+
+void gm_cells_clear(struct gm_cells *cells, enum gm_theme theme)
+{
+    const struct gm_cell blank = {.glyph = ' ',
+                                  .foreground = gm_theme_colour(theme, GM_INK),
+                                  .background = gm_theme_colour(theme, GM_PAPER),
+                                  .role = GM_INK};
+    for (size_t i = 0; i < (size_t)cells->columns * (size_t)cells->rows; i++) {
+        cells->cells[i] = blank;
+    }
+}
+
+void gm_sheet_paint(const struct gm_sheet *sheet, struct gm_painting *painting, struct gm_picture *picture)
+{
+    struct gm_cells *cells = &painting->cells;
+    const struct gm_face *face = sheet->face;
+    if (!painting->fresh || painting->blocks != face->blocks || painting->theme != face->theme ||
+        cells->columns != sheet->width || cells->rows != sheet->height) {
+        if (!gm_cells_resize(cells, sheet->width, sheet->height)) {
+            return;
+        }
+        gm_cells_clear(cells, face->theme);
+        cells->outlines = face->few_colours || face->monochrome;
+        gm_cells_paint(cells, picture, face->theme, face->blocks);
+        painting->blocks = face->blocks;
+        painting->theme = face->theme;
+        painting->fresh = true;
+    }
+    for (int i = 0; i < sheet->height; i++) {
+        const size_t at = (size_t)(sheet->row + i) * (size_t)sheet->cells->columns + (size_t)sheet->column;
+        memcpy(&sheet->cells->cells[at], &cells->cells[(size_t)i * (size_t)sheet->width],
+               sizeof(struct gm_cell) * (size_t)sheet->width);
+    }
+}
+
+/* ---- clicks ---- */
 
 void gm_sheet_hit(const struct gm_sheet *sheet, int column, int row, int width, struct gm_hit hit)
 {

@@ -54,12 +54,39 @@ void gm_sheet_right(const struct gm_sheet *sheet, int column, int row, const cha
 void gm_sheet_glyph(const struct gm_sheet *sheet, int column, int row, uint32_t glyph, enum gm_role role,
                     bool bold);
 int gm_sheet_width(const struct gm_sheet *sheet, const char *text);
+/* A number as short as can be, with a true minus sign. */
+void gm_sheet_number(double value, char *text, size_t size);
 /* A bar with a mark at a part of it, 0 to 1; `chosen` stands out. */
 void gm_sheet_slider(const struct gm_sheet *sheet, int from, int to, int row, double position, bool chosen);
+/* Writes a text of several lines as they are; NULL: none. Returns the rows it takes. */
+int gm_sheet_lines(const struct gm_sheet *sheet, int column, int row, const char *text, enum gm_role role);
 /* Breaks a text at its blanks, and words that are too long at their commas or anywhere, in at most `rows`
    rows from `row` on, that begin at `column`; returns the rows it takes. */
 int gm_sheet_wrapped(const struct gm_sheet *sheet, int column, int row, int rows, const char *text,
                      enum gm_role role);
+
+/* A hint: a key and a word. */
+struct gm_hint {
+    const char *key, *word;
+    int code; /* of the key, for a click; 0: none */
+};
+/* As many hints as fit at the right of row 0, from a column on; a key NULL ends them. Returns the column
+   where they begin. */
+int gm_sheet_hints(const struct gm_sheet *sheet, int from, const struct gm_hint *hints);
+
+/* A picture painted as blocks, kept for as long as it is the same. */
+struct gm_painting {
+    struct gm_cells cells;
+    bool fresh;            /* they show the picture */
+    enum gm_blocks blocks; /* and were painted with these */
+    enum gm_theme theme;
+};
+/* Fills the sheet, which is not empty, with it. */
+void gm_sheet_paint(const struct gm_sheet *sheet, struct gm_painting *painting, struct gm_picture *picture);
+
+/* Gives cells a size, their content anything; false when memory is short. */
+bool gm_cells_resize(struct gm_cells *cells, int columns, int rows);
+void gm_cells_clear(struct gm_cells *cells, enum gm_theme theme);
 
 /* Makes cells of one row clickable. */
 void gm_sheet_hit(const struct gm_sheet *sheet, int column, int row, int width, struct gm_hit hit);

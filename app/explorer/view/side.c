@@ -1,28 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The side panel: how its rows are shared out, and the parameters with their sliders. */
+/* The side panel: its rows shared out among the lanes and schemes, the parameters, what is observed, and the
+   formula. */
+#include "app/explorer/view/side.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "app/explorer/view/sections.h"
+#include "app/explorer/view/schemes.h"
+#include "render/layout/labels.h"
 
-/* A lane's line, as three cells of text; the same dash as in the picture. */
-static const char *const dash_marks[GM_DASH_COUNT] = {
-    [GM_SOLID] = "━━━",    [GM_LONG_DASH] = "╍╍╍",  [GM_DOTS] = "•••",
-    [GM_DASH_DOT] = "━•━", [GM_SHORT_DASH] = "┅┅┅", [GM_DASH_DOT_DOT] = "━••",
+/* The rows of the sections. */
+struct plan {
+    bool lanes;     /* they are listed */
+    int schemes;    /* rows of schemes without a lane, the last one perhaps "more" */
+    int parameters; /* rows */
+    bool sparks;
+    bool stacked;    /* an observable's name has a row of its own */
+    int observables; /* rows, sparks included */
+    int gap;         /* blank rows before a section */
+    bool more;       /* schemes than rows */
 };
 
-const char *gm_side_dash(const struct gm_shot_lane *lane)
-{
-    return dash_marks[gm_lane_dash(lane->shown.dash)];
-}
-
-enum gm_role gm_side_role(const struct gm_shot_lane *lane)
-{
-    return gm_lane_role(lane->shown.colour);
-}
-
-/* ---- sections ---- */
+/* ---- how the rows are shared out ---- */
 
 static int least(int a, int b)
 {
@@ -38,10 +38,16 @@ static int count_unused(const struct gm_shot *shot)
     return unused;
 }
 
-/* One section alone. */
-static struct gm_side_plan plan_one(int rows, enum gm_side side, const struct gm_shot *shot)
+/* The rows of observables that there are: those of the scene and, where time was turned, the way back. */
+static int observable_rows(const struct gm_shot *shot)
 {
-    struct gm_side_plan plan = {.lanes = side != GM_SIDE_PARAMETERS};
+    return (int)shot->observable_count + shot->turned;
+}
+
+/* One section alone. */
+static struct plan plan_one(int rows, enum gm_side side, const struct gm_shot *shot)
+{
+    struct plan plan = {.lanes = side != GM_SIDE_PARAMETERS};
     int left = rows - 1, lanes = (int)shot->lane_count, unused = count_unused(shot);
     if (side == GM_SIDE_PARAMETERS) {
         plan.parameters = least((int)shot->parameter_count, left);
@@ -54,9 +60,9 @@ static struct gm_side_plan plan_one(int rows, enum gm_side side, const struct gm
         return plan;
     }
     left -= 1; /* a second heading */
-    int observables = gm_side_observable_count(shot), each = left >= 3 * observables   ? 3
-                                                             : left >= 2 * observables ? 2
-                                                                                       : 1;
+    int observables = observable_rows(shot), each = left >= 3 * observables   ? 3
+                                                    : left >= 2 * observables ? 2
+                                                                              : 1;
     plan.stacked = each > 1;
     plan.sparks = each > 2;
     plan.observables = least(each * observables, left > 0 ? left : 0);
@@ -64,11 +70,11 @@ static struct gm_side_plan plan_one(int rows, enum gm_side side, const struct gm
 }
 
 /* Shares the rows out: what must be seen first, then what is good to see, then air. */
-static struct gm_side_plan plan_all(int rows, const struct gm_shot *shot)
+static struct plan plan_all(int rows, const struct gm_shot *shot)
 {
     int lanes = (int)shot->lane_count, parameters = (int)shot->parameter_count;
-    int observables = gm_side_observable_count(shot), unused = count_unused(shot);
-    struct gm_side_plan plan = {.lanes = true};
+    int observables = observable_rows(shot), unused = count_unused(shot);
+    struct plan plan = {.lanes = true};
     int left = rows - 3 - lanes; /* three headings */
     plan.parameters = least(parameters, left > 6 ? 4 : left > 0 ? left / 2 : 0);
     left -= plan.parameters;
@@ -96,45 +102,139 @@ static struct gm_side_plan plan_all(int rows, const struct gm_shot *shot)
     return plan;
 }
 
-void gm_side_heading(const struct gm_sheet *sheet, int row, const char *text)
+/* ---- schemes: this section, as the others, draws from a row on and returns the one after it ---- */
+
+/* Where a lane's title begins, after the mark of the selected one and the lane's line. */
+static int title_column(const struct gm_sheet *sheet)
 {
-    gm_sheet_text(sheet, 0, row, text, GM_SECONDARY, true);
+    return gm_schemes_narrow(sheet) ? 5 : 6;
 }
 
-void gm_side_number(double value, char *text, size_t size)
+/* A name without the scheme's title that it begins with, which stands before it. */
+static const char *beyond_title(const char *name, const char *title)
 {
-    char digits[40];
-    if (!isfinite(value)) {
-        snprintf(text, size, "–"); /* there is no such number here */
+    const size_t length = strlen(title);
+    if (strncmp(name, title, length) != 0 || (name[length] != '\0' && name[length] != ',')) {
+        return name;
+    }
+    return name[length] ? name + length + 2 : "";
+}
+
+/* What tells the lane from others of its scheme. */
+static void lane_difference(const struct gm_shot_lane *lane, bool overlaid, char *text, size_t size)
+{
+    const char *title = lane->first_scheme->title;
+    const char *panel = overlaid ? "" : beyond_title(lane->shown.panel_name, title);
+    const char *colour = beyond_title(lane->shown.colour_name, title);
+    snprintf(text, size, "%s%s%s%s", panel[0] ? ", " : "", panel, colour[0] ? ", " : "", colour);
+}
+
+/* Up to a column: where room is short the difference keeps its values alone, and then the scheme's title is
+   cut before they are. */
+static void lane_title(const struct gm_sheet *sheet, int row, const struct gm_shot_lane *lane,
+                       const char *difference, int end, bool bold)
+{
+    enum { LEAST_TITLE = 5 };
+    char text[320], values[256];
+    const int column = title_column(sheet), room = end - column;
+    const int title = gm_sheet_width(sheet, lane->scheme->title);
+    if (title + gm_sheet_width(sheet, difference) > room) {
+        gm_name_without_keys(difference, values, sizeof values);
+        difference = values;
+    }
+    const int tail = gm_sheet_width(sheet, difference);
+    if (title + tail <= room || room - tail < LEAST_TITLE) {
+        const struct gm_sheet left = gm_sheet_part(sheet, 0, 0, end, sheet->height);
+        snprintf(text, sizeof text, "%s%s", lane->scheme->title, difference);
+        gm_sheet_cut(&left, column, row, text, gm_schemes_role(lane), bold);
         return;
     }
-    if (fabs(value) >= 1e-4 && fabs(value) < 1e-3) { /* shorter so than with all its zeros */
-        snprintf(digits, sizeof digits, "%.3ge-4", value * 1e4);
+    const struct gm_sheet front = gm_sheet_part(sheet, 0, 0, end - tail, sheet->height);
+    gm_sheet_cut(&front, column, row, lane->scheme->title, gm_schemes_role(lane), bold);
+    gm_sheet_text(sheet, front.width, row, difference, gm_schemes_role(lane), bold);
+}
+
+/* What went wrong with a lane, in as many words as its name leaves room for; the last is the shortest. */
+static int lane_trouble(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
+                        const struct gm_shot_lane *lane, int title_end)
+{
+    char texts[3][160];
+    int way = 0;
+    if (lane->status != GM_OK) {
+        snprintf(texts[0], sizeof texts[0], "✕ %s, t = %.4g", gm_status_name(lane->status), lane->t);
+        snprintf(texts[1], sizeof texts[1], "✕ %s", gm_status_name(lane->status));
+        snprintf(texts[2], sizeof texts[2], "✕");
     } else {
-        snprintf(digits, sizeof digits, "%.3g", value);
+        snprintf(texts[0], sizeof texts[0], "! %s %.1g", shot->scene->observables[lane->lost].title,
+                 lane->values[lane->lost]);
+        snprintf(texts[1], sizeof texts[1], "! lost");
+        snprintf(texts[2], sizeof texts[2], "!");
     }
-    /* a true minus sign, and no zeros or plus signs to fill an exponent */
-    size_t at = 0;
-    text[0] = '\0';
-    for (const char *c = digits; *c && at + 4 < size; c++) {
-        if (*c == '-') {
-            at += (size_t)snprintf(text + at, size - at, "−");
-        } else if (*c != '+') {
-            at += (size_t)snprintf(text + at, size - at, "%c", *c);
+    while (way < 2 && title_end >= sheet->width - gm_sheet_width(sheet, texts[way])) {
+        way++;
+    }
+    gm_sheet_right(sheet, sheet->width, row, texts[way], GM_INITIAL, true);
+    return sheet->width - gm_sheet_width(sheet, texts[way]) - 1;
+}
+
+static void lane_row(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
+                     const struct gm_shot_lane *lane, bool selected, unsigned columns)
+{
+    char difference[2 * sizeof lane->shown.panel_name];
+    const enum gm_role role = gm_schemes_role(lane);
+    if (selected) {
+        gm_sheet_text(sheet, 0, row, "▸", GM_INK, true);
+    }
+    gm_sheet_text(sheet, title_column(sheet) - 4, row, gm_schemes_dash(lane), role, false);
+    lane_difference(lane, shot->overlaid, difference, sizeof difference);
+    const int title_end =
+        title_column(sheet) + gm_sheet_width(sheet, lane->scheme->title) + gm_sheet_width(sheet, difference);
+    const int end = lane->status != GM_OK || lane->lost >= 0
+                        ? lane_trouble(sheet, row, shot, lane, title_end)
+                        : gm_schemes_facts(sheet, row, lane->scheme, title_end, columns, true, GM_INK);
+    lane_title(sheet, row, lane, difference, end, selected);
+}
+
+static int draw_schemes(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
+                        const struct plan *plan)
+{
+    if (!plan->lanes) {
+        return row;
+    }
+    unsigned columns = gm_schemes_claims(shot);
+    char text[64];
+    gm_schemes_heading(sheet, row++, "SCHEMES");
+    for (size_t i = 0; i < shot->lane_count; i++) {
+        gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_LANE, .index = i});
+        lane_row(sheet, row++, shot, &shot->lanes[i], i == shot->selected, columns);
+    }
+    int shown = 0, unused = 0;
+    for (size_t i = 0; i < shot->scheme_count; i++) {
+        if (gm_shot_uses(shot, shot->schemes[i])) {
+            continue;
         }
-        if (*c == 'e') {
-            bool minus = c[1] == '-';
-            while (c[1] == '-' || c[1] == '+' || (c[1] == '0' && c[2])) {
-                c++;
-            }
-            if (minus) {
-                at += (size_t)snprintf(text + at, size - at, "−");
-            }
+        unused++;
+        if (shown < plan->schemes - plan->more) {
+            shown++;
+            gm_sheet_hit(sheet, 0, row, sheet->width,
+                         (struct gm_hit){.kind = GM_HIT_SCHEME, .scheme = shot->schemes[i]});
+            gm_schemes_row(sheet, title_column(sheet), row++, shot->schemes[i], columns, GM_SECONDARY, false);
         }
     }
+    if (plan->more && plan->schemes > 0) {
+        snprintf(text, sizeof text, "… %d more fit", unused - shown);
+        gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_KEY, .index = 's'});
+        gm_sheet_text(sheet, title_column(sheet), row++, text, GM_SECONDARY, false);
+    }
+    return row;
 }
 
 /* ---- parameters ---- */
+
+static void draw_heading(const struct gm_sheet *sheet, int row, const char *text)
+{
+    gm_sheet_text(sheet, 0, row, text, GM_SECONDARY, true);
+}
 
 enum { VALUE_LETTERS = 9 };
 
@@ -186,10 +286,10 @@ static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm
     }
     int end = sheet->width;
     if (sheet->width - bar >= 24) {
-        gm_side_number(parameter->row->lowest, text, sizeof text);
+        gm_sheet_number(parameter->row->lowest, text, sizeof text);
         gm_sheet_right(sheet, bar + 6, row, text, GM_SECONDARY, false);
         bar += 7;
-        gm_side_number(parameter->row->highest, text, sizeof text);
+        gm_sheet_number(parameter->row->highest, text, sizeof text);
         gm_sheet_text(sheet, end - 5, row, text, GM_SECONDARY, false);
         end -= 6;
     }
@@ -198,13 +298,13 @@ static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm
 }
 
 static int draw_parameters(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
-                           const struct gm_side_plan *plan)
+                           const struct plan *plan)
 {
     int count = (int)shot->parameter_count, chosen = (int)sheet->face->parameter;
     if (plan->parameters <= 0) {
         return row;
     }
-    gm_side_heading(sheet, row++, "PARAMETERS");
+    draw_heading(sheet, row++, "PARAMETERS");
     int values = value_column(shot);
     /* the chosen one is always among those shown */
     int first = chosen - plan->parameters / 2;
@@ -219,19 +319,190 @@ static int draw_parameters(const struct gm_sheet *sheet, int row, const struct g
     return row;
 }
 
+/* ---- observables ---- */
+
+enum { VALUE_WIDTH = 9, SPARK_CELLS = GM_SPARK / 2 };
+
+/* The common scale of an observable's graphs. */
+static bool spark_range(const struct gm_shot *shot, size_t observable, double *low, double *high)
+{
+    bool logarithmic = shot->scene->observables[observable].logarithmic;
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (size_t i = 0; i < shot->lane_count; i++) {
+        const struct gm_spark *spark = &shot->lanes[i].sparks[observable];
+        for (size_t k = 0; k < GM_SPARK; k++) {
+            if (spark->low[k] > spark->high[k] || (logarithmic && spark->high[k] <= 0)) {
+                continue;
+            }
+            *low = fmin(*low, logarithmic && spark->low[k] <= 0 ? spark->high[k] : spark->low[k]);
+            *high = fmax(*high, spark->high[k]);
+        }
+    }
+    if (logarithmic) {
+        *low = log10(*low);
+        *high = log10(*high);
+    }
+    return *low <= *high && isfinite(*low) && isfinite(*high);
+}
+
+static double spark_place(double value, bool logarithmic, double low, double high)
+{
+    double at = logarithmic ? (value > 0 ? log10(value) : low) : value;
+    return high > low ? fmin(fmax((at - low) / (high - low), 0), 1) : 0.5;
+}
+
+/* As braille where the picture has it, otherwise as bars or letters of growing height. */
+static void draw_spark(const struct gm_sheet *sheet, int column, int row, const struct gm_spark *spark,
+                       bool logarithmic, double low, double high, enum gm_role role)
+{
+    static const uint8_t dots[2][4] = {{0x40, 0x04, 0x02, 0x01}, {0x80, 0x20, 0x10, 0x08}}; /* from below */
+    static const char letters[] = "_.-~'";
+    int before = -1;
+    for (int cell = 0; cell < SPARK_CELLS; cell++) {
+        uint32_t glyph = 0, braille = 0;
+        for (int half = 0; half < 2; half++) {
+            double bottom = spark->low[2 * cell + half], top = spark->high[2 * cell + half];
+            if (bottom > top || (logarithmic && top <= 0)) {
+                continue;
+            }
+            double from = spark_place(bottom, logarithmic, low, high),
+                   to = spark_place(top, logarithmic, low, high);
+            int first = (int)(from * 3 + 0.5), last = (int)(to * 3 + 0.5);
+            /* joined to the place before, so that a steep rise is a line and not two dots */
+            if (before >= 0 && before + 1 < first) {
+                first = before + 1;
+            }
+            if (before >= 0 && before - 1 > last) {
+                last = before - 1;
+            }
+            before = (int)(to * 3 + 0.5);
+            for (int i = first; i <= last; i++) {
+                braille |= dots[half][i];
+            }
+            glyph = sheet->face->blocks == GM_ASCII ? (uint32_t)letters[(int)(to * 4 + 0.5)]
+                                                    : 0x2581 + (uint32_t)(to * 7 + 0.5);
+        }
+        if (sheet->face->blocks == GM_BRAILLE && braille) {
+            gm_sheet_glyph(sheet, column + cell, row, 0x2800 + braille, role, false);
+        } else if (glyph) {
+            gm_sheet_glyph(sheet, column + cell, row, glyph, role, false);
+        }
+    }
+}
+
+static void observable_name(const struct gm_observable *observable, char *text, size_t size)
+{
+    snprintf(text, size, "%s", observable->key);
+    for (char *c = text; *c; c++) {
+        if (*c == '_') {
+            *c = ' ';
+        }
+    }
+}
+
+/* The lanes whose values fit side by side; the selected one is always among them. */
+static size_t first_column(const struct gm_shot *shot, size_t columns)
+{
+    if (shot->lane_count <= columns || shot->selected < columns) {
+        return 0;
+    }
+    return shot->selected - columns + 1;
+}
+
+/* The columns of numbers: the lanes from `first` on, as many as fit. */
+struct columns {
+    size_t first, count;
+    int begin, label;
+};
+
+/* Numbers of the lanes in a row, under or beside a name. */
+static void draw_numbers(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
+                         const struct columns *columns, const char *name,
+                         double (*value)(const struct gm_shot_lane *, size_t), size_t k)
+{
+    const struct gm_sheet label = gm_sheet_part(sheet, 0, 0, columns->label, sheet->height);
+    char text[64];
+    gm_sheet_cut(&label, 0, row, name, GM_SECONDARY, false);
+    if (columns->label == sheet->width) {
+        row++;
+    }
+    for (size_t i = 0; i < columns->count; i++) {
+        const struct gm_shot_lane *lane = &shot->lanes[columns->first + i];
+        gm_sheet_number(value(lane, k), text, sizeof text);
+        gm_sheet_right(sheet, columns->begin + (int)i * VALUE_WIDTH + SPARK_CELLS, row, text,
+                       gm_schemes_role(lane), false);
+    }
+}
+
+static double value_of(const struct gm_shot_lane *lane, size_t observable)
+{
+    return lane->values[observable];
+}
+
+static double way_back(const struct gm_shot_lane *lane, size_t unused)
+{
+    return (void)unused, lane->from_start;
+}
+
+static int draw_observables(const struct gm_sheet *sheet, int row, const struct gm_shot *shot,
+                            const struct plan *plan)
+{
+    if (plan->observables <= 0) {
+        return row;
+    }
+    char text[64];
+    int label = plan->stacked ? 0 : sheet->width >= 50 ? 14 : 13;
+    struct columns columns = {.count = (size_t)((sheet->width - label + 1) / VALUE_WIDTH)};
+    columns.count = columns.count < 1                  ? 1
+                    : columns.count > shot->lane_count ? shot->lane_count
+                                                       : columns.count;
+    columns.first = first_column(shot, columns.count);
+    columns.begin = sheet->width - (int)columns.count * VALUE_WIDTH + 1;
+    columns.label = plan->stacked ? sheet->width : columns.begin - 1;
+    draw_heading(sheet, row, "OBSERVED");
+    for (size_t i = 0; i < columns.count; i++) {
+        const struct gm_shot_lane *lane = &shot->lanes[columns.first + i];
+        int right = columns.begin + (int)i * VALUE_WIDTH + SPARK_CELLS;
+        gm_sheet_right(sheet, right, row, gm_schemes_dash(lane), gm_schemes_role(lane), false);
+    }
+    row++;
+    int end = row + plan->observables, each = 1 + plan->stacked + plan->sparks;
+    if (shot->turned) {
+        draw_numbers(sheet, row, shot, &columns, "from start", way_back, 0);
+        row += 1 + plan->stacked;
+    }
+    for (size_t k = 0; k < shot->observable_count && row + each <= end; k++) {
+        const struct gm_observable *observable = &shot->scene->observables[k];
+        double low = 0, high = 0;
+        observable_name(observable, text, sizeof text);
+        draw_numbers(sheet, row, shot, &columns, text, value_of, k);
+        bool graphs = plan->sparks && spark_range(shot, k, &low, &high);
+        for (size_t i = 0; graphs && i < columns.count; i++) {
+            const struct gm_shot_lane *lane = &shot->lanes[columns.first + i];
+            draw_spark(sheet, columns.begin + (int)i * VALUE_WIDTH, row + each - 1, &lane->sparks[k],
+                       observable->logarithmic, low, high, gm_schemes_role(lane));
+        }
+        row += each;
+    }
+    return row;
+}
+
+/* ---- all of it ---- */
+
 void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
 {
     enum gm_side side = sheet->face->side;
-    struct gm_side_plan plan =
+    struct plan plan =
         side == GM_SIDE_ALL ? plan_all(sheet->height, shot) : plan_one(sheet->height, side, shot);
-    int row = gm_side_schemes(sheet, plan.gap, shot, &plan);
+    int row = draw_schemes(sheet, plan.gap, shot, &plan);
     row = draw_parameters(sheet, row + plan.gap, shot, &plan);
-    row = gm_side_observables(sheet, row + plan.gap, shot, &plan);
+    row = draw_observables(sheet, row + plan.gap, shot, &plan);
     const struct gm_shot_lane *lane = &shot->lanes[shot->selected];
-    if (side == GM_SIDE_PARAMETERS || sheet->height - row < gm_side_formula_rows(lane->scheme) + 2) {
+    if (side == GM_SIDE_PARAMETERS || sheet->height - row < gm_schemes_formula_rows(lane->scheme) + 2) {
         return;
     }
-    gm_side_heading(sheet, row + 1, "FORMULA");
-    gm_sheet_right(sheet, sheet->width, row + 1, lane->scheme->title, gm_side_role(lane), false);
-    gm_side_formula(sheet, row + 2, lane->scheme);
+    draw_heading(sheet, row + 1, "FORMULA");
+    gm_sheet_right(sheet, sheet->width, row + 1, lane->scheme->title, gm_schemes_role(lane), false);
+    gm_schemes_formula(sheet, row + 2, lane->scheme);
 }

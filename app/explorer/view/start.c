@@ -1,63 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The start: the scenes with a live look at the chosen one, and the tours. */
-#include <ctype.h>
-#include <limits.h>
+#include "app/explorer/view/start.h"
+
 #include <stdio.h>
-#include <string.h>
 
-#include "app/explorer/view/screen.h"
-
-/* How a word stands in a text, the best first. */
-enum { EXACT, PREFIX, WORD_START, ANYWHERE, NOWHERE };
-
-static bool begins_with(const char *text, const char *word, size_t length)
-{
-    size_t i = 0;
-    while (i < length && tolower((unsigned char)text[i]) == tolower((unsigned char)word[i])) {
-        i++;
-    }
-    return i == length;
-}
-
-static int place_in(const char *text, const char *word, size_t length)
-{
-    int best = NOWHERE;
-    for (const char *at = text; *at && best > WORD_START; at++) {
-        if (begins_with(at, word, length)) {
-            const bool start = at == text || !isalnum((unsigned char)at[-1]);
-            best = at == text ? (at[length] ? PREFIX : EXACT) : start ? WORD_START : ANYWHERE;
-        }
-    }
-    return best;
-}
-
-int gm_search_rank(const char *typed, const char *const *texts)
-{
-    int worst = 0;
-    while (*typed) {
-        const size_t length = strcspn(typed, " ");
-        int best = length == 0 ? 0 : INT_MAX;
-        for (int i = 0; length > 0 && texts[i]; i++) {
-            const int place = place_in(texts[i], typed, length);
-            /* of equal places the one in the first text, which is the name, counts most */
-            const int rank = place == NOWHERE ? INT_MAX : place * GM_SEARCH_TEXTS + i;
-            best = rank < best ? rank : best;
-        }
-        worst = best > worst ? best : worst;
-        typed += length + (typed[length] == ' ');
-    }
-    return worst == INT_MAX ? -1 : worst;
-}
-
-size_t gm_search_place(int *ranks, size_t first, size_t count, int rank)
-{
-    size_t at = count;
-    for (; at > first && ranks[at - 1] > rank; at--) {
-        ranks[at] = ranks[at - 1];
-    }
-    ranks[at] = rank;
-    return at;
-}
+#include "app/explorer/view/pages.h"
 
 enum {
     NAME_COLUMNS = 17,
@@ -134,7 +81,8 @@ static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet, co
     if (said[0]) {
         gm_sheet_wrapped(sheet, 0, row + 1, picture, said, GM_INITIAL);
     } else if (shot && picture >= 4) {
-        gm_screen_picture(screen, sheet->face, shot, sheet->column, sheet->row + row, sheet->width, picture);
+        const struct gm_sheet look = gm_sheet_part(sheet, 0, row, sheet->width, picture);
+        gm_screen_picture(screen, &look, shot);
     } else if (picture >= 1) {
         gm_sheet_text(sheet, sheet->width / 2 - 1, row + picture / 2, "…", GM_SECONDARY, false);
     }
@@ -181,16 +129,16 @@ static void draw_keys(const struct gm_sheet *sheet, const struct gm_start *start
         start->typed[0] ? (struct gm_hint){"esc", "all", 27} : (struct gm_hint){"q", "quit", 'q'};
     hints[count++] = (struct gm_hint){"?", "help", '?'};
     hints[count] = (struct gm_hint){NULL, NULL, 0};
-    gm_hints_draw(sheet, column, hints);
+    gm_sheet_hints(sheet, column, hints);
 }
 
 void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const struct gm_start *start,
                           const struct gm_shot *shot, bool fresh, const char *said)
 {
     const struct gm_sheet whole = gm_screen_clear(screen, face);
-    int below = gm_screen_status_rows(&screen->cells), rows = whole.height - below, at = 0;
+    int below = gm_screen_rows_below(&screen->cells), rows = whole.height - below, at = 0;
     if (fresh) {
-        screen->fresh = false;
+        screen->picture.fresh = false;
     }
     if (face->page == GM_PAGE_START) {
         gm_screen_draw_page(&whole, face, NULL);

@@ -1,40 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The last row: what there is to say, to answer or to watch at the left, keys at the right. */
+/* The status line of a scene: of all there is to say, what matters most. */
+#include "app/explorer/view/status.h"
+
 #include <curses.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "app/explorer/view/keys.h"
-#include "app/explorer/view/screen.h"
-#include "app/explorer/view/sections.h"
+#include "app/explorer/view/prompt.h"
 
 enum { MOST_HINTS = 40, FIRST_HINT = 14 };
-
-int gm_hints_draw(const struct gm_sheet *sheet, int from, const struct gm_hint *hints)
-{
-    int widths = 0, count = 0;
-    for (; hints[count].key; count++) {
-        int width =
-            gm_sheet_width(sheet, hints[count].key) + 1 + gm_sheet_width(sheet, hints[count].word) + 3;
-        if (from + widths + width > sheet->width) {
-            break;
-        }
-        widths += width;
-    }
-    int begin = sheet->width - widths + 2, column = begin;
-    for (int i = 0; i < count; i++) {
-        int first = column;
-        column += gm_sheet_text(sheet, column, 0, hints[i].key, GM_INK, true) + 1;
-        column += gm_sheet_text(sheet, column, 0, hints[i].word, GM_SECONDARY, false) + 3;
-        if (hints[i].code) {
-            gm_sheet_hit(sheet, first, 0, column - first - 2,
-                         (struct gm_hit){.kind = GM_HIT_KEY, .index = (size_t)hints[i].code});
-        }
-    }
-    return begin;
-}
 
 static int by_rank(const void *a, const void *b)
 {
@@ -75,7 +51,7 @@ static const struct gm_hint ahead_hints[] = {{"any key", "stop", ' '}, {NULL, NU
 /* Slower than this, in steps per second, a step can be seen by itself. */
 static const double slow_motion = 20;
 
-void gm_speed_text(const struct gm_shot *shot, char *text, size_t size)
+void gm_status_speed(const struct gm_shot *shot, char *text, size_t size)
 {
     char movie[24] = "", pace[32] = "";
     if (shot->recorded >= 0) {
@@ -99,18 +75,13 @@ static void explain(const struct gm_shot_parameter *parameter, bool valued, char
 {
     const struct gm_parameter *row = parameter->row;
     char low[32], high[32];
-    gm_side_number(row->lowest, low, sizeof low);
-    gm_side_number(row->highest, high, sizeof high);
+    gm_sheet_number(row->lowest, low, sizeof low);
+    gm_sheet_number(row->highest, high, sizeof high);
     bool ranged = row->type == GM_REAL || row->type == GM_INTEGER;
     snprintf(text, size, "%s%s%s: %s%s%s%s%s; %s", row->key, valued ? " = " : "",
              valued ? parameter->value : "", row->help, ranged ? ", " : "", ranged ? low : "",
              ranged ? " to " : "", ranged ? high : "",
              row->live && !parameter->of_scheme ? "acts at once" : "starts again");
-}
-
-void gm_ahead_text(const struct gm_shot *shot, char *text, size_t size)
-{
-    snprintf(text, size, "%.6g", shot->ahead);
 }
 
 /* What stands at the left. */
@@ -125,12 +96,8 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, bool sid
         snprintf(text, size, "Another scheme for %s, from its present state on", lane);
     } else if (face->choosing == GM_CHOOSE_FORK) {
         snprintf(text, size, "%s goes on, and from its present state with another scheme too", lane);
-    } else if (face->prompt == GM_PROMPT_AHEAD) {
-        char standard[32] = "";
-        gm_ahead_text(shot, standard, sizeof standard);
-        snprintf(text, size, "Run ahead to t = %s_   (enter alone: %s)", face->typed, standard);
-    } else if (face->prompt == GM_PROMPT_VALUE && parameter) {
-        snprintf(text, size, "%s = %s_   (%s)", parameter->row->key, face->typed, parameter->row->help);
+    } else if (face->prompt == GM_PROMPT_AHEAD || (face->prompt == GM_PROMPT_VALUE && parameter)) {
+        gm_prompt_text(face, shot, text, size);
     } else if (shot->message[0] && shot->message_number != face->read) {
         snprintf(text, size, "%s", shot->message);
     } else if (face->explaining && parameter) {
@@ -138,24 +105,6 @@ static void say(const struct gm_face *face, const struct gm_shot *shot, bool sid
     } else {
         /* a tour says itself what to watch */
         snprintf(text, size, "%s", shot->scene->watch && !face->guide ? shot->scene->watch : "");
-    }
-}
-
-void gm_screen_say_above(const struct gm_sheet *whole, const char *text)
-{
-    const struct gm_sheet nothing = gm_sheet_part(whole, 1, 0, whole->width - 2, 0);
-    const int wanted = gm_sheet_wrapped(&nothing, 0, 0, whole->height, text, GM_INK),
-              most = whole->height / 3, rows = wanted < most ? wanted : most,
-              first = whole->height - 1 - rows;
-    for (int row = first; row < first + rows; row++) {
-        for (int column = 0; column < whole->width; column++) {
-            gm_sheet_glyph(whole, column, row, ' ', GM_INK, false);
-        }
-    }
-    const struct gm_sheet above = gm_sheet_part(whole, 1, first, whole->width - 2, rows);
-    gm_sheet_wrapped(&above, 0, 0, rows, text, GM_INK);
-    if (wanted > rows) {
-        gm_sheet_text(&above, above.width - 1, rows - 1, "…", GM_INK, true);
     }
 }
 
@@ -167,7 +116,7 @@ void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, in
     char text[GM_MESSAGE];
     int column = 1;
     if (!side) { /* the side panel has it otherwise */
-        gm_speed_text(shot, text, sizeof text);
+        gm_status_speed(shot, text, sizeof text);
         column += gm_sheet_text(&sheet, column, 0, text, GM_INK, true) + 2;
     }
     say(face, shot, side > 0, text, sizeof text);
@@ -180,14 +129,14 @@ void gm_status_draw(const struct gm_sheet *whole, const struct gm_shot *shot, in
                                   : face->explaining && !news           ? parameter_hints
                                                                         : keys;
     const bool answers = news || face->choosing != GM_CHOOSE_NOTHING || face->explaining;
-    if (answers && gm_screen_status_rows(whole->cells) == 2 &&
+    if (answers && gm_screen_rows_below(whole->cells) == 2 &&
         column + gm_sheet_width(&sheet, text) + FIRST_HINT > sheet.width) {
         gm_screen_say_above(whole, text);
         text[0] = '\0';
     }
     /* the first hint is always there if it fits at all */
     int from = column + gm_sheet_width(&sheet, text) + 3, most = sheet.width - FIRST_HINT;
-    int begin = gm_hints_draw(&sheet, from < most ? from : most > column ? most : column, hints);
+    int begin = gm_sheet_hints(&sheet, from < most ? from : most > column ? most : column, hints);
     if (begin > column) {
         const struct gm_sheet left = gm_sheet_part(&sheet, 0, 0, begin - 2, 1);
         gm_sheet_cut(&left, column, 0, text, news ? GM_INK : GM_SECONDARY, news);

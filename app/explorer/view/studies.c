@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The diagrams in the background: one of each kind, and which one is on the screen. */
+/* Which study is on the screen, its keys and its picture; and what is told of those that go on unseen. */
 #include "app/explorer/view/studies.h"
 
 #include <ctype.h>
@@ -8,9 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/explorer/view/keys.h"
-
-enum { REDRAW = 'L' - '@' };
+#include "app/explorer/view/press.h"
 
 static const char keys[GM_STUDY_COUNT] = {[GM_STUDY_WORK] = 'w', [GM_STUDY_STABILITY] = 'm'};
 
@@ -19,7 +17,7 @@ void gm_studies_close(struct gm_studies *studies)
     for (int i = 0; i < GM_STUDY_COUNT; i++) {
         gm_study_close(studies->studies[i]);
     }
-    free(studies->cells.cells);
+    free(studies->painting.cells.cells);
     *studies = (struct gm_studies){0};
 }
 
@@ -36,7 +34,7 @@ bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const 
         studies->looks[kind] = NULL;
     }
     studies->shown = kind;
-    studies->fresh = false;
+    studies->painting.fresh = false;
     return true;
 }
 
@@ -100,7 +98,7 @@ bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)
         return true;
     case 'w':
     case 'm':
-    case REDRAW:
+    case GM_KEY_REDRAW:
         return false;
     default:
         return key <= ' ' || key > '~' || !strchr(others, key);
@@ -114,7 +112,7 @@ bool gm_studies_look(struct gm_studies *studies)
         struct gm_study_look *look = studies->studies[i] ? gm_study_take(studies->studies[i]) : NULL;
         if (look) {
             studies->looks[i] = look;
-            studies->fresh = studies->fresh && studies->shown != (enum gm_study_kind)i;
+            studies->painting.fresh = studies->painting.fresh && studies->shown != (enum gm_study_kind)i;
             news = true;
         }
     }
@@ -148,24 +146,7 @@ void gm_studies_draw(const struct gm_sheet *sheet, struct gm_studies *studies)
         draw_reason(sheet, look);
         return;
     }
-    struct gm_cells *cells = &studies->cells;
-    if (!studies->fresh || cells->columns != sheet->width || cells->rows != sheet->height ||
-        studies->blocks != sheet->face->blocks || studies->theme != sheet->face->theme) {
-        if (!gm_cells_resize(cells, sheet->width, sheet->height, sheet->face->theme)) {
-            return;
-        }
-        cells->outlines = sheet->face->few_colours || sheet->face->monochrome;
-        gm_cells_paint(cells, look->picture, sheet->face->theme, sheet->face->blocks);
-        studies->fresh = true;
-        studies->blocks = sheet->face->blocks;
-        studies->theme = sheet->face->theme;
-    }
-    for (int row = 0; row < sheet->height; row++) {
-        memcpy(&sheet->cells->cells[(size_t)(sheet->row + row) * (size_t)sheet->cells->columns +
-                                    (size_t)sheet->column],
-               &cells->cells[(size_t)row * (size_t)cells->columns],
-               sizeof(struct gm_cell) * (size_t)cells->columns);
-    }
+    gm_sheet_paint(sheet, &studies->painting, look->picture);
 }
 
 static int percent(const struct gm_study_look *look)

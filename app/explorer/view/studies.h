@@ -2,8 +2,9 @@
 #ifndef GM_APP_EXPLORER_VIEW_STUDIES_H
 #define GM_APP_EXPLORER_VIEW_STUDIES_H
 
-#include "app/explorer/view/screen.h"
-#include "app/explorer/view/study.h"
+#include "app/explorer/background/study.h"
+#include "app/explorer/view/sheet.h"
+#include "app/lanes/shot.h"
 
 /* The background studies of the explorer, one of each kind, and which of them is on the screen. */
 
@@ -11,11 +12,8 @@ struct gm_studies {
     struct gm_study *studies[GM_STUDY_COUNT];
     struct gm_study_look *looks[GM_STUDY_COUNT]; /* the last ones taken; NULL: none yet */
     enum gm_study_kind shown;                    /* GM_STUDY_NONE: the scene is */
-    struct gm_cells cells;                       /* the shown picture, kept */
-    bool fresh;                                  /* they show the last look */
-    enum gm_blocks blocks;                       /* and were painted with these */
-    enum gm_theme theme;
-    char notice[GM_MESSAGE]; /* what could not be done; "" after the next key */
+    struct gm_painting painting;                 /* the shown picture */
+    char notice[GM_MESSAGE];                     /* what could not be done; "" after the next key */
 };
 
 void gm_studies_close(struct gm_studies *studies);

@@ -1,95 +1,88 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is kept of a session: pictures, a movie, the command lines that redo it. */
+/* What is kept of a session: a picture, a movie, the words that redo it. */
+#include "app/explorer/worker/capture.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
-#include "app/explorer/worker/shared.h"
 #include "app/lanes/course.h"
+#include "app/output/folder.h"
 #include "app/output/still.h"
 #include "app/request/words.h"
+#include "render/files/clock.h"
 
 /* 300 dots an inch on 32 cm, 600 on the 16 cm of a text column. */
 enum { PRINT_WIDTH = 3840, PRINT_HEIGHT = 2160 };
 
-/* SCENE-0001.png, or the first number that is free. */
-static void free_name(const struct gm_worker *worker, const char *ending, char *path, size_t size)
-{
-    int number = 1;
-    do {
-        snprintf(path, size, "%.80s-%04d%s", worker->session.scene->name, number, ending);
-    } while (access(path, F_OK) == 0 && number++ < 9999);
-}
-
 /* Where the lanes are goes into the log. */
-static void note_steps(struct gm_worker *worker)
+static void note_steps(struct gm_session *session)
 {
-    for (size_t i = 0; i < worker->session.count; i++) {
-        worker->session.log.lanes[i].steps = worker->session.lanes[i]->run->steps;
+    for (size_t i = 0; i < session->count; i++) {
+        session->log.lanes[i].steps = session->lanes[i]->run->steps;
     }
 }
 
-void gm_worker_save(struct gm_worker *worker, enum gm_theme theme)
+void gm_capture_save(struct gm_play *play, enum gm_theme theme)
 {
+    struct gm_session *session = &play->session;
     char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
-    free_name(worker, ".png", path, sizeof path);
-    note_steps(worker);
-    bool ok = gm_still_write(path, PRINT_WIDTH, PRINT_HEIGHT, theme, &worker->session.log,
-                             (const struct gm_lane *const *)worker->session.lanes, message);
+    gm_folder_free_file(session->scene->name, ".png", path, sizeof path);
+    note_steps(session);
+    bool ok = gm_still_write(path, PRINT_WIDTH, PRINT_HEIGHT, theme, &session->log,
+                             (const struct gm_lane *const *)session->lanes, message);
     snprintf(sentence, sizeof sentence, ok ? "Saved %.400s." : "Not saved: %.400s", ok ? path : message);
-    gm_worker_say(worker, sentence);
+    gm_play_say(play, sentence);
 }
 
 /* ---- the movie ---- */
 
-bool gm_worker_stop_recording(struct gm_worker *worker, char *sentence)
+bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence)
 {
     char path[128], message[GM_MESSAGE] = "";
-    if (!worker->recorder) {
+    if (!capture->recorder) {
         return false;
     }
-    snprintf(path, sizeof path, "%s", gm_recorder_path(worker->recorder));
-    double length = gm_recorder_length(worker->recorder);
-    if (gm_recorder_close(worker->recorder, message)) {
+    snprintf(path, sizeof path, "%s", gm_recorder_path(capture->recorder));
+    double length = gm_recorder_length(capture->recorder);
+    if (gm_recorder_close(capture->recorder, message)) {
         snprintf(sentence, GM_MESSAGE, "Saved %.100s, a movie of %.1f s.", path, length);
     } else {
         snprintf(sentence, GM_MESSAGE, "No movie: %.400s", message);
     }
-    worker->recorder = NULL;
+    capture->recorder = NULL;
     return true;
 }
 
-void gm_worker_record(struct gm_worker *worker, enum gm_theme theme)
+void gm_capture_record(struct gm_capture *capture, struct gm_play *play, enum gm_theme theme)
 {
     char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
-    if (gm_worker_stop_recording(worker, sentence)) {
-        gm_worker_say(worker, sentence);
+    if (gm_capture_stop_recording(capture, sentence)) {
+        gm_play_say(play, sentence);
         return;
     }
-    free_name(worker, ".mp4", path, sizeof path);
-    worker->recorder = gm_recorder_open(path, theme, message);
-    if (worker->recorder) {
+    gm_folder_free_file(play->session.scene->name, ".mp4", path, sizeof path);
+    capture->recorder = gm_recorder_open(path, theme, message);
+    if (capture->recorder) {
         snprintf(sentence, sizeof sentence, "Recording %.100s; R ends it.", path);
     } else {
         snprintf(sentence, sizeof sentence, "No movie: %.400s", message);
     }
-    worker->unrecorded = true;
-    gm_worker_say(worker, sentence);
+    capture->unrecorded = true;
+    gm_play_say(play, sentence);
 }
 
-void gm_worker_take_frame(struct gm_worker *worker)
+void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *session)
 {
-    const struct gm_session *session = &worker->session;
-    if (!worker->recorder || !worker->unrecorded) {
+    if (!capture->recorder || !capture->unrecorded) {
         return;
     }
-    struct gm_picture *picture = gm_recorder_due(worker->recorder, gm_worker_wall_time());
+    struct gm_picture *picture = gm_recorder_due(capture->recorder, gm_clock_seconds());
     if (picture) {
         session->scene->draw((const struct gm_lane *const *)session->lanes, session->count, picture);
-        gm_recorder_put(worker->recorder);
-        worker->unrecorded = false;
+        gm_recorder_put(capture->recorder);
+        capture->unrecorded = false;
     }
 }
 
@@ -174,12 +167,19 @@ static char *tell_explorer(const struct gm_session *session)
     return text;
 }
 
-void gm_worker_tell(struct gm_worker *worker, enum gm_theme theme)
+void gm_capture_tell(struct gm_capture *capture, const struct gm_session *session, enum gm_theme theme)
 {
     for (size_t i = 0; i < GM_COMMANDS; i++) {
-        free(worker->commands[i]);
+        free(capture->commands[i]);
     }
-    worker->commands[GM_COMMAND_PICTURE] = tell_picture(&worker->session, theme);
-    worker->commands[GM_COMMAND_EXPLORER] = tell_explorer(&worker->session);
-    worker->command_number++;
+    capture->commands[GM_COMMAND_PICTURE] = tell_picture(session, theme);
+    capture->commands[GM_COMMAND_EXPLORER] = tell_explorer(session);
+    capture->command_number++;
+}
+
+void gm_capture_close(struct gm_capture *capture)
+{
+    for (size_t i = 0; i < GM_COMMANDS; i++) {
+        free(capture->commands[i]);
+    }
 }

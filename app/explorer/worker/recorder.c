@@ -1,110 +1,71 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A movie of what is seen: frames to ffmpeg in a thread, so that steps do not wait for it. */
+/* A movie made beside the session that is played. */
 #include "app/explorer/worker/recorder.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/explorer/background/job.h"
 #include "app/request/drive.h"
 #include "render/files/sink.h"
-#include "render/files/thread.h"
 #include "render/gl/canvas.h"
 #include "render/message.h"
 
 enum { WIDTH = 1280, HEIGHT = 720, RATE = 30 };
 
 struct gm_recorder {
-    pthread_t thread;
+    struct gm_job painting;
     char *path;
     enum gm_theme theme;
-    struct gm_picture *picture;
     struct gm_sink *sink;
 
     /* the caller's */
     double begun; /* the time of the first frame, without what was left out */
     long frames;  /* that the movie has, with those that are under way */
-    long due;     /* of them the picture that is due */
 
-    /* shared, under the lock */
-    pthread_mutex_t lock;
-    pthread_cond_t news;
-    bool busy, leave, failed;
-    long repeat; /* so many frames show the picture */
+    /* the caller's and the thread's in turn */
+    struct gm_picture *picture;
+    long repeat; /* so many frames show it */
+
+    /* the thread's */
+    struct gm_canvas *canvas; /* NULL: not yet */
+    unsigned char *rgb;
+    bool failed;
     char message[GM_MESSAGE];
 };
 
-/* Paints a picture once and puts it into the movie so many times. */
-static bool record(struct gm_recorder *recorder, struct gm_canvas *canvas, long repeat)
+static bool open_canvas(struct gm_recorder *recorder)
 {
-    const size_t size = (size_t)WIDTH * HEIGHT * 3;
-    unsigned char *painted = NULL;
-    for (long i = 0; i < repeat; i++) {
-        unsigned char *frame = gm_sink_frame(recorder->sink);
-        if (!frame) {
-            free(painted);
-            return false;
-        }
-        if (i == 0) {
-            bool ok = gm_canvas_paint(canvas, recorder->picture, frame);
-            if (ok && repeat > 1) { /* a frame that is put is the sink's */
-                painted = malloc(size);
-                ok = painted != NULL;
-            }
-            if (!ok) {
-                gm_sink_put(recorder->sink, frame, 0, NULL, 0);
-                return false;
-            }
-            if (painted) {
-                memcpy(painted, frame, size);
-            }
-        } else {
-            memcpy(frame, painted, size);
-        }
-        if (!gm_sink_put(recorder->sink, frame, 0, NULL, 0)) {
-            free(painted);
-            return false;
-        }
+    if (!recorder->canvas) {
+        recorder->canvas = gm_canvas_open(WIDTH, HEIGHT, recorder->theme, recorder->message);
     }
-    free(painted);
-    return true;
+    if (!recorder->rgb) {
+        recorder->rgb = malloc((size_t)WIDTH * HEIGHT * 3);
+    }
+    return recorder->canvas && recorder->rgb;
 }
 
-static void *work(void *self)
+/* Paints a picture once and puts it into the movie so many times. */
+static void record(void *self)
 {
     struct gm_recorder *recorder = self;
-    char message[GM_MESSAGE];
-    struct gm_canvas *canvas = gm_canvas_open(WIDTH, HEIGHT, recorder->theme, message);
-    pthread_mutex_lock(&recorder->lock);
-    if (!canvas) {
-        recorder->failed = true;
-        snprintf(recorder->message, sizeof recorder->message, "%s", message);
-    }
-    while (!recorder->leave || recorder->busy) { /* what is under way is finished */
-        if (!recorder->busy) {
-            pthread_cond_wait(&recorder->news, &recorder->lock);
-            continue;
-        }
-        if (!recorder->failed) {
-            long repeat = recorder->repeat;
-            pthread_mutex_unlock(&recorder->lock);
-            bool ok = record(recorder, canvas, repeat);
-            pthread_mutex_lock(&recorder->lock);
-            recorder->failed = !ok;
-        }
-        recorder->busy = false;
-    }
-    pthread_mutex_unlock(&recorder->lock);
-    gm_canvas_close(canvas); /* here, because the context is this thread's */
-    return NULL;
+    recorder->failed = recorder->failed || !open_canvas(recorder) ||
+                       !gm_canvas_paint(recorder->canvas, recorder->picture, recorder->rgb) ||
+                       !gm_sink_hold(recorder->sink, recorder->rgb, recorder->repeat);
+}
+
+/* In the thread, because the context is its own. */
+static void end(void *self)
+{
+    struct gm_recorder *recorder = self;
+    gm_canvas_close(recorder->canvas);
+    free(recorder->rgb);
 }
 
 static void release(struct gm_recorder *recorder)
 {
-    pthread_mutex_destroy(&recorder->lock);
-    pthread_cond_destroy(&recorder->news);
     gm_picture_close(recorder->picture);
     free(recorder->path);
     free(recorder);
@@ -117,8 +78,6 @@ struct gm_recorder *gm_recorder_open(const char *path, enum gm_theme theme, char
         snprintf(message, GM_MESSAGE, "There is not enough memory.");
         return NULL;
     }
-    pthread_mutex_init(&recorder->lock, NULL);
-    pthread_cond_init(&recorder->news, NULL);
     recorder->theme = theme;
     recorder->begun = NAN;
     recorder->path = strdup(path);
@@ -135,10 +94,9 @@ struct gm_recorder *gm_recorder_open(const char *path, enum gm_theme theme, char
         release(recorder);
         return NULL;
     }
-    const int error = gm_thread_start(&recorder->thread, work, recorder);
-    if (error != 0) {
-        gm_sink_close(recorder->sink, false, message);
-        snprintf(message, GM_MESSAGE, "No thread could be started: %s.", strerror(error));
+    if (!gm_job_open(&recorder->painting, record, end, recorder, -1, message)) {
+        char given_up[GM_MESSAGE];
+        gm_sink_close(recorder->sink, false, given_up);
         release(recorder);
         return NULL;
     }
@@ -147,11 +105,7 @@ struct gm_recorder *gm_recorder_open(const char *path, enum gm_theme theme, char
 
 bool gm_recorder_close(struct gm_recorder *recorder, char *message)
 {
-    pthread_mutex_lock(&recorder->lock);
-    recorder->leave = true;
-    pthread_cond_signal(&recorder->news);
-    pthread_mutex_unlock(&recorder->lock);
-    pthread_join(recorder->thread, NULL);
+    gm_job_close(&recorder->painting);
     bool good = gm_sink_close(recorder->sink, true, message);
     if (recorder->message[0]) { /* there was no GL to paint with */
         snprintf(message, GM_MESSAGE, "%s", recorder->message);
@@ -177,27 +131,20 @@ struct gm_picture *gm_recorder_due(struct gm_recorder *recorder, double now)
         recorder->begun = now - 1.0 / RATE;
     }
     long due = (long)((now - recorder->begun) * RATE + 1e-6) - recorder->frames;
-    pthread_mutex_lock(&recorder->lock);
-    bool busy = recorder->busy;
-    pthread_mutex_unlock(&recorder->lock);
-    if (due < 1 || busy) {
+    if (due < 1 || gm_job_is_busy(&recorder->painting)) {
         return NULL;
     }
     if (due > RATE) { /* nothing changed for long */
         recorder->begun += (double)(due - RATE) / RATE;
         due = RATE;
     }
-    recorder->due = due;
+    recorder->repeat = due;
     gm_picture_clear(recorder->picture);
     return recorder->picture;
 }
 
 void gm_recorder_put(struct gm_recorder *recorder)
 {
-    recorder->frames += recorder->due;
-    pthread_mutex_lock(&recorder->lock);
-    recorder->repeat = recorder->due;
-    recorder->busy = true;
-    pthread_cond_signal(&recorder->news);
-    pthread_mutex_unlock(&recorder->lock);
+    recorder->frames += recorder->repeat;
+    gm_job_begin(&recorder->painting);
 }

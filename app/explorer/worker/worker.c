@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The thread that steps: orders in, finished looks out, and in between as many steps as the clock asks
-   for. */
+/* The thread itself: its queue of orders and its two shots, and what it does in a round. */
 #include "app/explorer/worker/worker.h"
 
 #include <errno.h>
@@ -12,19 +11,32 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "app/explorer/worker/shared.h"
 #include "render/files/thread.h"
 
-/* A speed at which the scene's own time span takes some seconds. */
-static int first_speed(const struct gm_session *session)
-{
-    const struct gm_timing *timing = session->lanes[0]->parameters;
-    double span = fabs(timing->until - session->lanes[0]->t0);
-    int number = span > 0 && isfinite(span) ? (int)round(3 * log10(span / 6)) : 0;
-    return number < GM_WORKER_SLOWEST   ? GM_WORKER_SLOWEST
-           : number > GM_WORKER_FASTEST ? GM_WORKER_FASTEST
-                                        : number;
-}
+enum { QUEUE = 256 };
+
+struct gm_worker {
+    pthread_t thread;
+    int wake;
+
+    /* shared, under the lock */
+    pthread_mutex_t lock;
+    pthread_cond_t news;
+    struct gm_order queue[QUEUE];
+    size_t first, count;
+    bool wanted; /* a shot */
+    bool ready;  /* shots[filled] is finished and not yet taken */
+    bool leave, orphan, failed;
+    bool recorded; /* a movie was asked for, at some time */
+    int filled;    /* the shot that the thread fills; the screen has the other one */
+    struct gm_shot shots[2];
+
+    /* the thread's own */
+    const struct gm_scene *scene; /* to be opened with so many schemes; NULL: the session was */
+    size_t schemes;
+    struct gm_play play;
+    struct gm_capture capture;
+};
 
 static void announce(struct gm_worker *worker)
 {
@@ -37,27 +49,28 @@ static void announce(struct gm_worker *worker)
 /* Called with the lock held; lets go of it while the shot is taken. */
 static void take_shot(struct gm_worker *worker)
 {
+    struct gm_play *play = &worker->play;
+    const struct gm_capture *capture = &worker->capture;
     worker->wanted = false;
-    worker->changed = false;
+    play->changed = false;
     struct gm_shot *shot = &worker->shots[worker->filled];
     pthread_mutex_unlock(&worker->lock);
-    gm_shot_take(shot, &worker->session, worker->selected, !worker->ahead);
-    shot->running_ahead = worker->ahead;
-    shot->progress =
-        1 - gm_worker_left_until(worker, worker->ahead_to) / fabs(worker->ahead_to - worker->ahead_from);
-    shot->paused = worker->paused;
-    shot->behind = worker->behind;
-    shot->speed = gm_worker_speed_of(worker->speed);
-    shot->pace = shot->speed / fabs(worker->session.lanes[worker->selected]->run->dt);
-    snprintf(shot->message, sizeof shot->message, "%s", worker->message);
-    shot->message_number = worker->message_number;
-    shot->recorded = worker->recorder ? gm_recorder_length(worker->recorder) : -1;
-    if (shot->command_number != worker->command_number) {
+    gm_shot_take(shot, &play->session, play->selected, !play->ahead);
+    shot->running_ahead = play->ahead;
+    shot->progress = 1 - gm_play_left_until(play, play->ahead_to) / fabs(play->ahead_to - play->ahead_from);
+    shot->paused = play->paused;
+    shot->behind = play->behind;
+    shot->speed = gm_play_speed(play);
+    shot->pace = shot->speed / fabs(play->session.lanes[play->selected]->run->dt);
+    snprintf(shot->message, sizeof shot->message, "%s", play->message);
+    shot->message_number = play->message_number;
+    shot->recorded = capture->recorder ? gm_recorder_length(capture->recorder) : -1;
+    if (shot->command_number != capture->command_number) {
         for (size_t i = 0; i < GM_COMMANDS; i++) {
             free(shot->commands[i]);
-            shot->commands[i] = worker->commands[i] ? strdup(worker->commands[i]) : NULL;
+            shot->commands[i] = capture->commands[i] ? strdup(capture->commands[i]) : NULL;
         }
-        shot->command_number = worker->command_number;
+        shot->command_number = capture->command_number;
     }
     pthread_mutex_lock(&worker->lock);
     worker->ready = true;
@@ -67,14 +80,7 @@ static void take_shot(struct gm_worker *worker)
 /* Called with the lock held: waits for news, at most until the next step is due. */
 static void rest(struct gm_worker *worker)
 {
-    double next = gm_session_next(&worker->session), pause = INFINITY;
-    if (!worker->paused && isfinite(next)) {
-        pause = fmax(fabs(next - gm_worker_due_time(worker)) / gm_worker_speed_of(worker->speed),
-                     GM_WORKER_SLICE);
-    }
-    if (worker->restart) {
-        pause = fmin(pause, GM_WORKER_RESTART_PAUSE);
-    }
+    const double pause = gm_play_pause(&worker->play);
     if (pause > 1e6) {
         pthread_cond_wait(&worker->news, &worker->lock);
         return;
@@ -94,28 +100,17 @@ static bool open_named(struct gm_worker *worker, char *message)
     if (!gm_request_parse(&request, 1, words, worker->schemes, message)) {
         return false;
     }
-    bool ok = gm_session_open(&worker->session, &request, message);
+    bool ok = gm_session_open(&worker->play.session, &request, message);
     gm_request_close(&request);
     return ok;
-}
-
-/* The session is there: from now on there is something to step. */
-static void begin(struct gm_worker *worker)
-{
-    worker->changed = true;
-    worker->speed = first_speed(&worker->session);
-    worker->restarted = -1e9;
-    gm_worker_set_clock(worker, gm_session_time(&worker->session));
 }
 
 static void release(struct gm_worker *worker)
 {
     pthread_cond_destroy(&worker->news);
     pthread_mutex_destroy(&worker->lock);
-    for (size_t i = 0; i < GM_COMMANDS; i++) {
-        free(worker->commands[i]);
-    }
-    gm_session_close(&worker->session);
+    gm_capture_close(&worker->capture);
+    gm_session_close(&worker->play.session);
     gm_shot_close(&worker->shots[0]);
     gm_shot_close(&worker->shots[1]);
     free(worker);
@@ -124,23 +119,25 @@ static void release(struct gm_worker *worker)
 /* One round: the orders, then some steps, then a shot or a rest. Called with the lock held. */
 static void go_round(struct gm_worker *worker)
 {
+    struct gm_play *play = &worker->play;
+    struct gm_capture *capture = &worker->capture;
     while (worker->count > 0) {
         struct gm_order order = worker->queue[worker->first];
-        worker->first = (worker->first + 1) % GM_WORKER_QUEUE;
+        worker->first = (worker->first + 1) % QUEUE;
         worker->count--;
         pthread_mutex_unlock(&worker->lock);
-        gm_worker_obey(worker, &order);
+        gm_order_obey(&order, play, capture);
         pthread_mutex_lock(&worker->lock);
     }
     pthread_mutex_unlock(&worker->lock);
-    gm_worker_restart_if_due(worker);
-    bool worked = gm_worker_step(worker);
-    worker->unrecorded = worker->unrecorded || worked;
-    gm_worker_take_frame(worker);
-    gm_worker_keep_agenda(worker);
-    gm_worker_watch_frozen(worker);
+    gm_play_restart_if_due(play);
+    bool worked = gm_play_step(play);
+    capture->unrecorded = capture->unrecorded || worked;
+    gm_capture_take_frame(capture, &play->session);
+    gm_play_keep_agenda(play);
+    gm_play_watch_frozen(play);
     pthread_mutex_lock(&worker->lock);
-    if (worker->wanted && worker->changed) {
+    if (worker->wanted && play->changed) {
         take_shot(worker);
     } else if (!worked && worker->count == 0 && !worker->leave) {
         rest(worker);
@@ -155,9 +152,9 @@ static void *work(void *self)
         char message[GM_MESSAGE] = "";
         ok = open_named(worker, message);
         if (ok) {
-            begin(worker);
+            gm_play_begin(&worker->play);
         } else {
-            snprintf(worker->message, sizeof worker->message, "%s", message);
+            snprintf(worker->play.message, sizeof worker->play.message, "%s", message);
         }
     }
     pthread_mutex_lock(&worker->lock);
@@ -181,7 +178,7 @@ static void *work(void *self)
 }
 
 /* A worker without a session or a thread; NULL with a sentence. */
-static struct gm_worker *make(enum gm_theme theme, int wake, char *message)
+static struct gm_worker *make(int wake, char *message)
 {
     struct gm_worker *worker = calloc(1, sizeof *worker);
     if (!worker || !gm_shot_open(&worker->shots[0]) || !gm_shot_open(&worker->shots[1])) {
@@ -192,7 +189,6 @@ static struct gm_worker *make(enum gm_theme theme, int wake, char *message)
         free(worker);
         return NULL;
     }
-    worker->theme = theme;
     worker->wake = wake;
     worker->wanted = true;
     pthread_condattr_t attributes;
@@ -216,34 +212,34 @@ static struct gm_worker *start(struct gm_worker *worker, char *message)
     return NULL;
 }
 
-struct gm_worker *gm_worker_open(const struct gm_request *request, enum gm_theme theme, int wake,
-                                 const struct gm_order *first, char *message)
+struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, const struct gm_order *first,
+                                 char *message)
 {
-    struct gm_worker *worker = make(theme, wake, message);
+    struct gm_worker *worker = make(wake, message);
     if (!worker) {
         return NULL;
     }
-    if (!gm_session_open(&worker->session, request, message)) {
+    if (!gm_session_open(&worker->play.session, request, message)) {
         release(worker);
         return NULL;
     }
-    begin(worker);
+    gm_play_begin(&worker->play);
     if (first) {
         worker->queue[worker->count++] = *first;
     }
     return start(worker, message);
 }
 
-struct gm_worker *gm_worker_open_scene(const struct gm_scene *scene, size_t schemes, bool preview,
-                                       enum gm_theme theme, int wake, char *message)
+struct gm_worker *gm_worker_open_scene(const struct gm_scene *scene, size_t schemes, bool preview, int wake,
+                                       char *message)
 {
-    struct gm_worker *worker = make(theme, wake, message);
+    struct gm_worker *worker = make(wake, message);
     if (!worker) {
         return NULL;
     }
     worker->scene = scene;
     worker->schemes = schemes;
-    worker->preview = preview;
+    worker->play.preview = preview;
     return start(worker, message);
 }
 
@@ -252,7 +248,7 @@ bool gm_worker_failed(struct gm_worker *worker, char *message)
     pthread_mutex_lock(&worker->lock);
     bool failed = worker->failed;
     if (failed) {
-        snprintf(message, GM_MESSAGE, "%s", worker->message);
+        snprintf(message, GM_MESSAGE, "%s", worker->play.message);
     }
     pthread_mutex_unlock(&worker->lock);
     return failed;
@@ -269,7 +265,7 @@ void gm_worker_close(struct gm_worker *worker, char *parting)
     pthread_cond_signal(&worker->news);
     pthread_mutex_unlock(&worker->lock);
     pthread_join(worker->thread, NULL);
-    gm_worker_stop_recording(worker, parting);
+    gm_capture_stop_recording(&worker->capture, parting);
     release(worker);
 }
 
@@ -292,8 +288,8 @@ void gm_worker_order(struct gm_worker *worker, struct gm_order order)
 {
     pthread_mutex_lock(&worker->lock);
     worker->recorded = worker->recorded || order.kind == GM_ORDER_RECORD;
-    if (worker->count < GM_WORKER_QUEUE) {
-        worker->queue[(worker->first + worker->count++) % GM_WORKER_QUEUE] = order;
+    if (worker->count < QUEUE) {
+        worker->queue[(worker->first + worker->count++) % QUEUE] = order;
     }
     pthread_cond_signal(&worker->news);
     pthread_mutex_unlock(&worker->lock);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_MEASURE_H
-#define GM_APP_EXPLORER_VIEW_MEASURE_H
+#ifndef GM_APP_EXPLORER_BACKGROUND_MEASURE_H
+#define GM_APP_EXPLORER_BACKGROUND_MEASURE_H
 
 #include <sys/types.h>
 
 #include "core/scheme.h"
 
-/* What `geomint certify` measures of a scheme, by a child process, while the explorer goes on. */
+/* What `geomint certify` measures of a scheme, while the explorer goes on: by a child process, because
+   nothing but its end stops certifying when another scheme is asked for. */
 
 struct gm_measure {
     const struct gm_scheme *scheme; /* NULL: none was asked for */

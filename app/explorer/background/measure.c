@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A certificate for the side panel, measured by this program once more, in a process of its own. */
-#include "app/explorer/view/measure.h"
+/* A child process that certifies, and its output. */
+#include "app/explorer/background/measure.h"
 
 #include <errno.h>
 #include <fcntl.h>

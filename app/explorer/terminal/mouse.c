@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reports of the mouse, taken out of what the terminal sends. */
-#include "app/explorer/view/mouse.h"
+/* The mouse, out of the keys that make up its reports. */
+#include "app/explorer/terminal/mouse.h"
 
 #include <stdio.h>
 

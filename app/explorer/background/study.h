@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_STUDY_H
-#define GM_APP_EXPLORER_VIEW_STUDY_H
+#ifndef GM_APP_EXPLORER_BACKGROUND_STUDY_H
+#define GM_APP_EXPLORER_BACKGROUND_STUDY_H
 
 #include "app/tours/tour.h"
 #include "render/layout/theme.h"
@@ -26,7 +26,6 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
 /* Gives up what is not finished. NULL is ignored. */
 void gm_study_close(struct gm_study *study);
 
-enum gm_study_kind gm_study_kind_of(const struct gm_study *study);
 const char *gm_study_words(const struct gm_study *study);
 /* "work-precision" or "stability" */
 const char *gm_study_name(enum gm_study_kind kind);

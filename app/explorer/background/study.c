@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A diagram that is measured in the background, in a thread of its own. */
-#include "app/explorer/view/study.h"
+/* A study under way: what it measures goes to the screen as looks, what the screen orders comes as flags. */
+#include "app/explorer/background/study.h"
 
 #include <errno.h>
 #include <math.h>
@@ -10,14 +10,15 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "app/explorer/background/job.h"
 #include "app/output/chart.h"
+#include "app/output/folder.h"
 #include "app/request/words.h"
 #include "app/studies/stability.h"
 #include "app/studies/work.h"
-#include "render/files/thread.h"
+#include "render/files/clock.h"
 
 enum { MOST_WORDS = 64, NICE = 10 };
 
@@ -28,11 +29,10 @@ struct gm_study {
     enum gm_study_kind kind;
     char *words;
     int wake;
-    pthread_t thread;
+    struct gm_job job;
 
     /* shared, under the lock */
     pthread_mutex_t lock;
-    pthread_cond_t news;
     bool stop, leave, save;
     enum gm_theme theme;
     bool ready; /* looks[filled] is finished and not yet taken */
@@ -47,6 +47,7 @@ struct gm_study {
     struct gm_stability_table stability;
     struct gm_study_look now; /* all but the picture */
     double looked;            /* when the last look was handed over */
+    unsigned long told;       /* number of its message */
 };
 
 const char *gm_study_name(enum gm_study_kind kind)
@@ -54,21 +55,9 @@ const char *gm_study_name(enum gm_study_kind kind)
     return kind == GM_STUDY_WORK ? "work-precision" : "stability";
 }
 
-enum gm_study_kind gm_study_kind_of(const struct gm_study *study)
-{
-    return study->kind;
-}
-
 const char *gm_study_words(const struct gm_study *study)
 {
     return study->words;
-}
-
-static double wall_time(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 static void draw(const void *self, struct gm_picture *picture)
@@ -103,7 +92,8 @@ static void show(struct gm_study *study)
     look->picture = picture;
     gm_picture_clear(picture);
     draw(study, picture);
-    study->looked = wall_time();
+    study->looked = gm_clock_seconds();
+    study->told = study->now.message_number;
     const uint64_t one = 1;
     pthread_mutex_lock(&study->lock);
     study->ready = true;
@@ -113,26 +103,17 @@ static void show(struct gm_study *study)
     }
 }
 
-/* The first name of the kind that is free, as it is without a number. */
-static void free_name(const struct gm_study *study, char *name, size_t size)
-{
-    char path[160];
-    int number = 1;
-    do {
-        snprintf(name, size, "%.60s-%s-%04d", study->options.words[0], gm_study_name(study->kind), number);
-        snprintf(path, sizeof path, "%.120s.png", name);
-    } while (access(path, F_OK) == 0 && number++ < 9999);
-}
-
 static void save(struct gm_study *study, enum gm_theme theme)
 {
-    char name[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
+    char kind[96], name[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
     struct gm_chart chart;
     struct gm_options options = study->options;
     options.width = 1920;
     options.height = 1080;
     options.theme = theme;
-    free_name(study, name, sizeof name);
+    snprintf(kind, sizeof kind, "%.60s-%s", study->options.words[0], gm_study_name(study->kind));
+    gm_folder_free_file(kind, ".png", name, sizeof name);
+    name[strlen(name) - strlen(".png")] = '\0';
     bool good = gm_chart_open(&chart, &options, gm_study_name(study->kind), name, message) &&
                 gm_chart_paint(&chart, study, draw, message);
     if (good) {
@@ -154,7 +135,7 @@ static void save(struct gm_study *study, enum gm_theme theme)
 static void save_if_wanted(struct gm_study *study)
 {
     pthread_mutex_lock(&study->lock);
-    const bool wanted = study->save;
+    const bool wanted = study->save && !study->leave;
     const enum gm_theme theme = study->theme;
     study->save = false;
     pthread_mutex_unlock(&study->lock);
@@ -180,14 +161,13 @@ static void hear(void *self, const char *what, size_t done, size_t all)
     study->now.done = done;
     study->now.all = all;
     save_if_wanted(study);
-    if (wall_time() - study->looked >= look_seconds) {
+    if (gm_clock_seconds() - study->looked >= look_seconds) {
         show(study);
     }
 }
 
-static void *measure(void *self)
+static void measure(struct gm_study *study)
 {
-    struct gm_study *study = self;
     char message[GM_MESSAGE] = "";
     const struct gm_listener listener = {.stopped = is_stopped, .report = hear, .self = study};
     setpriority(PRIO_PROCESS, (id_t)gettid(), NICE); /* of this thread alone */
@@ -204,24 +184,29 @@ static void *measure(void *self)
         study->now.done = study->now.all;
         say(study, "Done.");
     }
-    unsigned long shown = 0;
-    pthread_mutex_lock(&study->lock);
-    while (!study->leave) {
-        if (study->save) {
-            pthread_mutex_unlock(&study->lock);
-            save_if_wanted(study);
-            pthread_mutex_lock(&study->lock);
-        } else if (shown != study->now.message_number && !study->ready) {
-            pthread_mutex_unlock(&study->lock);
-            shown = study->now.message_number;
-            show(study);
-            pthread_mutex_lock(&study->lock);
-        } else {
-            pthread_cond_wait(&study->news, &study->lock);
-        }
+}
+
+/* Measures, the first time; later does what is asked for, and tells of it once the last look was taken. */
+static void work(void *self)
+{
+    struct gm_study *study = self;
+    if (!study->now.finished) {
+        measure(study);
     }
-    pthread_mutex_unlock(&study->lock);
-    return NULL;
+    save_if_wanted(study);
+    if (study->told != study->now.message_number) {
+        show(study);
+    }
+}
+
+static void close_table(void *self)
+{
+    struct gm_study *study = self;
+    if (study->kind == GM_STUDY_WORK) {
+        gm_work_close(&study->work);
+    } else {
+        gm_stability_close(&study->stability);
+    }
 }
 
 /* ---- orders ---- */
@@ -237,15 +222,6 @@ static bool open_table(struct gm_study *study, char *message)
                                          .word_count = gm_words_split(study->split, study->list, MOST_WORDS)};
     return study->kind == GM_STUDY_WORK ? gm_work_open(&study->work, &study->options, message)
                                         : gm_stability_open(&study->stability, &study->options, message);
-}
-
-static void close_table(struct gm_study *study)
-{
-    if (study->kind == GM_STUDY_WORK) {
-        gm_work_close(&study->work);
-    } else {
-        gm_stability_close(&study->stability);
-    }
 }
 
 static void free_study(struct gm_study *study)
@@ -280,21 +256,23 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
         return NULL;
     }
     pthread_mutex_init(&study->lock, NULL);
-    pthread_cond_init(&study->news, NULL);
-    const int error = gm_thread_start(&study->thread, measure, study);
-    if (error != 0) {
-        snprintf(message, GM_MESSAGE, "No thread could be started: %s.", strerror(error));
+    if (!gm_job_open(&study->job, work, close_table, study, -1, message)) {
         close_table(study);
+        pthread_mutex_destroy(&study->lock);
         free_study(study);
         return NULL;
     }
+    gm_job_begin(&study->job);
     return study;
 }
 
-static void wake_thread(struct gm_study *study)
+/* Has the thread look at what was ordered. */
+static void order(struct gm_study *study, bool *what)
 {
-    pthread_cond_signal(&study->news);
+    pthread_mutex_lock(&study->lock);
+    *what = true;
     pthread_mutex_unlock(&study->lock);
+    gm_job_begin(&study->job);
 }
 
 void gm_study_close(struct gm_study *study)
@@ -302,13 +280,9 @@ void gm_study_close(struct gm_study *study)
     if (!study) {
         return;
     }
-    pthread_mutex_lock(&study->lock);
-    study->leave = true;
-    wake_thread(study);
-    pthread_join(study->thread, NULL);
-    pthread_cond_destroy(&study->news);
+    order(study, &study->leave);
+    gm_job_close(&study->job);
     pthread_mutex_destroy(&study->lock);
-    close_table(study);
     free_study(study);
 }
 
@@ -321,21 +295,22 @@ struct gm_study_look *gm_study_take(struct gm_study *study)
         study->filled = 1 - study->filled;
         study->ready = false;
     }
-    wake_thread(study);
+    pthread_mutex_unlock(&study->lock);
+    if (look) {
+        gm_job_begin(&study->job);
+    }
     return look;
 }
 
 void gm_study_stop(struct gm_study *study)
 {
-    pthread_mutex_lock(&study->lock);
-    study->stop = true;
-    wake_thread(study);
+    order(study, &study->stop);
 }
 
 void gm_study_save(struct gm_study *study, enum gm_theme theme)
 {
     pthread_mutex_lock(&study->lock);
-    study->save = true;
     study->theme = theme;
-    wake_thread(study);
+    pthread_mutex_unlock(&study->lock);
+    order(study, &study->save);
 }

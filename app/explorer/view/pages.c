@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pages that explain: the scene, the keys, the letters of the claims, a scheme. */
+/* Pages that explain: what is on them, and how they are scrolled. */
+#include "app/explorer/view/pages.h"
+
+#include <curses.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "app/explorer/view/keys.h"
-#include "app/explorer/view/screen.h"
+
+enum { PAGE = 10 }; /* lines */
 
 /* A column of the page that grows downwards, scrolled by the sheet's face. */
 struct page {
@@ -85,14 +89,7 @@ static void put_claims(struct page *page)
 /* Lines as they are. */
 static void put_lines(struct page *page, int column, const char *text, enum gm_role role)
 {
-    for (const char *at = text; at && *at;) {
-        char line[256];
-        size_t length = strcspn(at, "\n");
-        snprintf(line, sizeof line, "%.*s", (int)length, at);
-        put(page, column, line, role, false);
-        page->row++;
-        at += length + (at[length] == '\n');
-    }
+    page->row += gm_sheet_lines(&page->sheet, column, page->row - page->scroll, text, role);
 }
 
 static void put_scheme(struct page *page, const struct gm_scheme *scheme, enum gm_role role)
@@ -208,7 +205,7 @@ static int draw(const struct gm_sheet *sheet, int scroll, const struct gm_shot *
     return sheet->face->page == GM_PAGE_SCHEME ? draw_scheme(sheet, scroll) : draw_help(sheet, scroll, shot);
 }
 
-void gm_page_draw(const struct gm_sheet *sheet, struct gm_face *face, const struct gm_shot *shot)
+static void draw_page(const struct gm_sheet *sheet, struct gm_face *face, const struct gm_shot *shot)
 {
     /* Measured first on no rows at all, so that scrolling stops at the last line. */
     struct gm_sheet nothing = *sheet;
@@ -221,4 +218,59 @@ void gm_page_draw(const struct gm_sheet *sheet, struct gm_face *face, const stru
         face->scroll = 0;
     }
     draw(sheet, face->scroll, shot);
+}
+
+static const struct gm_hint page_hints[] = {
+    {"?", "back", '?'}, {"↑↓", "scroll", 0}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
+static const struct gm_hint command_hints[] = {{"esc", "back", 27},
+                                               {"y", "copy the other", 'y'},
+                                               {"↑↓", "scroll", 0},
+                                               {"q", "quit", 'q'},
+                                               {NULL, NULL, 0}};
+
+void gm_screen_draw_page(const struct gm_sheet *whole, struct gm_face *face, const struct gm_shot *shot)
+{
+    const int below = gm_screen_rows_below(whole->cells);
+    const struct gm_sheet page = gm_sheet_part(whole, 1, 0, whole->width - 2, whole->height - below);
+    draw_page(&page, face, shot);
+    if (below == 2) {
+        gm_screen_rule(whole, 0);
+    }
+    if (below > 0) {
+        const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
+        gm_sheet_hints(&last, 1, face->page == GM_PAGE_COMMAND ? command_hints : page_hints);
+    }
+}
+
+/* ---- keys ---- */
+
+enum gm_key_result gm_pages_press(int key, struct gm_face *face)
+{
+    switch (key) {
+    case 'q':
+        return GM_KEY_LEAVE;
+    case KEY_UP:
+        face->scroll--;
+        return GM_KEY_DONE;
+    case KEY_DOWN:
+        face->scroll++;
+        return GM_KEY_DONE;
+    case KEY_PPAGE:
+        face->scroll -= PAGE;
+        return GM_KEY_DONE;
+    case KEY_NPAGE:
+    case ' ':
+        face->scroll += PAGE;
+        return GM_KEY_DONE;
+    case 'y':
+        if (face->page == GM_PAGE_COMMAND) {
+            face->command = (face->command + 1) % GM_COMMANDS;
+            return GM_KEY_COPY;
+        }
+        break;
+    default:
+        break;
+    }
+    face->page = GM_PAGE_SCENE;
+    return GM_KEY_DONE;
 }

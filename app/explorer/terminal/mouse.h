@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_MOUSE_H
-#define GM_APP_EXPLORER_VIEW_MOUSE_H
+#ifndef GM_APP_EXPLORER_TERMINAL_MOUSE_H
+#define GM_APP_EXPLORER_TERMINAL_MOUSE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Work beside the screen: studies, pictures of pixels, frames of a movie. */
+#include "app/explorer/background/job.h"
+
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "render/files/thread.h"
+#include "render/message.h"
+
+static void *go_on(void *self)
+{
+    struct gm_job *job = self;
+    const uint64_t one = 1;
+    pthread_mutex_lock(&job->lock);
+    while (job->asked || !job->leave) {
+        if (!job->asked) {
+            pthread_cond_wait(&job->news, &job->lock);
+            continue;
+        }
+        job->asked = false;
+        job->working = true;
+        pthread_mutex_unlock(&job->lock);
+        job->work(job->self);
+        pthread_mutex_lock(&job->lock);
+        job->working = false;
+        if (job->wake >= 0 && write(job->wake, &one, sizeof one) < 0) {
+            /* the count is full: who waits is awake already */
+        }
+    }
+    pthread_mutex_unlock(&job->lock);
+    job->end(job->self);
+    return NULL;
+}
+
+bool gm_job_open(struct gm_job *job, void (*work)(void *self), void (*end)(void *self), void *self, int wake,
+                 char *message)
+{
+    *job = (struct gm_job){.work = work, .end = end, .self = self, .wake = wake};
+    pthread_mutex_init(&job->lock, NULL);
+    pthread_cond_init(&job->news, NULL);
+    const int error = gm_thread_start(&job->thread, go_on, job);
+    if (error != 0) {
+        snprintf(message, GM_MESSAGE, "No thread could be started: %s.", strerror(error));
+        pthread_mutex_destroy(&job->lock);
+        pthread_cond_destroy(&job->news);
+    }
+    return error == 0;
+}
+
+static void tell(struct gm_job *job, bool *what)
+{
+    pthread_mutex_lock(&job->lock);
+    *what = true;
+    pthread_cond_signal(&job->news);
+    pthread_mutex_unlock(&job->lock);
+}
+
+void gm_job_close(struct gm_job *job)
+{
+    tell(job, &job->leave);
+    pthread_join(job->thread, NULL);
+    pthread_mutex_destroy(&job->lock);
+    pthread_cond_destroy(&job->news);
+}
+
+void gm_job_begin(struct gm_job *job)
+{
+    tell(job, &job->asked);
+}
+
+bool gm_job_is_busy(struct gm_job *job)
+{
+    pthread_mutex_lock(&job->lock);
+    const bool busy = job->asked || job->working;
+    pthread_mutex_unlock(&job->lock);
+    return busy;
+}

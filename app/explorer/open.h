@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_EXPLORER_OPEN_H
+#define GM_APP_EXPLORER_OPEN_H
+
+#include "app/explorer/terminal/display.h"
+#include "app/explorer/view/guide.h"
+#include "app/explorer/view/studies.h"
+#include "app/explorer/worker/worker.h"
+
+/* What is open: a scene, or a step of a tour with its study; with the thread that plays it. */
+
+struct gm_open {
+    int wake;                   /* the worker's shots are announced here */
+    struct gm_display *display; /* that may be painting a picture of the worker's */
+    struct gm_worker *worker;
+    const struct gm_scene *scene; /* the worker's */
+    struct gm_shot *shot;         /* NULL: it has given none yet */
+    bool asked;                   /* for a shot */
+    int64_t next_shot;            /* in milliseconds: none is asked for earlier */
+    unsigned long told;           /* number of the last command line that was shown */
+    char said[GM_MESSAGE];        /* why there will be no shot, or "" */
+    struct gm_guide guide;        /* without a tour: none */
+    bool touring;                 /* the worker is led by it */
+    struct gm_studies studies;
+    char *partings; /* a line for every movie that was finished by leaving its scene, or NULL */
+};
+
+/* These put something in place of what was there. False with a sentence (GM_MESSAGE bytes). */
+bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message);
+/* A scene as its name alone gives it; a preview is for the list of scenes. */
+bool gm_open_scene(struct gm_open *open, const struct gm_scene *scene, bool preview, char *message);
+/* The scene of the tour's present step, from its start, and its study. */
+bool gm_open_step(struct gm_open *open, char *message);
+
+/* The study of the tour's present step, once its question is answered. */
+void gm_open_study(struct gm_open *open);
+
+/* Ends the worker, a movie that it makes included. */
+void gm_open_close(struct gm_open *open);
+
+#endif

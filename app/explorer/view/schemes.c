@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How schemes and lanes look in lists. */
+#include "app/explorer/view/schemes.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A lane's line, as three cells of text; the same dash as in the picture. */
+static const char *const dash_marks[GM_DASH_COUNT] = {
+    [GM_SOLID] = "━━━",    [GM_LONG_DASH] = "╍╍╍",  [GM_DOTS] = "•••",
+    [GM_DASH_DOT] = "━•━", [GM_SHORT_DASH] = "┅┅┅", [GM_DASH_DOT_DOT] = "━••",
+};
+
+const char *gm_schemes_dash(const struct gm_shot_lane *lane)
+{
+    return dash_marks[gm_lane_dash(lane->shown.dash)];
+}
+
+enum gm_role gm_schemes_role(const struct gm_shot_lane *lane)
+{
+    return gm_lane_role(lane->shown.colour);
+}
+
+/* ---- what schemes claim ---- */
+
+unsigned gm_schemes_claims(const struct gm_shot *shot)
+{
+    unsigned claims = 0;
+    for (size_t i = 0; i < shot->scheme_count; i++) {
+        claims |= shot->schemes[i]->claims;
+    }
+    for (size_t i = 0; i < shot->lane_count; i++) {
+        claims |= shot->lanes[i].scheme->claims;
+    }
+    return claims;
+}
+
+/* The letters in their columns from the first one on, or without what stands between them. */
+static void claims_text(unsigned claims, unsigned columns, bool close, char *text, size_t size)
+{
+    size_t at = 0;
+    text[0] = '\0';
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT && at + 1 < size; bit++) {
+        if (claims >> bit & 1) {
+            at += (size_t)snprintf(text + at, size - at, "%s", gm_claim_letter(bit));
+        } else if ((columns >> bit & 1) && at > 0 && !close) {
+            text[at++] = ' ';
+            text[at] = '\0';
+        }
+    }
+}
+
+void gm_schemes_heading(const struct gm_sheet *sheet, int row, const char *text)
+{
+    gm_sheet_text(sheet, 0, row, text, GM_SECONDARY, true);
+    gm_sheet_right(sheet, sheet->width, row, sheet->width > 34 ? "claims order" : "order", GM_SECONDARY,
+                   false);
+}
+
+bool gm_schemes_narrow(const struct gm_sheet *sheet)
+{
+    return sheet->width < 40;
+}
+
+int gm_schemes_facts(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme, int title_end,
+                     unsigned columns, bool give_way, enum gm_role role)
+{
+    char text[64], order[16];
+    snprintf(order, sizeof order, "%d", scheme->order);
+    const int right = sheet->width - (gm_schemes_narrow(sheet) ? 0 : 2);
+    int end = right - (gm_schemes_narrow(sheet) ? 3 : 4);
+    claims_text(scheme->claims, columns, false, text, sizeof text);
+    if (title_end >= end - gm_sheet_width(sheet, text)) {
+        claims_text(scheme->claims, columns, true, text, sizeof text);
+        if (title_end >= end - gm_sheet_width(sheet, text)) {
+            end = right - gm_sheet_width(sheet, order) - 1;
+        }
+        if (give_way && title_end >= end - gm_sheet_width(sheet, text)) {
+            snprintf(text, sizeof text, "…");
+            if (title_end >= end - gm_sheet_width(sheet, text)) {
+                return sheet->width;
+            }
+        }
+    }
+    gm_sheet_right(sheet, end, row, text, role, false);
+    gm_sheet_right(sheet, right, row, order, role, false);
+    return end - gm_sheet_width(sheet, text) - 1;
+}
+
+void gm_schemes_row(const struct gm_sheet *sheet, int column, int row, const struct gm_scheme *scheme,
+                    unsigned columns, enum gm_role role, bool bold)
+{
+    const int title_end = column + gm_sheet_width(sheet, scheme->title);
+    const int end = gm_schemes_facts(sheet, row, scheme, title_end, columns, false, role);
+    const struct gm_sheet left = gm_sheet_part(sheet, 0, 0, end, sheet->height);
+    gm_sheet_cut(&left, column, row, scheme->title, role, bold);
+}
+
+/* ---- the formula ---- */
+
+int gm_schemes_formula_rows(const struct gm_scheme *scheme)
+{
+    int rows = 1; /* the reference */
+    for (const char *at = scheme->formula; at && *at; rows++) {
+        at += strcspn(at, "\n");
+        at += *at == '\n';
+    }
+    return rows;
+}
+
+void gm_schemes_formula(const struct gm_sheet *sheet, int row, const struct gm_scheme *scheme)
+{
+    row += gm_sheet_lines(sheet, 0, row, scheme->formula, GM_INK);
+    gm_sheet_cut(sheet, 0, row, scheme->reference ? scheme->reference : "", GM_SECONDARY, false);
+}

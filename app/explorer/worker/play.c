@@ -1,0 +1,307 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Model time against the clock on the wall: how far to step, ahead, back home, and what stands still. */
+#include "app/explorer/worker/play.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "render/files/clock.h"
+
+/* A simulation that is later than this lets the clock wait for it. */
+static const double LATE = 0.1;
+/* While it runs ahead, how it stands is told this often. */
+static const double AHEAD_NEWS = 0.25;
+
+/* Stepping is interrupted after this many seconds to look for orders; and nothing is gained by waking more
+   often. */
+static const double SLICE = 0.008;
+/* A change that starts everything again is made at most this often, in seconds. */
+static const double RESTART_PAUSE = 1.0 / 30;
+/* The scene's own time span takes about so many seconds at first. */
+static const double FIRST_SECONDS = 6;
+
+enum { SLOWEST = -21, FASTEST = 15 }; /* numbers of speeds */
+
+double gm_play_speed(const struct gm_play *play)
+{
+    static const double mantissa[] = {1, 2, 5};
+    int decade = (int)floor(play->speed / 3.0);
+    return mantissa[play->speed - 3 * decade] * pow(10, decade);
+}
+
+void gm_play_set_speed(struct gm_play *play, int number)
+{
+    play->speed = number < SLOWEST ? SLOWEST : number > FASTEST ? FASTEST : number;
+}
+
+/* A speed at which so much model time takes so many seconds. */
+static void set_speed_for(struct gm_play *play, double span, double seconds)
+{
+    gm_play_set_speed(play, (int)round(3 * log10(span / seconds)));
+}
+
+void gm_play_say(struct gm_play *play, const char *sentence)
+{
+    snprintf(play->message, sizeof play->message, "%s", sentence);
+    play->message_number++;
+    play->changed = true;
+}
+
+void gm_play_set_clock(struct gm_play *play, double t)
+{
+    play->clock_t = t;
+    play->clock_wall = gm_clock_seconds();
+    play->behind = false;
+}
+
+/* Of two times the one that comes first, as time runs now. */
+static double sooner(const struct gm_play *play, double a, double b)
+{
+    return (a - b) * gm_session_direction(&play->session) < 0 ? a : b;
+}
+
+static double later(const struct gm_play *play, double a, double b)
+{
+    return sooner(play, a, b) == a ? b : a;
+}
+
+double gm_play_due(const struct gm_play *play)
+{
+    const struct gm_session *session = &play->session;
+    double together = gm_session_time(session);
+    if (play->paused) {
+        return together;
+    }
+    double elapsed = gm_play_speed(play) * (gm_clock_seconds() - play->clock_wall);
+    double due = later(play, play->clock_t + gm_session_direction(session) * elapsed, together);
+    if (play->homewards) {
+        due = sooner(play, due, session->lanes[0]->t0);
+    }
+    if (gm_session_direction(session) > 0) {
+        due = fmax(fmin(due, gm_agenda_limit(&play->agenda)), together);
+    }
+    if (play->preview) {
+        const struct gm_timing *timing = session->lanes[0]->parameters;
+        due = sooner(play, due, timing->until);
+    }
+    return due;
+}
+
+double gm_play_left_until(const struct gm_play *play, double t)
+{
+    return (t - gm_session_time(&play->session)) * gm_session_direction(&play->session);
+}
+
+/* Makes what the agenda has until now; true if that was something. */
+static bool make_changes(struct gm_play *play)
+{
+    char message[GM_MESSAGE] = "";
+    const double limit = gm_agenda_limit(&play->agenda);
+    if (gm_session_direction(&play->session) < 0) {
+        return false;
+    }
+    const bool stop = gm_agenda_keep(&play->agenda, &play->session, message);
+    if (message[0]) {
+        gm_play_say(play, message);
+    }
+    if (stop) {
+        play->paused = true;
+        play->ahead = false;
+        play->changed = true;
+        gm_play_set_clock(play, gm_session_time(&play->session));
+    }
+    return gm_agenda_limit(&play->agenda) > limit;
+}
+
+void gm_play_keep_agenda(struct gm_play *play)
+{
+    make_changes(play);
+}
+
+void gm_play_run_ahead(struct gm_play *play, double to)
+{
+    play->ahead = true;
+    play->ahead_from = gm_session_time(&play->session);
+    play->ahead_to = to;
+    play->ahead_told = 0;
+}
+
+static bool step_ahead(struct gm_play *play)
+{
+    double begun = gm_clock_seconds(), part = (play->ahead_to - play->ahead_from) / 1000;
+    bool worked = false, on = true;
+    while (on && gm_clock_seconds() - begun < SLICE) {
+        double next = later(play, gm_session_time(&play->session) + part, gm_session_next(&play->session));
+        double to = sooner(play, next, play->ahead_to);
+        if (gm_session_direction(&play->session) > 0) {
+            to = fmin(to, gm_agenda_limit(&play->agenda));
+        }
+        on = gm_session_advance(&play->session, to);
+        worked = worked || on;
+    }
+    if (!on && make_changes(play)) {
+        return true;
+    }
+    if (!on) {
+        play->ahead = false;
+        play->changed = true;
+        gm_play_set_clock(play, gm_session_time(&play->session));
+    }
+    if (begun - play->ahead_told > AHEAD_NEWS) {
+        play->ahead_told = begun;
+        play->changed = true;
+    }
+    return worked;
+}
+
+/* Back where all began: whoever returned is seen now. */
+static void stop_at_home(struct gm_play *play)
+{
+    const struct gm_lane *lane = play->session.lanes[0];
+    if (play->homewards && gm_play_left_until(play, lane->t0) < 1e-6 * fabs(lane->run->dt)) {
+        play->homewards = false;
+        play->paused = true;
+        gm_play_say(play,
+                    "Back at the start: “from start” tells how near each scheme comes to where it began.");
+    }
+}
+
+bool gm_play_step(struct gm_play *play)
+{
+    if (play->ahead) {
+        return step_ahead(play);
+    }
+    double begun = gm_clock_seconds(), due = gm_play_due(play);
+    bool worked = false;
+    while (gm_clock_seconds() - begun < SLICE && gm_session_advance(&play->session, due)) {
+        worked = true;
+    }
+    if (worked) {
+        play->changed = true;
+    } else {
+        stop_at_home(play);
+    }
+    double next = gm_session_next(&play->session);
+    if (!play->paused && isfinite(next)) {
+        double lag = (gm_play_due(play) - next) * gm_session_direction(&play->session) / gm_play_speed(play);
+        if (lag > LATE) {
+            /* the clock goes on from where the slowest lane is; model time is never skipped */
+            gm_play_set_clock(play, later(play, gm_session_time(&play->session), next));
+            play->behind = true;
+        } else if (lag < 0.5 * LATE && !worked) {
+            play->behind = false;
+        }
+    }
+    return worked;
+}
+
+double gm_play_pause(const struct gm_play *play)
+{
+    const double next = gm_session_next(&play->session);
+    double pause = INFINITY;
+    if (!play->paused && isfinite(next)) {
+        pause = fmax(fabs(next - gm_play_due(play)) / gm_play_speed(play), SLICE);
+    }
+    return play->restart ? fmin(pause, RESTART_PAUSE) : pause;
+}
+
+/* ---- restarts, and the steps of a tour ---- */
+
+/* To where a tour's step begins, if it builds on others. */
+static void go_to_step(struct gm_play *play)
+{
+    const double begin = gm_tour_begin(play->agenda.tour, play->agenda.step);
+    if (begin > gm_session_time(&play->session)) {
+        gm_play_run_ahead(play, begin);
+    }
+}
+
+void gm_play_tour_step(struct gm_play *play, const struct gm_tour *tour, size_t step, bool waits)
+{
+    const double span = tour->steps[step].until - gm_tour_begin(tour, step);
+    play->agenda = gm_agenda_of(tour, step, gm_tour_first(tour, step));
+    play->paused = waits;
+    if (span > 0) {
+        set_speed_for(play, span, tour->steps[step].seconds);
+    }
+    go_to_step(play);
+}
+
+/* All lanes are back at their start: the step is shown again. */
+static void repeat_step(struct gm_play *play)
+{
+    if (play->agenda.tour) {
+        play->paused = play->paused && !play->agenda.over;
+        gm_agenda_rewind(&play->agenda, -INFINITY);
+        go_to_step(play);
+    }
+}
+
+void gm_play_restart(struct gm_play *play)
+{
+    char message[GM_MESSAGE];
+    play->restart = false;
+    play->restarted = gm_clock_seconds();
+    play->frozen = 0;
+    play->ahead = play->homewards = false;
+    if (!gm_session_restart(&play->session, message)) {
+        gm_play_say(play, message);
+    }
+    gm_play_set_clock(play, gm_session_time(&play->session));
+    repeat_step(play);
+    play->changed = true;
+}
+
+void gm_play_restart_if_due(struct gm_play *play)
+{
+    if (play->restart && gm_clock_seconds() - play->restarted >= RESTART_PAUSE) {
+        gm_play_restart(play);
+    }
+}
+
+void gm_play_begin(struct gm_play *play)
+{
+    const struct gm_lane *lane = play->session.lanes[0];
+    const struct gm_timing *timing = lane->parameters;
+    const double span = fabs(timing->until - lane->t0);
+    play->changed = true;
+    play->restarted = -1e9;
+    if (span > 0 && isfinite(span)) {
+        set_speed_for(play, span, FIRST_SECONDS);
+    }
+    gm_play_set_clock(play, gm_session_time(&play->session));
+}
+
+/* ---- frozen lanes ---- */
+
+void gm_play_watch_frozen(struct gm_play *play)
+{
+    const struct gm_lane *latest = NULL;
+    size_t frozen = 0;
+    for (size_t i = 0; i < play->session.count; i++) {
+        const struct gm_lane *lane = play->session.lanes[i];
+        if (lane->run->status == GM_OK) {
+            continue;
+        }
+        frozen++;
+        if (!latest || lane->run->t >= latest->run->t) {
+            latest = lane;
+        }
+    }
+    if (frozen > play->frozen && latest) {
+        static const char *const sentences[] = {
+            [GM_OK] = "",
+            [GM_BLOW_UP] = "left all bounds",
+            [GM_NO_CONVERGENCE] = "found no solution of its equations",
+            [GM_MESH_CROSSING] = "tangled its mesh",
+            [GM_STEP_COLLAPSE] = "found no time step",
+            [GM_OUT_OF_MEMORY] = "found no memory",
+        };
+        char sentence[GM_MESSAGE];
+        snprintf(sentence, sizeof sentence, "%s %s at t = %.5g and stands still%s.", latest->scheme->title,
+                 sentences[latest->run->status], latest->run->t,
+                 frozen < play->session.count ? "; the others go on" : "");
+        gm_play_say(play, sentence);
+    }
+    play->frozen = frozen;
+}
