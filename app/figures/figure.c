@@ -98,10 +98,9 @@ static bool has_value(const struct gm_request *request, const struct gm_lane_spe
         return strcmp(spec->scheme->name, value) == 0;
     }
     const struct gm_parameter *row = gm_scene_parameter(request->scene, key);
-    void *other = row ? malloc(request->scene->size) : NULL;
+    void *other = row ? gm_parameters_copy(request->scene, spec->parameters) : NULL;
     bool same = false;
     if (other) {
-        memcpy(other, spec->parameters, request->scene->size);
         *known &= gm_parameter_set(row, other, value) == GM_PARSED;
         same = gm_parameter_get(row, other) == gm_parameter_get(row, spec->parameters);
     } else {

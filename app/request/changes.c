@@ -217,12 +217,11 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
                  change->step, change->lane, spec->steps);
         return false;
     }
-    void *parameters = malloc(request->scene->size);
+    void *parameters = gm_parameters_copy(request->scene, spec->parameters);
     if (!parameters) {
         snprintf(message, GM_MESSAGE, "not enough memory");
         return false;
     }
-    memcpy(parameters, spec->parameters, request->scene->size);
     struct meaning meaning;
     const bool good = understand(request->scene, parameters, change->text, &meaning, message);
     free(parameters);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/lanes/agenda.h"
+#include "app/tours/agenda.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/request/drive.h"

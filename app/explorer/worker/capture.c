@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "app/explorer/worker/shared.h"
-#include "app/lanes/course.h"
 #include "app/output/still.h"
 #include "app/request/words.h"
 
@@ -156,7 +155,7 @@ static char *tell_explorer(const struct gm_session *session)
         const struct gm_settings *settings = gm_session_owner(session, i, true);
         lanes[i] = (struct gm_lane_spec){
             .shown = session->lanes[i]->shown, .settings = *settings, .scheme = session->lanes[i]->scheme};
-        lanes[i].parameters = gm_session_copy_parameters(session->scene, gm_session_owner(session, i, false));
+        lanes[i].parameters = gm_parameters_copy(session->scene, gm_session_owner(session, i, false));
         struct gm_timing *timing = lanes[i].parameters;
         good = good && timing;
         if (timing) {

@@ -6,7 +6,7 @@
 
 #include "app/explorer/worker/recorder.h"
 #include "app/explorer/worker/worker.h"
-#include "app/lanes/agenda.h"
+#include "app/tours/agenda.h"
 
 /* What the files of the worker share: worker.c its thread, worker_clock.c the time, worker_orders.c the
  * orders.
