@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/commands/reference/catalogue.h"
+#include "app/request/fitting.h"
 #include "app/request/nearest.h"
 #include "app/request/words.h"
 #include "core/memory.h"
@@ -72,8 +72,8 @@ static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, 
 {
     spec->scheme = gm_scheme_find(name);
     if (!spec->scheme) {
-        const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
-        const char *near = gm_nearest(name, gm_catalogue_fitting(scene, fitting), scheme_name, fitting);
+        const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+        const char *near = gm_nearest(name, gm_fitting_schemes(scene, fitting), scheme_name, fitting);
         return refuse(message, "there is no scheme \"%.40s\"%s%s", name,
                       near ? "; did you mean " : "; see geomint list ", near ? near : scene->name);
     }
@@ -214,8 +214,8 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
         if (used) {
             continue;
         }
-        const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
-        const size_t count = gm_catalogue_fitting(scene, fitting);
+        const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+        const size_t count = gm_fitting_schemes(scene, fitting);
         const char *between = "; those that do: ";
         size_t told = (size_t)snprintf(message, GM_MESSAGE, "none of these schemes takes %s=", row->key);
         for (size_t k = 0; k < count && told < GM_MESSAGE; k++) {
