@@ -338,13 +338,13 @@ static const char *list_name(size_t i, const void *data)
     return (void)data, i < LISTS ? lists[i] : gm_scene_at(i - LISTS)->name;
 }
 
-int gm_command_list(const struct gm_options *options)
+static int command_list(const struct gm_options *options)
 {
-    if (options->word_count > 1) {
+    if (options->arguments.count > 1) {
         gm_complain("list takes one name: scenes, schemes, figures or a scene");
         return GM_EXIT_USAGE;
     }
-    const char *what = options->word_count ? options->words[0] : "scenes";
+    const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
     if (options->markdown) {
         return list_markdown(what);
     }
@@ -366,3 +366,11 @@ int gm_command_list(const struct gm_options *options)
     }
     return gm_finish(GM_EXIT_OK);
 }
+
+const struct gm_command_row gm_command_list = {
+    .name = "list",
+    .synopsis = "[scenes|schemes|figures|SCENE]",
+    .help = "what there is",
+    .bit = GM_LIST,
+    .function = command_list,
+};

@@ -2,7 +2,6 @@
 #ifndef GM_APP_EXPLORER_EXPLORER_H
 #define GM_APP_EXPLORER_EXPLORER_H
 
-#include "app/commands/options.h"
 #include "app/explorer/terminal/terminal.h"
 #include "app/tours/tour.h"
 
@@ -11,8 +10,5 @@
 int gm_explorer(const struct gm_request *request, const struct gm_overrides *overrides);
 /* The same, led by a tour. */
 int gm_explorer_tour(const struct gm_tour *tour, const struct gm_overrides *overrides);
-
-/* What the options of a command say of the terminal. */
-struct gm_overrides gm_overrides_of(const struct gm_options *options);
 
 #endif

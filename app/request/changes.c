@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/request/arguments.h"
 #include "app/request/request.h"
-#include "app/request/words.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
@@ -39,10 +39,10 @@ static void format_key(FILE *stream, const struct gm_request *request, const cha
         return;
     }
     fprintf(stream, " %s=", key);
-    gm_words_put(stream, first);
+    gm_arguments_put(stream, first);
     for (size_t i = 1; i < request->count && !same; i++) {
         fputc(',', stream);
-        gm_words_put(stream, value(request, i, row, text));
+        gm_arguments_put(stream, value(request, i, row, text));
     }
     *lists += same ? 0 : 1;
 }

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/request/arguments.h"
 #include "app/request/fitting.h"
 #include "app/request/nearest.h"
 #include "app/request/words.h"
@@ -451,18 +452,15 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
         return refuse(message, "there is no scene \"%.40s\"%s%s", typed[0],
                       near ? "; did you mean " : "; see geomint list", near ? near : "");
     }
-    enum { MOST_SHOWN = 8 };
-    char shown[256], *instead[MOST_SHOWN], *rest = NULL;
-    char *const *given = typed + 1;
-    int given_count = count - 1;
-    if (given_count == 0 && schemes > 1 && request->scene->lanes) {
-        snprintf(shown, sizeof shown, "%s", request->scene->lanes);
-        for (char *word = strtok_r(shown, " ", &rest); word && given_count < MOST_SHOWN;
-             word = strtok_r(NULL, " ", &rest)) {
-            instead[given_count++] = word;
-        }
-        given = instead;
+    /* without a word a scene is shown by its own lanes */
+    struct gm_arguments own = {0};
+    const bool shown = count == 1 && schemes > 1 && request->scene->lanes;
+    if (shown && !gm_arguments_split(&own, request->scene->lanes)) {
+        gm_arguments_close(&own);
+        return refuse(message, "not enough memory");
     }
+    char *const *given = shown ? own.words : typed + 1;
+    const int given_count = shown ? own.count : count - 1;
     struct gm_words words;
     const unsigned long refusals = gm_memory_refusals();
     bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
@@ -476,6 +474,7 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
         good = request->unreadable = refuse(message, "not enough memory");
     }
     gm_words_close(&words);
+    gm_arguments_close(&own);
     if (!good) {
         const bool unreadable = request->unreadable;
         gm_request_close(request);

@@ -8,15 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/request/arguments.h"
 #include "app/request/nearest.h"
-#include "app/request/words.h"
-#include "app/studies/stability.h"
-#include "app/studies/work.h"
 #include "app/tours/tour.h"
 #include "render/cells/text.h"
 #include "render/files/regular_file.h"
 
-enum { MOST_BYTES = 1 << 20, MOST_STEPS = 60, MOST_WORDS = 64, MOST_SCHEMES = 3 };
+enum { MOST_BYTES = 1 << 20, MOST_STEPS = 60, MOST_SCHEMES = 3 };
 
 enum word { TITLE, ABOUT, PLACE, STEP, SAY, ASK, ANSWER, SHOW, UNTIL, SECONDS, AT, STUDY, WATCH, TRY, WORDS };
 
@@ -194,15 +192,14 @@ static const double usual_seconds = 8;
 /* Reads the words of step->show; false with a sentence. */
 static bool parse_show(struct gm_tour_step *step, char *message)
 {
-    char *list[MOST_WORDS], *copy = strdup(step->show);
-    if (!copy) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
-    }
-    const int count = gm_words_split(copy, list, MOST_WORDS);
+    struct gm_arguments words = {0};
     gm_request_close(&step->request);
-    const bool good = gm_request_parse(&step->request, count, list, MOST_SCHEMES, message);
-    free(copy);
+    bool good = gm_arguments_split(&words, step->show);
+    if (!good) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+    }
+    good = good && gm_request_parse(&step->request, words.count, words.words, MOST_SCHEMES, message);
+    gm_arguments_close(&words);
     return good;
 }
 
@@ -236,67 +233,50 @@ static bool read_show(struct reader *reader, const struct entry *entry, const st
     return true;
 }
 
+/* "stability kepler dt=0.1": the name of a study and its words, which are tried out. */
 static bool read_study(struct reader *reader, const struct entry *entry, struct gm_tour_step *step)
 {
-    static const char *const names[GM_STUDY_COUNT] = {"", "work-precision", "stability"};
-    char message[GM_MESSAGE], *list[MOST_WORDS], *copy = strdup(entry->text);
-    if (!copy) {
+    char message[GM_MESSAGE], name[32];
+    const size_t length = strcspn(entry->text, " \t");
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : 0), entry->text);
+    step->study = gm_study_find(name);
+    if (step->study == GM_STUDY_NONE) {
+        return refuse(reader, entry->line, "a study is work-precision or stability, with a scene: \"%.60s\"",
+                      entry->text);
+    }
+    step->study_words = strdup(entry->text + length);
+    struct gm_arguments words = {0};
+    if (!step->study_words || !gm_arguments_split(&words, step->study_words)) {
+        gm_arguments_close(&words);
         return short_of_memory(reader);
     }
-    const int count = gm_words_split(copy, list, MOST_WORDS);
-    for (int i = GM_STUDY_WORK; i < GM_STUDY_COUNT; i++) {
-        if (count > 0 && strcmp(list[0], names[i]) == 0) {
-            step->study = (enum gm_study_kind)i;
-        }
+    union gm_study_table table;
+    const bool good = gm_study_rows[step->study].open(&table, &words, message);
+    if (good) {
+        gm_study_rows[step->study].close(&table);
     }
-    bool good = true;
-    const struct gm_options options = {.words = list + 1, .word_count = count - 1};
-    switch (step->study) {
-    case GM_STUDY_WORK: {
-        struct gm_work_table table;
-        good = gm_work_open(&table, &options, message);
-        if (good) {
-            gm_work_close(&table);
-        }
-        break;
-    }
-    case GM_STUDY_STABILITY: {
-        struct gm_stability_table table;
-        good = gm_stability_open(&table, &options, message);
-        if (good) {
-            gm_stability_close(&table);
-        }
-        break;
-    }
-    default:
-        snprintf(message, sizeof message, "a study is work-precision or stability, with a scene: \"%.60s\"",
-                 entry->text);
-        good = false;
-    }
-    free(copy);
-    if (!good) {
-        return refuse(reader, entry->line, "%s", message);
-    }
-    step->study_words = strdup(entry->text + strlen(names[step->study]));
-    return step->study_words || short_of_memory(reader);
+    gm_arguments_close(&words);
+    return good || refuse(reader, entry->line, "%s", message);
 }
 
 /* "2*pi lane=2 scheme=midpoint"; tried out on a lane at its start. */
 static bool read_change(struct reader *reader, const struct entry *entry, const struct gm_request *shown,
                         struct gm_tour_step *step)
 {
-    char message[GM_MESSAGE], *list[4], *copy = strdup(entry->text);
+    char message[GM_MESSAGE];
+    struct gm_arguments words = {0};
     struct gm_tour_change *more = realloc(step->changes, (step->change_count + 1) * sizeof *more);
     if (more) {
         step->changes = more;
     }
-    if (!copy || !more) {
-        free(copy);
+    if (!more || !gm_arguments_split(&words, entry->text)) {
+        gm_arguments_close(&words);
         return short_of_memory(reader);
     }
     struct gm_tour_change *change = &more[step->change_count];
     *change = (struct gm_tour_change){.lane = GM_EVERY_LANE};
-    const int count = gm_words_split(copy, list, 4);
+    char *const *list = words.words;
+    const int count = words.count;
     double lane = NAN;
     const bool has_lane = count == 3 && strncmp(list[1], "lane=", 5) == 0;
     bool good = true;
@@ -316,7 +296,7 @@ static bool read_change(struct reader *reader, const struct entry *entry, const 
                refuse(reader, entry->line, "%s", message);
         gm_lane_close(trial);
     }
-    free(copy);
+    gm_arguments_close(&words);
     step->change_count += good;
     return good;
 }

@@ -2,7 +2,6 @@
 /* A diagram that is measured in the background, in a thread of its own. */
 #include "app/explorer/view/study.h"
 
-#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
@@ -14,12 +13,11 @@
 #include <unistd.h>
 
 #include "app/output/chart.h"
-#include "app/request/words.h"
-#include "app/studies/stability.h"
-#include "app/studies/work.h"
+#include "app/request/arguments.h"
+#include "app/studies/study.h"
 #include "render/files/thread.h"
 
-enum { MOST_WORDS = 64, NICE = 10 };
+enum { NICE = 10 };
 
 /* A look is worth its while after so many seconds. */
 static const double look_seconds = 0.1;
@@ -40,18 +38,15 @@ struct gm_study {
     struct gm_study_look looks[2];
 
     /* the thread's own */
-    char *split; /* the words, cut up */
-    char *list[MOST_WORDS];
-    struct gm_options options;
-    struct gm_work_table work;
-    struct gm_stability_table stability;
+    struct gm_arguments arguments; /* the words, cut up */
+    union gm_study_table table;
     struct gm_study_look now; /* all but the picture */
     double looked;            /* when the last look was handed over */
 };
 
 const char *gm_study_name(enum gm_study_kind kind)
 {
-    return kind == GM_STUDY_WORK ? "work-precision" : "stability";
+    return gm_study_rows[kind].name;
 }
 
 enum gm_study_kind gm_study_kind_of(const struct gm_study *study)
@@ -69,16 +64,6 @@ static double wall_time(void)
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static void draw(const void *self, struct gm_picture *picture)
-{
-    const struct gm_study *study = self;
-    if (study->kind == GM_STUDY_WORK) {
-        gm_work_draw(&study->work, picture);
-    } else {
-        gm_stability_draw(&study->stability, picture);
-    }
 }
 
 /* ---- the thread ---- */
@@ -102,7 +87,7 @@ static void show(struct gm_study *study)
     *look = study->now;
     look->picture = picture;
     gm_picture_clear(picture);
-    draw(study, picture);
+    gm_study_rows[study->kind].draw(&study->table, picture);
     study->looked = wall_time();
     const uint64_t one = 1;
     pthread_mutex_lock(&study->lock);
@@ -119,29 +104,20 @@ static void free_name(const struct gm_study *study, char *name, size_t size)
     char path[160];
     int number = 1;
     do {
-        snprintf(name, size, "%.60s-%s-%04d", study->options.words[0], gm_study_name(study->kind), number);
+        snprintf(name, size, "%.60s-%s-%04d", study->arguments.words[0], gm_study_name(study->kind), number);
         snprintf(path, sizeof path, "%.120s.png", name);
     } while (access(path, F_OK) == 0 && number++ < 9999);
 }
 
 static void save(struct gm_study *study, enum gm_theme theme)
 {
-    char name[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
-    struct gm_chart chart;
-    struct gm_options options = study->options;
-    options.width = 1920;
-    options.height = 1080;
-    options.theme = theme;
+    char name[128], message[GM_MESSAGE] = "not enough memory", sentence[GM_MESSAGE];
+    const struct gm_study_row *row = &gm_study_rows[study->kind];
+    char *command = gm_arguments_join(row->name, &study->arguments);
+    struct gm_chart chart = {.name = name, .command = command, .width = 1920, .height = 1080, .theme = theme};
     free_name(study, name, sizeof name);
-    bool good = gm_chart_open(&chart, &options, gm_study_name(study->kind), name, message) &&
-                gm_chart_paint(&chart, study, draw, message);
-    if (good) {
-        good = study->kind == GM_STUDY_WORK ? gm_work_write(&study->work, chart.csv)
-                                            : gm_stability_write(&study->stability, chart.csv);
-        if (!good) {
-            snprintf(message, sizeof message, "%s.csv: %s", name, strerror(errno));
-        }
-    }
+    const bool good = command && gm_chart_write(&chart, &study->table, row->draw, row->write, message);
+    free(command);
     if (good) {
         snprintf(sentence, sizeof sentence, "Saved %s.png and %s.csv.", name, name);
     } else {
@@ -191,9 +167,7 @@ static void *measure(void *self)
     char message[GM_MESSAGE] = "";
     const struct gm_listener listener = {.stopped = is_stopped, .report = hear, .self = study};
     setpriority(PRIO_PROCESS, (id_t)gettid(), NICE); /* of this thread alone */
-    const bool good = study->kind == GM_STUDY_WORK
-                          ? gm_work_measure(&study->work, &listener, message)
-                          : gm_stability_measure(&study->stability, &listener, message);
+    const bool good = gm_study_rows[study->kind].measure(&study->table, &listener, message);
     study->now.finished = true;
     if (is_stopped(study)) {
         say(study, "Stopped; what is finished stays.");
@@ -228,31 +202,18 @@ static void *measure(void *self)
 
 static bool open_table(struct gm_study *study, char *message)
 {
-    study->split = strdup(study->words);
-    if (!study->split) {
+    if (!gm_arguments_split(&study->arguments, study->words)) {
         snprintf(message, GM_MESSAGE, "There is not enough memory.");
         return false;
     }
-    study->options = (struct gm_options){.words = study->list,
-                                         .word_count = gm_words_split(study->split, study->list, MOST_WORDS)};
-    return study->kind == GM_STUDY_WORK ? gm_work_open(&study->work, &study->options, message)
-                                        : gm_stability_open(&study->stability, &study->options, message);
-}
-
-static void close_table(struct gm_study *study)
-{
-    if (study->kind == GM_STUDY_WORK) {
-        gm_work_close(&study->work);
-    } else {
-        gm_stability_close(&study->stability);
-    }
+    return gm_study_rows[study->kind].open(&study->table, &study->arguments, message);
 }
 
 static void free_study(struct gm_study *study)
 {
     gm_picture_close(study->looks[0].picture);
     gm_picture_close(study->looks[1].picture);
-    free(study->split);
+    gm_arguments_close(&study->arguments);
     free(study->words);
     free(study);
 }
@@ -284,7 +245,7 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
     const int error = gm_thread_start(&study->thread, measure, study);
     if (error != 0) {
         snprintf(message, GM_MESSAGE, "No thread could be started: %s.", strerror(error));
-        close_table(study);
+        gm_study_rows[study->kind].close(&study->table);
         free_study(study);
         return NULL;
     }
@@ -308,7 +269,7 @@ void gm_study_close(struct gm_study *study)
     pthread_join(study->thread, NULL);
     pthread_cond_destroy(&study->news);
     pthread_mutex_destroy(&study->lock);
-    close_table(study);
+    gm_study_rows[study->kind].close(&study->table);
     free_study(study);
 }
 

@@ -251,14 +251,14 @@ static void offer_commands(const char *word)
 {
     const struct stem stem = whole(word);
     for (size_t i = 0; i < gm_command_count; i++) {
-        offer(&stem, gm_commands[i].name, gm_commands[i].help);
+        offer(&stem, gm_commands[i]->name, gm_commands[i]->help);
     }
     offer_scenes(&stem);
     offer(&stem, "--help", "commands and options");
     offer(&stem, "--version", "version and libraries");
 }
 
-int gm_command_complete(int count, char *const words[])
+static int command_complete(int count, char *const words[])
 {
     const char *last = count > 0 ? words[count - 1] : "";
     if (count <= 1) {
@@ -285,3 +285,11 @@ int gm_command_complete(int count, char *const words[])
     }
     return gm_finish(GM_EXIT_OK);
 }
+
+const struct gm_command_row gm_command_complete = {
+    .name = "complete",
+    .synopsis = "[WORD ...]",
+    .help = "what the last word may become: shells ask this",
+    .bit = GM_COMPLETE,
+    .raw = command_complete,
+};
