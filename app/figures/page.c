@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/memory.h"
+#include "render/files/base64.h"
 
 /* Paper and ink are the pictures' own, so that a picture has no edge on the page. */
 static const char style[] =
@@ -95,23 +96,19 @@ static void put_sentence(FILE *page, const char *text)
     put_text(page, text + 1);
 }
 
-/* RFC 4648. False if the file cannot be read. */
+/* A file's bytes in base64. False if it cannot be read. */
 static bool put_base64(FILE *page, const char *path)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    unsigned char bytes[3];
+    unsigned char bytes[3 * 1024]; /* threes, so that only the end is padded */
+    char text[4 * 1024];
     size_t count = 0;
     FILE *file = fopen(path, "rb");
     if (!file) {
         return false;
     }
     while ((count = fread(bytes, 1, sizeof bytes, file)) > 0) {
-        const unsigned group = (unsigned)bytes[0] << 16 | (count > 1 ? (unsigned)bytes[1] << 8 : 0) |
-                               (count > 2 ? (unsigned)bytes[2] : 0);
-        putc(digits[group >> 18], page);
-        putc(digits[group >> 12 & 63], page);
-        putc(count > 1 ? digits[group >> 6 & 63] : '=', page);
-        putc(count > 2 ? digits[group & 63] : '=', page);
+        gm_base64(bytes, count, text);
+        fwrite(text, 1, gm_base64_size(count), page);
     }
     const bool good = !ferror(file);
     fclose(file);
