@@ -17,6 +17,7 @@
 #include "app/figures/page.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
+#include "app/request/clock.h"
 #include "app/request/drive.h"
 
 enum { MOST_WORKERS = 64, QUICK_WIDTH = 640, QUICK_HEIGHT = 360 };
@@ -37,13 +38,6 @@ struct series {
     double started, page_written;
     bool progress;
 };
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 /* A figure's own name, or the beginning of it up to a hyphen: "tyranowski", "razafindralandy-34". */
 static bool named(const char *name, const char *word)
@@ -125,7 +119,7 @@ static bool open_series(struct series *series, const struct gm_options *options)
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     series->worker_count = processors < 1 ? 1 : processors > MOST_WORKERS ? MOST_WORKERS : (size_t)processors;
     series->progress = isatty(STDERR_FILENO);
-    series->started = series->page_written = now();
+    series->started = series->page_written = gm_wall_seconds();
     return true;
 }
 
@@ -144,7 +138,7 @@ static void show_progress(const struct series *series)
         return;
     }
     char bar[WIDTH + 1];
-    const double elapsed = now() - series->started;
+    const double elapsed = gm_wall_seconds() - series->started;
     for (size_t i = 0; i < WIDTH; i++) {
         bar[i] = i * series->count < series->made * WIDTH ? '#' : '.';
     }
@@ -266,7 +260,7 @@ static void print_finished(struct series *series)
 static void write_page(struct series *series, int *status)
 {
     char message[GM_MESSAGE];
-    series->page_written = now();
+    series->page_written = gm_wall_seconds();
     if (!gm_figures_page_write(&series->output, series->jobs, series->outcomes, series->count, message)) {
         gm_complain("%s", message);
         *status = GM_EXIT_FILE;
@@ -366,7 +360,7 @@ static void run(struct series *series, int *status)
         }
         print_finished(series);
         show_progress(series);
-        if (now() - series->page_written > page_seconds) {
+        if (gm_wall_seconds() - series->page_written > page_seconds) {
             write_page(series, status);
         }
     } while (wait_for_one(series));

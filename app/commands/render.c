@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "app/commands/commands.h"
 #include "app/output/checkpoint.h"
 #include "app/output/folder.h"
+#include "app/request/clock.h"
 #include "app/request/drive.h"
 #include "core/memory.h"
 #include "render/files/sink.h"
@@ -42,17 +42,10 @@ static const struct gm_lane *const *lanes_of(const struct work *work)
     return (const struct gm_lane *const *)work->lanes;
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static void show_progress(const struct work *work, long made, double started)
 {
     const long count = work->schedule.ours;
-    const double rate = (double)made / fmax(seconds_now() - started, 1e-9);
+    const double rate = (double)made / fmax(gm_wall_seconds() - started, 1e-9);
     enum { WIDTH = 30 };
     const int filled = (int)((double)WIDTH * (double)work->done / (double)count);
     char bar[WIDTH + 1];
@@ -232,7 +225,7 @@ static bool keep_state(struct work *work, long frame, char *message)
 static bool make_frames(struct work *work, char *message)
 {
     enum { INTERVAL = 5, SHARE = 20 }; /* seconds between checkpoints; of the time they take themselves */
-    const double started = seconds_now();
+    const double started = gm_wall_seconds();
     const bool progress = isatty(STDERR_FILENO);
     const long last = work->movie ? work->schedule.count - 1 : gm_frames_last_missing(&work->frames);
     double due = started + INTERVAL;
@@ -256,12 +249,12 @@ static bool make_frames(struct work *work, char *message)
             work->done++;
             painted = frame;
         }
-        const double now = seconds_now();
+        const double now = gm_wall_seconds();
         if (work->checkpoint && painted >= 0 && (now > due || (gm_interrupted && made > 0))) {
             if (!keep_state(work, painted, message)) {
                 return false;
             }
-            const double after = seconds_now();
+            const double after = gm_wall_seconds();
             due = after + fmax(INTERVAL, SHARE * (after - now));
         }
         if (progress) {

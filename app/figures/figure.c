@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "app/output/still.h"
 #include "app/request/arguments.h"
+#include "app/request/clock.h"
 #include "app/request/drive.h"
 #include "core/memory.h"
 
@@ -407,10 +407,9 @@ static int make(const struct gm_figure_job *job, const struct gm_figure_output *
 void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_output *output,
                     struct gm_outcome *outcome)
 {
-    struct timespec begin, end;
+    const double begin = gm_wall_seconds();
     struct gm_request request;
     struct gm_lane *lanes[GM_FIGURE_LANES] = {NULL};
-    clock_gettime(CLOCK_MONOTONIC, &begin);
     outcome->status = GM_EXIT_USAGE;
     if (parse(&request, job, outcome->message)) {
         outcome->status = make(job, output, &request, lanes, outcome);
@@ -419,8 +418,7 @@ void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_outp
         }
         gm_request_close(&request);
     }
-    clock_gettime(CLOCK_MONOTONIC, &end);
-    outcome->seconds = (double)(end.tv_sec - begin.tv_sec) + 1e-9 * (double)(end.tv_nsec - begin.tv_nsec);
+    outcome->seconds = gm_wall_seconds() - begin;
     outcome->progress = outcome->status == GM_EXIT_OK ? GM_MADE : GM_NOT_MADE;
 }
 

@@ -7,8 +7,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
+#include "app/request/clock.h"
 #include "render/cells/text.h"
 
 volatile sig_atomic_t gm_interrupted;
@@ -25,13 +25,6 @@ void gm_catch_interrupts(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-}
-
-static double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 /* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble. */
@@ -91,14 +84,14 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
             break;
         }
         const long before = lane->run->steps, steps = left < burst ? left : burst;
-        const double start = processor_seconds();
+        const double start = gm_processor_seconds();
         if (record) {
             gm_run_advance(lane->run, steps);
         } else {
             gm_lane_advance(lane,
                             steps); /* what it follows on the way costs less than looking at the clock */
         }
-        drive->seconds += processor_seconds() - start;
+        drive->seconds += gm_processor_seconds() - start;
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);
         }

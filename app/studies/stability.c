@@ -7,7 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+#include "app/request/clock.h"
 
 /* A run that takes longer than this is judged where it is. */
 static const double most_seconds = 10;
@@ -132,13 +133,6 @@ static const struct gm_observable *find(const struct gm_scene *scene, const char
     return observable < 0 ? NULL : &scene->observables[observable];
 }
 
-static double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static double evaluate(const struct gm_lane *lane, const struct gm_observable *observable)
 {
     const struct gm_view view = gm_lane_view(lane);
@@ -152,8 +146,8 @@ static void run_to(struct gm_lane *lane, long steps, const struct gm_observable 
 {
     const struct gm_timing *timing = lane->parameters;
     const bool own_time = lane->scheme->family->own_time;
-    const double started = processor_seconds();
-    while (lane->run->status == GM_OK && processor_seconds() - started < most_seconds &&
+    const double started = gm_processor_seconds();
+    while (lane->run->status == GM_OK && gm_processor_seconds() - started < most_seconds &&
            !gm_listener_stops(listener)) {
         const long left = steps - lane->run->steps;
         if (left <= 0 || (own_time && lane->run->t >= timing->until)) {

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Measures error and cost of every scheme with every step. */
 #include "app/studies/work.h"
-#include "core/schemes.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+#include "app/request/clock.h"
+#include "core/schemes.h"
 
 enum { REPEATS = 5 };
 
@@ -19,13 +20,6 @@ static bool refuse(char *message, const char *text)
 {
     snprintf(message, GM_MESSAGE, "%s", text);
     return false;
-}
-
-static double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 static struct gm_timing *timing_of(const struct gm_work_table *table)
@@ -76,7 +70,7 @@ static double run_through(const struct gm_work_table *table, struct gm_lane *lan
     double spent = 0;
     while (!ended(lane, steps) && spent < most && !stopped(table)) {
         const long left = steps - lane->run->steps, some = left < burst ? left : burst;
-        const double started = processor_seconds();
+        const double started = gm_processor_seconds();
         if (follow) {
             gm_lane_advance(lane, some);
         } else if (own_time) {
@@ -87,7 +81,7 @@ static double run_through(const struct gm_work_table *table, struct gm_lane *lan
         } else {
             gm_run_advance(lane->run, some);
         }
-        spent += processor_seconds() - started;
+        spent += gm_processor_seconds() - started;
     }
     return spent;
 }

@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "app/output/chart.h"
 #include "app/request/arguments.h"
+#include "app/request/clock.h"
 #include "app/studies/study.h"
 #include "render/files/thread.h"
 
@@ -59,13 +59,6 @@ const char *gm_study_words(const struct gm_study *study)
     return study->words;
 }
 
-static double wall_time(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* ---- the thread ---- */
 
 static void say(struct gm_study *study, const char *sentence)
@@ -88,7 +81,7 @@ static void show(struct gm_study *study)
     look->picture = picture;
     gm_picture_clear(picture);
     gm_study_rows[study->kind].draw(&study->table, picture);
-    study->looked = wall_time();
+    study->looked = gm_wall_seconds();
     const uint64_t one = 1;
     pthread_mutex_lock(&study->lock);
     study->ready = true;
@@ -156,7 +149,7 @@ static void hear(void *self, const char *what, size_t done, size_t all)
     study->now.done = done;
     study->now.all = all;
     save_if_wanted(study);
-    if (wall_time() - study->looked >= look_seconds) {
+    if (gm_wall_seconds() - study->looked >= look_seconds) {
         show(study);
     }
 }
