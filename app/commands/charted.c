@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the commands that measure have in common: their diagram and their table, as their options say. */
 #include "app/commands/charted.h"
 
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Words as one owned list: split from a text, completed by what is usual, written so that they are read again. */
 #include "app/request/arguments.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The clocks of the program. */
 #include "app/request/clock.h"
 
 #include <time.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which schemes fit a scene: a refusal names them, and so do lists and completion. */
 #include "app/request/fitting.h"
 
 #include <stdlib.h>

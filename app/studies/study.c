@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The kinds of studies, as rows of functions. */
 #include "app/studies/study.h"
 
 #include <string.h>
