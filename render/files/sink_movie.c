@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "render/files/clock.h"
+#include "render/clock.h"
 #include "render/files/sink_kind.h"
 #include "render/files/temporary.h"
 
