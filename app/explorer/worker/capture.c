@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/lanes/course.h"
 #include "app/output/folder.h"
 #include "app/output/still.h"
 #include "app/request/arguments.h"
