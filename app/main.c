@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/reference/version.h"
 #include "app/request/drive.h"
 #include "app/request/nearest.h"
 #include "core/memory.h"
@@ -15,7 +16,7 @@
 static const char *first_word(size_t i, const void *data)
 {
     (void)data;
-    return i < gm_command_count ? gm_commands[i].name : gm_scene_at(i - gm_command_count)->name;
+    return i < gm_command_count ? gm_commands[i]->name : gm_scene_at(i - gm_command_count)->name;
 }
 
 /* Whether a word is one of a few, as --help, -h and help are. */
@@ -39,7 +40,7 @@ static int help(void)
            "  geomint [tui [SCENE] [key=value ...]]\n",
            GM_VERSION);
     for (size_t i = 0; i < gm_command_count; i++) {
-        help_command(&gm_commands[i]);
+        help_command(gm_commands[i]);
     }
     printf(
         "  geomint --version (-V) | --help (-h), geomint COMMAND --help (-h)\n\n"
@@ -57,7 +58,7 @@ static int run(int argc, char *argv[])
     /* a broken pipe and a full disk are answered where they are written to */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
-    const struct gm_command_row *command = &gm_commands[0];
+    const struct gm_command_row *command = gm_commands[0];
     int first = 1;
     if (argc > 1) {
         if (is_one_of(argv[1], (const char *const[]){"--help", "-h", "help", NULL})) {
@@ -76,8 +77,8 @@ static int run(int argc, char *argv[])
         /* a scene's name opens the explorer, and is its first word */
         first = strcmp(command->name, argv[1]) == 0 ? 2 : 1;
     }
-    if (command->bit == GM_COMPLETE) {
-        return gm_command_complete(argc - first, argv + first);
+    if (command->raw) {
+        return command->raw(argc - first, argv + first);
     }
     for (int i = first; i < argc; i++) {
         if (is_one_of(argv[i], (const char *const[]){"--help", "-h", NULL})) {

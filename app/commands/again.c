@@ -9,9 +9,6 @@
 #include "app/output/provenance.h"
 #include "app/output/still.h"
 #include "app/request/drive.h"
-#include "app/request/words.h"
-
-enum { MOST_WORDS = 64 };
 
 /* The texts that it reads. */
 enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, TEXTS };
@@ -51,19 +48,21 @@ static bool is_complete(const char *path, char *const *texts, char *message)
     return true;
 }
 
-static bool parse(struct gm_request *request, char *arguments, const char *changes, char *message)
+static bool parse(struct gm_request *request, const char *arguments, const char *changes, char *message)
 {
-    char *words[MOST_WORDS];
-    const int count = gm_words_split(arguments, words, MOST_WORDS);
-    if (!gm_request_parse(request, count, words, 1, message)) {
-        return false;
+    struct gm_arguments words = {0};
+    bool good = gm_arguments_split(&words, arguments);
+    if (!good) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
     }
-    if (!gm_changes_parse(request, changes)) {
+    good = good && gm_request_parse(request, words.count, words.words, 1, message);
+    gm_arguments_close(&words);
+    if (good && !gm_changes_parse(request, changes)) {
         gm_request_close(request);
         snprintf(message, GM_MESSAGE, "its log of changes is damaged");
-        return false;
+        good = false;
     }
-    return true;
+    return good;
 }
 
 /* NAME-again, with `end` after it; malloc'ed */
@@ -77,42 +76,32 @@ static char *output_name(const char *path, const char *end)
     return asprintf(&name, "%.*s-again%s", length, base, end) < 0 ? NULL : name;
 }
 
-static const struct chart {
-    const char *name;
-    enum gm_command bit;
-    int (*function)(const struct gm_options *options);
-} charts[] = {
-    {"work-precision", GM_WORK_PRECISION, gm_command_work_precision},
-    {"stability", GM_STABILITY, gm_command_stability},
-};
-
-static const struct chart *chart_of(const char *name)
+/* The command that measures a chart; NULL if there is none of that name. */
+static const struct gm_command_row *chart_of(const char *name)
 {
-    for (size_t i = 0; i < sizeof charts / sizeof charts[0]; i++) {
-        if (strcmp(charts[i].name, name) == 0) {
-            return &charts[i];
-        }
-    }
-    return NULL;
+    const struct gm_command_row *command = gm_command_find(name);
+    return command && command->bit & (GM_WORK_PRECISION | GM_STABILITY) ? command : NULL;
 }
 
 /* Measures a chart once more: the run times are those of now. */
-static int chart_again(const struct gm_options *options, char *command)
+static int chart_again(const struct gm_options *options, const char *command)
 {
-    char *words[MOST_WORDS], message[GM_MESSAGE] = "its command is damaged";
-    const int count = gm_words_split(command, words, MOST_WORDS);
-    const struct chart *chart = count > 0 ? chart_of(words[0]) : NULL;
+    char message[GM_MESSAGE] = "its command is damaged";
+    struct gm_arguments words = {0};
+    const bool split = gm_arguments_split(&words, command);
+    const struct gm_command_row *chart = split && words.count > 0 ? chart_of(words.words[0]) : NULL;
     struct gm_options again = {0};
-    char *name = output_name(options->words[0], "");
+    char *name = output_name(options->arguments.words[0], "");
     int status = GM_EXIT_FILE;
-    if (name && chart && gm_options_parse(&again, chart->bit, count, words, 1, message)) {
+    if (name && chart && gm_options_parse(&again, chart->bit, words.count, words.words, 1, message)) {
         again.out = options->out;
         again.name = name;
         status = chart->function(&again);
     } else {
-        gm_complain("%s cannot be made again: %s", options->words[0], message);
+        gm_complain("%s cannot be made again: %s", options->arguments.words[0], message);
     }
     gm_options_close(&again);
+    gm_arguments_close(&words);
     free(name);
     return status;
 }
@@ -120,7 +109,7 @@ static int chart_again(const struct gm_options *options, char *command)
 /* Draws a picture of lanes once more. */
 static int picture_again(const struct gm_options *options, char *const *texts)
 {
-    const char *path = options->words[0];
+    const char *path = options->arguments.words[0];
     char message[GM_MESSAGE] = "not enough memory";
     struct gm_request request = {0};
     struct gm_lane **lanes = NULL;
@@ -164,14 +153,14 @@ static int picture_again(const struct gm_options *options, char *const *texts)
     return gm_finish(status);
 }
 
-int gm_command_again(const struct gm_options *options)
+static int command_again(const struct gm_options *options)
 {
-    if (options->word_count != 1) {
+    if (options->arguments.count != 1) {
         gm_complain("again which picture? A PNG file that geomint made");
         return GM_EXIT_USAGE;
     }
     char message[GM_MESSAGE], *texts[TEXTS];
-    if (!gm_png_read_texts(options->words[0], keys, texts, TEXTS, message)) {
+    if (!gm_png_read_texts(options->arguments.words[0], keys, texts, TEXTS, message)) {
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
@@ -181,3 +170,11 @@ int gm_command_again(const struct gm_options *options)
     }
     return status;
 }
+
+const struct gm_command_row gm_command_again = {
+    .name = "again",
+    .synopsis = "FILE.png",
+    .help = "make a picture once more from what it tells of itself",
+    .bit = GM_AGAIN,
+    .function = command_again,
+};

@@ -79,13 +79,13 @@ static void print_text(const struct gm_certificate *certificate)
     }
 }
 
-int gm_command_certify(const struct gm_options *options)
+static int command_certify(const struct gm_options *options)
 {
-    if (options->word_count != 1) {
+    if (options->arguments.count != 1) {
         gm_complain("certify which scheme? A name, or all");
         return GM_EXIT_USAGE;
     }
-    const char *name = options->words[0];
+    const char *name = options->arguments.words[0];
     const bool all = strcmp(name, "all") == 0;
     const struct gm_scheme *found = gm_scheme_find(name);
     if (!all && !found) {
@@ -118,3 +118,11 @@ int gm_command_certify(const struct gm_options *options)
     }
     return gm_finish(broken ? GM_EXIT_CLAIM : GM_EXIT_OK);
 }
+
+const struct gm_command_row gm_command_certify = {
+    .name = "certify",
+    .synopsis = "SCHEME|all",
+    .help = "measured order and properties against the claims",
+    .bit = GM_CERTIFY,
+    .function = command_certify,
+};

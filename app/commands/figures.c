@@ -18,7 +18,7 @@
 #include "app/output/folder.h"
 #include "app/output/json.h"
 #include "app/request/drive.h"
-#include "render/files/clock.h"
+#include "render/clock.h"
 
 enum { MOST_WORKERS = 64, QUICK_WIDTH = 640, QUICK_HEIGHT = 360 };
 
@@ -29,6 +29,7 @@ struct worker {
 
 struct series {
     const struct gm_options *options;
+    struct gm_figure_output output;
     struct gm_figure_job *jobs;
     struct gm_outcome *outcomes; /* shared with the workers */
     size_t count, next, made, printed;
@@ -47,12 +48,12 @@ static bool named(const char *name, const char *word)
 
 static bool wanted(const struct gm_options *options, const char *name)
 {
-    for (int i = 0; i < options->word_count; i++) {
-        if (named(name, options->words[i])) {
+    for (int i = 0; i < options->arguments.count; i++) {
+        if (named(name, options->arguments.words[i])) {
             return true;
         }
     }
-    return options->word_count == 0;
+    return options->arguments.count == 0;
 }
 
 /* In the order of the documents, and of the numbers in them. */
@@ -73,15 +74,16 @@ static size_t all_figures(void)
 
 static bool words_are_known(const struct gm_options *options)
 {
-    for (int i = 0; i < options->word_count; i++) {
+    for (int i = 0; i < options->arguments.count; i++) {
         bool known = false;
         for (size_t s = 0; s < gm_scene_count(); s++) {
             for (size_t f = 0; f < gm_scene_at(s)->figure_count; f++) {
-                known |= named(gm_scene_at(s)->figures[f].name, options->words[i]);
+                known |= named(gm_scene_at(s)->figures[f].name, options->arguments.words[i]);
             }
         }
         if (!known) {
-            gm_complain("there is no figure \"%.60s\"; geomint list figures names them", options->words[i]);
+            gm_complain("there is no figure \"%.60s\"; geomint list figures names them",
+                        options->arguments.words[i]);
             return false;
         }
     }
@@ -91,7 +93,13 @@ static bool words_are_known(const struct gm_options *options)
 static bool open_series(struct series *series, const struct gm_options *options)
 {
     const size_t most = all_figures();
-    *series = (struct series){.options = options, .jobs = calloc(most, sizeof *series->jobs)};
+    const bool small = options->quick && !options->sized;
+    *series = (struct series){.options = options,
+                              .output = {.folder = options->out ? options->out : ".",
+                                         .width = small ? QUICK_WIDTH : options->width,
+                                         .height = small ? QUICK_HEIGHT : options->height,
+                                         .quick = options->quick},
+                              .jobs = calloc(most, sizeof *series->jobs)};
     void *shared = mmap(NULL, most * sizeof *series->outcomes, PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     series->outcomes = shared == MAP_FAILED ? NULL : shared;
@@ -253,7 +261,7 @@ static void write_page(struct series *series, int *status)
 {
     char message[GM_MESSAGE];
     series->page_written = gm_clock_seconds();
-    if (!gm_figures_page_write(series->options, series->jobs, series->outcomes, series->count, message)) {
+    if (!gm_figures_page_write(&series->output, series->jobs, series->outcomes, series->count, message)) {
         gm_complain("%s", message);
         *status = GM_EXIT_FILE;
     }
@@ -293,7 +301,7 @@ static void start(struct series *series, struct worker *worker)
     if (process == 0) {
         prctl(PR_SET_PDEATHSIG, SIGTERM);
         if (getppid() == parent) {
-            gm_figure_make(&series->jobs[job], series->options, outcome);
+            gm_figure_make(&series->jobs[job], &series->output, outcome);
         }
         _exit(0);
     }
@@ -372,20 +380,15 @@ static void print_sum(const struct series *series)
         }
     }
     gm_say("%zu of %zu figures made; %zu statements hold, %zu do not; %s/figures.html", made, series->count,
-           hold, fail, series->options->out ? series->options->out : ".");
+           hold, fail, series->output.folder);
 }
 
-int gm_command_figures(const struct gm_options *options)
+static int command_figures(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct series series;
-    struct gm_options each = *options;
     if (!words_are_known(options)) {
         return GM_EXIT_USAGE;
-    }
-    if (options->quick && !options->sized) {
-        each.width = QUICK_WIDTH;
-        each.height = QUICK_HEIGHT;
     }
     if (!gm_folder_make(options->out, message)) {
         gm_complain("%s", message);
@@ -393,7 +396,7 @@ int gm_command_figures(const struct gm_options *options)
     }
     gm_catch_interrupts();
     int status = GM_EXIT_OK;
-    if (open_series(&series, &each)) {
+    if (open_series(&series, options)) {
         run(&series, &status);
         /* finished ones behind one that was interrupted */
         for (size_t i = series.printed; i < series.count; i++) {
@@ -406,7 +409,7 @@ int gm_command_figures(const struct gm_options *options)
             print_sum(&series);
         }
         if (status != GM_EXIT_FILE) {
-            gm_complain("wrote %s/figures.html and its pictures", options->out ? options->out : ".");
+            gm_complain("wrote %s/figures.html and its pictures", series.output.folder);
         }
         for (size_t i = 0; i < series.count; i++) {
             if (series.outcomes[i].progress == GM_NOT_MADE && series.outcomes[i].status > status) {
@@ -419,3 +422,11 @@ int gm_command_figures(const struct gm_options *options)
     close_series(&series);
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
+
+const struct gm_command_row gm_command_figures = {
+    .name = "figures",
+    .synopsis = "[NAME ...]",
+    .help = "published figures, made again",
+    .bit = GM_FIGURES,
+    .function = command_figures,
+};

@@ -9,6 +9,7 @@
 #include "app/output/json.h"
 #include "app/output/wrapped.h"
 #include "app/request/drive.h"
+#include "app/request/fitting.h"
 #include "app/request/nearest.h"
 #include "core/memory.h"
 #include "core/schemes.h"
@@ -116,9 +117,9 @@ static void print_legend(const struct gm_scheme *const *schemes, size_t count)
 
 static void list_schemes(const struct gm_options *options)
 {
-    const struct gm_scheme *schemes[GM_CATALOGUE_SCHEMES];
+    const struct gm_scheme *schemes[GM_FITTING_SCHEMES];
     size_t count = 0;
-    for (; count < gm_scheme_count() && count < GM_CATALOGUE_SCHEMES; count++) {
+    for (; count < gm_scheme_count() && count < GM_FITTING_SCHEMES; count++) {
         schemes[count] = gm_scheme_at(count);
         list_scheme(schemes[count], options, true);
     }
@@ -195,7 +196,7 @@ static char *default_lanes(const struct gm_scene *scene, size_t schemes, char *m
 /* All that is known of a scene. */
 struct entry {
     const struct gm_scene *scene;
-    const struct gm_scheme *schemes[GM_CATALOGUE_SCHEMES]; /* those that fit */
+    const struct gm_scheme *schemes[GM_FITTING_SCHEMES]; /* those that fit */
     size_t scheme_count;
     const struct gm_parameter **rows; /* those of the scene, and those that a fitting scheme brings */
     size_t row_count;
@@ -215,9 +216,9 @@ static bool open_entry(struct entry *entry, const struct gm_scene *scene, char *
     for (size_t i = 0; i < scene->parameter_count; i++) {
         entry->rows[entry->row_count++] = &scene->parameters[i];
     }
-    entry->scheme_count = gm_catalogue_fitting(scene, entry->schemes);
+    entry->scheme_count = gm_fitting_schemes(scene, entry->schemes);
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
-        if (gm_catalogue_takes(entry->schemes, entry->scheme_count, &gm_settings_parameters[i])) {
+        if (gm_fitting_take(entry->schemes, entry->scheme_count, &gm_settings_parameters[i])) {
             entry->rows[entry->row_count++] = &gm_settings_parameters[i];
         }
     }
@@ -337,13 +338,13 @@ static const char *list_name(size_t i, const void *data)
     return (void)data, i < LISTS ? lists[i] : gm_scene_at(i - LISTS)->name;
 }
 
-int gm_command_list(const struct gm_options *options)
+static int command_list(const struct gm_options *options)
 {
-    if (options->word_count > 1) {
+    if (options->arguments.count > 1) {
         gm_complain("list takes one name: scenes, schemes, figures or a scene");
         return GM_EXIT_USAGE;
     }
-    const char *what = options->word_count ? options->words[0] : "scenes";
+    const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
     if (options->markdown) {
         return list_markdown(what);
     }
@@ -365,3 +366,11 @@ int gm_command_list(const struct gm_options *options)
     }
     return gm_finish(GM_EXIT_OK);
 }
+
+const struct gm_command_row gm_command_list = {
+    .name = "list",
+    .synopsis = "[scenes|schemes|figures|SCENE]",
+    .help = "what there is",
+    .bit = GM_LIST,
+    .function = command_list,
+};

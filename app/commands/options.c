@@ -236,16 +236,14 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
                                    .width = 1280,
                                    .height = 720,
                                    .theme = GM_THEME_LIGHT};
-    options->words = calloc((size_t)argc + 1, sizeof *options->words);
-    if (!options->words) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
-    }
     bool given[ROWS] = {false};
     for (int i = first; i < argc; i++) {
         const char *word = argv[i];
         if (strncmp(word, "--", 2) != 0) {
-            options->words[options->word_count++] = argv[i];
+            if (!gm_arguments_add(&options->arguments, word)) {
+                snprintf(message, GM_MESSAGE, "not enough memory");
+                return false;
+            }
             continue;
         }
         const char *equals = strchr(word, '=');
@@ -278,21 +276,9 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
     return check_pairs(options, given, message);
 }
 
-bool gm_options_have(const struct gm_options *options, const char *word)
-{
-    const size_t length = strcspn(word, "=") + 1;
-    for (int i = 0; i < options->word_count; i++) {
-        if (strncmp(options->words[i], word, length) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 void gm_options_close(struct gm_options *options)
 {
-    free(options->words);
-    options->words = NULL;
+    gm_arguments_close(&options->arguments);
 }
 
 size_t gm_option_count(void)

@@ -3,6 +3,7 @@
 #ifndef GM_APP_COMMANDS_OPTIONS_H
 #define GM_APP_COMMANDS_OPTIONS_H
 
+#include "app/request/arguments.h"
 #include "app/request/request.h"
 #include "render/layout/theme.h"
 
@@ -36,17 +37,14 @@ struct gm_options {
     bool sized;                            /* these were given */
     enum gm_theme theme;                   /* light */
     const char *graphics, *colours, *look; /* what to believe of the terminal */
-    char **words;                          /* what is left: scene, key=value, names */
-    int word_count;
+    struct gm_arguments arguments;         /* what is left: scene, key=value, names */
 };
 
-/* Reads argv[first..]; words point into argv, options->words is malloc'ed. False with a sentence. */
+/* Reads argv[first..]; the texts point into it. False with a sentence. To be closed in
+   both cases. */
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message);
 void gm_options_close(struct gm_options *options);
-
-/* Whether the words set the key that `word` sets: "dt=" or "dt=0.1". */
-bool gm_options_have(const struct gm_options *options, const char *word);
 
 /* What is known of an option. */
 struct gm_option {

@@ -11,7 +11,7 @@
 #include "app/output/folder.h"
 #include "app/request/drive.h"
 #include "core/memory.h"
-#include "render/files/clock.h"
+#include "render/clock.h"
 #include "render/files/sink.h"
 #include "render/gl/canvas.h"
 
@@ -425,7 +425,8 @@ static void close_work(struct work *work)
     gm_canvas_close(work->canvas);
 }
 
-int gm_render(struct gm_request *request, const struct gm_options *options, const char *name)
+/* Renders a request; output files below options->out begin with `name`. */
+static int render(struct gm_request *request, const struct gm_options *options, const char *name)
 {
     char message[GM_MESSAGE] = "not enough memory";
     struct work work = {
@@ -435,9 +436,18 @@ int gm_render(struct gm_request *request, const struct gm_options *options, cons
         .lanes = calloc(request->count, sizeof *work.lanes),
         .picture = gm_picture_open(),
     };
+    const struct gm_pace pace = {.movie = options->movie != NULL,
+                                 .frames = options->frames,
+                                 .every = options->every,
+                                 .fps = options->fps,
+                                 .rate = options->rate,
+                                 .from = options->from,
+                                 .at = options->at,
+                                 .shard = options->shard,
+                                 .shards = options->shards};
     int status = GM_EXIT_USAGE;
     if (!work.drives || !work.lanes || !work.picture ||
-        !gm_schedule_make(&work.schedule, request, options, message) || !open_lanes(&work, message)) {
+        !gm_schedule_make(&work.schedule, request, &pace, message) || !open_lanes(&work, message)) {
         gm_complain("%s", message);
     } else {
         status = paint_all(&work, name);
@@ -480,18 +490,27 @@ static bool take_changes(struct gm_request *request, const char *list, char *mes
     return good;
 }
 
-int gm_command_render(const struct gm_options *options)
+static int command_render(const struct gm_options *options)
 {
     char message[GM_MESSAGE], name[128];
     struct gm_request request;
-    if (!gm_request_parse(&request, options->word_count, options->words, GM_RENDER_SCHEMES, message) ||
+    if (!gm_request_parse(&request, options->arguments.count, options->arguments.words, GM_RENDER_SCHEMES,
+                          message) ||
         !take_changes(&request, options->changes, message)) {
         gm_complain("%s", message);
         return gm_request_refusal(&request);
     }
     gm_catch_interrupts();
     snprintf(name, sizeof name, "%s-render", request.scene->name);
-    const int status = gm_render(&request, options, name);
+    const int status = render(&request, options, name);
     gm_request_close(&request);
     return gm_finish(status);
 }
+
+const struct gm_command_row gm_command_render = {
+    .name = "render",
+    .synopsis = "SCENE [key=value ...]",
+    .help = "pictures, frames, movies",
+    .bit = GM_RENDER,
+    .function = command_render,
+};

@@ -421,14 +421,15 @@ static void tell_written(const char *path)
     }
 }
 
-int gm_command_run(const struct gm_options *options)
+static int command_run(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_request request;
     if (!check_options(options)) {
         return GM_EXIT_USAGE;
     }
-    if (!gm_request_parse(&request, options->word_count, options->words, GM_RUN_SCHEMES, message)) {
+    if (!gm_request_parse(&request, options->arguments.count, options->arguments.words, GM_RUN_SCHEMES,
+                          message)) {
         gm_complain("%s", message);
         return gm_request_refusal(&request);
     }
@@ -493,3 +494,11 @@ int gm_command_run(const struct gm_options *options)
     gm_request_close(&request);
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
+
+const struct gm_command_row gm_command_run = {
+    .name = "run",
+    .synopsis = "SCENE [key=value ...]",
+    .help = "numbers",
+    .bit = GM_RUN,
+    .function = command_run,
+};

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint stability: which time step keeps which scheme bounded, and how it fails beyond. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/commands/charted.h"
 #include "app/commands/commands.h"
-#include "app/output/chart.h"
+#include "app/commands/region.h"
 #include "app/output/json.h"
 #include "app/request/drive.h"
-#include "app/studies/region.h"
-#include "app/studies/stability.h"
+#include "app/studies/study.h"
 #include "core/memory.h"
 
 static void print_table(const struct gm_stability_table *table)
@@ -91,23 +90,18 @@ static void print_json(const struct gm_stability_table *table)
     }
 }
 
-static void draw(const void *table, struct gm_picture *picture)
-{
-    gm_stability_draw(table, picture);
-}
-
-int gm_command_stability(const struct gm_options *options)
+static int command_stability(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_stability_table table;
-    if (options->region && options->word_count > 0) {
+    if (options->region && options->arguments.count > 0) {
         gm_complain("--region takes a scheme alone, no scene");
         return GM_EXIT_USAGE;
     }
     if (options->region) {
         return gm_region(options);
     }
-    if (!gm_stability_open(&table, options, message)) {
+    if (!gm_stability_open(&table, &options->arguments, message)) {
         gm_complain("%s", message);
         return gm_request_refusal(&table.request);
     }
@@ -123,24 +117,23 @@ int gm_command_stability(const struct gm_options *options)
         status = GM_EXIT_MEMORY;
     } else {
         char name[128];
-        struct gm_chart chart;
         if (options->json) {
             print_json(&table);
         } else {
             print_table(&table);
         }
         snprintf(name, sizeof name, "%s-stability", table.request.scene->name);
-        if (!gm_chart_open(&chart, options, "stability", name, message) ||
-            !gm_chart_paint(&chart, &table, draw, message)) {
-            gm_complain("%s", message);
-            status = GM_EXIT_FILE;
-        } else if (!gm_stability_write(&table, chart.csv)) {
-            gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
-            status = GM_EXIT_FILE;
-        } else {
-            gm_chart_tell(&chart);
-        }
+        const struct gm_study_row *study = &gm_study_rows[GM_STUDY_STABILITY];
+        status = gm_command_chart(options, study->name, name, &table, study->draw, study->write);
     }
     gm_stability_close(&table);
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
+
+const struct gm_command_row gm_command_stability = {
+    .name = "stability",
+    .synopsis = "SCENE [key=value ...]",
+    .help = "which time step keeps which scheme bounded, and how it fails beyond",
+    .bit = GM_STABILITY,
+    .function = command_stability,
+};

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint tour: lists tours, opens one in the explorer, or renders it without a screen. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/tui.h"
 #include "app/explorer/explorer.h"
 #include "app/request/drive.h"
 #include "app/tours/movie.h"
@@ -54,34 +56,38 @@ static int list_steps(const struct gm_tour *tour)
 /* A movie has light or dark paper. */
 static int make_movie(const struct gm_tour *tour, const struct gm_options *options)
 {
-    struct gm_options painted = *options;
     const bool dark = options->look && strcmp(options->look, "dark") == 0;
     if (options->look && !dark && strcmp(options->look, "light") != 0) {
         gm_complain("--theme %.60s is none of: light, dark", options->look);
         return GM_EXIT_USAGE;
     }
-    painted.theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
+    const struct gm_tour_output output = {.movie = options->movie,
+                                          .folder = options->out,
+                                          .fps = isnan(options->fps) ? 30 : options->fps,
+                                          .width = options->width,
+                                          .height = options->height,
+                                          .theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT};
     gm_catch_interrupts();
-    return gm_finish(gm_tour_render(tour, &painted));
+    return gm_finish(gm_tour_render(tour, &output));
 }
 
-int gm_command_tour(const struct gm_options *options)
+static int command_tour(const struct gm_options *options)
 {
     char message[GM_MESSAGE], path[8192];
     struct gm_tour tour;
     bool file = false;
-    if (options->word_count > 1) {
+    if (options->arguments.count > 1) {
         gm_complain("tour takes one name; one of several words stands in quotation marks");
         return GM_EXIT_USAGE;
     }
-    if (options->word_count == 0 && (options->movie || options->out)) {
+    if (options->arguments.count == 0 && (options->movie || options->out)) {
         gm_complain("which tour? geomint tour lists them");
         return GM_EXIT_USAGE;
     }
-    if (options->word_count == 0) {
+    if (options->arguments.count == 0) {
         return list_tours();
     }
-    const bool found = gm_tour_find(options->words[0], path, sizeof path, &file, message);
+    const bool found = gm_tour_find(options->arguments.words[0], path, sizeof path, &file, message);
     if (!found || !gm_tour_read(&tour, path, message)) {
         gm_complain("%s", message);
         return found || file ? GM_EXIT_FILE : GM_EXIT_USAGE;
@@ -98,3 +104,11 @@ int gm_command_tour(const struct gm_options *options)
     gm_tour_close(&tour);
     return status;
 }
+
+const struct gm_command_row gm_command_tour = {
+    .name = "tour",
+    .synopsis = "[NAME|FILE.tour]",
+    .help = "a class is led through steps; without a name, which tours there are",
+    .bit = GM_TOUR,
+    .function = command_tour,
+};

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint work-precision: error against run time and evaluations. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/commands/charted.h"
 #include "app/commands/commands.h"
-#include "app/output/chart.h"
 #include "app/output/json.h"
 #include "app/request/drive.h"
-#include "app/studies/work.h"
+#include "app/studies/study.h"
 #include "core/memory.h"
 
 static void print_cell(double value)
@@ -116,16 +115,11 @@ static void print_json(const struct gm_work_table *table)
     }
 }
 
-static void draw(const void *table, struct gm_picture *picture)
-{
-    gm_work_draw(table, picture);
-}
-
-int gm_command_work_precision(const struct gm_options *options)
+static int command_work_precision(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct gm_work_table table;
-    if (!gm_work_open(&table, options, message)) {
+    if (!gm_work_open(&table, &options->arguments, options->measure, message)) {
         gm_complain("%s", message);
         return gm_request_refusal(&table.request);
     }
@@ -148,18 +142,18 @@ int gm_command_work_precision(const struct gm_options *options)
             print_table(&table);
         }
         snprintf(name, sizeof name, "%s-work-precision", table.request.scene->name);
-        struct gm_chart chart;
-        if (!gm_chart_open(&chart, options, "work-precision", name, message) ||
-            !gm_chart_paint(&chart, &table, draw, message)) {
-            gm_complain("%s", message);
-            status = GM_EXIT_FILE;
-        } else if (!gm_work_write(&table, chart.csv)) {
-            gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
-            status = GM_EXIT_FILE;
-        } else {
-            gm_chart_tell(&chart);
-        }
+        const struct gm_study_row *study = &gm_study_rows[GM_STUDY_WORK];
+        const int written = gm_command_chart(options, study->name, name, &table, study->draw, study->write);
+        status = written != GM_EXIT_OK ? written : status;
     }
     gm_work_close(&table);
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }
+
+const struct gm_command_row gm_command_work_precision = {
+    .name = "work-precision",
+    .synopsis = "SCENE [key=value ...]",
+    .help = "error against run time and evaluations, of every scheme that fits",
+    .bit = GM_WORK_PRECISION,
+    .function = command_work_precision,
+};

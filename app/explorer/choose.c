@@ -7,7 +7,7 @@
 
 #include "app/explorer/view/pages.h"
 #include "app/explorer/view/search.h"
-#include "render/files/clock.h"
+#include "render/clock.h"
 
 /* The choice in the list of scenes rests for this long before it is looked at. */
 enum { REST_MILLISECONDS = 150 };

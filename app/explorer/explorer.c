@@ -16,7 +16,7 @@
 #include "app/explorer/events.h"
 #include "app/explorer/terminal/console.h"
 #include "app/request/drive.h"
-#include "render/files/clock.h"
+#include "render/clock.h"
 
 enum { FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
 

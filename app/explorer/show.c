@@ -3,7 +3,7 @@
 #include "app/explorer/events.h"
 
 #include "app/explorer/view/scene.h"
-#include "render/files/clock.h"
+#include "render/clock.h"
 
 void gm_explorer_resize(struct gm_explorer *explorer)
 {

@@ -3,79 +3,50 @@
 #include "app/figures/figure.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/output/still.h"
+#include "app/request/arguments.h"
 #include "app/request/drive.h"
 #include "core/memory.h"
-#include "render/files/clock.h"
+#include "render/clock.h"
 
-enum { MOST_WORDS = 64, WORDS_SIZE = 512, FEW_SCHEMES = 3 };
+enum { FEW_SCHEMES = 3 };
 
-/* Text cut at blanks, as words that gm_request_parse takes. */
-struct words {
-    char text[WORDS_SIZE];
-    char *word[MOST_WORDS];
-    int count;
-};
-
-static void split(struct words *words, const char *text)
-{
-    char *rest = NULL;
-    words->count = 0;
-    snprintf(words->text, sizeof words->text, "%s", text);
-    for (char *word = strtok_r(words->text, " ", &rest); word && words->count < MOST_WORDS;
-         word = strtok_r(NULL, " ", &rest)) {
-        words->word[words->count++] = word;
-    }
-}
-
-static size_t key_length(const char *word)
-{
-    return strcspn(word, "=");
-}
-
-static bool same_key(const char *one, const char *other)
-{
-    return key_length(one) == key_length(other) && strncmp(one, other, key_length(one)) == 0;
-}
-
-/* The arguments with those of `quick` instead of their namesakes. */
+/* The arguments with those of `quick` instead of their namesakes; where memory is short they stay as they
+ * are. */
 static void shorten(char *arguments, size_t size, const char *quick)
 {
-    struct words own, instead;
-    split(&own, arguments);
-    split(&instead, quick);
-    size_t used = 0;
-    for (int i = 0; i < own.count && used < size; i++) {
-        bool replaced = false;
-        for (int k = 0; k < instead.count; k++) {
-            replaced |= same_key(own.word[i], instead.word[k]);
+    struct gm_arguments own = {0}, instead = {0};
+    if (gm_arguments_split(&own, arguments) && gm_arguments_split(&instead, quick)) {
+        size_t used = 0;
+        for (int i = 0; i < own.count && used < size; i++) {
+            if (!gm_arguments_have(&instead, own.words[i])) {
+                used += (size_t)snprintf(arguments + used, size - used, "%s ", own.words[i]);
+            }
         }
-        if (!replaced) {
-            used += (size_t)snprintf(arguments + used, size - used, "%s ", own.word[i]);
+        if (used < size) {
+            snprintf(arguments + used, size - used, "%s", quick);
         }
     }
-    if (used < size) {
-        snprintf(arguments + used, size - used, "%s", quick);
-    }
+    gm_arguments_close(&own);
+    gm_arguments_close(&instead);
 }
 
 static bool parse(struct gm_request *request, const struct gm_figure_job *job, char *message)
 {
-    char sentence[GM_MESSAGE];
-    struct words words;
-    char *all[MOST_WORDS + 1] = {(char *)(uintptr_t)job->scene->name};
-    split(&words, job->arguments);
-    memcpy(all + 1, words.word, (size_t)words.count * sizeof words.word[0]);
-    if (gm_request_parse(request, words.count + 1, all, FEW_SCHEMES, sentence)) {
-        return true;
+    char sentence[GM_MESSAGE] = "not enough memory";
+    struct gm_arguments words = {0};
+    const bool good = gm_arguments_add(&words, job->scene->name) &&
+                      gm_arguments_split(&words, job->arguments) &&
+                      gm_request_parse(request, words.count, words.words, FEW_SCHEMES, sentence);
+    gm_arguments_close(&words);
+    if (!good) {
+        snprintf(message, GM_MESSAGE, "%s: %.400s", job->figure->name, sentence);
     }
-    snprintf(message, GM_MESSAGE, "%s: %.400s", job->figure->name, sentence);
-    return false;
+    return good;
 }
 
 void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, const struct gm_figure *figure,
@@ -98,10 +69,9 @@ static bool has_value(const struct gm_request *request, const struct gm_lane_spe
         return strcmp(spec->scheme->name, value) == 0;
     }
     const struct gm_parameter *row = gm_scene_parameter(request->scene, key);
-    void *other = row ? malloc(request->scene->size) : NULL;
+    void *other = row ? gm_parameters_copy(request->scene, spec->parameters) : NULL;
     bool same = false;
     if (other) {
-        memcpy(other, spec->parameters, request->scene->size);
         *known &= gm_parameter_set(row, other, value) == GM_PARSED;
         same = gm_parameter_get(row, other) == gm_parameter_get(row, spec->parameters);
     } else {
@@ -115,12 +85,15 @@ static bool has_value(const struct gm_request *request, const struct gm_lane_spe
 static bool has(const struct gm_request *request, const struct gm_lane_spec *spec, const char *word,
                 bool *known)
 {
-    char key[64], values[WORDS_SIZE], *rest = NULL;
+    char key[64], value[GM_TEXT_SIZE];
+    size_t length = strcspn(word, "=");
     bool any = false;
-    snprintf(key, sizeof key, "%.*s", (int)key_length(word), word);
-    snprintf(values, sizeof values, "%s", word + key_length(word) + (word[key_length(word)] == '='));
-    for (char *value = strtok_r(values, ",", &rest); value; value = strtok_r(NULL, ",", &rest)) {
-        any |= has_value(request, spec, key, value, known);
+    snprintf(key, sizeof key, "%.*s", (int)length, word);
+    for (const char *at = word + length; *at; at += length) {
+        at += strspn(at, "=,");
+        length = strcspn(at, ",");
+        snprintf(value, sizeof value, "%.*s", (int)length, at);
+        any |= length > 0 && has_value(request, spec, key, value, known);
     }
     return any;
 }
@@ -128,18 +101,19 @@ static bool has(const struct gm_request *request, const struct gm_lane_spec *spe
 /* Indices of the lanes with these values; returns how many. */
 static size_t choose(const struct gm_request *request, const char *lanes, size_t *chosen, bool *known)
 {
-    struct words words;
+    struct gm_arguments words = {0};
     size_t count = 0;
-    split(&words, lanes);
+    *known &= gm_arguments_split(&words, lanes);
     for (size_t i = 0; i < request->count && i < GM_FIGURE_LANES; i++) {
         bool all = true;
         for (int k = 0; k < words.count; k++) {
-            all &= has(request, &request->lanes[i], words.word[k], known);
+            all &= has(request, &request->lanes[i], words.words[k], known);
         }
         if (all) {
             chosen[count++] = i;
         }
     }
+    gm_arguments_close(&words);
     return count;
 }
 
@@ -335,23 +309,21 @@ static void judge(const struct gm_request *request, struct gm_lane *const *lanes
 /* "rk4 dt=0.1": the scheme, and the keys of which the figure lists several values. */
 static void label(const struct gm_figure_job *job, const struct gm_lane_spec *spec, char *text, size_t size)
 {
-    struct words words;
+    struct gm_arguments words = {0};
     char value[GM_TEXT_SIZE];
     size_t used = (size_t)snprintf(text, size, "%s", spec->scheme->name);
-    split(&words, job->arguments);
+    gm_arguments_split(&words, job->arguments);
     for (int i = 0; i < words.count && used < size; i++) {
-        const char *word = words.word[i];
-        if (!strchr(word, ',') || same_key(word, "scheme=")) {
-            continue;
-        }
         char key[64];
-        snprintf(key, sizeof key, "%.*s", (int)key_length(word), word);
-        const struct gm_parameter *row = gm_scene_parameter(job->scene, key);
+        snprintf(key, sizeof key, "%.*s", (int)strcspn(words.words[i], "="), words.words[i]);
+        const struct gm_parameter *row =
+            strchr(words.words[i], ',') ? gm_scene_parameter(job->scene, key) : NULL;
         if (row) {
             used += (size_t)snprintf(text + used, size - used, " %s=%s", key,
                                      gm_parameter_format(row, spec->parameters, value, sizeof value));
         }
     }
+    gm_arguments_close(&words);
 }
 
 static void take_numbers(const struct gm_figure_job *job, const struct gm_request *request,
@@ -371,16 +343,16 @@ static void take_numbers(const struct gm_figure_job *job, const struct gm_reques
     }
 }
 
-char *gm_figure_path(const struct gm_options *options, const char *name, enum gm_theme theme)
+char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme)
 {
     char *path = NULL;
-    const int length = asprintf(&path, "%s/%s%s.png", options->out ? options->out : ".", name,
-                                theme == GM_THEME_DARK ? "-dark" : "");
+    const int length =
+        asprintf(&path, "%s/%s%s.png", output->folder, name, theme == GM_THEME_DARK ? "-dark" : "");
     return length < 0 ? NULL : path;
 }
 
 static int paint(const struct gm_figure_job *job, const struct gm_request *request,
-                 struct gm_lane *const *lanes, const struct gm_options *options, char *message)
+                 struct gm_lane *const *lanes, const struct gm_figure_output *output, char *message)
 {
     const enum gm_theme themes[] = {GM_THEME_LIGHT, GM_THEME_DARK};
     const struct gm_lane *looked_at[GM_FIGURE_LANES];
@@ -388,13 +360,13 @@ static int paint(const struct gm_figure_job *job, const struct gm_request *reque
         looked_at[i] = lanes[i];
     }
     for (size_t i = 0; i < 2; i++) {
-        char *path = gm_figure_path(options, job->figure->name, themes[i]);
+        char *path = gm_figure_path(output, job->figure->name, themes[i]);
         if (!path) {
             snprintf(message, GM_MESSAGE, "not enough memory");
             return GM_EXIT_FILE;
         }
         const bool good =
-            gm_still_write(path, options->width, options->height, themes[i], request, looked_at, message);
+            gm_still_write(path, output->width, output->height, themes[i], request, looked_at, message);
         free(path);
         if (!good) {
             return GM_EXIT_FILE;
@@ -403,7 +375,7 @@ static int paint(const struct gm_figure_job *job, const struct gm_request *reque
     return GM_EXIT_OK;
 }
 
-static int make(const struct gm_figure_job *job, const struct gm_options *options,
+static int make(const struct gm_figure_job *job, const struct gm_figure_output *output,
                 const struct gm_request *request, struct gm_lane **lanes, struct gm_outcome *outcome)
 {
     if (request->count > GM_FIGURE_LANES) {
@@ -421,7 +393,7 @@ static int make(const struct gm_figure_job *job, const struct gm_options *option
             return GM_EXIT_INTERRUPTED;
         }
     }
-    const int status = paint(job, request, lanes, options, outcome->message);
+    const int status = paint(job, request, lanes, output, outcome->message);
     if (status == GM_EXIT_OK) {
         take_numbers(job, request, lanes, outcome);
     }
@@ -432,21 +404,21 @@ static int make(const struct gm_figure_job *job, const struct gm_options *option
     return status;
 }
 
-void gm_figure_make(const struct gm_figure_job *job, const struct gm_options *options,
+void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_output *output,
                     struct gm_outcome *outcome)
 {
+    const double begin = gm_clock_seconds();
     struct gm_request request;
     struct gm_lane *lanes[GM_FIGURE_LANES] = {NULL};
-    const double begun = gm_clock_seconds();
     outcome->status = GM_EXIT_USAGE;
     if (parse(&request, job, outcome->message)) {
-        outcome->status = make(job, options, &request, lanes, outcome);
+        outcome->status = make(job, output, &request, lanes, outcome);
         for (size_t i = 0; i < request.count && i < GM_FIGURE_LANES; i++) {
             gm_lane_close(lanes[i]);
         }
         gm_request_close(&request);
     }
-    outcome->seconds = gm_clock_seconds() - begun;
+    outcome->seconds = gm_clock_seconds() - begin;
     outcome->progress = outcome->status == GM_EXIT_OK ? GM_MADE : GM_NOT_MADE;
 }
 

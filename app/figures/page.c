@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "core/memory.h"
+#include "render/files/base64.h"
 
 /* Paper and ink are the pictures' own, so that a picture has no edge on the page. */
 static const char style[] =
@@ -95,33 +96,29 @@ static void put_sentence(FILE *page, const char *text)
     put_text(page, text + 1);
 }
 
-/* RFC 4648. False if the file cannot be read. */
+/* A file's bytes in base64. False if it cannot be read. */
 static bool put_base64(FILE *page, const char *path)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    unsigned char bytes[3];
+    unsigned char bytes[3 * 1024]; /* threes, so that only the end is padded */
+    char text[4 * 1024];
     size_t count = 0;
     FILE *file = fopen(path, "rb");
     if (!file) {
         return false;
     }
     while ((count = fread(bytes, 1, sizeof bytes, file)) > 0) {
-        const unsigned group = (unsigned)bytes[0] << 16 | (count > 1 ? (unsigned)bytes[1] << 8 : 0) |
-                               (count > 2 ? (unsigned)bytes[2] : 0);
-        putc(digits[group >> 18], page);
-        putc(digits[group >> 12 & 63], page);
-        putc(count > 1 ? digits[group >> 6 & 63] : '=', page);
-        putc(count > 2 ? digits[group & 63] : '=', page);
+        gm_base64(bytes, count, text);
+        fwrite(text, 1, gm_base64_size(count), page);
     }
     const bool good = !ferror(file);
     fclose(file);
     return good;
 }
 
-static bool put_picture(FILE *page, const struct gm_options *options, const struct gm_figure_job *job)
+static bool put_picture(FILE *page, const struct gm_figure_output *output, const struct gm_figure_job *job)
 {
-    char *dark = gm_figure_path(options, job->figure->name, GM_THEME_DARK);
-    char *light = gm_figure_path(options, job->figure->name, GM_THEME_LIGHT);
+    char *dark = gm_figure_path(output, job->figure->name, GM_THEME_DARK);
+    char *light = gm_figure_path(output, job->figure->name, GM_THEME_LIGHT);
     fputs("<figure><picture><source media=\"screen and (prefers-color-scheme:dark)\" "
           "srcset=\"data:image/png;base64,",
           page);
@@ -130,8 +127,8 @@ static bool put_picture(FILE *page, const struct gm_options *options, const stru
     put_text(page, job->scene->title);
     fputs(": ", page);
     put_text(page, job->figure->statement);
-    fprintf(page, "\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", options->width,
-            options->height);
+    fprintf(page, "\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", output->width,
+            output->height);
     good = good && put_base64(page, light);
     fputs("\"></picture></figure>\n", page);
     free(dark);
@@ -235,7 +232,7 @@ static void put_title(FILE *page, const char *name)
     }
 }
 
-static bool put_figure(FILE *page, const struct gm_options *options, const struct gm_figure_job *job,
+static bool put_figure(FILE *page, const struct gm_figure_output *output, const struct gm_figure_job *job,
                        const struct gm_outcome *outcome)
 {
     fprintf(page, "<article id=\"%s\">\n<h3><a href=\"#%s\">", job->figure->name, job->figure->name);
@@ -245,7 +242,7 @@ static bool put_figure(FILE *page, const struct gm_options *options, const struc
     fputs(".</p>\n", page);
     bool good = true;
     if (outcome->progress == GM_MADE) {
-        good = put_picture(page, options, job);
+        good = put_picture(page, output, job);
         put_statements(page, job, outcome);
         if (job->published && job->published->remark) {
             fputs("<p>", page);
@@ -324,7 +321,7 @@ static void put_contents(FILE *page, const struct gm_document *document, const s
     fputs("</ol></nav>\n", page);
 }
 
-static void put_head(FILE *page, const struct gm_options *options, const struct sum *sum, size_t count)
+static void put_head(FILE *page, const struct gm_figure_output *output, const struct sum *sum, size_t count)
 {
     fprintf(page,
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -346,7 +343,7 @@ static void put_head(FILE *page, const struct gm_options *options, const struct 
         "ended before its time never has a number that is small enough. Where a statement does not hold, the reason "
         "stands under it.</p>\n",
         page);
-    if (options->quick) {
+    if (output->quick) {
         fputs("<p class=\"notice\">Made with --quick: smaller pictures, and the longest runs are made with "
               "coarser grids or steps. Nothing is judged of those.</p>\n",
               page);
@@ -354,8 +351,9 @@ static void put_head(FILE *page, const struct gm_options *options, const struct 
     fputs("</header>\n<main>\n", page);
 }
 
-static bool put_document(FILE *page, const struct gm_options *options, const struct gm_document *document,
-                         const struct gm_figure_job *jobs, const struct gm_outcome *outcomes, size_t count)
+static bool put_document(FILE *page, const struct gm_figure_output *output,
+                         const struct gm_document *document, const struct gm_figure_job *jobs,
+                         const struct gm_outcome *outcomes, size_t count)
 {
     bool any = false, good = true;
     for (size_t i = 0; i < count; i++) {
@@ -370,18 +368,18 @@ static bool put_document(FILE *page, const struct gm_options *options, const str
     put_contents(page, document, jobs, outcomes, count);
     for (size_t i = 0; i < count; i++) {
         if (is_of(document, &jobs[i])) {
-            good &= put_figure(page, options, &jobs[i], &outcomes[i]);
+            good &= put_figure(page, output, &jobs[i], &outcomes[i]);
         }
     }
     fputs("</section>\n", page);
     return good;
 }
 
-bool gm_figures_page_write(const struct gm_options *options, const struct gm_figure_job *jobs,
+bool gm_figures_page_write(const struct gm_figure_output *output, const struct gm_figure_job *jobs,
                            const struct gm_outcome *outcomes, size_t count, char *message)
 {
     char *path = NULL, *partial = NULL;
-    const char *out = options->out ? options->out : ".";
+    const char *out = output->folder;
     if (asprintf(&path, "%s/figures.html", out) < 0 || asprintf(&partial, "%s/.figures.html", out) < 0) {
         free(path);
         snprintf(message, GM_MESSAGE, "not enough memory");
@@ -392,14 +390,14 @@ bool gm_figures_page_write(const struct gm_options *options, const struct gm_fig
     bool good = page != NULL;
     if (good) {
         const struct sum sum = sum_of(jobs, outcomes, count);
-        put_head(page, options, &sum, count);
+        put_head(page, output, &sum, count);
         for (size_t i = 0; i < gm_document_count(); i++) {
-            good &= put_document(page, options, gm_document_at(i), jobs, outcomes, count);
+            good &= put_document(page, output, gm_document_at(i), jobs, outcomes, count);
         }
         fprintf(page,
                 "</main>\n<footer>Made by geomint %s: <code>geomint figures%s</code>.</footer>\n</body>\n"
                 "</html>\n",
-                GM_VERSION, options->quick ? " --quick" : "");
+                GM_VERSION, output->quick ? " --quick" : "");
         good &= !ferror(page);
         good &= fclose(page) == 0;
         good = good && rename(partial, path) == 0;

@@ -2,46 +2,32 @@
 /* Where a command that measures puts its diagram and its table. */
 #include "app/output/chart.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
-#include "app/request/drive.h"
 #include "core/memory.h"
 #include "render/files/png.h"
 #include "render/gl/canvas.h"
+#include "render/message.h"
 
-bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, const char *command,
-                   const char *name, char *message)
+static bool paint(const struct gm_chart *chart, const void *data,
+                  void (*draw)(const void *data, struct gm_picture *picture), char *message)
 {
-    const char *folder = options->out ? options->out : ".";
-    name = options->name ? options->name : name;
-    chart->options = options;
-    chart->command = command;
-    const int png = snprintf(chart->png, sizeof chart->png, "%s/%s.png", folder, name);
-    const int csv = snprintf(chart->csv, sizeof chart->csv, "%s/%s.csv", folder, name);
-    if (png >= (int)sizeof chart->png || csv >= (int)sizeof chart->csv) {
-        snprintf(message, GM_MESSAGE, "the name of the folder is too long");
-        return false;
-    }
-    return gm_folder_make(options->out, message);
-}
-
-bool gm_chart_paint(const struct gm_chart *chart, const void *data,
-                    void (*draw)(const void *data, struct gm_picture *picture), char *message)
-{
-    const int width = chart->options->width, height = chart->options->height;
-    struct gm_canvas *canvas = gm_canvas_open(width, height, chart->options->theme, message);
+    const int width = chart->width, height = chart->height;
+    struct gm_canvas *canvas = gm_canvas_open(width, height, chart->theme, message);
     if (!canvas) {
         return false;
     }
     struct gm_picture *picture = gm_picture_open();
     unsigned char *rgb = malloc((size_t)width * (size_t)height * 3);
     struct gm_provenance provenance = {0};
-    bool good =
-        picture && rgb &&
-        gm_provenance_of_command(&provenance, chart->command, chart->options, gm_canvas_backend(canvas));
+    bool good = picture && rgb &&
+                gm_provenance_of_command(&provenance, chart->command, width, height, chart->theme,
+                                         gm_canvas_backend(canvas));
     if (good) {
         draw(data, picture);
         good = gm_canvas_paint(canvas, picture, rgb) && !gm_memory_was_short();
@@ -58,7 +44,23 @@ bool gm_chart_paint(const struct gm_chart *chart, const void *data,
     return good;
 }
 
-void gm_chart_tell(const struct gm_chart *chart)
+bool gm_chart_write(struct gm_chart *chart, const void *data,
+                    void (*draw)(const void *data, struct gm_picture *picture),
+                    bool (*write)(const void *data, const char *path), char *message)
 {
-    gm_complain("wrote %s and %s", chart->png, chart->csv);
+    const char *folder = chart->folder ? chart->folder : ".";
+    const int png = snprintf(chart->png, sizeof chart->png, "%s/%s.png", folder, chart->name);
+    const int csv = snprintf(chart->csv, sizeof chart->csv, "%s/%s.csv", folder, chart->name);
+    if (png >= (int)sizeof chart->png || csv >= (int)sizeof chart->csv) {
+        snprintf(message, GM_MESSAGE, "the name of the folder is too long");
+        return false;
+    }
+    if (!gm_folder_make(chart->folder, message) || !paint(chart, data, draw, message)) {
+        return false;
+    }
+    if (!write(data, chart->csv)) {
+        snprintf(message, GM_MESSAGE, "%.400s could not be written: %s", chart->csv, strerror(errno));
+        return false;
+    }
+    return true;
 }

@@ -2,26 +2,23 @@
 #ifndef GM_APP_OUTPUT_CHART_H
 #define GM_APP_OUTPUT_CHART_H
 
-#include "app/commands/options.h"
+#include "render/layout/theme.h"
+#include "render/picture/picture.h"
 
-/* The PNG and the CSV of a command that measures: OUT/NAME.png and OUT/NAME.csv. */
-
+/* The diagram of a study and its numbers, FOLDER/NAME.png and FOLDER/NAME.csv. */
 struct gm_chart {
-    const struct gm_options *options;
-    const char *command; /* "stability" */
-    char png[4096], csv[4096];
+    const char *folder;  /* made if it is missing; NULL: the present one */
+    const char *name;    /* of both files, without their endings */
+    const char *command; /* the words that `again` measures it with, escaped; size and theme are added */
+    int width, height;
+    enum gm_theme theme;
+    char png[4096], csv[4096]; /* where they are, when they are written */
 };
 
-/* Settles the paths, from `name` unless the options have one, and makes the folder. False with a sentence. */
-bool gm_chart_open(struct gm_chart *chart, const struct gm_options *options, const char *command,
-                   const char *name, char *message);
-
-/* Lets `draw` fill a picture from `data` and writes it as PNG, with the command that `again` needs. False
-   with a sentence. */
-bool gm_chart_paint(const struct gm_chart *chart, const void *data,
-                    void (*draw)(const void *data, struct gm_picture *picture), char *message);
-
-/* Says on standard error that both are written. */
-void gm_chart_tell(const struct gm_chart *chart);
+/* Lets `draw` fill a picture from `data`, and `write` a file, which returns false with errno. False with a
+   sentence (GM_MESSAGE bytes). */
+bool gm_chart_write(struct gm_chart *chart, const void *data,
+                    void (*draw)(const void *data, struct gm_picture *picture),
+                    bool (*write)(const void *data, const char *path), char *message);
 
 #endif

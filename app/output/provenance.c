@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/words.h"
-
 static bool take(struct gm_provenance *provenance, const char *key, char *text)
 {
     if (!text) {
@@ -93,37 +91,14 @@ bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_reques
     return good;
 }
 
-static char *command_line(const char *command, const struct gm_options *options)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream) {
-        return NULL;
-    }
-    fputs(command, stream);
-    for (int i = 0; i < options->word_count; i++) {
-        fputc(' ', stream);
-        gm_words_put(stream, options->words[i]);
-    }
-    if (options->measure) {
-        fprintf(stream, " --measure %s", options->measure);
-    }
-    if (options->region) {
-        fprintf(stream, " --region %s", options->region);
-    }
-    fprintf(stream, " --size %dx%d --theme %s", options->width, options->height,
-            options->theme == GM_THEME_DARK ? "dark" : "light");
-    fclose(stream);
-    return text;
-}
-
-bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
-                              const struct gm_options *options, const char *backend)
+bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command, int width, int height,
+                              enum gm_theme theme, const char *backend)
 {
     *provenance = (struct gm_provenance){0};
     const bool good = take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
-                      take(provenance, GM_KEY_COMMAND, command_line(command, options)) &&
+                      take(provenance, GM_KEY_COMMAND,
+                           format("%s --size %dx%d --theme %s", command, width, height,
+                                  theme == GM_THEME_DARK ? "dark" : "light")) &&
                       take(provenance, "geomint:context", format("%s", backend));
     if (!good) {
         gm_provenance_close(provenance);

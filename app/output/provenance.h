@@ -2,7 +2,7 @@
 #ifndef GM_APP_OUTPUT_PROVENANCE_H
 #define GM_APP_OUTPUT_PROVENANCE_H
 
-#include "app/commands/options.h"
+#include "app/request/request.h"
 #include "render/files/png.h"
 #include "render/layout/theme.h"
 
@@ -32,9 +32,9 @@ struct gm_provenance {
 /* Everything but the steps. False when memory is short. */
 bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width,
                         int height, enum gm_theme theme, const char *backend);
-/* The same for the chart of a command that measures: the words and options that `again` calls it with. */
-bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
-                              const struct gm_options *options, const char *backend);
+/* The same for a chart: the words that `again` measures it with, to which size and theme are added. */
+bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command, int width, int height,
+                              enum gm_theme theme, const char *backend);
 void gm_provenance_close(struct gm_provenance *provenance);
 
 /* The steps of the lanes now, as the text of GM_KEY_STEPS; malloc'ed, NULL when memory is short. */

@@ -18,17 +18,17 @@ static double end_of(const struct gm_request *request)
     return end;
 }
 
-static bool take_shard(struct gm_schedule *schedule, const struct gm_options *options, char *message)
+static bool take_shard(struct gm_schedule *schedule, const struct gm_pace *pace, char *message)
 {
-    schedule->shard = options->shards > 0 ? options->shard : 1;
-    schedule->shards = options->shards > 0 ? options->shards : 1;
-    if (options->shards > 0 && options->movie) {
+    schedule->shard = pace->shards > 0 ? pace->shard : 1;
+    schedule->shards = pace->shards > 0 ? pace->shards : 1;
+    if (pace->shards > 0 && pace->movie) {
         snprintf(message, GM_MESSAGE,
                  "--shard makes frames: leave --movie to one more run of the same command without --shard, "
                  "when all shards are done");
         return false;
     }
-    if (options->shards > 0 && schedule->still) {
+    if (pace->shards > 0 && schedule->still) {
         snprintf(message, GM_MESSAGE,
                  "--shard divides frames, and there is one picture; how many? --frames N");
         return false;
@@ -40,16 +40,16 @@ static bool take_shard(struct gm_schedule *schedule, const struct gm_options *op
 }
 
 bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *request,
-                      const struct gm_options *options, char *message)
+                      const struct gm_pace *pace, char *message)
 {
     const struct gm_timing *timing = request->lanes[0].parameters;
     const double end = end_of(request);
     const double start = gm_scene_t0(request->scene, timing);
-    const double first = isnan(options->from) ? start : fmin(options->from, end);
+    const double first = isnan(pace->from) ? start : fmin(pace->from, end);
     const struct {
         const char *name;
         double value;
-    } times[] = {{"--at", options->at}, {"--from", options->from}};
+    } times[] = {{"--at", pace->at}, {"--from", pace->from}};
     for (size_t i = 0; i < sizeof times / sizeof times[0]; i++) {
         if (times[i].value < start || times[i].value > fmax(end, timing->until)) {
             snprintf(message, GM_MESSAGE, "%s %g lies %s, t = %g", times[i].name, times[i].value,
@@ -58,29 +58,29 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
             return false;
         }
     }
-    if (!isnan(options->at)) {
-        *schedule = (struct gm_schedule){
-            .count = 1, .first = options->at, .last = options->at, .still = !options->movie};
-        return take_shard(schedule, options, message);
+    if (!isnan(pace->at)) {
+        *schedule =
+            (struct gm_schedule){.count = 1, .first = pace->at, .last = pace->at, .still = !pace->movie};
+        return take_shard(schedule, pace, message);
     }
-    const bool paced = options->movie || !isnan(options->rate) || !isnan(options->fps);
-    if (end >= GM_NEVER && (paced || options->frames || options->every)) {
+    const bool paced = pace->movie || !isnan(pace->rate) || !isnan(pace->fps);
+    if (end >= GM_NEVER && (paced || pace->frames || pace->every)) {
         snprintf(message, GM_MESSAGE,
                  "where a scheme chooses its steps, frames need until= instead of steps=");
         return false;
     }
     double count = 1;
     *schedule = (struct gm_schedule){.first = first, .last = end};
-    if (options->frames) {
-        count = (double)options->frames;
-    } else if (options->every) {
-        const double interval = (double)options->every * timing->dt;
+    if (pace->frames) {
+        count = (double)pace->frames;
+    } else if (pace->every) {
+        const double interval = (double)pace->every * timing->dt;
         count = floor((end - first) / interval * (1 + 1e-12) + 1e-9) + 1;
         schedule->last = first + (count - 1) * interval;
     } else if (paced) {
-        const double fps = isnan(options->fps) ? 30 : options->fps;
+        const double fps = isnan(pace->fps) ? 30 : pace->fps;
         /* ten seconds, unless told otherwise */
-        const double rate = isnan(options->rate) ? (end - first) / 10 : options->rate;
+        const double rate = isnan(pace->rate) ? (end - first) / 10 : pace->rate;
         count = rate > 0 ? fmax(1, round((end - first) * fps / rate)) + 1 : 2;
     } else {
         schedule->still = true;
@@ -93,7 +93,7 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
     if (schedule->count == 1) {
         schedule->first = schedule->last;
     }
-    return take_shard(schedule, options, message);
+    return take_shard(schedule, pace, message);
 }
 
 double gm_schedule_time(const struct gm_schedule *schedule, long frame)

@@ -2,7 +2,17 @@
 #ifndef GM_APP_OUTPUT_SCHEDULE_H
 #define GM_APP_OUTPUT_SCHEDULE_H
 
-#include "app/commands/options.h"
+#include "app/request/request.h"
+
+/* What is asked for of a render's frames. */
+struct gm_pace {
+    bool movie;
+    long frames;        /* so many; 0: not given */
+    long every;         /* one every so many steps; 0: not given */
+    double fps, rate;   /* frames, and model time, a second of the movie; NAN: not given */
+    double from, at;    /* model time of the first, or of the only one; NAN: not given */
+    long shard, shards; /* 0, 0: not given */
+};
 
 /* When the frames of a render are, in model time, and which of them are one shard's. */
 struct gm_schedule {
@@ -13,9 +23,9 @@ struct gm_schedule {
     long ours;          /* how many frames that is */
 };
 
-/* From the options of `render`. False with a sentence (GM_MESSAGE bytes) if they contradict. */
+/* False with a sentence (GM_MESSAGE bytes) if that contradicts itself or the request. */
 bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *request,
-                      const struct gm_options *options, char *message);
+                      const struct gm_pace *pace, char *message);
 
 double gm_schedule_time(const struct gm_schedule *schedule, long frame);
 

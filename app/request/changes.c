@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/request/arguments.h"
 #include "app/request/request.h"
-#include "app/request/words.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
@@ -39,10 +39,10 @@ static void format_key(FILE *stream, const struct gm_request *request, const cha
         return;
     }
     fprintf(stream, " %s=", key);
-    gm_words_put(stream, first);
+    gm_arguments_put(stream, first);
     for (size_t i = 1; i < request->count && !same; i++) {
         fputc(',', stream);
-        gm_words_put(stream, value(request, i, row, text));
+        gm_arguments_put(stream, value(request, i, row, text));
     }
     *lists += same ? 0 : 1;
 }
@@ -217,12 +217,11 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
                  change->step, change->lane, spec->steps);
         return false;
     }
-    void *parameters = malloc(request->scene->size);
+    void *parameters = gm_parameters_copy(request->scene, spec->parameters);
     if (!parameters) {
         snprintf(message, GM_MESSAGE, "not enough memory");
         return false;
     }
-    memcpy(parameters, spec->parameters, request->scene->size);
     struct meaning meaning;
     const bool good = understand(request->scene, parameters, change->text, &meaning, message);
     free(parameters);

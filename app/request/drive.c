@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "render/cells/text.h"
-#include "render/files/clock.h"
+#include "render/clock.h"
 
 volatile sig_atomic_t gm_interrupted;
 

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/commands/reference/catalogue.h"
-#include "app/request/equal_cost.h"
+#include "app/request/arguments.h"
+#include "app/request/fitting.h"
 #include "app/request/nearest.h"
 #include "app/request/words.h"
 #include "core/memory.h"
@@ -73,8 +73,8 @@ static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, 
 {
     spec->scheme = gm_scheme_find(name);
     if (!spec->scheme) {
-        const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
-        const char *near = gm_nearest(name, gm_catalogue_fitting(scene, fitting), scheme_name, fitting);
+        const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+        const char *near = gm_nearest(name, gm_fitting_schemes(scene, fitting), scheme_name, fitting);
         return refuse(message, "there is no scheme \"%.40s\"%s%s", name,
                       near ? "; did you mean " : "; see geomint list ", near ? near : scene->name);
     }
@@ -215,8 +215,8 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
         if (used) {
             continue;
         }
-        const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
-        const size_t count = gm_catalogue_fitting(scene, fitting);
+        const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+        const size_t count = gm_fitting_schemes(scene, fitting);
         const char *between = "; those that do: ";
         size_t told = (size_t)snprintf(message, GM_MESSAGE, "none of these schemes takes %s=", row->key);
         for (size_t k = 0; k < count && told < GM_MESSAGE; k++) {
@@ -312,6 +312,64 @@ static bool find_schemes(struct gm_request *request, char *message)
                             unfit->name, scene->name, scene->name);
 }
 
+/* Evaluations per model time over the first steps; NAN with a sentence if there are none. */
+static double rate_of(const struct gm_request *request, size_t index, char *message)
+{
+    enum { STEPS = 32 };
+    struct gm_lane *lane = gm_request_open_lane(request, index, message);
+    if (!lane) {
+        return NAN;
+    }
+    /* starting a scheme with memory may cost evaluations that no later step does */
+    gm_run_advance(lane->run, 1);
+    const unsigned long before = lane->run->evaluations;
+    const double t = lane->run->t;
+    gm_run_advance(lane->run, STEPS);
+    const double rate = (double)(lane->run->evaluations - before) / fabs(lane->run->t - t);
+    if (!(rate > 0) || !isfinite(rate)) {
+        snprintf(message, GM_MESSAGE,
+                 "equal=cost compares evaluations, and %s counts none over its first %d steps",
+                 lane->scheme->name, STEPS);
+    }
+    gm_lane_close(lane);
+    return rate > 0 && isfinite(rate) ? rate : NAN;
+}
+
+/* Scales lane `index`'s dt so that it makes as many evaluations per model time as lane `like`, measured over
+   some steps from its start, and names the step where the lane is named. False with a sentence if a scheme
+   counts no evaluations or the step leaves its range. */
+static bool equal_cost(struct gm_request *request, size_t index, size_t like, char *message)
+{
+    struct gm_lane_spec *spec = &request->lanes[index];
+    struct gm_timing *timing = spec->parameters;
+    const struct gm_parameter *row = gm_scene_parameter(request->scene, "dt");
+    const double wanted = rate_of(request, like, message);
+    /* an implicit scheme's evaluations a step depend on the step */
+    enum { ROUNDS = 4 };
+    for (int round = 0; round < ROUNDS && index != like; round++) {
+        const double rate = rate_of(request, index, message);
+        if (isnan(rate) || isnan(wanted)) {
+            return false;
+        }
+        timing->dt *= rate / wanted;
+        if (!(timing->dt >= row->lowest && timing->dt <= row->highest)) {
+            snprintf(message, GM_MESSAGE, "equal=cost asks for dt = %.3g of %s, which lies beyond %g to %g",
+                     timing->dt, spec->scheme->name, row->lowest, row->highest);
+            return false;
+        }
+    }
+    struct gm_shown *shown = &spec->shown;
+    char *name = shown->colour_name[0] ? shown->colour_name : shown->panel_name;
+    const size_t size = shown->colour_name[0] ? sizeof shown->colour_name : sizeof shown->panel_name;
+    char text[sizeof shown->panel_name];
+    const int length =
+        snprintf(text, sizeof text, "%s, Δt %.3g", name[0] ? name : spec->scheme->title, timing->dt);
+    if (length > 0 && (size_t)length < size) { /* else the name alone says more than half of both */
+        memcpy(name, text, (size_t)length + 1);
+    }
+    return !isnan(wanted);
+}
+
 static bool make_lanes(struct gm_request *request, struct gm_words *words, char *message)
 {
     const struct gm_scene *scene = request->scene;
@@ -372,7 +430,7 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
                           "equal=cost scales the steps up to until=; steps= cannot be given with it");
         }
         for (size_t k = 0; k < count; k++) {
-            if (!gm_equal_cost(request, k, first_scheme(words, k), message) ||
+            if (!equal_cost(request, k, first_scheme(words, k), message) ||
                 !settle_time(scene, &request->lanes[k], false, message)) {
                 return false;
             }
@@ -394,18 +452,15 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
         return refuse(message, "there is no scene \"%.40s\"%s%s", typed[0],
                       near ? "; did you mean " : "; see geomint list", near ? near : "");
     }
-    enum { MOST_SHOWN = 8 };
-    char shown[256], *instead[MOST_SHOWN], *rest = NULL;
-    char *const *given = typed + 1;
-    int given_count = count - 1;
-    if (given_count == 0 && schemes > 1 && request->scene->lanes) {
-        snprintf(shown, sizeof shown, "%s", request->scene->lanes);
-        for (char *word = strtok_r(shown, " ", &rest); word && given_count < MOST_SHOWN;
-             word = strtok_r(NULL, " ", &rest)) {
-            instead[given_count++] = word;
-        }
-        given = instead;
+    /* without a word a scene is shown by its own lanes */
+    struct gm_arguments own = {0};
+    const bool shown = count == 1 && schemes > 1 && request->scene->lanes;
+    if (shown && !gm_arguments_split(&own, request->scene->lanes)) {
+        gm_arguments_close(&own);
+        return refuse(message, "not enough memory");
     }
+    char *const *given = shown ? own.words : typed + 1;
+    const int given_count = shown ? own.count : count - 1;
     struct gm_words words;
     const unsigned long refusals = gm_memory_refusals();
     bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
@@ -419,6 +474,7 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
         good = request->unreadable = refuse(message, "not enough memory");
     }
     gm_words_close(&words);
+    gm_arguments_close(&own);
     if (!good) {
         const bool unreadable = request->unreadable;
         gm_request_close(request);
@@ -441,6 +497,15 @@ void gm_request_close(struct gm_request *request)
     free(request->changes);
     free(request->arguments);
     *request = (struct gm_request){0};
+}
+
+void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters)
+{
+    void *copy = malloc(scene->size);
+    if (copy) {
+        memcpy(copy, parameters, scene->size);
+    }
+    return copy;
 }
 
 struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message)

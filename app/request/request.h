@@ -77,6 +77,9 @@ void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_schem
 /* Appends one; false when memory is short. */
 bool gm_change_add(struct gm_request *request, size_t lane, long step, const char *text);
 
+/* A copy of a scene's parameters; malloc'ed, NULL when memory is short. */
+void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters);
+
 /* Opens lane `index` at its start; NULL with a sentence. */
 struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t index, char *message);
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/request/arguments.h"
 #include "app/request/nearest.h"
 #include "render/cells/text.h"
 #include "render/message.h"
@@ -271,40 +272,6 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
     return true;
 }
 
-int gm_words_split(char *text, char **words, int most)
-{
-    int count = 0;
-    for (char *at = text, *to = text;; count++) {
-        while (*at == ' ' || *at == '\t') {
-            at++;
-        }
-        if (*at == '\0' || count == most) {
-            return count;
-        }
-        words[count] = to;
-        while (*at != '\0' && *at != ' ' && *at != '\t') {
-            at += at[0] == '\\' && at[1] != '\0';
-            *to++ = *at++;
-        }
-        const bool last = *at == '\0';
-        *to++ = '\0';
-        at += !last;
-        if (last) {
-            return count + 1;
-        }
-    }
-}
-
-void gm_words_put(FILE *stream, const char *word)
-{
-    for (; *word; word++) {
-        if (*word == ' ' || *word == '\\') {
-            putc('\\', stream);
-        }
-        putc(*word, stream);
-    }
-}
-
 char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)
 {
     char *text = NULL;
@@ -318,7 +285,7 @@ char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)
         fprintf(stream, " %s=", words->list[i].key);
         for (size_t k = 0; k < words->list[i].count; k++) {
             fputs(k ? "," : "", stream);
-            gm_words_put(stream, words->list[i].values[k]);
+            gm_arguments_put(stream, words->list[i].values[k]);
         }
     }
     fclose(stream);

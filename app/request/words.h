@@ -2,8 +2,6 @@
 #ifndef GM_APP_REQUEST_WORDS_H
 #define GM_APP_REQUEST_WORDS_H
 
-#include <stdio.h>
-
 #include "scenes/frame/scene.h"
 
 /* What was typed behind a scene's name: keys with lists of values, and which of the values lane k has. */
@@ -55,12 +53,6 @@ bool gm_words_lanes(const struct gm_words *words, size_t *lanes, char *message);
 
 /* Which value of list i lane number `lane` takes. The first list changes slowest. */
 size_t gm_words_choice(const struct gm_words *words, size_t i, size_t lane);
-
-/* Words as text: separated by blanks, with a backslash before a blank or backslash that belongs to a word.
-   Cuts such text, in place, into at most `most` words; their number. */
-int gm_words_split(char *text, char **words, int most);
-/* Writes one word as gm_words_split reads it. */
-void gm_words_put(FILE *stream, const char *word);
 
 /* "SCENE key=value ..."; malloc'ed, NULL when memory is short. */
 char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words);

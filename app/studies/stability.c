@@ -8,9 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/files/clock.h"
-
-enum { MOST_WORDS = 64 };
+#include "render/clock.h"
 
 /* A run that takes longer than this is judged where it is. */
 static const double most_seconds = 10;
@@ -22,7 +20,7 @@ static bool refuse(char *message, const char *text)
 }
 
 /* Whether what the user typed leaves a word of the plan without effect, as a mesh file does its rows. */
-static bool is_idle(const struct gm_scene *scene, const struct gm_options *options, const char *word)
+static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typed, const char *word)
 {
     char key[64];
     void *own = calloc(1, scene->size);
@@ -30,9 +28,9 @@ static bool is_idle(const struct gm_scene *scene, const struct gm_options *optio
         return false;
     }
     gm_parameters_reset(scene->parameters, scene->parameter_count, own);
-    for (int i = 1; i < options->word_count; i++) {
-        const char *value = strchr(options->words[i], '=');
-        snprintf(key, sizeof key, "%.*s", (int)strcspn(options->words[i], "="), options->words[i]);
+    for (int i = 1; i < typed->count; i++) {
+        const char *value = strchr(typed->words[i], '=');
+        snprintf(key, sizeof key, "%.*s", (int)strcspn(typed->words[i], "="), typed->words[i]);
         const struct gm_parameter *row = gm_scene_parameter(scene, key);
         if (row && value) {
             gm_parameter_set(row, own, value + 1); /* a list, or nonsense, is the request's to judge */
@@ -44,47 +42,52 @@ static bool is_idle(const struct gm_scene *scene, const struct gm_options *optio
     return idle;
 }
 
-/* The scene, the plan's arguments and schemes unless overridden, and the user's words. */
-static bool parse(struct gm_stability_table *table, const struct gm_options *options, char *message)
+/* The plan's arguments that have an effect, and its schemes, as a text; malloc'ed, NULL when memory is short. */
+static char *usual_words(const struct gm_scene *scene, const struct gm_arguments *typed)
 {
-    char *words[MOST_WORDS], arguments[512], schemes[512] = "scheme=", *rest = NULL;
-    const struct gm_scene *scene = gm_scene_find(options->words[0]);
-    const bool chosen =
-        scene && scene->stability && scene->stability->schemes && !gm_options_have(options, "scheme=");
-    int count = 0;
-    words[count++] = options->words[0];
+    struct gm_arguments all = {0}, kept = {0};
+    const char *const *schemes = scene->stability->schemes;
+    char list[512] = "scheme=";
+    bool good = gm_arguments_split(&all, scene->stability->arguments);
+    for (int i = 0; good && i < all.count; i++) {
+        good = is_idle(scene, typed, all.words[i]) || gm_arguments_add(&kept, all.words[i]);
+    }
+    for (size_t i = 0; schemes && schemes[i]; i++) {
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s", i ? "," : "", schemes[i]);
+    }
+    good = good && (!schemes || gm_arguments_add(&kept, list));
+    char *text = good ? gm_arguments_join("", &kept) : NULL;
+    gm_arguments_close(&all);
+    gm_arguments_close(&kept);
+    return text;
+}
+
+/* The scene, what is usual for this purpose unless overridden, and the user's words. */
+static bool parse(struct gm_stability_table *table, const struct gm_arguments *typed, char *message)
+{
+    const struct gm_scene *scene = gm_scene_find(typed->words[0]);
     if (scene && !scene->stability) {
         snprintf(message, GM_MESSAGE, "scene %s has no stability map", scene->name);
         return false;
     }
-    if (scene) {
-        snprintf(arguments, sizeof arguments, "%s", scene->stability->arguments);
-        for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
-            if (!gm_options_have(options, word) && !is_idle(scene, options, word)) {
-                words[count++] = word;
-            }
-        }
-    }
-    for (size_t i = 0; chosen && scene->stability->schemes[i]; i++) {
-        const size_t used = strlen(schemes);
-        snprintf(schemes + used, sizeof schemes - used, "%s%s", i ? "," : "", scene->stability->schemes[i]);
-    }
-    if (chosen) {
-        words[count++] = schemes;
-    }
-    for (int i = 1; i < options->word_count && count < MOST_WORDS; i++) {
-        words[count++] = options->words[i];
-    }
-    return gm_request_parse(&table->request, count, words, 6, message);
+    struct gm_arguments words = {0};
+    char *usual = scene ? usual_words(scene, typed) : strdup("");
+    const bool good =
+        (usual && gm_arguments_complete(&words, typed, usual)) || refuse(message, "not enough memory");
+    const bool parsed = good && gm_request_parse(&table->request, words.count, words.words, 6, message);
+    gm_arguments_close(&words);
+    free(usual);
+    return parsed;
 }
 
-bool gm_stability_open(struct gm_stability_table *table, const struct gm_options *options, char *message)
+bool gm_stability_open(struct gm_stability_table *table, const struct gm_arguments *arguments, char *message)
 {
     *table = (struct gm_stability_table){0};
-    if (options->word_count == 0) {
+    if (arguments->count == 0) {
         return refuse(message, "stability of which scene? Or --region SCHEME");
     }
-    if (!parse(table, options, message)) {
+    if (!parse(table, arguments, message)) {
         return false;
     }
     const struct gm_request *request = &table->request;

@@ -2,7 +2,8 @@
 #ifndef GM_APP_STUDIES_STABILITY_H
 #define GM_APP_STUDIES_STABILITY_H
 
-#include "app/commands/options.h"
+#include "app/request/arguments.h"
+#include "app/request/request.h"
 #include "app/studies/listener.h"
 
 /* Which time step keeps which scheme bounded, over a grid of steps and of one parameter. */
@@ -36,7 +37,9 @@ struct gm_stability_table {
     size_t count;
 };
 
-bool gm_stability_open(struct gm_stability_table *table, const struct gm_options *options, char *message);
+/* Reads the words, a scene and its key=value. False with a sentence (GM_MESSAGE bytes); of the table only
+   request.unreadable says something then. */
+bool gm_stability_open(struct gm_stability_table *table, const struct gm_arguments *arguments, char *message);
 void gm_stability_close(struct gm_stability_table *table);
 
 /* Fills the maps; stopped, what was not tried stays untried. False with a sentence. */

@@ -2,7 +2,8 @@
 #ifndef GM_APP_STUDIES_WORK_H
 #define GM_APP_STUDIES_WORK_H
 
-#include "app/commands/options.h"
+#include "app/request/arguments.h"
+#include "app/request/request.h"
 #include "app/studies/listener.h"
 
 /* Work-precision: the error at the end against what it cost, for schemes and a ladder of time steps. */
@@ -51,8 +52,11 @@ struct gm_work_table {
     const struct gm_listener *listener; /* of gm_work_measure */
 };
 
-/* Reads the words of the command line and settles schemes, steps and measure. False with a sentence. */
-bool gm_work_open(struct gm_work_table *table, const struct gm_options *options, char *message);
+/* Reads the words, a scene and its key=value, and settles schemes, steps and measure: `measure` is the key of
+   an observable, or NULL for what the scene's plan says. False with a sentence (GM_MESSAGE bytes); of the
+   table only request.unreadable says something then. */
+bool gm_work_open(struct gm_work_table *table, const struct gm_arguments *arguments, const char *measure,
+                  char *message);
 void gm_work_close(struct gm_work_table *table);
 
 /* Measures scheme after scheme. Stopped, what is finished stays. False with a sentence. */

@@ -9,8 +9,6 @@
 #include "app/studies/work.h"
 #include "core/schemes.h"
 
-enum { MOST_WORDS = 64 };
-
 static const double usual_errors[3] = {1e-3, 1e-6, 1e-9};
 
 static const char solution_error[] = "solution_error";
@@ -26,32 +24,17 @@ static struct gm_timing *timing_of(const struct gm_work_table *table)
     return table->request.lanes[0].parameters;
 }
 
-/* The scene, its arguments for this purpose unless overridden, and the user's words. */
-static bool parse(struct gm_request *request, const struct gm_options *options, char *message)
+/* Fills an empty list: the scene, its arguments for this purpose unless overridden, and the user's words. */
+static bool complete(struct gm_arguments *words, const struct gm_arguments *typed, char *message)
 {
-    char *words[MOST_WORDS], arguments[512] = "", *rest = NULL;
-    int count = 0;
-    const struct gm_scene *scene = options->word_count > 0 ? gm_scene_find(options->words[0]) : NULL;
-    if (options->word_count > 0) {
-        words[count++] = options->words[0];
-    }
-    if (scene && scene->work) {
-        snprintf(arguments, sizeof arguments, "%s", scene->work->arguments);
-    }
-    for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
-        if (!gm_options_have(options, word)) {
-            words[count++] = word;
-        }
-    }
-    for (int i = 1; i < options->word_count && count < MOST_WORDS; i++) {
-        words[count++] = options->words[i];
-    }
-    return gm_request_parse(request, count, words, 1, message);
+    const struct gm_scene *scene = gm_scene_find(typed->words[0]);
+    return gm_arguments_complete(words, typed, scene && scene->work ? scene->work->arguments : "") ||
+           refuse(message, "not enough memory");
 }
 
 /* Lanes may differ in scheme, dt, resolution and ratio alone, and in what was not typed but follows from
    those. */
-static bool alike(const struct gm_work_table *table, const struct gm_options *options)
+static bool alike(const struct gm_work_table *table, const struct gm_arguments *typed)
 {
     const struct gm_request *request = &table->request;
     const struct gm_scene *scene = request->scene;
@@ -61,7 +44,7 @@ static bool alike(const struct gm_work_table *table, const struct gm_options *op
             char word[64];
             snprintf(word, sizeof word, "%s=", row->key);
             const bool varies = row->offset == offsetof(struct gm_timing, dt) || row == table->resolution ||
-                                row == table->ratio || !gm_options_have(options, word);
+                                row == table->ratio || !gm_arguments_have(typed, word);
             const double first = gm_parameter_get(row, request->lanes[0].parameters);
             const double other = gm_parameter_get(row, request->lanes[i].parameters);
             const bool left_to_itself = isnan(first) && isnan(other);
@@ -96,18 +79,10 @@ static void tell_setting(struct gm_work_table *table, const char *word)
 }
 
 /* Tells the words of the plan and of the user. */
-static void tell_settings(struct gm_work_table *table, const struct gm_options *options)
+static void tell_settings(struct gm_work_table *table, const struct gm_arguments *words)
 {
-    const struct gm_work *work = table->request.scene->work;
-    char arguments[512], *rest = NULL;
-    snprintf(arguments, sizeof arguments, "%s", work ? work->arguments : "");
-    for (char *word = strtok_r(arguments, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
-        if (!gm_options_have(options, word)) {
-            tell_setting(table, word);
-        }
-    }
-    for (int i = 1; i < options->word_count; i++) {
-        tell_setting(table, options->words[i]);
+    for (int i = 1; i < words->count; i++) {
+        tell_setting(table, words->words[i]);
     }
 }
 
@@ -192,13 +167,13 @@ static bool choose_steps(struct gm_work_table *table, bool given, char *message)
 }
 
 /* The values of the plan, or those of the words if they give more than one; a single one is no ladder. */
-static bool choose_resolutions(struct gm_work_table *table, const struct gm_options *options, char *message)
+static bool choose_resolutions(struct gm_work_table *table, const struct gm_arguments *typed, char *message)
 {
     const struct gm_work *work = table->request.scene->work;
     const struct gm_parameter *row = table->resolution;
     char word[64];
     snprintf(word, sizeof word, "%s=", row ? row->key : "");
-    const bool given = row && gm_options_have(options, word);
+    const bool given = row && gm_arguments_have(typed, word);
     const size_t most = given ? table->request.count : row ? work->resolution_count : 0;
     table->smaller_is_finer = row && work->resolutions[0] > work->resolutions[work->resolution_count - 1];
     table->resolutions = calloc(most + 1, sizeof *table->resolutions);
@@ -267,24 +242,20 @@ static bool choose_measure(struct gm_work_table *table, const struct gm_lane *la
 }
 
 /* One lane is set up, and tells which measure says something and which schemes fit. */
-static bool choose(struct gm_work_table *table, const struct gm_options *options, char *message)
+static bool choose(struct gm_work_table *table, const struct gm_arguments *typed, const char *measure,
+                   char *message)
 {
     struct gm_lane *lane = gm_request_open_lane(&table->request, 0, message);
-    const bool good = lane && choose_measure(table, lane, options->measure, message) &&
-                      choose_schemes(table, lane, gm_options_have(options, "scheme="), message);
+    const bool good = lane && choose_measure(table, lane, measure, message) &&
+                      choose_schemes(table, lane, gm_arguments_have(typed, "scheme="), message);
     gm_lane_close(lane);
     return good;
 }
 
-bool gm_work_open(struct gm_work_table *table, const struct gm_options *options, char *message)
+/* The table of a request that was read from `words`, among which are those typed. */
+static bool plan(struct gm_work_table *table, const struct gm_arguments *words,
+                 const struct gm_arguments *typed, const char *measure, char *message)
 {
-    *table = (struct gm_work_table){0};
-    if (options->word_count == 0) {
-        return refuse(message, "work-precision of which scene? See geomint list scenes");
-    }
-    if (!parse(&table->request, options, message)) {
-        return false;
-    }
     const struct gm_work *work = table->request.scene->work;
     table->resolution =
         work && work->resolution ? gm_scene_parameter(table->request.scene, work->resolution) : NULL;
@@ -293,29 +264,41 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_options *options,
         char word[64];
         snprintf(word, sizeof word, "%s=", work->ratio);
         table->ratio =
-            gm_options_have(options, word) ? gm_scene_parameter(table->request.scene, work->ratio) : NULL;
+            gm_arguments_have(typed, word) ? gm_scene_parameter(table->request.scene, work->ratio) : NULL;
     }
-    if (!alike(table, options)) {
+    if (!alike(table, typed)) {
         snprintf(message, GM_MESSAGE,
                  "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
                  table->resolution ? ", " : "", table->resolution ? table->resolution->key : "",
                  work && work->ratio ? ", " : "", work && work->ratio ? work->ratio : "");
-        gm_work_close(table);
         return false;
     }
-    tell_settings(table, options);
+    tell_settings(table, words);
     if (!(timing_of(table)->until > gm_scene_t0(table->request.scene, timing_of(table)))) {
         snprintf(message, GM_MESSAGE, "until=%g is the start: there is nothing to measure",
                  timing_of(table)->until);
-        gm_work_close(table);
         return false;
     }
-    if (!choose_steps(table, gm_options_have(options, "dt=") || table->ratio, message) ||
-        !choose_resolutions(table, options, message) || !choose(table, options, message)) {
-        gm_work_close(table);
-        return false;
+    return choose_steps(table, gm_arguments_have(typed, "dt=") || table->ratio, message) &&
+           choose_resolutions(table, typed, message) && choose(table, typed, measure, message);
+}
+
+bool gm_work_open(struct gm_work_table *table, const struct gm_arguments *arguments, const char *measure,
+                  char *message)
+{
+    *table = (struct gm_work_table){0};
+    if (arguments->count == 0) {
+        return refuse(message, "work-precision of which scene? See geomint list scenes");
     }
-    return true;
+    struct gm_arguments words = {0};
+    bool good = complete(&words, arguments, message) &&
+                gm_request_parse(&table->request, words.count, words.words, 1, message);
+    if (good && !plan(table, &words, arguments, measure, message)) {
+        gm_work_close(table);
+        good = false;
+    }
+    gm_arguments_close(&words);
+    return good;
 }
 
 void gm_work_close(struct gm_work_table *table)

@@ -7,13 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/lanes/agenda.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
+#include "app/request/arguments.h"
 #include "app/request/drive.h"
-#include "app/request/words.h"
-#include "app/studies/stability.h"
-#include "app/studies/work.h"
+#include "app/tours/agenda.h"
 #include "core/memory.h"
 #include "render/files/png.h"
 #include "render/files/sink.h"
@@ -26,7 +24,7 @@ static const double words_a_second = 2.7, settle_seconds = 1.5, end_seconds = 2;
 
 struct show {
     const struct gm_tour *tour;
-    const struct gm_options *options;
+    const struct gm_tour_output *output;
     const struct gm_tour_step *step;
     struct gm_session session;
     bool open; /* the session is */
@@ -34,9 +32,8 @@ struct show {
     struct gm_picture *picture;
     struct gm_sink *sink; /* of a movie; NULL: pictures */
     unsigned char *rgb;   /* the picture that stands */
-    double fps;
-    bool answered;     /* the step's question is, if it has one */
-    const void *table; /* of a study, that is drawn instead of the scene; NULL: none */
+    bool answered;        /* the step's question is, if it has one */
+    const void *table;    /* of a study, that is drawn instead of the scene; NULL: none */
     bool failed;
     char message[GM_MESSAGE];
 };
@@ -89,10 +86,8 @@ static bool paint(struct show *show)
     gm_picture_clear(show->picture);
     if (!show->table) {
         session->scene->draw((const struct gm_lane *const *)session->lanes, session->count, show->picture);
-    } else if (show->step->study == GM_STUDY_WORK) {
-        gm_work_draw(show->table, show->picture);
     } else {
-        gm_stability_draw(show->table, show->picture);
+        gm_study_rows[show->step->study].draw(show->table, show->picture);
     }
     show->picture->told = told;
     show->picture->told_count = tell(show, told);
@@ -114,7 +109,7 @@ static bool put(struct show *show, long count)
 
 static long frames_of(const struct show *show, double seconds)
 {
-    return (long)fmax(1, round(seconds * show->fps));
+    return (long)fmax(1, round(seconds * show->output->fps));
 }
 
 /* OUT/NAME-03.png, or OUT/NAME-03-question.png. */
@@ -122,24 +117,24 @@ static bool write_page(struct show *show, const char *suffix)
 {
     char path[4096];
     struct gm_session *session = &show->session;
-    const struct gm_options *options = show->options;
+    const struct gm_tour_output *output = show->output;
     const size_t number = (size_t)(show->step - show->tour->steps) + 1;
     if (show->sink) {
         return true;
     }
-    snprintf(path, sizeof path, "%s/%s-%02zu%s.png", options->out ? options->out : ".", show->tour->name,
+    snprintf(path, sizeof path, "%s/%s-%02zu%s.png", output->folder ? output->folder : ".", show->tour->name,
              number, suffix);
     struct gm_provenance provenance = {0};
     struct gm_png_text texts[GM_PROVENANCE_TEXTS + 1];
     char *steps = gm_provenance_steps((const struct gm_lane *const *)session->lanes, session->count);
-    bool good = steps && gm_provenance_make(&provenance, &session->log, options->width, options->height,
-                                            options->theme, gm_canvas_backend(show->canvas));
+    bool good = steps && gm_provenance_make(&provenance, &session->log, output->width, output->height,
+                                            output->theme, gm_canvas_backend(show->canvas));
     if (!good) {
         fail(show, "not enough memory");
     } else {
         memcpy(texts, provenance.texts, provenance.count * sizeof texts[0]);
         texts[provenance.count] = (struct gm_png_text){GM_KEY_STEPS, steps};
-        good = gm_png_write(path, options->width, options->height, show->rgb, texts, provenance.count + 1,
+        good = gm_png_write(path, output->width, output->height, show->rgb, texts, provenance.count + 1,
                             show->message);
         show->failed = !good;
     }
@@ -208,34 +203,20 @@ static bool has_failed(void *self)
 
 static bool measure(struct show *show)
 {
-    enum { MOST_WORDS = 64 };
-    char *words[MOST_WORDS], *copy = strdup(show->step->study_words);
-    if (!copy) {
-        return fail(show, "not enough memory");
-    }
-    const struct gm_options options = {.words = words, .word_count = gm_words_split(copy, words, MOST_WORDS)};
+    const struct gm_study_row *study = &gm_study_rows[show->step->study];
     const struct gm_listener listener = {.report = grow, .stopped = has_failed, .self = show};
-    bool good = false;
-    if (show->step->study == GM_STUDY_WORK) {
-        struct gm_work_table table;
-        if (gm_work_open(&table, &options, show->message)) {
-            show->table = &table;
-            good = gm_work_measure(&table, &listener, show->message) && paint(show) && write_page(show, "") &&
-                   put(show, frames_of(show, end_seconds));
-            gm_work_close(&table);
-        }
-    } else {
-        struct gm_stability_table table;
-        if (gm_stability_open(&table, &options, show->message)) {
-            show->table = &table;
-            good = gm_stability_measure(&table, &listener, show->message) && paint(show) &&
-                   write_page(show, "") && put(show, frames_of(show, end_seconds));
-            gm_stability_close(&table);
-        }
+    struct gm_arguments words = {0};
+    union gm_study_table table;
+    bool good = gm_arguments_split(&words, show->step->study_words) || fail(show, "not enough memory");
+    if (good && (good = study->open(&table, &words, show->message))) {
+        show->table = &table;
+        good = study->measure(&table, &listener, show->message) && paint(show) && write_page(show, "") &&
+               put(show, frames_of(show, end_seconds));
+        study->close(&table);
     }
     show->table = NULL;
     show->failed = show->failed || (!good && !gm_interrupted);
-    free(copy);
+    gm_arguments_close(&words);
     return good;
 }
 
@@ -269,32 +250,32 @@ static bool play(struct show *show, const struct gm_tour_step *step)
 
 static bool open_show(struct show *show)
 {
-    const struct gm_options *options = show->options;
-    show->canvas = gm_canvas_open(options->width, options->height, options->theme, show->message);
+    const struct gm_tour_output *output = show->output;
+    show->canvas = gm_canvas_open(output->width, output->height, output->theme, show->message);
     show->picture = gm_picture_open();
-    show->rgb = malloc(3 * (size_t)options->width * (size_t)options->height);
+    show->rgb = malloc(3 * (size_t)output->width * (size_t)output->height);
     if (!show->canvas) {
         return false;
     }
     if (!show->picture || !show->rgb) {
         return fail(show, "not enough memory");
     }
-    if (options->movie) {
-        const struct gm_sink_settings settings = {.width = options->width,
-                                                  .height = options->height,
-                                                  .fps = show->fps,
+    if (output->movie) {
+        const struct gm_sink_settings settings = {.width = output->width,
+                                                  .height = output->height,
+                                                  .fps = show->output->fps,
                                                   .interruptions = &gm_interrupted};
-        if (gm_folder_make_for(options->movie, show->message)) {
-            show->sink = gm_sink_open_movie(options->movie, &settings, show->message);
+        if (gm_folder_make_for(output->movie, show->message)) {
+            show->sink = gm_sink_open_movie(output->movie, &settings, show->message);
         }
         return show->sink != NULL;
     }
-    return gm_folder_make(options->out, show->message);
+    return gm_folder_make(output->folder, show->message);
 }
 
-int gm_tour_render(const struct gm_tour *tour, const struct gm_options *options)
+int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *output)
 {
-    struct show show = {.tour = tour, .options = options, .fps = isnan(options->fps) ? 30 : options->fps};
+    struct show show = {.tour = tour, .output = output};
     bool good = open_show(&show);
     for (size_t i = 0; i < tour->count && good && !gm_interrupted; i++) {
         gm_listener_hears(&gm_terminal_listener, tour->steps[i].title, i + 1, tour->count);
@@ -313,10 +294,10 @@ int gm_tour_render(const struct gm_tour *tour, const struct gm_options *options)
         gm_complain("%s", show.message);
     }
     good = good && made;
-    if (good && !gm_interrupted && options->movie) {
-        gm_complain("wrote %s", options->movie);
+    if (good && !gm_interrupted && output->movie) {
+        gm_complain("wrote %s", output->movie);
     } else if (good && !gm_interrupted) {
-        gm_complain("wrote %s/%s-*.png", options->out ? options->out : ".", tour->name);
+        gm_complain("wrote %s/%s-*.png", output->folder ? output->folder : ".", tour->name);
     }
     gm_picture_close(show.picture);
     free(show.rgb);

@@ -2,11 +2,20 @@
 #ifndef GM_APP_TOURS_MOVIE_H
 #define GM_APP_TOURS_MOVIE_H
 
-#include "app/commands/options.h"
 #include "app/tours/tour.h"
+#include "render/layout/theme.h"
 
-/* Renders a tour with its texts, without a screen: as options->movie, or below options->out as pictures, one
-   for every question and one for the end of every step. Returns the exit status. */
-int gm_tour_render(const struct gm_tour *tour, const struct gm_options *options);
+/* What is made of a tour without a screen, with its texts: a movie, or pictures, one for every question and
+   one for the end of every step. */
+struct gm_tour_output {
+    const char *movie;  /* the file; NULL: pictures */
+    const char *folder; /* of the pictures, made if it is missing; NULL: the present one */
+    double fps;         /* of the movie */
+    int width, height;
+    enum gm_theme theme;
+};
+
+/* Returns the exit status. */
+int gm_tour_render(const struct gm_tour *tour, const struct gm_tour_output *output);
 
 #endif

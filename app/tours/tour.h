@@ -3,6 +3,7 @@
 #define GM_APP_TOURS_TOUR_H
 
 #include "app/request/request.h"
+#include "app/studies/study.h"
 
 /* A tour: steps that a class is led through, read from a text file that a teacher can write (docs/tours.md).
    Texts of one paragraph are without line breaks. */
@@ -15,8 +16,6 @@ struct gm_tour_change {
     long lane;     /* from 0, or GM_EVERY_LANE */
     char text[96]; /* "scheme=midpoint", "dt=0.1" */
 };
-
-enum gm_study_kind { GM_STUDY_NONE, GM_STUDY_WORK, GM_STUDY_STABILITY, GM_STUDY_COUNT };
 
 struct gm_tour_step {
     char *title;

@@ -10,7 +10,7 @@
               one pass: a palette for every frame             9.3   21       127
 
    The first two lose nothing that can be seen (50 dB and more), so the fast settings are the right ones. */
-#include "render/files/clock.h"
+#include "render/clock.h"
 #include "render/files/sink.h"
 #include "render/files/temporary.h"
 

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "app/output/provenance.h"
-#include "app/request/words.h"
+#include "app/request/arguments.h"
 #include "render/cells/text.h"
 
 /* What `again` reads: the texts of a PNG, of any bytes or of chunks whose checksums are right, then the
@@ -24,16 +24,18 @@ static void require(bool holds)
     }
 }
 
-enum { TEXTS = 5, MOST_WORDS = 64 };
+enum { TEXTS = 5 };
 
 static const char *const keys[TEXTS] = {GM_KEY_ARGUMENTS, GM_KEY_CHANGES, GM_KEY_STEPS, GM_KEY_PICTURE,
                                         GM_KEY_COMMAND};
 
-static void read_request(char *arguments, const char *changes)
+static void read_request(const char *text, const char *changes)
 {
-    char *words[MOST_WORDS], message[GM_MESSAGE] = "";
+    char message[GM_MESSAGE] = "";
     struct gm_request request;
-    if (gm_request_parse(&request, gm_words_split(arguments, words, MOST_WORDS), words, 1, message)) {
+    struct gm_arguments words = {0};
+    require(gm_arguments_split(&words, text));
+    if (gm_request_parse(&request, words.count, words.words, 1, message)) {
         if (changes && gm_changes_parse(&request, changes)) {
             for (size_t i = 0; i < request.change_count; i++) {
                 require(gm_change_check(&request, &request.changes[i], message) || message[0]);
@@ -43,6 +45,7 @@ static void read_request(char *arguments, const char *changes)
         require(message[0] != '\0' && gm_text_is_plain(gm_text_tame(message)));
     }
     gm_request_close(&request);
+    gm_arguments_close(&words);
 }
 
 static size_t put_chunk(unsigned char *file, const char *type, const uint8_t *data, size_t size)

@@ -23,6 +23,16 @@ forbid scenes '(app|tests)/'
 forbid scenes 'render/(canvas|context|cells|png|sink|temporary)'
 forbid app 'tests/'
 
+# the floors of app: a room sees none above it, and the words of a command line stay with the commands
+above='commands|explorer'
+for floor in tours 'lanes studies figures' output request; do
+    for room in $floor; do
+        forbid "app/$room" "app/($above)/"
+    done
+    above="$above|$(echo "$floor" | tr ' ' '|')"
+done
+forbid app/explorer 'app/commands/'
+
 # the hall of core includes no wing, and no wing another one
 found=$(grep -nE "${include}\"core/(ode|field|mesh|flow)/" core/*.[ch] core/linear/*.[ch])
 for wing in ode field mesh flow; do

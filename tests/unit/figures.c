@@ -154,12 +154,12 @@ static void make(const char *arguments, const struct gm_statement *statements, s
     folder_make(folder, sizeof folder);
     const struct gm_figure figure = {.name = "trial", .statement = "", .arguments = arguments};
     const struct gm_published published = {.figure = "trial", .statements = statements, .count = count};
-    const struct gm_options options = {.out = folder, .width = 160, .height = 90};
+    const struct gm_figure_output output = {.folder = folder, .width = 160, .height = 90};
     struct gm_figure_job job;
     gm_figure_plan(&job, gm_scene_find("disc"), &figure, false);
     job.published = &published;
     *outcome = (struct gm_outcome){0};
-    gm_figure_make(&job, &options, outcome);
+    gm_figure_make(&job, &output, outcome);
     assert_int_equal(folder_count(folder), 2);
     folder_remove(folder);
     assert_int_equal(outcome->progress, GM_MADE);

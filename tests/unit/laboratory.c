@@ -392,7 +392,7 @@ static void a_plan_sets_up_once(void **unused)
     char *words[] = {(char[]){"channel"}};
     struct gm_work_table table;
     flows_opened = 0;
-    assert_true(gm_work_open(&table, &(const struct gm_options){.words = words, .word_count = 1}, message));
+    assert_true(gm_work_open(&table, &(const struct gm_arguments){words, 1}, NULL, message));
     assert_true(table.scheme_count > 1);
     assert_int_equal(flows_opened, 2);
     gm_work_close(&table);
@@ -423,10 +423,10 @@ static void verdicts(void **unused)
 {
     (void)unused;
     char *words[] = {(char[]){"stiff"}, (char[]){"scheme=verlet,rk4,midpoint"}, (char[]){"until=20"}};
-    const struct gm_options options = {.words = words, .word_count = 3};
+    const struct gm_arguments arguments = {words, 3};
     struct gm_stability_table table;
     char message[GM_MESSAGE];
-    assert_true(gm_stability_open(&table, &options, message));
+    assert_true(gm_stability_open(&table, &arguments, message));
     assert_true(gm_stability_measure(&table, NULL, message));
     const struct gm_stability *plan = table.plan;
     for (size_t s = 0; s < plan->step_count; s++) {
@@ -442,8 +442,7 @@ static void verdicts(void **unused)
     assert_true(gm_stability_limit(&table, &table.maps[0]) == 1.95);
     gm_stability_close(&table);
     words[0] = (char[]){"disc"};
-    assert_false(
-        gm_stability_open(&table, &(const struct gm_options){.words = words, .word_count = 1}, message));
+    assert_false(gm_stability_open(&table, &(const struct gm_arguments){words, 1}, message));
     assert_non_null(strstr(message, "no stability map"));
 }
 

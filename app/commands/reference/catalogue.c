@@ -4,42 +4,7 @@
 #include "core/schemes.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-size_t gm_catalogue_fitting(const struct gm_scene *scene, const struct gm_scheme **schemes)
-{
-    size_t count = 0;
-    char sentence[GM_SENTENCE];
-    struct gm_problem problem = {0};
-    void *parameters = calloc(1, scene->size);
-    if (!parameters) {
-        return 0;
-    }
-    gm_parameters_reset(scene->parameters, scene->parameter_count, parameters);
-    if (scene->setup(parameters, &problem, sentence)) {
-        for (size_t i = 0; i < gm_scheme_count() && count < GM_CATALOGUE_SCHEMES; i++) {
-            if (gm_scheme_fits(gm_scheme_at(i), &problem)) {
-                schemes[count++] = gm_scheme_at(i);
-            }
-        }
-        if (scene->close) {
-            scene->close(&problem);
-        }
-    }
-    free(parameters);
-    return count;
-}
-
-bool gm_catalogue_takes(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (gm_scheme_takes(schemes[i], row)) {
-            return true;
-        }
-    }
-    return false;
-}
 
 bool gm_catalogue_shares_name(const struct gm_scheme *scheme)
 {

@@ -6,14 +6,6 @@
 
 /* What the tables say, in words: for `list`, the manual and completion. */
 
-enum { GM_CATALOGUE_SCHEMES = 256 };
-
-/* The schemes that fit a scene at its defaults; returns how many, at most GM_CATALOGUE_SCHEMES. */
-size_t gm_catalogue_fitting(const struct gm_scene *scene, const struct gm_scheme **schemes);
-
-/* Whether at least one of these schemes brings this parameter, a row of gm_settings_parameters. */
-bool gm_catalogue_takes(const struct gm_scheme *const *schemes, size_t count, const struct gm_parameter *row);
-
 /* Whether there are further schemes of its name, for other kinds. */
 bool gm_catalogue_shares_name(const struct gm_scheme *scheme);
 

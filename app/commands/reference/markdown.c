@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/commands/reference/catalogue.h"
+#include "app/request/fitting.h"
 #include "core/schemes.h"
 
 /* A cell of a table: a bar would end it. */
@@ -58,10 +59,10 @@ static void put_scheme(size_t index, const bool *fits)
 
 static bool *make_fits(void)
 {
-    const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
+    const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
     bool *fits = calloc(gm_scene_count() * gm_scheme_count(), sizeof *fits);
     for (size_t s = 0; fits && s < gm_scene_count(); s++) {
-        const size_t count = gm_catalogue_fitting(gm_scene_at(s), fitting);
+        const size_t count = gm_fitting_schemes(gm_scene_at(s), fitting);
         for (size_t i = 0; i < gm_scheme_count(); i++) {
             for (size_t k = 0; k < count; k++) {
                 fits[s * gm_scheme_count() + i] |= fitting[k] == gm_scheme_at(i);
@@ -108,8 +109,8 @@ static void put_parameter(const struct gm_parameter *row)
 
 static void put_scene(const struct gm_scene *scene)
 {
-    const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
-    const size_t count = gm_catalogue_fitting(scene, fitting);
+    const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+    const size_t count = gm_fitting_schemes(scene, fitting);
     printf("## %s\n\n**%s.** %s %s The unit of time is %s.\n\n", scene->name, scene->title, scene->blurb,
            scene->watch, scene->time);
     printf("| parameter | default | range | meaning |\n|---|---|---|---|\n");

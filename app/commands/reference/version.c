@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <suitesparse/cholmod.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/reference/version.h"
 #include "app/request/drive.h"
 #include "core/memory.h"
 #include "render/gl/canvas.h"

@@ -2,7 +2,6 @@
 /* A study under way: what it measures goes to the screen as looks, what the screen orders comes as flags. */
 #include "app/explorer/background/study.h"
 
-#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
@@ -15,12 +14,11 @@
 #include "app/explorer/background/job.h"
 #include "app/output/chart.h"
 #include "app/output/folder.h"
-#include "app/request/words.h"
-#include "app/studies/stability.h"
-#include "app/studies/work.h"
-#include "render/files/clock.h"
+#include "app/request/arguments.h"
+#include "app/studies/study.h"
+#include "render/clock.h"
 
-enum { MOST_WORDS = 64, NICE = 10 };
+enum { NICE = 10 };
 
 /* A look is worth its while after so many seconds. */
 static const double look_seconds = 0.1;
@@ -40,11 +38,8 @@ struct gm_study {
     struct gm_study_look looks[2];
 
     /* the thread's own */
-    char *split; /* the words, cut up */
-    char *list[MOST_WORDS];
-    struct gm_options options;
-    struct gm_work_table work;
-    struct gm_stability_table stability;
+    struct gm_arguments arguments; /* the words, cut up */
+    union gm_study_table table;
     struct gm_study_look now; /* all but the picture */
     double looked;            /* when the last look was handed over */
     unsigned long told;       /* number of its message */
@@ -52,22 +47,12 @@ struct gm_study {
 
 const char *gm_study_name(enum gm_study_kind kind)
 {
-    return kind == GM_STUDY_WORK ? "work-precision" : "stability";
+    return gm_study_rows[kind].name;
 }
 
 const char *gm_study_words(const struct gm_study *study)
 {
     return study->words;
-}
-
-static void draw(const void *self, struct gm_picture *picture)
-{
-    const struct gm_study *study = self;
-    if (study->kind == GM_STUDY_WORK) {
-        gm_work_draw(&study->work, picture);
-    } else {
-        gm_stability_draw(&study->stability, picture);
-    }
 }
 
 /* ---- the thread ---- */
@@ -91,7 +76,7 @@ static void show(struct gm_study *study)
     *look = study->now;
     look->picture = picture;
     gm_picture_clear(picture);
-    draw(study, picture);
+    gm_study_rows[study->kind].draw(&study->table, picture);
     study->looked = gm_clock_seconds();
     study->told = study->now.message_number;
     const uint64_t one = 1;
@@ -105,24 +90,15 @@ static void show(struct gm_study *study)
 
 static void save(struct gm_study *study, enum gm_theme theme)
 {
-    char kind[96], name[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
-    struct gm_chart chart;
-    struct gm_options options = study->options;
-    options.width = 1920;
-    options.height = 1080;
-    options.theme = theme;
-    snprintf(kind, sizeof kind, "%.60s-%s", study->options.words[0], gm_study_name(study->kind));
+    char kind[96], name[128], message[GM_MESSAGE] = "not enough memory", sentence[GM_MESSAGE];
+    const struct gm_study_row *row = &gm_study_rows[study->kind];
+    char *command = gm_arguments_join(row->name, &study->arguments);
+    struct gm_chart chart = {.name = name, .command = command, .width = 1920, .height = 1080, .theme = theme};
+    snprintf(kind, sizeof kind, "%.60s-%s", study->arguments.words[0], row->name);
     gm_folder_free_file(kind, ".png", name, sizeof name);
     name[strlen(name) - strlen(".png")] = '\0';
-    bool good = gm_chart_open(&chart, &options, gm_study_name(study->kind), name, message) &&
-                gm_chart_paint(&chart, study, draw, message);
-    if (good) {
-        good = study->kind == GM_STUDY_WORK ? gm_work_write(&study->work, chart.csv)
-                                            : gm_stability_write(&study->stability, chart.csv);
-        if (!good) {
-            snprintf(message, sizeof message, "%s.csv: %s", name, strerror(errno));
-        }
-    }
+    const bool good = command && gm_chart_write(&chart, &study->table, row->draw, row->write, message);
+    free(command);
     if (good) {
         snprintf(sentence, sizeof sentence, "Saved %s.png and %s.csv.", name, name);
     } else {
@@ -171,9 +147,7 @@ static void measure(struct gm_study *study)
     char message[GM_MESSAGE] = "";
     const struct gm_listener listener = {.stopped = is_stopped, .report = hear, .self = study};
     setpriority(PRIO_PROCESS, (id_t)gettid(), NICE); /* of this thread alone */
-    const bool good = study->kind == GM_STUDY_WORK
-                          ? gm_work_measure(&study->work, &listener, message)
-                          : gm_stability_measure(&study->stability, &listener, message);
+    const bool good = gm_study_rows[study->kind].measure(&study->table, &listener, message);
     study->now.finished = true;
     if (is_stopped(study)) {
         say(study, "Stopped; what is finished stays.");
@@ -202,33 +176,25 @@ static void work(void *self)
 static void close_table(void *self)
 {
     struct gm_study *study = self;
-    if (study->kind == GM_STUDY_WORK) {
-        gm_work_close(&study->work);
-    } else {
-        gm_stability_close(&study->stability);
-    }
+    gm_study_rows[study->kind].close(&study->table);
 }
 
 /* ---- orders ---- */
 
 static bool open_table(struct gm_study *study, char *message)
 {
-    study->split = strdup(study->words);
-    if (!study->split) {
+    if (!gm_arguments_split(&study->arguments, study->words)) {
         snprintf(message, GM_MESSAGE, "There is not enough memory.");
         return false;
     }
-    study->options = (struct gm_options){.words = study->list,
-                                         .word_count = gm_words_split(study->split, study->list, MOST_WORDS)};
-    return study->kind == GM_STUDY_WORK ? gm_work_open(&study->work, &study->options, message)
-                                        : gm_stability_open(&study->stability, &study->options, message);
+    return gm_study_rows[study->kind].open(&study->table, &study->arguments, message);
 }
 
 static void free_study(struct gm_study *study)
 {
     gm_picture_close(study->looks[0].picture);
     gm_picture_close(study->looks[1].picture);
-    free(study->split);
+    gm_arguments_close(&study->arguments);
     free(study->words);
     free(study);
 }

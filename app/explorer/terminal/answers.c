@@ -11,7 +11,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "render/files/clock.h"
+#include "render/clock.h"
 
 /* ---- one answer ---- */
 

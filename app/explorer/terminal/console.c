@@ -19,7 +19,7 @@
 #include "app/explorer/terminal/mouse.h"
 #include "app/request/drive.h"
 #include "app/request/request.h"
-#include "render/files/clock.h"
+#include "render/clock.h"
 
 static SCREEN *screen;
 static WINDOW *keys; /* a pad: reading a key from it does not make ncurses draw */

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "app/explorer/terminal/console.h"
-#include "render/files/clock.h"
+#include "render/clock.h"
 #include "render/message.h"
 
 bool gm_display_open(struct gm_display *display, struct gm_terminal *terminal, int wake)

@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 #include "app/explorer/terminal/palette.h"
+#include "render/clock.h"
 #include "render/files/base64.h"
-#include "render/files/clock.h"
 
 /* ---- the line of bytes ---- */
 

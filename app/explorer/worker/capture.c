@@ -7,11 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/lanes/course.h"
 #include "app/output/folder.h"
 #include "app/output/still.h"
-#include "app/request/words.h"
-#include "render/files/clock.h"
+#include "app/request/arguments.h"
+#include "render/clock.h"
 
 /* 300 dots an inch on 32 cm, 600 on the 16 cm of a text column. */
 enum { PRINT_WIDTH = 3840, PRINT_HEIGHT = 2160 };
@@ -89,16 +88,18 @@ void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *
 /* ---- the command lines ---- */
 
 /* The words of the arguments but those that say when it ends. */
-static void put_arguments(FILE *stream, char *arguments)
+static void put_arguments(FILE *stream, const char *text)
 {
-    char *words[GM_MOST_WORDS + 1];
-    const int count = gm_words_split(arguments, words, GM_MOST_WORDS + 1);
-    for (int i = 0; i < count; i++) {
-        if (strncmp(words[i], "until=", 6) != 0 && strncmp(words[i], "steps=", 6) != 0) {
+    struct gm_arguments arguments = {0};
+    gm_arguments_split(&arguments, text);
+    for (int i = 0; i < arguments.count; i++) {
+        const char *word = arguments.words[i];
+        if (strncmp(word, "until=", 6) != 0 && strncmp(word, "steps=", 6) != 0) {
             fputc(' ', stream);
-            gm_words_put(stream, words[i]);
+            gm_arguments_put(stream, word);
         }
     }
+    gm_arguments_close(&arguments);
 }
 
 /* Where the lanes are: the steps, if they have made equally many. */
@@ -149,7 +150,7 @@ static char *tell_explorer(const struct gm_session *session)
         const struct gm_settings *settings = gm_session_owner(session, i, true);
         lanes[i] = (struct gm_lane_spec){
             .shown = session->lanes[i]->shown, .settings = *settings, .scheme = session->lanes[i]->scheme};
-        lanes[i].parameters = gm_session_copy_parameters(session->scene, gm_session_owner(session, i, false));
+        lanes[i].parameters = gm_parameters_copy(session->scene, gm_session_owner(session, i, false));
         struct gm_timing *timing = lanes[i].parameters;
         good = good && timing;
         if (timing) {

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "render/files/clock.h"
+#include "render/clock.h"
 
 /* A simulation that is later than this lets the clock wait for it. */
 static const double LATE = 0.1;

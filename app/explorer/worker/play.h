@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_WORKER_PLAY_H
 #define GM_APP_EXPLORER_WORKER_PLAY_H
 
-#include "app/lanes/agenda.h"
+#include "app/tours/agenda.h"
 
 /* A session that is played: model time goes on with the clock on the wall, stops, runs ahead or back home. No
    thread: whoever plays calls in turn. */

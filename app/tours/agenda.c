@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes that a tour has arranged for a session, made at their time. */
-#include "app/lanes/agenda.h"
+#include "app/tours/agenda.h"
 #include "core/schemes.h"
 
 #include <math.h>

@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint stability --region SCHEME: the linear stability region, found by stepping. */
-#include "app/studies/region.h"
+#include "app/commands/region.h"
 #include "core/schemes.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/output/chart.h"
+#include "app/commands/charted.h"
 #include "app/output/json.h"
 #include "app/request/drive.h"
 #include "app/request/nearest.h"
@@ -157,8 +156,9 @@ static void draw(const void *data, struct gm_picture *picture)
     }
 }
 
-static bool write_csv(const struct region *region, const char *path)
+static bool write_csv(const void *data, const char *path)
 {
+    const struct region *region = data;
     FILE *csv = fopen(path, "w");
     if (!csv) {
         return false;
@@ -251,7 +251,7 @@ static const char *scheme_name(size_t i, const void *data)
 
 int gm_region(const struct gm_options *options)
 {
-    char message[GM_MESSAGE], name[128];
+    char name[128];
     struct region region = {.scheme = gm_scheme_find(options->region)};
     if (!region.scheme) {
         const char *near = gm_nearest(options->region, gm_scheme_count(), scheme_name, NULL);
@@ -270,7 +270,6 @@ int gm_region(const struct gm_options *options)
     region.measured = calloc((size_t)SIDE * SIDE, sizeof *region.measured);
     region.known = calloc((size_t)SIDE * SIDE, sizeof *region.known);
     int status = GM_EXIT_OK;
-    struct gm_chart chart;
     snprintf(name, sizeof name, "%s-stability", region.scheme->name);
     if (!region.measured || !region.known) {
         gm_complain("not enough memory");
@@ -282,16 +281,7 @@ int gm_region(const struct gm_options *options)
             measure_line(&region);
         }
         print_numbers(&region, options->json);
-        if (!gm_chart_open(&chart, options, "stability", name, message) ||
-            !gm_chart_paint(&chart, &region, draw, message)) {
-            gm_complain("%s", message);
-            status = GM_EXIT_FILE;
-        } else if (!write_csv(&region, chart.csv)) {
-            gm_complain("%s could not be written: %s", chart.csv, strerror(errno));
-            status = GM_EXIT_FILE;
-        } else {
-            gm_chart_tell(&chart);
-        }
+        status = gm_command_chart(options, "stability", name, &region, draw, write_csv);
     }
     free(region.measured);
     free(region.known);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Measures error and cost of every scheme with every step. */
 #include "app/studies/work.h"
-#include "core/schemes.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -9,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/files/clock.h"
+#include "render/clock.h"
+#include "core/schemes.h"
 
 enum { REPEATS = 5 };
 

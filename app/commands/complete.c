@@ -7,6 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
 #include "app/request/drive.h"
+#include "app/request/fitting.h"
 #include "app/request/words.h"
 #include "app/tours/tour.h"
 #include "core/schemes.h"
@@ -51,8 +52,8 @@ static void offer_scenes(const struct stem *stem)
 
 static void offer_schemes(const struct stem *stem, const struct gm_scene *scene)
 {
-    const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
-    const size_t count = scene ? gm_catalogue_fitting(scene, fitting) : gm_scheme_count();
+    const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+    const size_t count = scene ? gm_fitting_schemes(scene, fitting) : gm_scheme_count();
     for (size_t i = 0; i < count; i++) {
         const struct gm_scheme *scheme = scene ? fitting[i] : gm_scheme_at(i);
         offer(stem, scheme->name, scheme->title);
@@ -134,11 +135,11 @@ static void offer_keys(const struct stem *stem, const struct gm_scene *scene)
     for (size_t i = 0; i < gm_common_key_count; i++) {
         offer_key(stem, gm_common_keys[i].name, gm_common_keys[i].help);
     }
-    const struct gm_scheme *fitting[GM_CATALOGUE_SCHEMES];
-    const size_t count = gm_catalogue_fitting(scene, fitting);
+    const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
+    const size_t count = gm_fitting_schemes(scene, fitting);
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
         const struct gm_parameter *row = &gm_settings_parameters[i];
-        if (!gm_scene_parameter(scene, row->key) && gm_catalogue_takes(fitting, count, row)) {
+        if (!gm_scene_parameter(scene, row->key) && gm_fitting_take(fitting, count, row)) {
             offer_key(stem, row->key, row->help);
         }
     }
@@ -250,14 +251,14 @@ static void offer_commands(const char *word)
 {
     const struct stem stem = whole(word);
     for (size_t i = 0; i < gm_command_count; i++) {
-        offer(&stem, gm_commands[i].name, gm_commands[i].help);
+        offer(&stem, gm_commands[i]->name, gm_commands[i]->help);
     }
     offer_scenes(&stem);
     offer(&stem, "--help", "commands and options");
     offer(&stem, "--version", "version and libraries");
 }
 
-int gm_command_complete(int count, char *const words[])
+static int command_complete(int count, char *const words[])
 {
     const char *last = count > 0 ? words[count - 1] : "";
     if (count <= 1) {
@@ -284,3 +285,11 @@ int gm_command_complete(int count, char *const words[])
     }
     return gm_finish(GM_EXIT_OK);
 }
+
+const struct gm_command_row gm_command_complete = {
+    .name = "complete",
+    .synopsis = "[WORD ...]",
+    .help = "what the last word may become: shells ask this",
+    .bit = GM_COMPLETE,
+    .raw = command_complete,
+};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_RENDER_FILES_CLOCK_H
-#define GM_RENDER_FILES_CLOCK_H
+#ifndef GM_RENDER_CLOCK_H
+#define GM_RENDER_CLOCK_H
 
 #include <stdint.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_LANES_AGENDA_H
-#define GM_APP_LANES_AGENDA_H
+#ifndef GM_APP_TOURS_AGENDA_H
+#define GM_APP_TOURS_AGENDA_H
 
 #include "app/lanes/session.h"
 #include "app/tours/tour.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The clock on the wall, for pacing and for telling how long something took. */
-#include "render/files/clock.h"
+#include "render/clock.h"
 
 #include <time.h>
 

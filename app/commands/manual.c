@@ -53,12 +53,12 @@ static void put_commands(void)
 {
     printf(".SH COMMANDS\n");
     for (size_t i = 0; i < gm_command_count; i++) {
-        put_term(gm_commands[i].name, gm_commands[i].synopsis);
-        put_line(gm_commands[i].help);
+        put_term(gm_commands[i]->name, gm_commands[i]->synopsis);
+        put_line(gm_commands[i]->help);
         size_t options = 0;
         for (size_t k = 0; k < gm_option_count(); k++) {
             const struct gm_option option = gm_option_at(k);
-            if (option.commands & gm_commands[i].bit) {
+            if (option.commands & gm_commands[i]->bit) {
                 printf("%s", options++ ? "" : ".RS\n");
                 put_term(option.name, option.value);
                 put_line(option.help);
@@ -197,9 +197,9 @@ static void put_examples(void)
     printf(".SH SEE ALSO\n.BR ffmpeg (1),\n.BR gmsh (1)\n");
 }
 
-int gm_command_manual(const struct gm_options *options)
+static int command_manual(const struct gm_options *options)
 {
-    if (options->word_count > 0) {
+    if (options->arguments.count > 0) {
         gm_complain("manual takes no arguments");
         return GM_EXIT_USAGE;
     }
@@ -208,10 +208,10 @@ int gm_command_manual(const struct gm_options *options)
            GM_VERSION);
     for (size_t i = 0; i < gm_command_count; i++) {
         printf("%s.B geomint%s", i ? ".br\n" : "", i ? " " : "");
-        put_line(i ? gm_commands[i].name : "");
-        if (gm_commands[i].synopsis[0]) {
+        put_line(i ? gm_commands[i]->name : "");
+        if (gm_commands[i]->synopsis[0]) {
             printf(".I ");
-            put_line(gm_commands[i].synopsis);
+            put_line(gm_commands[i]->synopsis);
         }
     }
     printf(
@@ -226,3 +226,11 @@ int gm_command_manual(const struct gm_options *options)
     put_schemes();
     return gm_finish(GM_EXIT_OK);
 }
+
+const struct gm_command_row gm_command_manual = {
+    .name = "manual",
+    .synopsis = "",
+    .help = "the manual page, for man(1)",
+    .bit = GM_MANUAL,
+    .function = command_manual,
+};

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the commands that measure have in common: their diagram and their table, as their options say. */
+#include "app/commands/charted.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "app/output/chart.h"
+#include "app/request/drive.h"
+
+/* "stability kepler dt=0.1": what `again` reads; malloc'ed, NULL when memory is short. */
+static char *command_line(const char *command, const struct gm_options *options)
+{
+    char *words = gm_arguments_join(command, &options->arguments), *text = NULL;
+    if (words && asprintf(&text, "%s%s%s%s%s", words, options->measure ? " --measure " : "",
+                          options->measure ? options->measure : "", options->region ? " --region " : "",
+                          options->region ? options->region : "") < 0) {
+        text = NULL;
+    }
+    free(words);
+    return text;
+}
+
+int gm_command_chart(const struct gm_options *options, const char *command, const char *name,
+                     const void *data, void (*draw)(const void *data, struct gm_picture *picture),
+                     bool (*write)(const void *data, const char *path))
+{
+    char message[GM_MESSAGE] = "not enough memory";
+    char *words = command_line(command, options);
+    struct gm_chart chart = {.folder = options->out,
+                             .name = options->name ? options->name : name,
+                             .command = words,
+                             .width = options->width,
+                             .height = options->height,
+                             .theme = options->theme};
+    const bool good = words && gm_chart_write(&chart, data, draw, write, message);
+    free(words);
+    if (!good) {
+        gm_complain("%s", message);
+        return GM_EXIT_FILE;
+    }
+    gm_complain("wrote %s and %s", chart.png, chart.csv);
+    return GM_EXIT_OK;
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_REQUEST_ARGUMENTS_H
+#define GM_APP_REQUEST_ARGUMENTS_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Words as they were typed, or as a text holds them: a scene and its key=value, or the words of a command. */
+
+struct gm_arguments { /* {0} is an empty list */
+    char **words;     /* its own copies */
+    int count;
+};
+void gm_arguments_close(struct gm_arguments *arguments);
+
+/* Adds one word, or the words of a text: separated by blanks, with a backslash before a blank or backslash
+   that belongs to a word. False when memory is short; the list is then to be closed as always. */
+bool gm_arguments_add(struct gm_arguments *arguments, const char *word);
+bool gm_arguments_split(struct gm_arguments *arguments, const char *text);
+
+/* Whether one of the words sets the key that `word` sets: "dt=" or "dt=0.1". */
+bool gm_arguments_have(const struct gm_arguments *arguments, const char *word);
+
+/* Fills an empty list with the first word that was typed, a scene; the words of the text `usual` that set no
+   key that was typed; and the other words typed. False when memory is short. */
+bool gm_arguments_complete(struct gm_arguments *arguments, const struct gm_arguments *typed,
+                           const char *usual);
+
+/* Writes one word as gm_arguments_split reads it. */
+void gm_arguments_put(FILE *stream, const char *word);
+/* "FRONT word word"; malloc'ed, NULL when memory is short. */
+char *gm_arguments_join(const char *front, const struct gm_arguments *arguments);
+
+#endif

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The kinds of studies, as rows of functions. */
+#include "app/studies/study.h"
+
+#include <string.h>
+
+/* ---- work-precision ---- */
+
+static bool open_work(void *table, const struct gm_arguments *arguments, char *message)
+{
+    return gm_work_open(table, arguments, NULL, message);
+}
+
+static bool measure_work(void *table, const struct gm_listener *listener, char *message)
+{
+    return gm_work_measure(table, listener, message);
+}
+
+static void draw_work(const void *table, struct gm_picture *picture)
+{
+    gm_work_draw(table, picture);
+}
+
+static bool write_work(const void *table, const char *path)
+{
+    return gm_work_write(table, path);
+}
+
+static void close_work(void *table)
+{
+    gm_work_close(table);
+}
+
+/* ---- stability ---- */
+
+static bool open_stability(void *table, const struct gm_arguments *arguments, char *message)
+{
+    return gm_stability_open(table, arguments, message);
+}
+
+static bool measure_stability(void *table, const struct gm_listener *listener, char *message)
+{
+    return gm_stability_measure(table, listener, message);
+}
+
+static void draw_stability(const void *table, struct gm_picture *picture)
+{
+    gm_stability_draw(table, picture);
+}
+
+static bool write_stability(const void *table, const char *path)
+{
+    return gm_stability_write(table, path);
+}
+
+static void close_stability(void *table)
+{
+    gm_stability_close(table);
+}
+
+/* ---- all ---- */
+
+const struct gm_study_row gm_study_rows[GM_STUDY_COUNT] = {
+    [GM_STUDY_WORK] = {"work-precision", open_work, measure_work, draw_work, write_work, close_work},
+    [GM_STUDY_STABILITY] = {"stability", open_stability, measure_stability, draw_stability, write_stability,
+                            close_stability},
+};
+
+enum gm_study_kind gm_study_find(const char *name)
+{
+    int kind = GM_STUDY_COUNT - 1;
+    while (kind > GM_STUDY_NONE && strcmp(gm_study_rows[kind].name, name) != 0) {
+        kind--;
+    }
+    return (enum gm_study_kind)kind;
+}

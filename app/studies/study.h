@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_STUDIES_STUDY_H
+#define GM_APP_STUDIES_STUDY_H
+
+#include "app/studies/stability.h"
+#include "app/studies/work.h"
+
+/* What the kinds of studies have in common, for whoever shows one without knowing which. */
+
+enum gm_study_kind { GM_STUDY_NONE, GM_STUDY_WORK, GM_STUDY_STABILITY, GM_STUDY_COUNT };
+
+union gm_study_table {
+    struct gm_work_table work;
+    struct gm_stability_table stability;
+};
+
+/* As gm_work_open and its neighbours say; `table` is that of the kind. */
+struct gm_study_row {
+    const char *name; /* of its command */
+    bool (*open)(void *table, const struct gm_arguments *arguments, char *message);
+    bool (*measure)(void *table, const struct gm_listener *listener, char *message);
+    void (*draw)(const void *table, struct gm_picture *picture);
+    bool (*write)(const void *table, const char *path);
+    void (*close)(void *table);
+};
+extern const struct gm_study_row gm_study_rows[GM_STUDY_COUNT]; /* that of GM_STUDY_NONE is empty */
+
+/* The kind of that name; GM_STUDY_NONE if there is none. */
+enum gm_study_kind gm_study_find(const char *name);
+
+#endif
