@@ -15,8 +15,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/field/families/wave_laws.h"
 #include "core/field/problems/wave.h"
-#include "core/field/wave_laws.h"
 #include "scenes/field/field.h"
 
 struct scene {
