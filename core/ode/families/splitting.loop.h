@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The splitting family over a problem's kernels, for one pass; see core/ode/kernel/pass.h. The table is read
-   at run time: a row is data. */
+/* The splitting family over a problem's kernels, for one pass; see core/ode/families/pass.h. The table is
+   read at run time: a row is data. */
 
 /* The force is kept from the last kick of a step to the first of the next, where q has not moved between, and
    is counted once, even where a call ends in between and it is computed again. */
@@ -55,7 +55,8 @@ GM_INLINE struct gm_progress K(splitting_by_three)(const struct gm_task *task,
 
 __attribute__((unused)) static struct gm_progress K(splitting_run)(const struct gm_task *task)
 {
-    const struct gm_splitting *table = task->scheme->coefficients;
+    struct gm_splitting made;
+    const struct gm_splitting *table = gm_splitting_of(task->scheme->coefficients, &made);
     if (table->count == 3 && table->pieces[0].piece == GM_KICK && table->pieces[1].piece == GM_DRIFT &&
         table->pieces[2].piece == GM_KICK && !task->carry) {
         return K(splitting_by_three)(task, table);

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FLOW_GMSH_H
+#define GM_CORE_FLOW_GMSH_H
+
+#include "core/flow/complex.h"
+
+/* A mesh with names on its boundary. */
+struct gm_triangulation {
+    struct gm_complex *complex;
+    long *tags;      /* of the vertices, increasing */
+    int *edge_group; /* a physical tag for every edge of the complex; 0: none */
+    size_t groups;   /* physical groups of curves */
+    struct gm_triangulation_group {
+        long tag;
+        char name[64]; /* "" where it has none */
+    } * group;
+};
+
+/* Reads a Gmsh file, version 4.1, ASCII: `size` bytes of text. Only triangles of the plane with three nodes,
+   and the lines that carry physical groups, are taken; points are passed over; nodes that nothing uses are
+   dropped. False with a fault, and nothing to close, if the text is no such mesh. */
+bool gm_triangulation_read(const char *text, size_t size, struct gm_triangulation *mesh,
+                           struct gm_triangulation_fault *fault);
+void gm_triangulation_close(struct gm_triangulation *mesh);
+
+/* The physical tag of a group of lines, by its name or its tag; 0 if there is none. */
+long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name);
+
+#endif

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The wing of fields on moving meshes as the hall sees it: the families of schemes, and how those are
+   certified. */
+#include "core/mesh/moving_mesh.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/certify.h"
+#include "core/mesh/certify/law.h"
+#include "core/mesh/certify/subject.h"
+#include "core/mesh/families/families.h"
+#include "core/mesh/nodes.h"
+#include "core/run.h"
+
+enum { POINTS = 3, FINE_POINTS = GM_MESH_SUBJECT_POINTS, MOST = GM_MESH_SUBJECT_STATE };
+
+static const struct gm_settings settings = {0};
+
+static double distance(const double *a, const double *b, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        largest = fmax(largest, fabs(a[i] - b[i]));
+    }
+    return largest;
+}
+
+/* Differences of the field and nodes. A scheme that chooses its steps ends at times that differ in second
+   order; what that makes is taken off with the velocities. */
+static double measure_order(const struct gm_scheme *scheme)
+{
+    enum { LADDER = 7 };
+    const double until = 1, round_off = 1e-10;
+    struct gm_mesh_subject subject;
+    if (!gm_mesh_subject_open(&subject, scheme, FINE_POINTS)) {
+        return NAN;
+    }
+    const size_t half = subject.problem.n / 2;
+    double before[MOST] = {0}, previous = 0, order = NAN, t_before = 0;
+    for (int i = 0; i < LADDER; i++) {
+        const long steps = 5L << i;
+        struct gm_run *run =
+            gm_run_open(&subject.problem, scheme, &settings, 0, until / (double)steps, subject.start);
+        if (!run || gm_run_advance(run, steps) != GM_OK) {
+            gm_run_close(run);
+            return NAN;
+        }
+        const double *state = gm_run_state(run);
+        double change = 0;
+        for (size_t k = 0; k < half; k++) {
+            change = fmax(change, fabs(state[k] + (t_before - run->t) * state[half + k] - before[k]));
+        }
+        if (i > 1 && change > round_off) {
+            order = log2(previous / change);
+        }
+        previous = change;
+        memcpy(before, state, subject.problem.n * sizeof *state);
+        t_before = run->t;
+        gm_run_close(run);
+    }
+    return order;
+}
+
+static void turn(double *state, size_t points)
+{
+    for (size_t i = 2 * points; i < 4 * points; i++) {
+        state[i] = -state[i];
+    }
+}
+
+/* How far a run that turns round ends from its start: by the step -dt, or with the velocities turned. It
+   remembers what the scheme remembers. */
+static double return_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
+                            bool turned)
+{
+    struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, subject->start);
+    double state[MOST], defect = INFINITY;
+    bool good = run && gm_run_advance(run, 1) == GM_OK;
+    if (good && turned) {
+        memcpy(state, gm_run_state(run), subject->problem.n * sizeof *state);
+        turn(state, subject->mesh.points);
+        gm_run_set_state(run, state);
+    } else if (good) {
+        gm_run_set_step(run, -dt);
+    }
+    good = good && gm_run_advance(run, 1) == GM_OK;
+    if (good) {
+        memcpy(state, gm_run_state(run), subject->problem.n * sizeof *state);
+        if (turned) {
+            turn(state, subject->mesh.points);
+        }
+        defect = distance(state, subject->start, subject->problem.n);
+    }
+    gm_run_close(run);
+    return defect;
+}
+
+/* q = (y, X) and p = dL/dqdot of a state */
+static void momenta(const struct gm_mesh_subject *subject, const double *state, double *phase)
+{
+    const size_t points = subject->mesh.points;
+    struct gm_elements stage;
+    memcpy(phase, state, 2 * points * sizeof *phase);
+    if (!gm_elements_open(&stage, &subject->mesh)) {
+        return;
+    }
+    gm_elements_place(&stage, state);
+    gm_elements_evaluate(&stage, &subject->mesh);
+    for (size_t k = 1; k <= points; k++) {
+        phase[2 * points + k - 1] = gm_momentum_u(&stage, k);
+        phase[3 * points + k - 1] = gm_momentum_v(&stage, k);
+    }
+    gm_elements_close(&stage);
+}
+
+static double form(const double *a, const double *b, size_t points)
+{
+    double sum = 0;
+    for (size_t i = 0; i < 2 * points; i++) {
+        sum += a[i] * b[2 * points + i] - b[i] * a[2 * points + i];
+    }
+    return sum;
+}
+
+/* (q, p) before and after a step */
+static bool step_in_phase_space(const struct gm_mesh_subject *subject, const void *context,
+                                const double *state, double *values)
+{
+    const struct gm_mesh_step *step = context;
+    double end[MOST];
+    if (!gm_mesh_subject_advance(subject, step->scheme, step->dt, 1, state, end)) {
+        return false;
+    }
+    momenta(subject, state, values);
+    momenta(subject, end, values + subject->problem.n);
+    return true;
+}
+
+/* The symplectic form of tangent vectors before and after a step. */
+static double symplecticity_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme,
+                                   double dt)
+{
+    const size_t points = subject->mesh.points, n = subject->problem.n;
+    const struct gm_mesh_step step = {scheme, dt};
+    double tangents[2 * POINTS][8 * POINTS];
+    double defect = 0;
+    for (size_t a = 0; a < 2 * points; a++) {
+        if (!gm_mesh_subject_derive(subject, gm_scheme_mesh(scheme), a, step_in_phase_space, &step, 2 * n,
+                                    tangents[a])) {
+            return INFINITY;
+        }
+        for (size_t b = 0; b < a; b++) {
+            defect = fmax(defect, fabs(form(tangents[a] + n, tangents[b] + n, points) -
+                                       form(tangents[a], tangents[b], points)));
+        }
+    }
+    return defect;
+}
+
+static double energy_drift(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
+                           long steps)
+{
+    const double initial = gm_mesh_energy(&subject->mesh, subject->start);
+    double state[MOST];
+    if (!gm_mesh_subject_advance(subject, scheme, dt, steps, subject->start, state)) {
+        return INFINITY;
+    }
+    return fabs(gm_mesh_energy(&subject->mesh, state) - initial) / initial;
+}
+
+/* Measures a scheme on meshes by one soliton on a few nodes: the order, from differences between runs with
+   halved steps; return after a reversed step; the change of dy dp_y + dX dp_X over a step, on the states that
+   the mesh constraint allows; the energy; and the defect of the local law of the trapezoidal discrete
+   Lagrangian, or on a uniform mesh of that of the midpoint rule where it is less, over all stretches of the
+   mesh (not where the step varies). */
+static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
+{
+    const double dt = 0.2;
+    struct gm_mesh_subject subject;
+    certificate->order = measure_order(scheme);
+    certificate->order_problem = "soliton";
+    certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
+    const bool open = gm_mesh_subject_open(&subject, scheme, POINTS);
+    /* Equations on meshes are solved to 1e-11, no better: multipliers carry the round-off of the squared
+       step; and two claims are derivatives. */
+    const struct {
+        enum gm_claim claim;
+        double tolerance, defect;
+    } list[] = {
+        {GM_SYMMETRIC, 1e-11, open ? return_defect(&subject, scheme, dt, false) : INFINITY},
+        {GM_REVERSIBLE, 1e-11, open ? return_defect(&subject, scheme, dt, true) : INFINITY},
+        {GM_SYMPLECTIC, 1e-9, open ? symplecticity_defect(&subject, scheme, dt) : INFINITY},
+        {GM_KEEPS_ENERGY, 1e-11, open ? energy_drift(&subject, scheme, dt, 20) : INFINITY},
+        {GM_MULTISYMPLECTIC, 1e-9, open ? gm_mesh_law_defect(&subject, scheme, dt) : INFINITY},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof list[0]; i++) {
+        gm_certificate_claim(certificate, list[i].claim)->tolerance = list[i].tolerance;
+        if (!isnan(list[i].defect)) {
+            gm_certificate_note(certificate, list[i].claim, list[i].defect, "soliton");
+        }
+    }
+}
+
+static const struct gm_family *const families[] = {
+#define GM_FAMILY(name) &gm_family_##name,
+#include "core/mesh/families/families.def"
+#undef GM_FAMILY
+    NULL,
+};
+
+const struct gm_kind gm_kind_mesh = {
+    .name = "mesh",
+    .problems = "waves on moving meshes",
+    .certify = certify,
+    .families = families,
+};

@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The discrete multisymplectic form formula, for the trapezoidal discrete Lagrangian of element e over a
+   step,
+       L_e(z, z') = h/2 [l_e(z, v) + l_e(z', v)] - Lambda_e ell_e(z),   v = (z' - z) / h,   z = (q_e, q_{e+1})
+   and on a mesh that is given, which has no constraint Lambda_e, also for that of the midpoint rule, which is
+   Gauss' method of order 2,
+       L_e(z, z') = h l_e((z + z') / 2, v).
+   Where the Euler-Lagrange equations hold at the nodes, the symplectic form of any stretch of nodes a ... b
+   changes by what its two ends let through:
+       sum_{i=a}^{b} (dq_i' ^ dp_i' - dq_i ^ dp_i)
+               = f(a, a-1) + f(b, b) - dell_a ^ dlambda_a + dell_b ^ dlambda_b
+       f(i, e) = dq_i' ^ d(dL_e/dq_i') + dq_i ^ d(dL_e/dq_i)
+   on motions of three steps that the scheme makes. Momenta are those of the discrete Lagrangian of the step
+   before, the multipliers the best that the places allow: nothing is taken from the scheme but where the
+   nodes are. Tyranowski & Desbrun (2019), sections 4.2 and 4.3, eqs. 154-155; J.E. Marsden, G.W. Patrick &
+   S. Shkoller, Commun. Math. Phys. 199 (1998) 351. */
+#include "core/mesh/certify/law.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "core/mesh/nodes.h"
+
+enum { POINTS = 3, ELEMENTS = POINTS + 1, DIRECTIONS = 2 * POINTS };
+
+/* Numbers of a motion; [..][2] are those of y and X. */
+struct motion {
+    double here[POINTS + 2][2], next[POINTS + 2][2]; /* q_i and q_i' */
+    double momentum[POINTS + 2][2];                  /* p_i, of the step before */
+    double push[ELEMENTS][2][2];                     /* dL_e/dq' at both ends of the element */
+    double pull[ELEMENTS][2][2];                     /* dL_e/dq, with the multiplier's share */
+    double lambda[POINTS + 2], ell[ELEMENTS];
+};
+
+static_assert(sizeof(struct motion) <= GM_MESH_OBSERVED * sizeof(double), "too many numbers");
+
+/* Where the Lagrangian of an element is taken in a step. */
+enum rule { TRAPEZOIDAL, MIDPOINT };
+
+struct stages {
+    enum rule rule;
+    struct gm_elements before,
+        after; /* at the ends of a step, or both in its middle, with its mean velocity */
+};
+
+struct law {
+    struct gm_mesh_step step;
+    enum gm_mesh_kind kind;
+    enum rule rule;
+};
+
+static bool place(const struct gm_mesh_subject *subject, struct stages *stages, const double *from,
+                  const double *to, double h)
+{
+    const size_t points = subject->mesh.points;
+    double mean[2][4 * POINTS];
+    memcpy(mean[0], from, 2 * points * sizeof *from);
+    memcpy(mean[1], to, 2 * points * sizeof *to);
+    for (size_t i = 0; i < 2 * points; i++) {
+        mean[0][2 * points + i] = mean[1][2 * points + i] = (to[i] - from[i]) / h;
+        if (stages->rule == MIDPOINT) {
+            mean[0][i] = mean[1][i] = (from[i] + to[i]) / 2;
+        }
+    }
+    gm_elements_place(&stages->before, mean[0]);
+    gm_elements_place(&stages->after, mean[1]);
+    if (!gm_elements_evaluate(&stages->before, &subject->mesh) ||
+        !gm_elements_evaluate(&stages->after, &subject->mesh)) {
+        return false;
+    }
+    gm_elements_constrain(&stages->before, &subject->mesh);
+    return true;
+}
+
+/* h/2 times the derivative of l at `at` by the place of end `end` of an element, and the mean momentum
+   there */
+static void parts(const struct stages *stages, const struct gm_elements *at, double h, size_t e, size_t end,
+                  double force[2], double momentum[2])
+{
+    const struct gm_elements *both[2] = {&stages->before, &stages->after};
+    force[0] = h / 2 * (end ? at->force_y1[e] : at->force_y0[e]);
+    force[1] = h / 2 * (end ? at->force_d[e] : -at->force_d[e]);
+    momentum[0] = momentum[1] = 0;
+    for (int i = 0; i < 2; i++) {
+        const double u = end ? both[i]->momentum_u1[e] : both[i]->momentum_u0[e];
+        momentum[0] += u / 2;
+        momentum[1] -= both[i]->slope[e] * u / 2;
+    }
+}
+
+/* Multipliers with which the Euler-Lagrange equations hold best: least squares of Dg^T lambda = rest. */
+static bool fit_multipliers(const struct gm_elements *at, double rest[POINTS + 2][2], double *lambda)
+{
+    struct gm_banded normal;
+    if (!gm_banded_open(&normal, POINTS, 2)) {
+        return false;
+    }
+    double row[POINTS][POINTS + 2][2] = {{{0}}}, right[POINTS] = {0};
+    for (size_t k = 1; k <= POINTS; k++) {
+        /* ell_k - ell_(k-1) */
+        row[k - 1][k][0] = at->ell_y0[k] - at->ell_y1[k - 1];
+        row[k - 1][k][1] = -at->ell_d[k] - at->ell_d[k - 1];
+        row[k - 1][k + 1][0] = at->ell_y1[k];
+        row[k - 1][k + 1][1] = at->ell_d[k];
+        row[k - 1][k - 1][0] = -at->ell_y0[k - 1];
+        row[k - 1][k - 1][1] = at->ell_d[k - 1];
+    }
+    for (size_t a = 0; a < POINTS; a++) {
+        for (size_t i = 1; i <= POINTS; i++) {
+            for (size_t c = 0; c < 2; c++) {
+                right[a] += row[a][i][c] * rest[i][c];
+                for (size_t b = 0; b < POINTS; b++) {
+                    if (row[a][i][c] != 0 && row[b][i][c] != 0) {
+                        gm_banded_add(&normal, a, b, row[a][i][c] * row[b][i][c]);
+                    }
+                }
+            }
+        }
+    }
+    const bool good = gm_banded_factor(&normal);
+    if (good) {
+        gm_banded_solve(&normal, right);
+        memcpy(lambda + 1, right, sizeof right);
+    }
+    gm_banded_close(&normal);
+    return good;
+}
+
+static bool measure(const struct gm_mesh_subject *subject, const struct law *law, struct stages *stages,
+                    double states[3][4 * POINTS], struct motion *motion)
+{
+    *motion = (struct motion){0};
+    const double h = law->step.dt;
+    double rest[POINTS + 2][2] = {{0}}, force[2], momentum[2];
+    if (!place(subject, stages, states[0], states[1], h)) {
+        return false;
+    }
+    for (size_t e = 0; e < ELEMENTS; e++) {
+        for (size_t end = 0; end < 2; end++) {
+            parts(stages, &stages->after, h, e, end, force, momentum);
+            for (size_t c = 0; c < 2; c++) {
+                motion->momentum[e + end][c] += force[c] + momentum[c];
+            }
+        }
+    }
+    if (!place(subject, stages, states[1], states[2], h)) {
+        return false;
+    }
+    for (size_t i = 1; i <= POINTS; i++) {
+        for (size_t c = 0; c < 2; c++) {
+            motion->here[i][c] = states[1][c * POINTS + i - 1];
+            motion->next[i][c] = states[2][c * POINTS + i - 1];
+            rest[i][c] = motion->momentum[i][c];
+        }
+    }
+    for (size_t e = 0; e < ELEMENTS; e++) {
+        motion->ell[e] = stages->before.ell[e];
+        for (size_t end = 0; end < 2; end++) {
+            parts(stages, &stages->after, h, e, end, force, momentum);
+            for (size_t c = 0; c < 2; c++) {
+                motion->push[e][end][c] = force[c] + momentum[c];
+            }
+            parts(stages, &stages->before, h, e, end, force, momentum);
+            for (size_t c = 0; c < 2; c++) {
+                motion->pull[e][end][c] = force[c] - momentum[c];
+                rest[e + end][c] += force[c] - momentum[c];
+            }
+        }
+    }
+    if (law->kind == GM_MESH_UNIFORM) {
+        return true;
+    }
+    if (!fit_multipliers(&stages->before, rest, motion->lambda)) {
+        return false;
+    }
+    for (size_t e = 0; e < ELEMENTS; e++) {
+        const struct gm_elements *at = &stages->before;
+        const double share = motion->lambda[e] - motion->lambda[e + 1];
+        const double gradient[2][2] = {{at->ell_y0[e], -at->ell_d[e]}, {at->ell_y1[e], at->ell_d[e]}};
+        for (size_t end = 0; end < 2; end++) {
+            for (size_t c = 0; c < 2; c++) {
+                motion->pull[e][end][c] -= share * gradient[end][c];
+            }
+        }
+    }
+    return true;
+}
+
+static bool observe(const struct gm_mesh_subject *subject, const void *context, const double *state,
+                    double *values)
+{
+    const struct law *law = context;
+    const struct gm_mesh_step *step = &law->step;
+    double states[3][4 * POINTS];
+    struct stages stages = {.rule = law->rule};
+    memcpy(states[0], state, sizeof states[0]);
+    if (!gm_elements_open(&stages.before, &subject->mesh)) {
+        return false;
+    }
+    if (!gm_elements_open(&stages.after, &subject->mesh)) {
+        gm_elements_close(&stages.before);
+        return false;
+    }
+    struct motion motion;
+    const bool good = gm_mesh_subject_advance(subject, step->scheme, step->dt, 1, states[0], states[1]) &&
+                      gm_mesh_subject_advance(subject, step->scheme, step->dt, 2, states[0], states[2]) &&
+                      measure(subject, law, &stages, states, &motion);
+    if (good) {
+        memcpy(values, &motion, sizeof motion);
+    }
+    gm_elements_close(&stages.before);
+    gm_elements_close(&stages.after);
+    return good;
+}
+
+/* dfirst ^ dsecond, given by pointers into the derivatives along two motions */
+static double wedge(const struct motion *v, const struct motion *w, size_t first, size_t second)
+{
+    const double *a = (const double *)v, *b = (const double *)w;
+    return a[first] * b[second] - b[first] * a[second];
+}
+
+#define AT(member) (offsetof(struct motion, member) / sizeof(double))
+
+static double through(const struct motion *v, const struct motion *w, size_t node, size_t element)
+{
+    const size_t end = node - element;
+    double sum = 0;
+    for (size_t c = 0; c < 2; c++) {
+        sum += wedge(v, w, AT(next) + 2 * node + c, AT(push) + 4 * element + 2 * end + c) +
+               wedge(v, w, AT(here) + 2 * node + c, AT(pull) + 4 * element + 2 * end + c);
+    }
+    return sum;
+}
+
+static double law_of(const struct motion *v, const struct motion *w, size_t a, size_t b)
+{
+    double sum = wedge(v, w, AT(ell) + a, AT(lambda) + a) - wedge(v, w, AT(ell) + b, AT(lambda) + b) -
+                 through(v, w, a, a - 1) - through(v, w, b, b);
+    for (size_t i = a; i <= b; i++) {
+        for (size_t c = 0; c < 2; c++) {
+            sum += wedge(v, w, AT(next) + 2 * i + c, AT(push) + 4 * (i - 1) + 2 + c) +
+                   wedge(v, w, AT(next) + 2 * i + c, AT(push) + 4 * i + c) -
+                   wedge(v, w, AT(here) + 2 * i + c, AT(momentum) + 2 * i + c);
+        }
+    }
+    return fabs(sum);
+}
+
+static double defect_of(const struct gm_mesh_subject *subject, const struct law *law)
+{
+    struct motion tangents[DIRECTIONS];
+    double defect = 0;
+    for (size_t v = 0; v < DIRECTIONS; v++) {
+        double values[GM_MESH_OBSERVED];
+        if (!gm_mesh_subject_derive(subject, law->kind, v, observe, law, sizeof tangents[v] / sizeof(double),
+                                    values)) {
+            return INFINITY;
+        }
+        memcpy(&tangents[v], values, sizeof tangents[v]);
+        for (size_t w = 0; w < v; w++) {
+            for (size_t a = 1; a <= POINTS; a++) {
+                for (size_t b = a; b <= POINTS; b++) {
+                    defect = fmax(defect, law_of(&tangents[v], &tangents[w], a, b));
+                }
+            }
+        }
+    }
+    return defect;
+}
+
+double gm_mesh_law_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt)
+{
+    if (scheme->family->own_time || subject->mesh.points != POINTS) {
+        return NAN;
+    }
+    struct law law = {{scheme, dt}, gm_scheme_mesh(scheme), TRAPEZOIDAL};
+    const double trapezoidal = defect_of(subject, &law);
+    if (law.kind == GM_MESH_MOVING) {
+        return trapezoidal;
+    }
+    law.rule = MIDPOINT;
+    return fmin(trapezoidal, defect_of(subject, &law));
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_MESH_CERTIFY_SUBJECT_H
+#define GM_CORE_MESH_CERTIFY_SUBJECT_H
+
+#include "core/mesh/soliton.h"
+#include "core/scheme.h"
+
+/* What schemes on meshes are certified on: one soliton on a few nodes, and derivatives along its motions. */
+
+enum {
+    GM_MESH_SUBJECT_POINTS = 7, /* of the mesh, at most */
+    GM_MESH_SUBJECT_STATE = 4 * GM_MESH_SUBJECT_POINTS,
+    GM_MESH_OBSERVED = 72, /* numbers that are differentiated together, at most */
+};
+
+struct gm_mesh_subject {
+    struct gm_soliton soliton;
+    struct gm_problem problem;
+    struct gm_mesh mesh;
+    double start[GM_MESH_SUBJECT_STATE];
+};
+
+struct gm_mesh_step {
+    const struct gm_scheme *scheme;
+    double dt;
+};
+
+/* A mesh of `points` nodes for a scheme, with its start; false where memory is short. */
+bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, long points);
+
+/* Steps of a run that starts from the state `from`; false if it fails. */
+bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
+                             long steps, const double *from, double *end);
+
+/* Numbers that follow from a start; false if it fails. */
+typedef bool gm_mesh_observe(const struct gm_mesh_subject *subject, const void *context, const double *state,
+                             double *values);
+
+/* The derivatives of `count` such numbers by component `direction` of dy and then d(dy/dt), X and dX/dt
+   following as the constraint says: central differences at 4 distances, extrapolated by Romberg. False if a
+   run fails. */
+bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
+                            gm_mesh_observe *observe, const void *context, size_t count, double *derivative);
+
+#endif

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Linear stability of a scheme, by stepping a test equation, and of a Runge-Kutta method by its stability
+   function with the tableau A, b,
+       R(z) = 1 + z b' (I - z A)^-1 (1, ..., 1)'.
+   E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), IV.2, IV.3. */
+#include "core/ode/certify/linear_stability.h"
+
+#include <complex.h>
+#include <math.h>
+#include <string.h>
+
+#include "core/ode/families/explicit_runge_kutta.h"
+#include "core/ode/families/families.h"
+#include "core/ode/families/implicit_runge_kutta.h"
+#include "core/ode/families/splitting.h"
+#include "core/ode/problems/problems.h"
+#include "core/run.h"
+
+enum { STAGES = 8 };
+
+enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme)
+{
+    const double matrix[9] = {0};
+    struct gm_ode facets = *gm_ode_of(&gm_problem_linear);
+    struct gm_problem plane = gm_problem_linear;
+    facets.volume = NULL;
+    plane.facets = &facets;
+    plane.parameters = matrix;
+    if (scheme->family->own_time) {
+        return GM_TEST_NONE;
+    }
+    return gm_scheme_fits(scheme, &plane)                   ? GM_TEST_PLANE
+           : gm_scheme_fits(scheme, &gm_problem_oscillator) ? GM_TEST_OSCILLATOR
+                                                            : GM_TEST_NONE;
+}
+
+/* |y| after `steps` steps from y, all of length h. */
+static double grown(const struct gm_problem *problem, const struct gm_scheme *scheme, double h,
+                    const double *y, long steps, double *end)
+{
+    const struct gm_settings settings = {.binding = 20, .tau0 = 0.1};
+    struct gm_run *run = gm_run_open(problem, scheme, &settings, 0, h, y);
+    double size = NAN;
+    if (run) {
+        run->limit = 1e200;
+        if (gm_run_advance(run, steps) == GM_OK) {
+            size = 0;
+            for (size_t i = 0; i < problem->n; i++) {
+                size = hypot(size, gm_run_state(run)[i]);
+                end[i] = gm_run_state(run)[i];
+            }
+        }
+    }
+    gm_run_close(run);
+    return size;
+}
+
+static double spectral_radius(double a, double b, double c, double d)
+{
+    const double half = (a + d) / 2, determinant = a * d - b * c, square = half * half - determinant;
+    return square < 0 ? sqrt(determinant) : fabs(half) + sqrt(square);
+}
+
+double gm_linear_growth(const struct gm_scheme *scheme, double re, double im, long steps)
+{
+    switch (gm_linear_test_of(scheme)) {
+    case GM_TEST_PLANE: {
+        /* the third component stays where it is, at 0 */
+        const double matrix[9] = {re, -im, 0, im, re, 0, 0, 0, 0}, y[3] = {1, 0, 0};
+        double end[3];
+        struct gm_problem problem = gm_problem_linear;
+        problem.parameters = matrix;
+        return pow(grown(&problem, scheme, 1, y, steps, end), 1 / (double)steps);
+    }
+    case GM_TEST_OSCILLATOR: {
+        /* the oscillator of frequency 1 with the step w, that is h w; the matrix of one step by its
+           columns */
+        const double first[2] = {1, 0}, second[2] = {0, 1};
+        double one[2], two[2];
+        if (!isfinite(grown(&gm_problem_oscillator, scheme, im, first, 1, one)) ||
+            !isfinite(grown(&gm_problem_oscillator, scheme, im, second, 1, two))) {
+            return NAN;
+        }
+        return spectral_radius(one[0], two[0], one[1], two[1]);
+    }
+    case GM_TEST_NONE:
+        break;
+    }
+    return NAN;
+}
+
+/* R(z) of one tableau: Gaussian elimination of (1 - z A) k = 1. */
+static double complex stability_function(int stages, const double *a, size_t row, const double *b,
+                                         double complex z)
+{
+    double complex matrix[STAGES][STAGES], k[STAGES];
+    for (int i = 0; i < stages; i++) {
+        k[i] = 1;
+        for (int j = 0; j < stages; j++) {
+            matrix[i][j] = (i == j ? 1 : 0) - z * a[(size_t)i * row + (size_t)j];
+        }
+    }
+    for (int p = 0; p < stages; p++) {
+        int pivot = p;
+        for (int i = p + 1; i < stages; i++) {
+            pivot = cabs(matrix[i][p]) > cabs(matrix[pivot][p]) ? i : pivot;
+        }
+        for (int j = 0; j < stages; j++) {
+            const double complex swap = matrix[p][j];
+            matrix[p][j] = matrix[pivot][j];
+            matrix[pivot][j] = swap;
+        }
+        const double complex swap = k[p];
+        k[p] = k[pivot];
+        k[pivot] = swap;
+        for (int i = p + 1; i < stages; i++) {
+            const double complex factor = matrix[i][p] / matrix[p][p];
+            for (int j = p; j < stages; j++) {
+                matrix[i][j] -= factor * matrix[p][j];
+            }
+            k[i] -= factor * k[p];
+        }
+    }
+    double complex sum = 1;
+    for (int i = stages - 1; i >= 0; i--) {
+        for (int j = i + 1; j < stages; j++) {
+            k[i] -= matrix[i][j] * k[j];
+        }
+        k[i] /= matrix[i][i];
+        sum += z * b[i] * k[i];
+    }
+    return sum;
+}
+
+/* A composition of shears of the oscillator of frequency w, step 1. */
+static double splitting_radius(const struct gm_splitting_row *row, double w)
+{
+    struct gm_splitting made;
+    const struct gm_splitting *table = gm_splitting_of(row, &made);
+    double columns[2][2] = {{1, 0}, {0, 1}}; /* (q, p) of the two starts */
+    for (int i = 0; i < table->count; i++) {
+        const double c = table->pieces[i].fraction * w;
+        for (int k = 0; k < 2; k++) {
+            double *q = &columns[k][0], *p = &columns[k][1];
+            if (table->pieces[i].piece == GM_DRIFT) {
+                *q += c * *p;
+            } else {
+                *p -= c * *q;
+            }
+        }
+    }
+    return spectral_radius(columns[0][0], columns[1][0], columns[0][1], columns[1][1]);
+}
+
+double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double im)
+{
+    const double complex z = re + im * I;
+    if (scheme->family == &gm_family_explicit_runge_kutta) {
+        static const struct gm_explicit_tableau *const tableaus[GM_EXPLICIT_COUNT] = {
+#define GM_EXPLICIT(identifier, ...) &gm_explicit_##identifier,
+#include "core/ode/families/explicit_runge_kutta.def"
+#undef GM_EXPLICIT
+        };
+        const struct gm_explicit_tableau *tableau =
+            tableaus[*(const enum gm_explicit_row *)scheme->coefficients];
+        return cabs(stability_function(tableau->stages, tableau->a[0], GM_EXPLICIT_STAGES, tableau->b, z));
+    }
+    if (scheme->family == &gm_family_implicit_runge_kutta) {
+        const struct gm_implicit_row *row = scheme->coefficients;
+        double complex product = 1;
+        for (int i = 0; i < row->composition->steps; i++) {
+            product *= stability_function(row->stages, row->a[0], GM_IMPLICIT_STAGES, row->b,
+                                          gm_composition_fraction(row->composition, i) * z);
+        }
+        return cabs(product);
+    }
+    return scheme->family == &gm_family_splitting ? splitting_radius(scheme->coefficients, im) : NAN;
+}
+
+/* What a step adds to 1 at the distance x. */
+static double excess(const struct gm_scheme *scheme, double re, double im, double x, long steps)
+{
+    const double growth = gm_linear_growth(scheme, x * re, x * im, steps);
+    return isnan(growth) ? INFINITY : growth - 1;
+}
+
+double gm_linear_limit(const struct gm_scheme *scheme, double re, double im, double reach, long steps)
+{
+    enum { SAMPLES = 5000, HALVINGS = 40 };
+    const double rounding = 1e-7, noise = 1e-12;
+    double inside = 0, outside = 0;
+    for (int i = 1; i <= SAMPLES && outside == 0; i++) {
+        const double x = reach * i / SAMPLES;
+        if (excess(scheme, re, im, x, steps) > rounding) {
+            outside = x;
+        } else {
+            inside = x;
+        }
+    }
+    if (outside == 0) {
+        return reach;
+    }
+    /* towards 0 by factors of sqrt 2, until rounding is reached or growth ends */
+    double before = excess(scheme, re, im, outside, steps);
+    for (double x = outside / sqrt(2);; x /= sqrt(2)) {
+        const double now = excess(scheme, re, im, x, steps);
+        if (now <= noise) {
+            if (before < rounding / 10) {
+                return 0;
+            }
+            break;
+        }
+        if (!(now < before)) {
+            break;
+        }
+        before = now;
+    }
+    for (int i = 0; i < HALVINGS; i++) {
+        const double middle = (inside + outside) / 2;
+        if (excess(scheme, re, im, middle, steps) > rounding) {
+            outside = middle;
+        } else {
+            inside = middle;
+        }
+    }
+    return inside;
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One pass of core/ode/families/over_kernels.c: the lane type, the problem's kernels, every family's loop. */
+
+#include "core/ode/kernel/lane.h"
+
+#include GM_KERNELS
+
+#ifdef GM_SEPARABLE
+GM_INLINE void K(field)(const real *y, real *f, const void *parameters)
+{
+    K(velocity)(y + GM_COMPONENTS / 2, f, parameters);
+    K(force)(y, f + GM_COMPONENTS / 2, parameters);
+}
+#endif
+
+#include "core/ode/kernel/block.h"
+
+#include "core/ode/families/explicit_runge_kutta.loop.h"
+#include "core/ode/families/implicit_runge_kutta.loop.h"
+#ifdef GM_SEPARABLE
+#include "core/ode/families/splitting.loop.h"
+#endif
+
+#undef real
+#undef mask
+#undef GM_LANES
+#undef K
