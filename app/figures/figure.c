@@ -397,10 +397,6 @@ static int make(const struct gm_figure_job *job, const struct gm_figure_output *
     if (status == GM_EXIT_OK) {
         take_numbers(job, request, lanes, outcome);
     }
-    if (gm_memory_was_short()) { /* the process that makes a figure is not the one that tells */
-        snprintf(outcome->message, sizeof outcome->message, "not enough memory");
-        return GM_EXIT_MEMORY;
-    }
     return status;
 }
 
@@ -417,6 +413,12 @@ void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_outp
             gm_lane_close(lanes[i]);
         }
         gm_request_close(&request);
+    }
+    /* the process that makes a figure is not the one that tells; and whoever was refused memory may have made
+       something else of it: a lane that could not be opened, arguments that were not read */
+    if (gm_memory_was_short() && outcome->status != GM_EXIT_INTERRUPTED) {
+        snprintf(outcome->message, sizeof outcome->message, "not enough memory");
+        outcome->status = GM_EXIT_MEMORY;
     }
     outcome->seconds = gm_clock_seconds() - begin;
     outcome->progress = outcome->status == GM_EXIT_OK ? GM_MADE : GM_NOT_MADE;
