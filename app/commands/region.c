@@ -13,7 +13,7 @@
 #include "app/request/drive.h"
 #include "app/request/nearest.h"
 #include "core/memory.h"
-#include "core/ode/linear_stability.h"
+#include "core/ode/certify/linear_stability.h"
 
 enum { SIDE = 121, LINE = 601 };
 

@@ -83,13 +83,6 @@ const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t
 struct gm_flow *gm_flow_open(struct gm_complex *complex);
 void gm_flow_close(struct gm_flow *flow);
 
-/* The start without vorticity: K psi = 0 inside. Vertices of soft outlets have omega = 0. False when memory
-   is short or the boundary leaves psi undetermined. */
-bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y);
-/* The start from vorticity at the vertices, on a closed surface or between slip walls: K psi = star0 omega,
-   omega less its mean on a closed surface. */
-bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y);
-
 /* psi interpolated to the circumcentre of a triangle, and the flux through the dual of an edge. */
 double gm_flow_psi_centre(const struct gm_complex *complex, const double *psi, size_t triangle);
 double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge);

@@ -77,7 +77,8 @@ struct gm_ode {
     const struct gm_fast_linear *fast_linear;
     const struct gm_kepler_split *kepler_split;
     const struct gm_volume *volume;
-    const struct gm_loops *loops[GM_ISA_COUNT]; /* made of the problem's kernels by core/ode/kernel/loops.c */
+    /* made of the problem's kernels by core/ode/families/over_kernels.c */
+    const struct gm_loops *loops[GM_ISA_COUNT];
 };
 
 extern const struct gm_kind gm_kind_ode;

@@ -11,9 +11,9 @@
        figure 13   twice the time step, where the energy-conserving scheme blows up */
 #include <math.h>
 
+#include "core/field/families/wave_laws.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "core/field/wave_laws.h"
 #include "scenes/field/field.h"
 
 struct scene {

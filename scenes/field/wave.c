@@ -13,8 +13,8 @@
    cell along exact waves, and the rank of the system. */
 #include <math.h>
 
+#include "core/field/families/wave_laws.h"
 #include "core/field/problems/wave.h"
-#include "core/field/wave_laws.h"
 #include "scenes/field/field.h"
 
 struct scene {

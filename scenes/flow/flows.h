@@ -4,8 +4,9 @@
 
 #include "core/flow/boundary.h"
 #include "core/flow/flow.h"
-#include "core/flow/gmsh/gmsh.h"
+#include "core/flow/gmsh.h"
 #include "core/flow/rectangle.h"
+#include "core/flow/start.h"
 #include "scenes/frame/lane.h"
 
 /* What the scenes of flows on complexes have in common: room, channel, couette, poiseuille, cavity,

@@ -3,7 +3,7 @@
 #define GM_TESTS_COMMON_MESHES_H
 
 #include "core/flow/boundary.h"
-#include "core/flow/gmsh/gmsh.h"
+#include "core/flow/gmsh.h"
 
 /* Files of tests/meshes. GM_MESHES, that folder, comes from the build. */
 

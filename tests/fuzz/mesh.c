@@ -3,7 +3,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "core/flow/gmsh/gmsh.h"
+#include "core/flow/gmsh.h"
 
 /* The reader of Gmsh files against any bytes: a mesh whose parts agree, or a fault that says why. */
 

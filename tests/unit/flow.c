@@ -13,8 +13,9 @@
 #include <cmocka.h>
 
 #include "core/flow/boundary.h"
-#include "core/flow/gmsh/gmsh.h"
+#include "core/flow/gmsh.h"
 #include "core/flow/rectangle.h"
+#include "core/flow/start.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/meshes.h"

@@ -15,7 +15,7 @@
 #include "app/studies/stability.h"
 #include "app/studies/work.h"
 #include "core/flow/flow.h"
-#include "core/ode/linear_stability.h"
+#include "core/ode/certify/linear_stability.h"
 #include "core/schemes.h"
 #include "tests/common/laboratory.h"
 

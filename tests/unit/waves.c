@@ -10,11 +10,11 @@
 
 #include <cmocka.h>
 
+#include "core/field/families/wave_laws.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "core/field/wave_laws.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/dispersive_solitons.h"

@@ -115,8 +115,9 @@ static void jacobian(void *context, struct gm_ring_band *matrix)
     }
 }
 
-enum gm_status gm_box_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
-                           const double *past, const double *now, double *next, struct gm_progress *progress)
+static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                               const double *past, const double *now, double *next,
+                               struct gm_progress *progress)
 {
     enum { MOST = 30 }; /* which cost what Newton's method does, 5 solves: reached for dt > 1 */
     const size_t points = work->points;
@@ -165,7 +166,7 @@ enum gm_status gm_box_step(struct gm_two_step_work *work, const struct gm_proble
     return gm_ring_newton_solve(&work->newton, &equations, next, progress);
 }
 
-static const struct gm_two_step_row row = {.step = gm_box_step, .start = gm_wave_start, .law = GM_LAW_CELLS};
+static const struct gm_two_step_row row = {.step = box_step, .start = gm_wave_start, .law = GM_LAW_CELLS};
 
 static bool is_wave(const struct gm_problem *problem)
 {

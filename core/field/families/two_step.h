@@ -41,9 +41,6 @@ struct gm_two_step_row {
     bool keeps_change; /* work->change is the scheme's memory */
 };
 
-/* GM_LAW_NONE for schemes of other families. */
-enum gm_wave_law gm_wave_law_of(const struct gm_scheme *scheme);
-
 /* Advances a wave problem by a scheme of two steps. */
 struct gm_progress gm_two_step_advance(const struct gm_task *task);
 void *gm_two_step_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
@@ -55,8 +52,5 @@ static inline void gm_line_close(double *level, size_t points, double jump)
     level[-1] = level[points - 1] - jump;
     level[points] = level[0] + jump;
 }
-
-/* The nine-point box (core/field/families/box.c). */
-gm_two_step gm_box_step;
 
 #endif

@@ -14,8 +14,8 @@
 #include <string.h>
 
 #include "core/field/families/two_step.h"
+#include "core/field/families/wave_levels.h"
 #include "core/field/multisymplectic.h"
-#include "core/field/wave_levels.h"
 #include "core/linear/differences.h"
 #include "core/linear/ring.h"
 
@@ -354,7 +354,7 @@ double gm_wave_form(const struct gm_problem *problem, const struct gm_scheme *sc
                     const double *y, const double *memory, bool by_differences)
 {
     const size_t points = problem->line.points;
-    const enum gm_wave_law law = gm_wave_law_of(scheme);
+    const enum gm_wave_law law = ((const struct gm_two_step_row *)scheme->coefficients)->law;
     struct base base = {.problem = problem, .scheme = scheme, .dt = dt};
     double residual = NAN;
     double *arrays = calloc((2 * ARRAYS + 2) * points, sizeof *arrays);

@@ -4,7 +4,7 @@
 
 #include "core/scheme.h"
 
-/* What certify.c is made of: the problems that schemes are certified on, and the measurements. */
+/* What kind.c certifies by: the problems that schemes are certified on, and the measurements. */
 
 enum { GM_SUBJECT_COMPONENTS = 12, GM_SUBJECT_INVARIANTS = 2 };
 

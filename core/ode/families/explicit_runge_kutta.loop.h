@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The explicit Runge-Kutta family over a problem's kernels, for one pass; see core/ode/kernel/pass.h. */
+/* The explicit Runge-Kutta family over a problem's kernels, for one pass; see core/ode/families/pass.h. */
 
 GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struct K(block) * block, double h,
                                 const void *parameters, bool compensated, bool stiff,

@@ -12,14 +12,6 @@
 
 enum { GM_PASSIVE_BLOCK = 64 };
 
-void *gm_explicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
-gm_loop gm_explicit_any_loop;
-
-void *gm_implicit_any_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
-gm_loop gm_implicit_any_loop;
-
-/* Both workspaces are closed by free. */
-
 /* The active components: n * m less the passive block. */
 static inline size_t gm_active_count(const struct gm_problem *problem)
 {

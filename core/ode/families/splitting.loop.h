@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The splitting family over a problem's kernels, for one pass; see core/ode/kernel/pass.h. The table is read
-   at run time: a row is data. */
+/* The splitting family over a problem's kernels, for one pass; see core/ode/families/pass.h. The table is
+   read at run time: a row is data. */
 
 /* The force is kept from the last kick of a step to the first of the next, where q has not moved between, and
    is counted once, even where a call ends in between and it is computed again. */

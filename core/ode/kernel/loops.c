@@ -1,101 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every family's loop over one problem's kernels, for single runs and for ensembles. The build compiles this
-   file once for each problem and instruction set, with
-       GM_KERNELS   the problem's kernels ("core/ode/problems/pendulum.kernel.h")
-       GM_PROBLEM   its name (pendulum)
-       GM_ISA       the instruction set's name (baseline, avx2, avx512); the flags are set to match
-   The kernel file is included for each pass, over the lane type `real`. It defines
-       GM_COMPONENTS   n, a constant
-       GM_SEPARABLE    if H = T(p) + V(q)
-   and the kernels
-       separable   K(velocity)(p, dq, parameters), K(force)(q, dp, parameters)
-       otherwise   K(field)(y, f, parameters)
-       both        K(jacobian)(y, J, parameters), J[row][column] = d f_row / d y_column, in the scalar pass
-   The operations, and so the bits, are the same for every instruction set: nothing is contracted. */
-
+/* Which instruction set this machine has, asked when the program runs: one binary serves all. */
 #include "core/ode/kernel/loops.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <stdint.h>
-#include <string.h>
-
-#include "core/ode/families/explicit_runge_kutta.h"
-#include "core/ode/families/implicit_runge_kutta.h"
-#include "core/ode/families/splitting.h"
-#include "core/scheme.h"
-
-#define GM_INLINE static inline __attribute__((always_inline, unused))
-
-/* A lane type as wide as a register: wider ones live in memory (measured: four times slower). */
-#if defined(__AVX512F__)
-enum { GM_WIDTH = 8 };
-#elif defined(__AVX2__)
-enum { GM_WIDTH = 4 };
-#else
-enum { GM_WIDTH = 2 };
-#endif
-/* Steps between two looks at whether they succeeded. */
-enum { GM_BURST = 16 };
-typedef double gm_lanes __attribute__((vector_size(GM_WIDTH * 8)));
-typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
-
-#define GM_PASS_SCALAR
-#include "core/ode/kernel/pass.h"
-#undef GM_PASS_SCALAR
-#include "core/ode/kernel/pass.h"
-
-/* One run takes the scalar loops, an ensemble the loops over lanes. A single run gains nothing from wide
-   registers, so its loops are those of the baseline alone. */
-#ifdef GM_BASELINE
-#define GM_DISPATCH(family)                                                                                  \
-    static struct gm_progress family##_loop(const struct gm_task *task)                                      \
-    {                                                                                                        \
-        return task->problem->m == 1 ? family##_run_scalar(task) : family##_run_lanes(task);                 \
-    }
-#else
-#define GM_DISPATCH(family)                                                                                  \
-    static struct gm_progress family##_loop(const struct gm_task *task)                                      \
-    {                                                                                                        \
-        return family##_run_lanes(task);                                                                     \
-    }
-#endif
-GM_DISPATCH(explicit_runge_kutta)
-GM_DISPATCH(implicit_runge_kutta)
-#ifdef GM_SEPARABLE
-GM_DISPATCH(splitting)
-#endif
-
-static void field(const struct gm_problem *problem, const double *y, double *f, size_t m)
+enum gm_isa gm_isa_best(void)
 {
-    for (size_t i = 0; i < m; i++) {
-        double state[GM_COMPONENTS], slope[GM_COMPONENTS];
-        for (int c = 0; c < GM_COMPONENTS; c++) {
-            state[c] = y[(size_t)c * m + i];
-        }
-        field_scalar(state, slope, problem->parameters);
-        for (int c = 0; c < GM_COMPONENTS; c++) {
-            f[(size_t)c * m + i] = slope[c];
-        }
+#ifdef GM_LOOPS_X86
+    __builtin_cpu_init();
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512cd")) {
+        return GM_ISA_AVX512;
     }
+    if (__builtin_cpu_supports("avx2")) {
+        return GM_ISA_AVX2;
+    }
+#endif
+    return GM_ISA_BASELINE;
 }
 
-static void jacobian(const struct gm_problem *problem, const double *y, double *rows)
+const char *gm_isa_name(enum gm_isa isa)
 {
-    double square[GM_COMPONENTS][GM_COMPONENTS];
-    jacobian_scalar(y, square, problem->parameters);
-    memcpy(rows, square, sizeof square);
+    static const char *const names[GM_ISA_COUNT] = {"baseline", "avx2", "avx512"};
+    return names[isa];
 }
 
-const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, GM_ISA) = {
-    .field = field,
-    .jacobian = jacobian,
-    .over_kernels =
-        {
-            [GM_OVER_EXPLICIT] = explicit_runge_kutta_loop,
-            [GM_OVER_IMPLICIT] = implicit_runge_kutta_loop,
-#ifdef GM_SEPARABLE
-            [GM_OVER_SPLITTING] = splitting_loop,
-#endif
-        },
-};
+void gm_field(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    gm_ode_of(problem)->loops[gm_isa_best()]->field(problem, y, f, m);
+}

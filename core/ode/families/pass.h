@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One pass of core/ode/kernel/loops.c: the lane type, the problem's kernels, every family's loop. */
+/* One pass of core/ode/families/over_kernels.c: the lane type, the problem's kernels, every family's loop. */
 
 #include "core/ode/kernel/lane.h"
 

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Certification of schemes for flows on complexes. Order: on an irregular torus against the semi-discrete
-   equations
-       d omega / dt = -(C(F) + nu K) omega / star0,
-   written here anew with a dense Poisson matrix and integrated by GSL. Claims: a room with inlet and soft
-   outlet, and the torus without viscosity. */
-#include "core/flow/certify.h"
+/* The wing of flows on complexes as the hall sees it: the families of schemes, and how those are certified. */
+#include "core/flow/flow.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,8 +9,11 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 
+#include "core/certify.h"
 #include "core/flow/boundary.h"
+#include "core/flow/families/families.h"
 #include "core/flow/rectangle.h"
+#include "core/flow/start.h"
 #include "core/memory.h"
 #include "core/run.h"
 
@@ -275,7 +274,8 @@ static void measure_room(const struct gm_scheme *scheme, struct gm_certificate *
     gm_flow_close(flow);
 }
 
-void gm_certify_flow(const struct gm_scheme *scheme, struct gm_certificate *certificate)
+/* Measures a scheme for flows on complexes: fills the certificate's order and claims. */
+static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     if (scheme->order > 0) {
         measure_order(scheme, certificate);
@@ -287,3 +287,17 @@ void gm_certify_flow(const struct gm_scheme *scheme, struct gm_certificate *cert
     }
     measure_room(scheme, certificate);
 }
+
+static const struct gm_family *const families[] = {
+#define GM_FAMILY(name) &gm_family_##name,
+#include "core/flow/families/families.def"
+#undef GM_FAMILY
+    NULL,
+};
+
+const struct gm_kind gm_kind_flow = {
+    .name = "flow",
+    .problems = "flows on a mesh",
+    .certify = certify,
+    .families = families,
+};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FIELD_WAVE_LEVELS_H
-#define GM_CORE_FIELD_WAVE_LEVELS_H
+#ifndef GM_CORE_FIELD_FAMILIES_WAVE_LEVELS_H
+#define GM_CORE_FIELD_FAMILIES_WAVE_LEVELS_H
 
 #include "core/field/field.h"
 
@@ -11,8 +11,8 @@ struct gm_levels {
     const double *v_past, *v_now, *v_next; /* u_t, of a scheme that keeps it in its memory; else NULL */
 };
 
-/* From the state `y` and the scheme's memory, by a step ahead, two at the start. False where memory is short
-   or the step fails. */
+/* From the state `y` and the memory of a scheme whose row is a struct gm_two_step_row, by a step ahead, two
+   at the start. False where memory is short or the step fails. */
 bool gm_levels_open(struct gm_levels *levels, const struct gm_problem *problem,
                     const struct gm_scheme *scheme, double dt, const double *y, const double *memory);
 void gm_levels_close(struct gm_levels *levels);

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_MESH_SUBJECT_H
-#define GM_CORE_MESH_SUBJECT_H
+#ifndef GM_CORE_MESH_CERTIFY_SUBJECT_H
+#define GM_CORE_MESH_CERTIFY_SUBJECT_H
 
 #include "core/mesh/soliton.h"
 #include "core/scheme.h"
 
-/* What core/mesh/certify.c is made of: one soliton on a few nodes, and derivatives along its motions. */
+/* What schemes on meshes are certified on: one soliton on a few nodes, and derivatives along its motions. */
 
 enum {
-    GM_MESH_SUBJECT_STATE = 28, /* numbers of a state, at most */
-    GM_MESH_OBSERVED = 72,      /* numbers that are differentiated together, at most */
+    GM_MESH_SUBJECT_POINTS = 7, /* of the mesh, at most */
+    GM_MESH_SUBJECT_STATE = 4 * GM_MESH_SUBJECT_POINTS,
+    GM_MESH_OBSERVED = 72, /* numbers that are differentiated together, at most */
 };
 
 struct gm_mesh_subject {
@@ -24,6 +25,9 @@ struct gm_mesh_step {
     double dt;
 };
 
+/* A mesh of `points` nodes for a scheme, with its start; false where memory is short. */
+bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, long points);
+
 /* Steps of a run that starts from the state `from`; false if it fails. */
 bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
                              long steps, const double *from, double *end);
@@ -37,8 +41,5 @@ typedef bool gm_mesh_observe(const struct gm_mesh_subject *subject, const void *
    run fails. */
 bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
                             gm_mesh_observe *observe, const void *context, size_t count, double *derivative);
-
-/* The defect of the local law that core/mesh/law.c states; NaN where it does not apply. */
-double gm_mesh_law_defect(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt);
 
 #endif

@@ -1,20 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Certification of schemes for fields on a line. Each equation is a subject, on which every claim is measured
-   that its data allow: an exact solution, a multisymplectic form, invariants, symmetries. */
-#include "core/field/certify.h"
+/* The wing of fields in one space dimension as the hall sees it: its facets, the families of schemes that
+   need them, and how those are certified. */
+#include "core/field/field.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/certify.h"
 #include "core/field/families/burgers.h"
 #include "core/field/families/families.h"
+#include "core/field/families/wave_laws.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "core/field/wave_laws.h"
 #include "core/run.h"
+
+static unsigned facets(const struct gm_problem *problem)
+{
+    const struct gm_field *field = gm_field_of(problem);
+    return (field->form ? GM_NEEDS_FORM : 0) | (field->wave ? GM_NEEDS_WAVE : 0) | field->equation;
+}
+
+static const struct gm_facet_words words[] = {
+    {GM_NEEDS_BURGERS, "Burgers' equation", "Burgers' equation"},
+    {GM_NEEDS_KDV, "the Korteweg-de Vries equation", "the Korteweg-de Vries equation"},
+    {GM_NEEDS_NLS, "the nonlinear Schrödinger equation", "the nonlinear Schrödinger equation"},
+    {GM_NEEDS_WAVE, "a wave equation", "wave equations"},
+    {GM_NEEDS_FORM, "a multisymplectic form", "multisymplectic equations"},
+    {0},
+};
 
 static void note_order(struct gm_certificate *certificate, double *farthest, double order,
                        const char *problem)
@@ -342,7 +358,10 @@ static void certify_burgers(struct gm_certificate *certificate, double *farthest
                         name);
 }
 
-void gm_certify_field(const struct gm_scheme *scheme, struct gm_certificate *certificate)
+/* Measures the claims of a scheme for fields on a line, on every equation that it fits: order against exact
+   solutions (Burgers: in time, by itself), the multisymplectic law, energy, mass and charge, return after a
+   reversed step, equivariance under boosts and projections. */
+static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     (void)scheme; /* the certificate's */
     double farthest = -1;
@@ -352,3 +371,19 @@ void gm_certify_field(const struct gm_scheme *scheme, struct gm_certificate *cer
     certify_burgers(certificate, &farthest);
     certificate->order_holds = farthest >= 0 && farthest < 0.15;
 }
+
+static const struct gm_family *const families[] = {
+#define GM_FAMILY(name) &gm_family_##name,
+#include "core/field/families/families.def"
+#undef GM_FAMILY
+    NULL,
+};
+
+const struct gm_kind gm_kind_field = {
+    .name = "field",
+    .problems = "waves on a line",
+    .words = words,
+    .facets = facets,
+    .certify = certify,
+    .families = families,
+};

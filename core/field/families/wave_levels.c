@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The three levels that the laws of a wave problem speak of, where the state holds two: a step is made
    aside. */
-#include "core/field/wave_levels.h"
+#include "core/field/families/wave_levels.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +17,8 @@ bool gm_levels_open(struct gm_levels *levels, const struct gm_problem *problem,
                     const struct gm_scheme *scheme, double dt, const double *y, const double *memory)
 {
     const size_t points = problem->line.points, size = gm_wave_size(points);
-    const bool at_start = y[2 * points] != -dt, centred = gm_wave_law_of(scheme) == GM_LAW_CENTRED;
+    const struct gm_two_step_row *row = scheme->coefficients;
+    const bool at_start = y[2 * points] != -dt, centred = row->law == GM_LAW_CENTRED;
     double *out = malloc((size + 2 * points) * sizeof *out);
     void *work = scheme->family->workspace_open(problem, scheme);
     const struct gm_task task = {

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/field/families/gauss_box.h"
+#include "core/field/families/gauss_modes.h"
 
 void gm_gauss_close(void *workspace)
 {

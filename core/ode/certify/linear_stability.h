@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_ODE_LINEAR_STABILITY_H
-#define GM_CORE_ODE_LINEAR_STABILITY_H
+#ifndef GM_CORE_ODE_CERTIFY_LINEAR_STABILITY_H
+#define GM_CORE_ODE_CERTIFY_LINEAR_STABILITY_H
 
 #include "core/scheme.h"
 

@@ -14,13 +14,14 @@
    before, the multipliers the best that the places allow: nothing is taken from the scheme but where the
    nodes are. Tyranowski & Desbrun (2019), sections 4.2 and 4.3, eqs. 154-155; J.E. Marsden, G.W. Patrick &
    S. Shkoller, Commun. Math. Phys. 199 (1998) 351. */
+#include "core/mesh/certify/law.h"
+
 #include <assert.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
 #include "core/mesh/nodes.h"
-#include "core/mesh/subject.h"
 
 enum { POINTS = 3, ELEMENTS = POINTS + 1, DIRECTIONS = 2 * POINTS };
 

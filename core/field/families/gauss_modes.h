@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FIELD_FAMILIES_GAUSS_BOX_H
-#define GM_CORE_FIELD_FAMILIES_GAUSS_BOX_H
+#ifndef GM_CORE_FIELD_FAMILIES_GAUSS_MODES_H
+#define GM_CORE_FIELD_FAMILIES_GAUSS_MODES_H
 
-#include "core/field/families/families.h"
+#include "core/field/field.h"
 #include "core/linear/fourier.h"
 
-/* Gauss-Legendre collocation on a ring by Fourier modes: what the scheme, in gauss_box.c, and its law, in
-   gauss_box_form.c, share. Values at the stages are [stage * points + cell]. */
+/* Gauss-Legendre collocation on a ring by Fourier modes: a step of the scheme (gauss_box.c) and of a
+   tangent. Values at the stages are [stage * points + cell]. */
 
 #define GM_ROOT3 1.7320508075688772935
 
@@ -75,9 +75,5 @@ void gm_gauss_to_stages(struct gm_gauss_work *work, const struct gm_line *line, 
 
 /* Takes out the branch without a derivative of two stages: both get the same mean over the ring. */
 void gm_gauss_share_mean(double *stages, size_t points);
-
-/* The family's discrete multisymplectic law, as struct gm_family says of `form`. */
-double gm_gauss_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                     const double *y, const double *memory, bool by_differences);
 
 #endif

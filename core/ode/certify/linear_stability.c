@@ -3,7 +3,7 @@
    function with the tableau A, b,
        R(z) = 1 + z b' (I - z A)^-1 (1, ..., 1)'.
    E. Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), IV.2, IV.3. */
-#include "core/ode/linear_stability.h"
+#include "core/ode/certify/linear_stability.h"
 
 #include <complex.h>
 #include <math.h>

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Energy and momentum of u_tt - u_xx + V'(u) = 0 on a grid, and by how much a scheme's step fails their local
    laws. */
-#include "core/field/wave_laws.h"
+#include "core/field/families/wave_laws.h"
 
 #include <math.h>
 
+#include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
-#include "core/field/wave_levels.h"
+#include "core/field/families/wave_levels.h"
 
 /* Node i + by of a level, around the ring. */
 static double at(const struct gm_line *line, const double *level, size_t i, int by)
@@ -70,10 +71,19 @@ double gm_wave_cell_energy(const struct gm_problem *problem, const double *y)
     return line->dx * sum;
 }
 
+/* GM_LAW_NONE for schemes of other families. */
+static enum gm_wave_law law_of(const struct gm_scheme *scheme)
+{
+    const struct gm_two_step_row *row = scheme->coefficients;
+    const struct gm_scheme *rows = scheme->family->schemes;
+    const bool has_row = rows == gm_family_wave_nodes.schemes || rows == gm_family_box.schemes ||
+                         rows == gm_family_midpoint_box.schemes;
+    return has_row ? row->law : GM_LAW_NONE;
+}
+
 double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y)
 {
-    return gm_wave_law_of(scheme) == GM_LAW_CELLS ? gm_wave_cell_energy(problem, y)
-                                                  : gm_wave_energy(problem, y);
+    return law_of(scheme) == GM_LAW_CELLS ? gm_wave_cell_energy(problem, y) : gm_wave_energy(problem, y);
 }
 
 double gm_wave_momentum(const struct gm_problem *problem, const double *y)
@@ -105,7 +115,7 @@ static double cell_law(const struct gm_wave *wave, double a, double b, double st
 double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                                const double *y)
 {
-    const enum gm_wave_law kind = gm_wave_law_of(scheme);
+    const enum gm_wave_law kind = law_of(scheme);
     if (kind != GM_LAW_NODES && kind != GM_LAW_CELLS) {
         return NAN;
     }
@@ -135,7 +145,7 @@ double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm
 double gm_wave_momentum_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                                  const double *y)
 {
-    const enum gm_wave_law kind = gm_wave_law_of(scheme);
+    const enum gm_wave_law kind = law_of(scheme);
     if (kind != GM_LAW_NODES && kind != GM_LAW_CELLS) {
         return NAN;
     }

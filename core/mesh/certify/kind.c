@@ -1,40 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Certification of schemes on moving meshes, on one soliton and a few nodes. */
-#include "core/mesh/certify.h"
+/* The wing of fields on moving meshes as the hall sees it: the families of schemes, and how those are
+   certified. */
+#include "core/mesh/moving_mesh.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "core/certify.h"
+#include "core/mesh/certify/law.h"
+#include "core/mesh/certify/subject.h"
+#include "core/mesh/families/families.h"
 #include "core/mesh/nodes.h"
-#include "core/mesh/subject.h"
 #include "core/run.h"
 
-enum { POINTS = 3, FINE_POINTS = 7, MOST = GM_MESH_SUBJECT_STATE, LEVELS = 4 };
+enum { POINTS = 3, FINE_POINTS = GM_MESH_SUBJECT_POINTS, MOST = GM_MESH_SUBJECT_STATE };
 
 static const struct gm_settings settings = {0};
-
-static bool open_subject(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, long points)
-{
-    subject->soliton =
-        (struct gm_soliton){.solitons = 1, .points = points, .velocity = 0.5, .length = 12, .alpha = 1};
-    gm_soliton_problem(&subject->soliton, &subject->problem);
-    gm_moving_mesh_of(&subject->problem)->describe(&subject->problem, &subject->mesh);
-    return gm_mesh_start(&subject->mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &subject->soliton,
-                         subject->start);
-}
-
-bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
-                             long steps, const double *from, double *end)
-{
-    struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, from);
-    if (!run) {
-        return false;
-    }
-    const bool good = gm_run_advance(run, steps) == GM_OK;
-    memcpy(end, gm_run_state(run), subject->problem.n * sizeof *end);
-    gm_run_close(run);
-    return good;
-}
 
 static double distance(const double *a, const double *b, size_t n)
 {
@@ -52,7 +33,7 @@ static double measure_order(const struct gm_scheme *scheme)
     enum { LADDER = 7 };
     const double until = 1, round_off = 1e-10;
     struct gm_mesh_subject subject;
-    if (!open_subject(&subject, scheme, FINE_POINTS)) {
+    if (!gm_mesh_subject_open(&subject, scheme, FINE_POINTS)) {
         return NAN;
     }
     const size_t half = subject.problem.n / 2;
@@ -133,40 +114,6 @@ static void momenta(const struct gm_mesh_subject *subject, const double *state, 
     gm_elements_close(&stage);
 }
 
-/* The state near the start whose y and dy/dt are shifted, and X and dX/dt follow as the constraint says. */
-static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction, double by,
-                  double *state)
-{
-    const size_t points = subject->mesh.points;
-    memcpy(state, subject->start, 4 * points * sizeof *state);
-    state[direction < points ? direction : points + direction] += by;
-    if (kind == GM_MESH_UNIFORM) {
-        return true;
-    }
-    struct gm_elements stage;
-    struct gm_banded matrix;
-    double change[FINE_POINTS];
-    if (!gm_elements_open(&stage, &subject->mesh)) {
-        return false;
-    }
-    if (!gm_banded_open(&matrix, points, 1)) {
-        gm_elements_close(&stage);
-        return false;
-    }
-    gm_elements_place(&stage, state);
-    bool good = gm_nodes_equidistribute(&stage, &subject->mesh, NULL, NULL, &matrix, change);
-    if (good) {
-        /* dX/dt for dy/dt given: no slope, the rate is dy/dt */
-        memcpy(state + points, stage.x + 1, points * sizeof *state);
-        memcpy(stage.v + 1, state + 2 * points, points * sizeof *state);
-        memset(stage.u, 0, (points + 2) * sizeof *stage.u);
-        good = gm_nodes_set_in_motion(&stage, &matrix, state + 3 * points);
-    }
-    gm_banded_close(&matrix);
-    gm_elements_close(&stage);
-    return good;
-}
-
 static double form(const double *a, const double *b, size_t points)
 {
     double sum = 0;
@@ -174,35 +121,6 @@ static double form(const double *a, const double *b, size_t points)
         sum += a[i] * b[2 * points + i] - b[i] * a[2 * points + i];
     }
     return sum;
-}
-
-bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
-                            gm_mesh_observe *observe, const void *context, size_t count, double *derivative)
-{
-    const double widest = 0.05;
-    double table[LEVELS][GM_MESH_OBSERVED], sides[2][GM_MESH_OBSERVED], state[MOST];
-    for (int level = 0; level < LEVELS; level++) {
-        const double by = ldexp(widest, -level);
-        for (int side = 0; side < 2; side++) {
-            if (!shift(subject, kind, direction, side ? by : -by, state) ||
-                !observe(subject, context, state, sides[side])) {
-                return false;
-            }
-        }
-        for (size_t i = 0; i < count; i++) {
-            table[level][i] = (sides[1][i] - sides[0][i]) / (2 * by);
-        }
-    }
-    double power = 4;
-    for (int done = 1; done < LEVELS; done++, power *= 4) {
-        for (int level = LEVELS - 1; level >= done; level--) {
-            for (size_t i = 0; i < count; i++) {
-                table[level][i] += (table[level][i] - table[level - 1][i]) / (power - 1);
-            }
-        }
-    }
-    memcpy(derivative, table[LEVELS - 1], count * sizeof *derivative);
-    return true;
 }
 
 /* (q, p) before and after a step */
@@ -251,14 +169,19 @@ static double energy_drift(const struct gm_mesh_subject *subject, const struct g
     return fabs(gm_mesh_energy(&subject->mesh, state) - initial) / initial;
 }
 
-void gm_certify_mesh(const struct gm_scheme *scheme, struct gm_certificate *certificate)
+/* Measures a scheme on meshes by one soliton on a few nodes: the order, from differences between runs with
+   halved steps; return after a reversed step; the change of dy dp_y + dX dp_X over a step, on the states that
+   the mesh constraint allows; the energy; and the defect of the local law of the trapezoidal discrete
+   Lagrangian, or on a uniform mesh of that of the midpoint rule where it is less, over all stretches of the
+   mesh (not where the step varies). */
+static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     const double dt = 0.2;
     struct gm_mesh_subject subject;
     certificate->order = measure_order(scheme);
     certificate->order_problem = "soliton";
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
-    const bool open = open_subject(&subject, scheme, POINTS);
+    const bool open = gm_mesh_subject_open(&subject, scheme, POINTS);
     /* Equations on meshes are solved to 1e-11, no better: multipliers carry the round-off of the squared
        step; and two claims are derivatives. */
     const struct {
@@ -278,3 +201,17 @@ void gm_certify_mesh(const struct gm_scheme *scheme, struct gm_certificate *cert
         }
     }
 }
+
+static const struct gm_family *const families[] = {
+#define GM_FAMILY(name) &gm_family_##name,
+#include "core/mesh/families/families.def"
+#undef GM_FAMILY
+    NULL,
+};
+
+const struct gm_kind gm_kind_mesh = {
+    .name = "mesh",
+    .problems = "waves on moving meshes",
+    .certify = certify,
+    .families = families,
+};

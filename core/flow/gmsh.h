@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FLOW_GMSH_GMSH_H
-#define GM_CORE_FLOW_GMSH_GMSH_H
+#ifndef GM_CORE_FLOW_GMSH_H
+#define GM_CORE_FLOW_GMSH_H
 
 #include "core/flow/complex.h"
 

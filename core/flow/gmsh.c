@@ -1,0 +1,640 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gmsh's file format 4.1, ASCII (Geuzaine & Remacle, Int. J. Numer. Meth. Eng. 79 (2009) 1309; Gmsh's
+   reference manual, "MSH file format"): from the text by tables of its
+   sections to a complex with names on its edges. */
+#include "core/flow/gmsh.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A Gmsh file on its way to a mesh: its text, and the tables that are made of its sections. */
+
+/* At most so many nodes, elements and entities are read. */
+enum { MOST = 5000000 };
+
+struct node {
+    long tag;
+    double x, y, z;
+    long line;
+    int vertex; /* -1: unused */
+};
+
+struct element {
+    long nodes[3];
+    long line;
+    long entity; /* of a line */
+};
+
+struct curve {
+    long tag, physical;
+};
+
+struct reader {
+    const char *at, *end;
+    long line;
+    struct gm_triangulation_fault *fault;
+    const char *section;
+    struct node *nodes;
+    struct element *triangles, *lines;
+    struct curve *curves;
+    struct gm_triangulation_group *groups;
+    size_t node_count, triangle_count, line_count, curve_count, group_count;
+};
+
+/* The text: words, numbers, counts. All return false with the reader's fault where the text is not what is
+   expected; `what` says in words what that is. Announced counts are believed only as far as the text is long.
+ */
+
+/* Sets the fault, at the present line; false. */
+static bool fail(struct reader *reader, enum gm_triangulation_fault_kind kind, const char *text)
+{
+    *reader->fault = (struct gm_triangulation_fault){.kind = kind, .line = reader->line};
+    snprintf(reader->fault->text, sizeof reader->fault->text, "%.*s", (int)sizeof reader->fault->text - 1,
+             text);
+    return false;
+}
+
+static bool fail_at_node(struct reader *reader, enum gm_triangulation_fault_kind kind, long line, long node)
+{
+    *reader->fault = (struct gm_triangulation_fault){.kind = kind, .line = line, .nodes = {node}};
+    return false;
+}
+
+/* Blanks and line ends, which are counted. */
+static void skip_blanks(struct reader *reader)
+{
+    while (reader->at < reader->end && isspace((unsigned char)*reader->at)) {
+        reader->line += *reader->at == '\n';
+        reader->at++;
+    }
+}
+
+/* The next word, at most size - 1 bytes of it; false, without a fault, at the end or where it is longer. */
+static bool take_word(struct reader *reader, char *word, size_t size)
+{
+    skip_blanks(reader);
+    size_t length = 0;
+    while (reader->at < reader->end && !isspace((unsigned char)*reader->at)) {
+        if (length + 1 >= size) {
+            return false;
+        }
+        word[length++] = *reader->at++;
+    }
+    word[length] = '\0';
+    return length > 0;
+}
+
+/* Whether nothing but blanks is left. */
+static bool at_end(struct reader *reader)
+{
+    skip_blanks(reader);
+    return reader->at >= reader->end;
+}
+
+static bool take_number(struct reader *reader, double *value, const char *what)
+{
+    char word[64], *rest = NULL;
+    if (at_end(reader)) {
+        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+    }
+    if (!take_word(reader, word, sizeof word)) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, what);
+    }
+    *value = strtod(word, &rest);
+    return (*rest == '\0' && isfinite(*value)) || fail(reader, GM_TRIANGULATION_SYNTAX, what);
+}
+
+static bool take_whole(struct reader *reader, long *value, const char *what)
+{
+    char word[32], *rest = NULL;
+    if (at_end(reader)) {
+        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+    }
+    if (!take_word(reader, word, sizeof word) || strlen(word) > 18) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, what);
+    }
+    *value = strtol(word, &rest, 10);
+    return *rest == '\0' || fail(reader, GM_TRIANGULATION_SYNTAX, what);
+}
+
+/* A count of things that each need at least two bytes of the text that is left. */
+static bool take_count(struct reader *reader, long *value, const char *what)
+{
+    if (!take_whole(reader, value, what)) {
+        return false;
+    }
+    if (*value < 0) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, what);
+    }
+    if (*value > MOST) {
+        return fail(reader, GM_TRIANGULATION_HUGE, what);
+    }
+    if (*value > (reader->end - reader->at) / 2 + 1) {
+        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+    }
+    return true;
+}
+
+/* "$EndNodes" after the section "$Nodes" */
+static bool expect_end(struct reader *reader)
+{
+    char wanted[44], word[44];
+    snprintf(wanted, sizeof wanted, "$End%s", reader->section + 1);
+    if (at_end(reader)) {
+        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+    }
+    return (take_word(reader, word, sizeof word) && strcmp(word, wanted) == 0) ||
+           fail(reader, GM_TRIANGULATION_SYNTAX, wanted);
+}
+
+/* The sections, as tables. */
+
+/* types of elements */
+enum { LINE = 1, TRIANGLE = 2, POINT = 15 };
+
+static bool read_format(struct reader *reader)
+{
+    char version[16];
+    long binary = 0, size = 0;
+    if (!take_word(reader, version, sizeof version)) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "a version");
+    }
+    if (strcmp(version, "4.1") != 0) {
+        return fail(reader, GM_TRIANGULATION_VERSION, version);
+    }
+    if (!take_whole(reader, &binary, "0 for ASCII") || !take_whole(reader, &size, "a size")) {
+        return false;
+    }
+    return binary == 0 || fail(reader, GM_TRIANGULATION_BINARY, "");
+}
+
+static bool read_names(struct reader *reader)
+{
+    long count = 0;
+    if (reader->groups || !take_count(reader, &count, "the number of names")) {
+        return reader->groups ? fail(reader, GM_TRIANGULATION_SYNTAX, "one section $PhysicalNames") : false;
+    }
+    reader->groups = calloc((size_t)count + 1, sizeof *reader->groups);
+    if (!reader->groups) {
+        return fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    for (long i = 0; i < count; i++) {
+        long dimension = 0, tag = 0;
+        if (!take_whole(reader, &dimension, "a dimension") || !take_whole(reader, &tag, "a tag")) {
+            return false;
+        }
+        skip_blanks(reader);
+        if (reader->at >= reader->end || *reader->at != '"') {
+            return fail(reader, GM_TRIANGULATION_SYNTAX, "a name in quotation marks");
+        }
+        const char *name = ++reader->at;
+        while (reader->at < reader->end && *reader->at != '"' && *reader->at != '\n') {
+            reader->at++;
+        }
+        const size_t length = (size_t)(reader->at - name);
+        if (reader->at >= reader->end || *reader->at != '"' || length >= sizeof reader->groups->name) {
+            return fail(reader, GM_TRIANGULATION_SYNTAX, "a name of at most 63 bytes in quotation marks");
+        }
+        reader->at++;
+        if (dimension == 1) {
+            struct gm_triangulation_group *group = &reader->groups[reader->group_count++];
+            group->tag = tag;
+            memcpy(group->name, name, length);
+        }
+    }
+    return true;
+}
+
+static bool skip_numbers(struct reader *reader, long count)
+{
+    double value = 0;
+    for (long i = 0; i < count; i++) {
+        if (!take_number(reader, &value, "a number")) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* tag, bounding box, physical tags and, from curves on, bounding entities */
+static bool read_entity(struct reader *reader, int dimension)
+{
+    long tag = 0, count = 0, physical = 0, first = 0;
+    if (!take_whole(reader, &tag, "an entity's tag") || !skip_numbers(reader, dimension == 0 ? 3 : 6) ||
+        !take_count(reader, &count, "the number of physical tags")) {
+        return false;
+    }
+    for (long i = 0; i < count; i++) {
+        if (!take_whole(reader, &physical, "a physical tag")) {
+            return false;
+        }
+        first = i == 0 && labs(physical) < MOST ? labs(physical) : first; /* the sign is an orientation */
+    }
+    if (dimension == 1) {
+        reader->curves[reader->curve_count++] = (struct curve){tag, first};
+    }
+    long bounds = 0;
+    return dimension == 0 ||
+           (take_count(reader, &bounds, "a number of entities") && skip_numbers(reader, bounds));
+}
+
+static bool read_entities(struct reader *reader)
+{
+    long counts[4];
+    for (int i = 0; i < 4; i++) {
+        if (!take_count(reader, &counts[i], "a number of entities")) {
+            return false;
+        }
+    }
+    if (reader->curves) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Entities");
+    }
+    reader->curves = calloc((size_t)counts[1] + 1, sizeof *reader->curves);
+    if (!reader->curves) {
+        return fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    for (int dimension = 0; dimension < 4; dimension++) {
+        for (long i = 0; i < counts[dimension]; i++) {
+            if (!read_entity(reader, dimension)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static int compare_nodes(const void *a, const void *b)
+{
+    const struct node *p = a, *q = b;
+    return (p->tag > q->tag) - (p->tag < q->tag);
+}
+
+static bool read_node_block(struct reader *reader, size_t total)
+{
+    long dimension = 0, entity = 0, parametric = 0, count = 0;
+    if (!take_whole(reader, &dimension, "a dimension") || !take_whole(reader, &entity, "an entity") ||
+        !take_whole(reader, &parametric, "0 or 1") || !take_count(reader, &count, "a number of nodes")) {
+        return false;
+    }
+    if (parametric < 0 || parametric > 1 || dimension < 0 || dimension > 3) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "a dimension, an entity, 0 or 1, and a number of nodes");
+    }
+    if ((size_t)count > total - reader->node_count) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "as many nodes as announced");
+    }
+    struct node *nodes = reader->nodes + reader->node_count;
+    for (long i = 0; i < count; i++) {
+        if (!take_whole(reader, &nodes[i].tag, "a node's tag")) {
+            return false;
+        }
+        nodes[i].line = reader->line;
+    }
+    for (long i = 0; i < count; i++) {
+        if (!take_number(reader, &nodes[i].x, "a coordinate") ||
+            !take_number(reader, &nodes[i].y, "a coordinate") ||
+            !take_number(reader, &nodes[i].z, "a coordinate") ||
+            !skip_numbers(reader, parametric ? dimension : 0)) {
+            return false;
+        }
+    }
+    reader->node_count += (size_t)count;
+    return true;
+}
+
+static bool read_nodes(struct reader *reader)
+{
+    long blocks = 0, total = 0, low = 0, high = 0;
+    if (!take_count(reader, &blocks, "a number of blocks") ||
+        !take_count(reader, &total, "a number of nodes") || !take_whole(reader, &low, "a tag") ||
+        !take_whole(reader, &high, "a tag")) {
+        return false;
+    }
+    if (reader->nodes) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Nodes");
+    }
+    reader->nodes = calloc((size_t)total + 1, sizeof *reader->nodes);
+    if (!reader->nodes) {
+        return fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    for (long i = 0; i < blocks; i++) {
+        if (!read_node_block(reader, (size_t)total)) {
+            return false;
+        }
+    }
+    if (reader->node_count != (size_t)total) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "as many nodes as announced");
+    }
+    qsort(reader->nodes, reader->node_count, sizeof *reader->nodes, compare_nodes);
+    for (size_t i = 1; i < reader->node_count; i++) {
+        if (reader->nodes[i].tag == reader->nodes[i - 1].tag) {
+            const long a = reader->nodes[i].line, b = reader->nodes[i - 1].line;
+            return fail_at_node(reader, GM_TRIANGULATION_REPEATED_NODE, a > b ? a : b, reader->nodes[i].tag);
+        }
+    }
+    return true;
+}
+
+static bool read_element_block(struct reader *reader, size_t total, size_t *done)
+{
+    long dimension = 0, entity = 0, type = 0, count = 0, tag = 0;
+    if (!take_whole(reader, &dimension, "a dimension") || !take_whole(reader, &entity, "an entity") ||
+        !take_whole(reader, &type, "a type of elements") ||
+        !take_count(reader, &count, "a number of elements")) {
+        return false;
+    }
+    if (type != LINE && type != TRIANGLE && type != POINT) {
+        return fail_at_node(reader, GM_TRIANGULATION_ELEMENT, reader->line, type);
+    }
+    if ((size_t)count > total - *done) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "as many elements as announced");
+    }
+    *done += (size_t)count;
+    for (long i = 0; i < count; i++) {
+        struct element element = {.entity = entity};
+        if (!take_whole(reader, &tag, "an element's tag")) {
+            return false;
+        }
+        element.line = reader->line;
+        const int corners = type == POINT ? 1 : type == LINE ? 2 : 3;
+        for (int k = 0; k < corners; k++) {
+            if (!take_whole(reader, &element.nodes[k], "a node's tag")) {
+                return false;
+            }
+            if (reader->line != element.line) {
+                return fail(reader, GM_TRIANGULATION_SYNTAX, "the nodes of an element on its line");
+            }
+        }
+        if (type == TRIANGLE) {
+            reader->triangles[reader->triangle_count++] = element;
+        } else if (type == LINE) {
+            reader->lines[reader->line_count++] = element;
+        }
+    }
+    return true;
+}
+
+static bool read_elements(struct reader *reader)
+{
+    long blocks = 0, total = 0, low = 0, high = 0;
+    if (!take_count(reader, &blocks, "a number of blocks") ||
+        !take_count(reader, &total, "a number of elements") || !take_whole(reader, &low, "a tag") ||
+        !take_whole(reader, &high, "a tag")) {
+        return false;
+    }
+    if (reader->triangles) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "one section $Elements");
+    }
+    reader->triangles = calloc((size_t)total + 1, sizeof *reader->triangles);
+    reader->lines = calloc((size_t)total + 1, sizeof *reader->lines);
+    if (!reader->triangles || !reader->lines) {
+        return fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    size_t done = 0;
+    for (long i = 0; i < blocks; i++) {
+        if (!read_element_block(reader, (size_t)total, &done)) {
+            return false;
+        }
+    }
+    return done == (size_t)total || fail(reader, GM_TRIANGULATION_SYNTAX, "as many elements as announced");
+}
+
+static bool skip_section(struct reader *reader)
+{
+    char wanted[44];
+    const int length = snprintf(wanted, sizeof wanted, "$End%s", reader->section + 1);
+    while (reader->at < reader->end) {
+        if ((size_t)(reader->end - reader->at) >= (size_t)length &&
+            memcmp(reader->at, wanted, (size_t)length) == 0) {
+            reader->at += length;
+            return true;
+        }
+        reader->line += *reader->at++ == '\n';
+    }
+    return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+}
+
+/* Reads the whole text into the tables; nodes in the order of their tags. */
+static bool read_sections(struct reader *reader)
+{
+    static const struct {
+        const char *name;
+        bool (*read)(struct reader *);
+    } known[] = {
+        {"$PhysicalNames", read_names},
+        {"$Entities", read_entities},
+        {"$Nodes", read_nodes},
+        {"$Elements", read_elements},
+    };
+    char section[40];
+    if (!take_word(reader, section, sizeof section) || strcmp(section, "$MeshFormat") != 0) {
+        return fail(reader, GM_TRIANGULATION_NOT_GMSH, "");
+    }
+    reader->section = section;
+    if (!read_format(reader) || !expect_end(reader)) {
+        return false;
+    }
+    while (!at_end(reader)) {
+        if (!take_word(reader, section, sizeof section) || section[0] != '$') {
+            return fail(reader, GM_TRIANGULATION_SYNTAX, "a section, such as $Nodes");
+        }
+        bool met = false;
+        for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+            if (strcmp(section, known[i].name) == 0) {
+                met = true;
+                if (!known[i].read(reader) || !expect_end(reader)) {
+                    return false;
+                }
+            }
+        }
+        if (!met && !skip_section(reader)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* By tag; NULL if there is none. */
+static struct node *find_node(const struct reader *reader, long tag)
+{
+    const struct node key = {.tag = tag};
+    return reader->node_count == 0
+               ? NULL
+               : bsearch(&key, reader->nodes, reader->node_count, sizeof *reader->nodes, compare_nodes);
+}
+
+/* The mesh. */
+
+/* Numbers the nodes of triangles in the order of their tags; writes points, tags and corners. */
+static bool number_nodes(struct reader *reader, double *points, long *tags, int *corners, size_t *vertices)
+{
+    for (size_t i = 0; i < reader->node_count; i++) {
+        reader->nodes[i].vertex = -1;
+    }
+    for (size_t t = 0; t < reader->triangle_count; t++) {
+        const struct element *element = &reader->triangles[t];
+        for (int k = 0; k < 3; k++) {
+            struct node *node = find_node(reader, element->nodes[k]);
+            if (!node) {
+                return fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line, element->nodes[k]);
+            }
+            node->vertex = 0;
+        }
+    }
+    double low = INFINITY, high = -INFINITY, plane = 0, extent = 0;
+    for (size_t i = 0; i < reader->node_count; i++) {
+        struct node *node = &reader->nodes[i];
+        if (node->vertex < 0) {
+            continue;
+        }
+        plane = *vertices == 0 ? node->z : plane;
+        low = fmin(low, fmin(node->x, node->y));
+        high = fmax(high, fmax(node->x, node->y));
+        extent = high - low;
+        points[2 * *vertices] = node->x;
+        points[2 * *vertices + 1] = node->y;
+        tags[*vertices] = node->tag;
+        node->vertex = (int)(*vertices)++;
+    }
+    for (size_t i = 0; i < reader->node_count; i++) {
+        const struct node *node = &reader->nodes[i];
+        if (node->vertex >= 0 && fabs(node->z - plane) > 1e-9 * extent) {
+            return fail_at_node(reader, GM_TRIANGULATION_THREE_D, node->line, node->tag);
+        }
+    }
+    for (size_t t = 0; t < reader->triangle_count; t++) {
+        for (size_t k = 0; k < 3; k++) {
+            corners[3 * t + k] = find_node(reader, reader->triangles[t].nodes[k])->vertex;
+        }
+    }
+    return true;
+}
+
+static int compare_curves(const void *a, const void *b)
+{
+    const struct curve *p = a, *q = b;
+    return (p->tag > q->tag) - (p->tag < q->tag);
+}
+
+static long physical_of(const struct reader *reader, long entity)
+{
+    const struct curve key = {.tag = entity};
+    const struct curve *curve = reader->curve_count == 0 ? NULL
+                                                         : bsearch(&key, reader->curves, reader->curve_count,
+                                                                   sizeof *reader->curves, compare_curves);
+    return curve ? curve->physical : 0;
+}
+
+static int find_edge(const struct gm_complex *complex, int a, int b)
+{
+    for (int k = complex->ring_start[a]; k < complex->ring_start[a + 1]; k++) {
+        if (complex->ring_vertex[k] == b) {
+            return complex->ring_edge[k];
+        }
+    }
+    return -1;
+}
+
+/* Lines that are no edge of a triangle name nothing. */
+static bool name_edges(struct reader *reader, struct gm_triangulation *mesh)
+{
+    if (reader->curve_count > 0) {
+        qsort(reader->curves, reader->curve_count, sizeof *reader->curves, compare_curves);
+    }
+    for (size_t i = 0; i < reader->line_count; i++) {
+        const struct element *element = &reader->lines[i];
+        const struct node *a = find_node(reader, element->nodes[0]),
+                          *b = find_node(reader, element->nodes[1]);
+        if (!a || !b) {
+            return fail_at_node(reader, GM_TRIANGULATION_UNKNOWN_NODE, element->line,
+                                element->nodes[a ? 1 : 0]);
+        }
+        const int e = a->vertex >= 0 && b->vertex >= 0 ? find_edge(mesh->complex, a->vertex, b->vertex) : -1;
+        if (e >= 0) {
+            mesh->edge_group[e] = (int)physical_of(reader, element->entity);
+        }
+    }
+    return true;
+}
+
+static bool assemble(struct reader *reader, struct gm_triangulation *mesh)
+{
+    if (reader->triangle_count == 0) {
+        return fail(reader, GM_TRIANGULATION_EMPTY, "");
+    }
+    const double plane[2] = {0, 0};
+    double *points = malloc(2 * (reader->node_count + 1) * sizeof *points);
+    int *corners = malloc(3 * reader->triangle_count * sizeof *corners);
+    mesh->tags = malloc((reader->node_count + 1) * sizeof *mesh->tags);
+    size_t vertices = 0;
+    bool good = points && corners && mesh->tags;
+    if (!good) {
+        fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    good = good && number_nodes(reader, points, mesh->tags, corners, &vertices);
+    if (good) {
+        mesh->complex = gm_complex_open(points, vertices, corners, reader->triangle_count, plane, mesh->tags,
+                                        reader->fault);
+        good = mesh->complex != NULL;
+        if (!good && reader->fault->triangle > 0) {
+            reader->fault->line = reader->triangles[reader->fault->triangle - 1].line;
+        }
+    }
+    free(points);
+    free(corners);
+    if (good) {
+        mesh->edge_group = calloc(mesh->complex->edges, sizeof *mesh->edge_group);
+        good = mesh->edge_group || fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    return good && name_edges(reader, mesh);
+}
+
+bool gm_triangulation_read(const char *text, size_t size, struct gm_triangulation *mesh,
+                           struct gm_triangulation_fault *fault)
+{
+    struct reader reader = {.at = text, .end = text + size, .line = 1, .fault = fault, .section = ""};
+    *mesh = (struct gm_triangulation){0};
+    *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_OK};
+    const bool good = read_sections(&reader) && assemble(&reader, mesh);
+    if (good) {
+        mesh->group = reader.groups;
+        mesh->groups = reader.group_count;
+        reader.groups = NULL;
+    } else {
+        gm_triangulation_close(mesh);
+    }
+    free(reader.nodes);
+    free(reader.triangles);
+    free(reader.lines);
+    free(reader.curves);
+    free(reader.groups);
+    return good;
+}
+
+void gm_triangulation_close(struct gm_triangulation *mesh)
+{
+    gm_complex_close(mesh->complex);
+    free(mesh->tags);
+    free(mesh->edge_group);
+    free(mesh->group);
+    *mesh = (struct gm_triangulation){0};
+}
+
+long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name)
+{
+    for (size_t i = 0; i < mesh->groups; i++) {
+        if (strcmp(mesh->group[i].name, name) == 0) {
+            return mesh->group[i].tag;
+        }
+    }
+    char *rest = NULL;
+    const long tag = strtol(name, &rest, 10);
+    for (size_t e = 0; rest != name && *rest == '\0' && mesh->complex && e < mesh->complex->edges; e++) {
+        if (mesh->edge_group[e] == tag) {
+            return tag;
+        }
+    }
+    return 0;
+}

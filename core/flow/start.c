@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "core/flow/start.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/flow/unknowns.h"
+#include "core/linear/cholesky.h"
+
+/* Solves K psi = right inside, with the given boundary values; right == NULL: 0. */
+static bool solve_poisson(const struct gm_flow *flow, const double *right, double *psi)
+{
+    struct gm_unknowns unknowns;
+    struct gm_cholesky *factor = NULL;
+    bool good = gm_unknowns_open(&unknowns, flow);
+    if (good && unknowns.count > 0) {
+        factor = gm_unknowns_factor_poisson(&unknowns, flow);
+        double *b = malloc(2 * unknowns.count * sizeof *b);
+        good = factor && b;
+        if (good) {
+            gm_unknowns_solve_poisson(&unknowns, flow, factor, right, b, b + unknowns.count, psi);
+        }
+        free(b);
+    }
+    gm_cholesky_close(factor);
+    gm_unknowns_close(&unknowns);
+    return good;
+}
+
+/* Completes a state whose psi and omega are set. */
+static void complete_start(const struct gm_flow *flow, double *y)
+{
+    const size_t n = flow->complex->vertices;
+    memcpy(y + GM_FLOW_PSI_HALF * n, y, n * sizeof *y);
+    memcpy(y + GM_FLOW_PSI_BEFORE * n, y, n * sizeof *y);
+    memcpy(y + GM_FLOW_OMEGA_USED * n, y + GM_FLOW_OMEGA * n, n * sizeof *y);
+    memcpy(y + GM_FLOW_THETA * n, flow->theta, n * sizeof *y);
+    memcpy(y + GM_FLOW_THETA_BEFORE * n, flow->theta, n * sizeof *y);
+    memset(y + GM_FLOW_BLOCKS * n, 0, (1 + GM_TRACER_NUMBERS * flow->tracers) * sizeof *y);
+    /* tracers are strewn evenly: the golden ratio's multiples over the triangles, by area */
+    const struct gm_complex *complex = flow->complex;
+    double *tracer = y + GM_FLOW_BLOCKS * n + 1, before = 0;
+    size_t t = 0;
+    for (size_t i = 0; i < flow->tracers; i++, tracer += GM_TRACER_NUMBERS) {
+        const double at = ((double)i + 0.5) / (double)flow->tracers * complex->total_area;
+        while (t + 1 < complex->triangles && before + complex->area[t] < at) {
+            before += complex->area[t++];
+        }
+        double p[6];
+        gm_complex_corners(complex, t, p);
+        const double r = sqrt(fmod((double)i * 0.7548776662466927, 1)),
+                     s = fmod((double)i * 0.5698402909980532, 1);
+        const double w[3] = {1 - r, r * (1 - s), r * s};
+        tracer[GM_TRACER_X] = w[0] * p[0] + w[1] * p[2] + w[2] * p[4];
+        tracer[GM_TRACER_Y] = w[0] * p[1] + w[1] * p[3] + w[2] * p[5];
+        tracer[GM_TRACER_TRIANGLE] = (double)t;
+    }
+}
+
+bool gm_flow_start_irrotational(const struct gm_flow *flow, double *y)
+{
+    const size_t n = flow->complex->vertices;
+    memcpy(y, flow->psi, n * sizeof *y);
+    if (!solve_poisson(flow, NULL, y)) {
+        return false;
+    }
+    memset(y + GM_FLOW_OMEGA * n, 0, n * sizeof *y);
+    gm_flow_vorticity(flow, y, y + GM_FLOW_OMEGA * n);
+    complete_start(flow, y);
+    return true;
+}
+
+bool gm_flow_start_vorticity(const struct gm_flow *flow, const double *omega, double *y)
+{
+    const struct gm_complex *complex = flow->complex;
+    const size_t n = complex->vertices;
+    double *mine = y + GM_FLOW_OMEGA * n, *right = y + GM_FLOW_THETA * n;
+    double sum = 0;
+    for (size_t v = 0; v < n; v++) {
+        sum += complex->star0[v] * omega[v];
+    }
+    for (size_t v = 0; v < n; v++) {
+        mine[v] = flow->kind[v] == GM_VERTEX_SLIP ? 0
+                  : complex->boundary == 0        ? omega[v] - sum / complex->total_area
+                                                  : omega[v];
+        right[v] = complex->star0[v] * mine[v];
+    }
+    memcpy(y, flow->psi, n * sizeof *y);
+    if (!solve_poisson(flow, right, y)) {
+        return false;
+    }
+    complete_start(flow, y);
+    return true;
+}

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The soliton that schemes on meshes are certified on. */
+#include "core/mesh/certify/subject.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "core/mesh/nodes.h"
+#include "core/run.h"
+
+static const struct gm_settings settings = {0};
+
+bool gm_mesh_subject_open(struct gm_mesh_subject *subject, const struct gm_scheme *scheme, long points)
+{
+    subject->soliton =
+        (struct gm_soliton){.solitons = 1, .points = points, .velocity = 0.5, .length = 12, .alpha = 1};
+    gm_soliton_problem(&subject->soliton, &subject->problem);
+    gm_moving_mesh_of(&subject->problem)->describe(&subject->problem, &subject->mesh);
+    return gm_mesh_start(&subject->mesh, gm_scheme_mesh(scheme), gm_soliton_profile, &subject->soliton,
+                         subject->start);
+}
+
+bool gm_mesh_subject_advance(const struct gm_mesh_subject *subject, const struct gm_scheme *scheme, double dt,
+                             long steps, const double *from, double *end)
+{
+    struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, from);
+    if (!run) {
+        return false;
+    }
+    const bool good = gm_run_advance(run, steps) == GM_OK;
+    memcpy(end, gm_run_state(run), subject->problem.n * sizeof *end);
+    gm_run_close(run);
+    return good;
+}
+
+/* The state near the start whose y and dy/dt are shifted, and X and dX/dt follow as the constraint says. */
+static bool shift(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction, double by,
+                  double *state)
+{
+    const size_t points = subject->mesh.points;
+    memcpy(state, subject->start, 4 * points * sizeof *state);
+    state[direction < points ? direction : points + direction] += by;
+    if (kind == GM_MESH_UNIFORM) {
+        return true;
+    }
+    struct gm_elements stage;
+    struct gm_banded matrix;
+    double change[GM_MESH_SUBJECT_POINTS];
+    if (!gm_elements_open(&stage, &subject->mesh)) {
+        return false;
+    }
+    if (!gm_banded_open(&matrix, points, 1)) {
+        gm_elements_close(&stage);
+        return false;
+    }
+    gm_elements_place(&stage, state);
+    bool good = gm_nodes_equidistribute(&stage, &subject->mesh, NULL, NULL, &matrix, change);
+    if (good) {
+        /* dX/dt for dy/dt given: no slope, the rate is dy/dt */
+        memcpy(state + points, stage.x + 1, points * sizeof *state);
+        memcpy(stage.v + 1, state + 2 * points, points * sizeof *state);
+        memset(stage.u, 0, (points + 2) * sizeof *stage.u);
+        good = gm_nodes_set_in_motion(&stage, &matrix, state + 3 * points);
+    }
+    gm_banded_close(&matrix);
+    gm_elements_close(&stage);
+    return good;
+}
+
+bool gm_mesh_subject_derive(const struct gm_mesh_subject *subject, enum gm_mesh_kind kind, size_t direction,
+                            gm_mesh_observe *observe, const void *context, size_t count, double *derivative)
+{
+    enum { LEVELS = 4 };
+    const double widest = 0.05;
+    double table[LEVELS][GM_MESH_OBSERVED], sides[2][GM_MESH_OBSERVED], state[GM_MESH_SUBJECT_STATE];
+    for (int level = 0; level < LEVELS; level++) {
+        const double by = ldexp(widest, -level);
+        for (int side = 0; side < 2; side++) {
+            if (!shift(subject, kind, direction, side ? by : -by, state) ||
+                !observe(subject, context, state, sides[side])) {
+                return false;
+            }
+        }
+        for (size_t i = 0; i < count; i++) {
+            table[level][i] = (sides[1][i] - sides[0][i]) / (2 * by);
+        }
+    }
+    double power = 4;
+    for (int done = 1; done < LEVELS; done++, power *= 4) {
+        for (int level = LEVELS - 1; level >= done; level--) {
+            for (size_t i = 0; i < count; i++) {
+                table[level][i] += (table[level][i] - table[level - 1][i]) / (power - 1);
+            }
+        }
+    }
+    memcpy(derivative, table[LEVELS - 1], count * sizeof *derivative);
+    return true;
+}
