@@ -25,20 +25,8 @@
 #include "core/ode/families/splitting.h"
 #include "core/scheme.h"
 
-#define GM_INLINE static inline __attribute__((always_inline, unused))
-
-/* A lane type as wide as a register: wider ones live in memory (measured: four times slower). */
-#if defined(__AVX512F__)
-enum { GM_WIDTH = 8 };
-#elif defined(__AVX2__)
-enum { GM_WIDTH = 4 };
-#else
-enum { GM_WIDTH = 2 };
-#endif
 /* Steps between two looks at whether they succeeded. */
 enum { GM_BURST = 16 };
-typedef double gm_lanes __attribute__((vector_size(GM_WIDTH * 8)));
-typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
 
 #define GM_PASS_SCALAR
 #include "core/ode/families/pass.h"
