@@ -45,7 +45,8 @@ static struct gm_scheme changed(const char *name)
 static void verlet_with_halves_exchanged(void **unused)
 {
     (void)unused;
-    static const struct gm_splitting exchanged = {3, {{GM_KICK, 1}, {GM_DRIFT, 0.5}, {GM_KICK, 1}}};
+    static const struct gm_splitting_row exchanged = {
+        .splitting = {3, {{GM_KICK, 1}, {GM_DRIFT, 0.5}, {GM_KICK, 1}}}};
     struct gm_scheme wrong = changed("verlet");
     wrong.coefficients = &exchanged;
     const struct gm_certificate certificate = gm_certify(&wrong);
@@ -186,8 +187,8 @@ static void the_misprint_of_rk4sym(void **unused)
 {
     (void)unused;
     const double root = sqrt(2), b = (2 + root + 1 / root) / 3;
-    const struct gm_implicit_row misprint = {
-        .stages = 1, .a = {{0.5}}, .b = {1}, .substeps = 3, .fractions = {b, 1 - 2 * b, b}};
+    const struct gm_composition printed = {3, {b, 1 - 2 * b}};
+    const struct gm_implicit_row misprint = {.stages = 1, .a = {{0.5}}, .b = {1}, .composition = &printed};
     struct gm_scheme wrong = changed("rk4sym");
     wrong.coefficients = &misprint;
     const struct gm_certificate certificate = gm_certify(&wrong);
@@ -230,8 +231,8 @@ static void a_wrong_digit_of_a_composition(void **unused)
         "yoshida4", "suzuki4",   "mclachlan4",    "pefrl4",    "blanes-moan4",
         "yoshida6", "kahan-li6", "suzuki-umeno8", "kahan-li8", "blanes-moan-nystrom6"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        const struct gm_splitting *right = gm_scheme_find(names[i])->coefficients;
-        struct gm_splitting digit = *right;
+        struct gm_splitting digit;
+        digit = *gm_splitting_of(gm_scheme_find(names[i])->coefficients, &digit);
         const int last = digit.count - 1;
         /* a drift and its mirror image grow, the two next ones shrink */
         const int drift = digit.pieces[0].piece == GM_DRIFT ? 0 : 1;
@@ -240,8 +241,9 @@ static void a_wrong_digit_of_a_composition(void **unused)
         digit.pieces[drift + 2].fraction -= change;
         digit.pieces[last - drift].fraction += change;
         digit.pieces[last - drift - 2].fraction -= change;
+        const struct gm_splitting_row row = {.splitting = digit};
         struct gm_scheme wrong = changed(names[i]);
-        wrong.coefficients = &digit;
+        wrong.coefficients = &row;
         const struct gm_certificate certificate = gm_certify(&wrong);
         if (certificate.order_holds || !certificate.claims[0].holds || !certificate.claims[1].holds) {
             fail_msg("%s with a wrong digit: order %.2f", names[i], certificate.order);
@@ -264,9 +266,11 @@ static void a_wrong_digit_of_a_tableau(void **unused)
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         const struct gm_implicit_row *right = gm_scheme_find(names[i])->coefficients;
         struct gm_implicit_row digit = *right;
-        if (digit.substeps > 1) {
-            digit.fractions[0] += 1e-4;
-            digit.fractions[1] -= 1e-4;
+        struct gm_composition composition = *right->composition;
+        if (composition.steps > 1) {
+            composition.gammas[0] += 1e-4;
+            composition.gammas[1] -= 1e-4;
+            digit.composition = &composition;
         } else {
             digit.a[digit.stages - 1][0] += 1e-3;
         }

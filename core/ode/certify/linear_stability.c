@@ -133,8 +133,10 @@ static double complex stability_function(int stages, const double *a, size_t row
 }
 
 /* A composition of shears of the oscillator of frequency w, step 1. */
-static double splitting_radius(const struct gm_splitting *table, double w)
+static double splitting_radius(const struct gm_splitting_row *row, double w)
 {
+    struct gm_splitting made;
+    const struct gm_splitting *table = gm_splitting_of(row, &made);
     double columns[2][2] = {{1, 0}, {0, 1}}; /* (q, p) of the two starts */
     for (int i = 0; i < table->count; i++) {
         const double c = table->pieces[i].fraction * w;
@@ -166,9 +168,9 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
     if (scheme->family == &gm_family_implicit_runge_kutta) {
         const struct gm_implicit_row *row = scheme->coefficients;
         double complex product = 1;
-        for (int i = 0; i < row->substeps; i++) {
-            product *=
-                stability_function(row->stages, row->a[0], GM_IMPLICIT_STAGES, row->b, row->fractions[i] * z);
+        for (int i = 0; i < row->composition->steps; i++) {
+            product *= stability_function(row->stages, row->a[0], GM_IMPLICIT_STAGES, row->b,
+                                          gm_composition_fraction(row->composition, i) * z);
         }
         return cabs(product);
     }

@@ -43,8 +43,7 @@ typedef double mean_field(const struct gm_problem *problem, const double *y, con
 
 struct method {
     mean_field *mean;
-    int substeps;
-    double fractions[3];
+    const struct gm_composition *composition;
 };
 
 static double average_field(const struct gm_problem *problem, const double *y, const double *d, double *mean,
@@ -184,8 +183,8 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 {
     const struct method *method = task->scheme->coefficients;
     const double *d = members->scratch + D * members->n;
-    for (int substep = 0; substep < method->substeps; substep++) {
-        const double h = task->dt * method->fractions[substep];
+    for (int substep = 0; substep < method->composition->steps; substep++) {
+        const double h = task->dt * gm_composition_fraction(method->composition, substep);
         if ((gm_ode_of(task->problem)->stiff || !by_fixed_point(task, method, members, h, progress)) &&
             !by_newton(task, method, members, h, progress)) {
             return GM_NO_CONVERGENCE;
@@ -208,9 +207,9 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return gm_members_open(problem, 0, VECTORS * problem->n + gm_matrix_size(problem));
 }
 
-static const struct method avf2 = {average_field, 1, {1}};
-static const struct method avf4 = {average_field, 3, {GM_YOSHIDA4(GM_PALINDROME_3)}};
-static const struct method discrete_gradient2 = {gradient_field, 1, {1}};
+static const struct method avf2 = {average_field, &gm_composition_none};
+static const struct method avf4 = {average_field, &gm_composition_yoshida4};
+static const struct method discrete_gradient2 = {gradient_field, &gm_composition_none};
 
 static const struct gm_scheme schemes[] = {
     {

@@ -23,11 +23,6 @@
 #include "core/ode/families/members.h"
 #include "core/ode/kernel/loops.h"
 
-struct composition {
-    int substeps;
-    double fractions[3];
-};
-
 /* One copy moves by f = (H_p, -H_q) taken at (q of one, p of the other): q of the second, p of the first. */
 static void shear(const struct gm_problem *problem, double h, double *first, double *second, double *scratch)
 {
@@ -61,11 +56,11 @@ static void turn(size_t n, double angle, double *first, double *second)
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
-    const struct composition *composition = task->scheme->coefficients;
+    const struct gm_composition *composition = task->scheme->coefficients;
     const struct gm_problem *problem = task->problem;
     double *y = members->y, *twin = members->memory;
-    for (int substep = 0; substep < composition->substeps; substep++) {
-        const double h = task->dt * composition->fractions[substep];
+    for (int substep = 0; substep < composition->steps; substep++) {
+        const double h = task->dt * gm_composition_fraction(composition, substep);
         shear(problem, h / 2, y, twin, members->scratch);
         shear(problem, h / 2, twin, y, members->scratch);
         turn(problem->n, 2 * task->settings->binding * h, y, twin);
@@ -99,9 +94,6 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     return gm_members_open(problem, problem->n, 2 * problem->n);
 }
 
-static const struct composition tao2 = {1, {1}};
-static const struct composition tao4 = {3, {GM_YOSHIDA4(GM_PALINDROME_3)}};
-
 #define TAO                                                                                                  \
     .family = &gm_family_extended_phase_space, .needs = GM_NEEDS_HAMILTONIAN,                                \
     .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE
@@ -114,7 +106,7 @@ static const struct gm_scheme schemes[] = {
             "A(h/2) B(h/2) C(h) B(h/2) A(h/2) on (q, p; x, y):\n"
             "H(q, y) + H(x, p) + ω (|q − x|² + |p − y|²)/2;  stiff springs of frequency Ω bear ω ≤ 1/(hΩ)²",
         .reference = "M. Tao, Phys. Rev. E 94 (2016) 043303",
-        .coefficients = &tao2,
+        .coefficients = &gm_composition_none,
         .order = 2,
         TAO,
     },
@@ -124,7 +116,7 @@ static const struct gm_scheme schemes[] = {
         .formula = "three steps of Tao 2 of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2);\n"
                    "stiff springs of frequency Ω bear ω ≤ 1/2(hΩ)²",
         .reference = "M. Tao, Phys. Rev. E 94 (2016) 043303",
-        .coefficients = &tao4,
+        .coefficients = &gm_composition_yoshida4,
         .order = 4,
         TAO,
     },

@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/members.h"
 #include "core/ode/families/runge_kutta_any.h"
@@ -22,7 +21,7 @@
 #define SQRT6 2.4494897427831780981972840747059
 #define SQRT15 3.8729833462074168851792653997824
 
-#define ONE_STEP .substeps = 1, .fractions = {1}
+#define ONE_STEP .composition = &gm_composition_none
 
 static const struct gm_implicit_row implicit_euler = {.stages = 1, .a = {{1}}, .b = {1}, ONE_STEP};
 static const struct gm_implicit_row midpoint = {.stages = 1, .a = {{0.5}}, .b = {1}, ONE_STEP};
@@ -67,16 +66,6 @@ static const struct gm_implicit_row sdirk2 = {.stages = 2,
                                               .a = {{1 - SQRT2 / 2, 0}, {SQRT2 / 2, 1 - SQRT2 / 2}},
                                               .b = {SQRT2 / 2, 1 - SQRT2 / 2},
                                               ONE_STEP};
-
-#define MIDPOINTS .stages = 1, .a = {{0.5}}, .b = {1}
-static const struct gm_implicit_row rk4sym = {MIDPOINTS, .substeps = 3,
-                                              .fractions = {GM_YOSHIDA4(GM_PALINDROME_3)}};
-static const struct gm_implicit_row midpoint_suzuki4 = {MIDPOINTS, .substeps = 5,
-                                                        .fractions = {GM_SUZUKI4(GM_PALINDROME_5)}};
-static const struct gm_implicit_row midpoint_kahan_li6 = {MIDPOINTS, .substeps = 9,
-                                                          .fractions = {GM_KAHAN_LI6(GM_PALINDROME_9)}};
-static const struct gm_implicit_row midpoint_kahan_li8 = {MIDPOINTS, .substeps = 17,
-                                                          .fractions = {GM_KAHAN_LI8(GM_PALINDROME_17)}};
 
 /* For any number of components: solved by fixed-point iteration; a passive particle for which that does not
    contract, because a vortex turns it too fast, by Newton's method. */
@@ -318,8 +307,8 @@ static struct gm_progress advance(const struct gm_task *task)
     struct gm_progress progress = {.status = GM_OK};
     const double *from = task->y, *carry = task->carry;
     for (; progress.done < task->steps; progress.done++) {
-        for (int substep = 0; substep < row->substeps; substep++) {
-            const double h = task->dt * row->fractions[substep];
+        for (int substep = 0; substep < row->composition->steps; substep++) {
+            const double h = task->dt * gm_composition_fraction(row->composition, substep);
             if (!solve(task, row, h, from, &progress)) {
                 progress.status = GM_NO_CONVERGENCE;
                 return progress;
@@ -343,6 +332,11 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
+#define MIDPOINTS(name)                                                                                      \
+    &(const struct gm_implicit_row)                                                                          \
+    {                                                                                                        \
+        .stages = 1, .a = {{0.5}}, .b = {1}, .composition = &gm_composition_##name                           \
+    }
 #define IMPLICIT .family = &gm_family_implicit_runge_kutta
 #define SYMPLECTIC_RK                                                                                        \
     (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_QUADRATIC | GM_KEEPS_BILINEAR | GM_KEEPS_LINEAR)
@@ -418,7 +412,7 @@ static const struct gm_scheme schemes[] = {
         .formula = "three midpoint steps of lengths bh, (1 − 2b)h, bh,  b = (2 + ∛2 + 1/∛2)/3",
         .reference = "Sanz-Serna & Abia, SIAM J. Numer. Anal. 28 (1991) 1081; "
                      "Razafindralandy et al. (2018), eq. 28 (its exponent 1/2 in b is a misprint for 1/3)",
-        .coefficients = &rk4sym,
+        .coefficients = MIDPOINTS(yoshida4),
         .order = 4,
         .claims = SYMPLECTIC_RK,
         IMPLICIT,
@@ -428,7 +422,7 @@ static const struct gm_scheme schemes[] = {
         .title = "midpoint Suzuki 4",
         .formula = "five midpoint steps of lengths bh, bh, (1 − 4b)h, bh, bh,  b = 1/(4 − ∛4)",
         .reference = "M. Suzuki, Phys. Lett. A 146 (1990) 319; Hairer, Lubich & Wanner (2006), II.4.5",
-        .coefficients = &midpoint_suzuki4,
+        .coefficients = MIDPOINTS(suzuki4),
         .order = 4,
         .claims = SYMPLECTIC_RK,
         IMPLICIT,
@@ -438,7 +432,7 @@ static const struct gm_scheme schemes[] = {
         .title = "midpoint Kahan-Li 6",
         .formula = "nine midpoint steps of lengths γ₁h, …, γ₉h,  γ₁₀₋ᵢ = γᵢ",
         .reference = "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089",
-        .coefficients = &midpoint_kahan_li6,
+        .coefficients = MIDPOINTS(kahan_li6),
         .order = 6,
         .claims = SYMPLECTIC_RK,
         IMPLICIT,
@@ -448,7 +442,7 @@ static const struct gm_scheme schemes[] = {
         .title = "midpoint Kahan-Li 8",
         .formula = "seventeen midpoint steps of lengths γ₁h, …, γ₁₇h,  γ₁₈₋ᵢ = γᵢ",
         .reference = "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089",
-        .coefficients = &midpoint_kahan_li8,
+        .coefficients = MIDPOINTS(kahan_li8),
         .order = 8,
         .claims = SYMPLECTIC_RK,
         IMPLICIT,

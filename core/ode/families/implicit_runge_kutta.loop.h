@@ -251,8 +251,8 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
                                        struct K(counts) * counts)
 {
     mask good = K(all)();
-    for (int substep = 0; substep < row->substeps; substep++) {
-        const double h = dt * row->fractions[substep];
+    for (int substep = 0; substep < row->composition->steps; substep++) {
+        const double h = dt * gm_composition_fraction(row->composition, substep);
         real f[GM_IMPLICIT_STAGES][GM_COMPONENTS];
         mask solved = K(other)(K(all)());
         if (!stiff) {

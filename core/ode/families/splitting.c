@@ -9,7 +9,6 @@
    II.5. */
 #include "core/ode/families/splitting.h"
 
-#include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 
@@ -22,12 +21,12 @@
         GM_KICK, c                                                                                           \
     }
 
-static const struct gm_splitting symplectic_euler = {2, {KICK(1), DRIFT(1)}};
-static const struct gm_splitting symplectic_euler_adjoint = {2, {DRIFT(1), KICK(1)}};
-static const struct gm_splitting verlet = {3, {KICK(0.5), DRIFT(1), KICK(0.5)}};
-static const struct gm_splitting verlet_position = {3, {DRIFT(0.5), KICK(1), DRIFT(0.5)}};
-static const struct gm_splitting ruth3 = {
-    6, {DRIFT(1), KICK(-1. / 24), DRIFT(-2. / 3), KICK(3. / 4), DRIFT(2. / 3), KICK(7. / 24)}};
+static const struct gm_splitting_row symplectic_euler = {.splitting = {2, {KICK(1), DRIFT(1)}}};
+static const struct gm_splitting_row symplectic_euler_adjoint = {.splitting = {2, {DRIFT(1), KICK(1)}}};
+static const struct gm_splitting_row verlet = {.splitting = {3, {KICK(0.5), DRIFT(1), KICK(0.5)}}};
+static const struct gm_splitting_row verlet_position = {.splitting = {3, {DRIFT(0.5), KICK(1), DRIFT(0.5)}}};
+static const struct gm_splitting_row ruth3 = {
+    .splitting = {6, {DRIFT(1), KICK(-1. / 24), DRIFT(-2. / 3), KICK(3. / 4), DRIFT(2. / 3), KICK(7. / 24)}}};
 
 /* Palindromes, of which half is written down: pieces of one kind on the odd places, of the other on the
    even. */
@@ -38,21 +37,23 @@ static const struct gm_splitting ruth3 = {
     ODD(a), EVEN(b), ODD(c), EVEN(d), ODD(e), EVEN(f), ODD(g), EVEN(f), ODD(e), EVEN(d), ODD(c), EVEN(b),    \
         ODD(a)
 
-static const struct gm_splitting mclachlan2 = {5, {SYMMETRIC_5(KICK, DRIFT, 0.1931833275037836, 0.5)}};
+static const struct gm_splitting_row mclachlan2 = {
+    .splitting = {5, {SYMMETRIC_5(KICK, DRIFT, 0.1931833275037836, 0.5)}}};
 
 #define XI 0.1786178958448091
 #define LAMBDA -0.2123418310626054
 #define CHI -0.06626458266981849
-static const struct gm_splitting pefrl4 = {
-    9, {SYMMETRIC_9(DRIFT, KICK, XI, 0.5 - LAMBDA, CHI, LAMBDA, 1 - 2 * (CHI + XI))}};
+static const struct gm_splitting_row pefrl4 = {
+    .splitting = {9, {SYMMETRIC_9(DRIFT, KICK, XI, 0.5 - LAMBDA, CHI, LAMBDA, 1 - 2 * (CHI + XI))}}};
 
 #define A1 0.0792036964311957
 #define A2 0.353172906049774
 #define A3 -0.0420650803577195
 #define B1 0.209515106613362
 #define B2 -0.143851773179818
-static const struct gm_splitting blanes_moan4 = {
-    13, {SYMMETRIC_13(DRIFT, KICK, A1, B1, A2, B2, A3, 0.5 - (B1 + B2), 1 - 2 * (A1 + A2 + A3))}};
+static const struct gm_splitting_row blanes_moan4 = {
+    .splitting = {13,
+                  {SYMMETRIC_13(DRIFT, KICK, A1, B1, A2, B2, A3, 0.5 - (B1 + B2), 1 - 2 * (A1 + A2 + A3))}}};
 #undef A1
 #undef A2
 #undef A3
@@ -64,8 +65,9 @@ static const struct gm_splitting blanes_moan4 = {
 #define B1 0.0829844064174052
 #define B2 0.396309801498368
 #define B3 -0.0390563049223486
-static const struct gm_splitting blanes_moan_nystrom4 = {
-    13, {SYMMETRIC_13(KICK, DRIFT, B1, A1, B2, A2, B3, 0.5 - (A1 + A2), 1 - 2 * (B1 + B2 + B3))}};
+static const struct gm_splitting_row blanes_moan_nystrom4 = {
+    .splitting = {13,
+                  {SYMMETRIC_13(KICK, DRIFT, B1, A1, B2, A2, B3, 0.5 - (A1 + A2), 1 - 2 * (B1 + B2 + B3))}}};
 #undef A1
 #undef A2
 #undef B1
@@ -84,37 +86,16 @@ static const struct gm_splitting blanes_moan_nystrom4 = {
 #define B4 0.0752539843015807
 #define B5 -0.0115113874206879
 #define B6 (0.5 - (B1 + B2 + B3 + B4 + B5))
-static const struct gm_splitting blanes_moan_nystrom6 = {
-    23, {KICK(B1), DRIFT(A1), KICK(B2), DRIFT(A2), KICK(B3), DRIFT(A3), KICK(B4), DRIFT(A4),
-         KICK(B5), DRIFT(A5), KICK(B6), DRIFT(A6), KICK(B6), DRIFT(A5), KICK(B5), DRIFT(A4),
-         KICK(B4), DRIFT(A3), KICK(B3), DRIFT(A2), KICK(B2), DRIFT(A1), KICK(B1)}};
+static const struct gm_splitting_row blanes_moan_nystrom6 = {
+    .splitting = {23, {KICK(B1), DRIFT(A1), KICK(B2), DRIFT(A2), KICK(B3), DRIFT(A3), KICK(B4), DRIFT(A4),
+                       KICK(B5), DRIFT(A5), KICK(B6), DRIFT(A6), KICK(B6), DRIFT(A5), KICK(B5), DRIFT(A4),
+                       KICK(B4), DRIFT(A3), KICK(B3), DRIFT(A2), KICK(B2), DRIFT(A1), KICK(B1)}}};
 
-/* Compositions of kick-drift-kick Verlet; kicks that meet are one. */
-#define FIRST(g) KICK((g) / 2), DRIFT(g)
-#define NEXT(g, next) KICK(((g) + (next)) / 2), DRIFT(next)
-#define LAST(g) KICK((g) / 2)
-#define VERLET_3(a, b) FIRST(a), NEXT(a, b), NEXT(b, a), LAST(a)
-#define VERLET_5(a, b, c) FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, b), NEXT(b, a), LAST(a)
-#define VERLET_7(a, b, c, d)                                                                                 \
-    FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, d), NEXT(d, c), NEXT(c, b), NEXT(b, a), LAST(a)
-#define VERLET_9(a, b, c, d, e)                                                                              \
-    FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, d), NEXT(d, e), NEXT(e, d), NEXT(d, c), NEXT(c, b),            \
-        NEXT(b, a), LAST(a)
-#define VERLET_15(a, b, c, d, e, f, g, h)                                                                    \
-    FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, d), NEXT(d, e), NEXT(e, f), NEXT(f, g), NEXT(g, h),            \
-        NEXT(h, g), NEXT(g, f), NEXT(f, e), NEXT(e, d), NEXT(d, c), NEXT(c, b), NEXT(b, a), LAST(a)
-#define VERLET_17(a, b, c, d, e, f, g, h, i)                                                                 \
-    FIRST(a), NEXT(a, b), NEXT(b, c), NEXT(c, d), NEXT(d, e), NEXT(e, f), NEXT(f, g), NEXT(g, h),            \
-        NEXT(h, i), NEXT(i, h), NEXT(h, g), NEXT(g, f), NEXT(f, e), NEXT(e, d), NEXT(d, c), NEXT(c, b),      \
-        NEXT(b, a), LAST(a)
-static const struct gm_splitting yoshida4 = {7, {GM_YOSHIDA4(VERLET_3)}};
-static const struct gm_splitting suzuki4 = {11, {GM_SUZUKI4(VERLET_5)}};
-static const struct gm_splitting mclachlan4 = {11, {GM_MCLACHLAN4(VERLET_5)}};
-static const struct gm_splitting yoshida6 = {15, {GM_YOSHIDA6(VERLET_7)}};
-static const struct gm_splitting kahan_li6 = {19, {GM_KAHAN_LI6(VERLET_9)}};
-static const struct gm_splitting suzuki_umeno8 = {31, {GM_SUZUKI_UMENO8(VERLET_15)}};
-static const struct gm_splitting kahan_li8 = {35, {GM_KAHAN_LI8(VERLET_17)}};
-
+#define VERLETS(name)                                                                                        \
+    &(const struct gm_splitting_row)                                                                         \
+    {                                                                                                        \
+        .of_verlet = &gm_composition_##name                                                                  \
+    }
 #define SPLITTING .family = &gm_family_splitting, .needs = GM_NEEDS_SPLIT
 #define NYSTROM .family = &gm_family_splitting, .needs = GM_NEEDS_SPLIT | GM_NEEDS_NYSTROM
 #define SYMPLECTIC (GM_SYMPLECTIC | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR)
@@ -188,7 +169,7 @@ static const struct gm_scheme schemes[] = {
         .formula = "three Verlet steps of lengths bh, (1 − 2b)h, bh,  b = 1/(2 − ∛2)",
         .reference =
             "E. Forest & R.D. Ruth, Physica D 43 (1990) 105; H. Yoshida, Phys. Lett. A 150 (1990) 262",
-        .coefficients = &yoshida4,
+        .coefficients = VERLETS(yoshida4),
         .order = 4,
         .claims = SYMMETRIC,
         SPLITTING,
@@ -198,7 +179,7 @@ static const struct gm_scheme schemes[] = {
         .title = "Suzuki 4",
         .formula = "five Verlet steps of lengths bh, bh, (1 − 4b)h, bh, bh,  b = 1/(4 − ∛4)",
         .reference = "M. Suzuki, Phys. Lett. A 146 (1990) 319",
-        .coefficients = &suzuki4,
+        .coefficients = VERLETS(suzuki4),
         .order = 4,
         .claims = SYMMETRIC,
         SPLITTING,
@@ -208,7 +189,7 @@ static const struct gm_scheme schemes[] = {
         .title = "McLachlan 4",
         .formula = "five Verlet steps of lengths γ₁h, γ₂h, γ₃h, γ₂h, γ₁h,  γ₁ = 0.28",
         .reference = "R.I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151",
-        .coefficients = &mclachlan4,
+        .coefficients = VERLETS(mclachlan4),
         .order = 4,
         .claims = SYMMETRIC,
         SPLITTING,
@@ -249,7 +230,7 @@ static const struct gm_scheme schemes[] = {
         .title = "Yoshida 6",
         .formula = "seven Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
         .reference = "H. Yoshida, Phys. Lett. A 150 (1990) 262, solution A",
-        .coefficients = &yoshida6,
+        .coefficients = VERLETS(yoshida6),
         .order = 6,
         .claims = SYMMETRIC,
         SPLITTING,
@@ -259,7 +240,7 @@ static const struct gm_scheme schemes[] = {
         .title = "Kahan-Li 6",
         .formula = "nine Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
         .reference = "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089",
-        .coefficients = &kahan_li6,
+        .coefficients = VERLETS(kahan_li6),
         .order = 6,
         .claims = SYMMETRIC,
         SPLITTING,
@@ -282,7 +263,7 @@ static const struct gm_scheme schemes[] = {
         .reference =
             "M. Suzuki & K. Umeno, in: Computer Simulation Studies in Condensed-Matter Physics VI (1993) 74; "
             "Hairer, Lubich & Wanner (2006), section V.3.2",
-        .coefficients = &suzuki_umeno8,
+        .coefficients = VERLETS(suzuki_umeno8),
         .order = 8,
         .claims = SYMMETRIC,
         SPLITTING,
@@ -292,7 +273,7 @@ static const struct gm_scheme schemes[] = {
         .title = "Kahan-Li 8",
         .formula = "seventeen Verlet steps of lengths γ₁h, …, γ_sh,  γ_{s+1−i} = γᵢ",
         .reference = "W. Kahan & R.-C. Li, Math. Comp. 66 (1997) 1089",
-        .coefficients = &kahan_li8,
+        .coefficients = VERLETS(kahan_li8),
         .order = 8,
         .claims = SYMMETRIC,
         SPLITTING,

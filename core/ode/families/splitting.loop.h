@@ -55,7 +55,8 @@ GM_INLINE struct gm_progress K(splitting_by_three)(const struct gm_task *task,
 
 __attribute__((unused)) static struct gm_progress K(splitting_run)(const struct gm_task *task)
 {
-    const struct gm_splitting *table = task->scheme->coefficients;
+    struct gm_splitting made;
+    const struct gm_splitting *table = gm_splitting_of(task->scheme->coefficients, &made);
     if (table->count == 3 && table->pieces[0].piece == GM_KICK && table->pieces[1].piece == GM_DRIFT &&
         table->pieces[2].piece == GM_KICK && !task->carry) {
         return K(splitting_by_three)(task, table);
