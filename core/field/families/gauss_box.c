@@ -143,8 +143,7 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-/* The discrete multisymplectic law of Gauss-Legendre collocation: two tangents of a step, with
-   their faces in time and space. */
+/* The discrete multisymplectic law: two tangents of a step, with their faces in time and space. */
 
 /* What the law needs of one tangent, which work holds before and after its step: u and v at the stages of the
    cells, and u and w at their sides, at the stages in time. Where a branch has infinite frequency the force

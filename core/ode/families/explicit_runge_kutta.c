@@ -12,13 +12,7 @@
 #include "core/ode/families/runge_kutta_any.h"
 #include "core/ode/kernel/loops.h"
 
-static const enum gm_explicit_row rows[GM_EXPLICIT_COUNT] = {
-#define GM_EXPLICIT(identifier, ...) GM_EXPLICIT_##identifier,
-#include "core/ode/families/explicit_runge_kutta.def"
-#undef GM_EXPLICIT
-};
-
-/* For any number of components. */
+/* The loop where n is chosen at run time, through the problem's field. */
 
 enum { STAGES = GM_EXPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK };
 
@@ -134,6 +128,12 @@ static struct gm_progress advance(const struct gm_task *task)
     }
     return progress;
 }
+
+static const enum gm_explicit_row rows[GM_EXPLICIT_COUNT] = {
+#define GM_EXPLICIT(identifier, ...) GM_EXPLICIT_##identifier,
+#include "core/ode/families/explicit_runge_kutta.def"
+#undef GM_EXPLICIT
+};
 
 static const struct gm_scheme schemes[] = {
 #define GM_EXPLICIT(identifier, order_, claims_, tableau_, name_, title_, formula_, reference_)              \

@@ -67,8 +67,8 @@ static const struct gm_implicit_row sdirk2 = {.stages = 2,
                                               .b = {SQRT2 / 2, 1 - SQRT2 / 2},
                                               ONE_STEP};
 
-/* For any number of components: solved by fixed-point iteration; a passive particle for which that does not
-   contract, because a vortex turns it too fast, by Newton's method. */
+/* The loop where n is chosen at run time, through the problem's field: by fixed-point iteration, and by
+   Newton's method for a passive particle where that does not contract, because a vortex turns it too fast. */
 
 enum { STAGES = GM_IMPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150, NEWTON = 50 };
 
