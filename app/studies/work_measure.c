@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/clock.h"
 #include "core/schemes.h"
+#include "render/clock.h"
 
 enum { REPEATS = 5 };
 
