@@ -6,6 +6,8 @@
 #include "core/scheme.h"
 
 struct gm_certificate;
+struct gm_quantity;
+struct gm_run;
 
 /* What a facet is called. */
 struct gm_facet_words {
@@ -28,6 +30,8 @@ struct gm_kind {
     /* Measures the order and the claims of a scheme of this kind. */
     void (*certify)(const struct gm_scheme *scheme, struct gm_certificate *certificate);
     const struct gm_family *const *families; /* NULL-terminated */
+    /* What a run's states are called: gm_quantities of core/quantity.h. */
+    size_t (*quantities)(const struct gm_run *run, struct gm_quantity *quantities);
 };
 
 /* The loop that advances this problem by this scheme: that over the problem's kernels, else the family's;

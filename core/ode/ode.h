@@ -69,6 +69,8 @@ enum gm_ode_facet {
     GM_NEEDS_ENERGY = 1u << 9,      /* a hamiltonian whose energy generates the whole field */
 };
 struct gm_ode {
+    /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
+    const char *components;
     bool stiff;     /* implicit equations are solved by Newton's method from the first iteration on */
     bool quadratic; /* f is a polynomial of degree 2 */
     const struct gm_split *split; /* NULL: it has none, and so on */

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/certify.h"
+#include "core/field/certify/quantities.h"
 #include "core/field/families/burgers.h"
 #include "core/field/families/families.h"
 #include "core/field/families/wave_laws.h"
@@ -386,4 +387,5 @@ const struct gm_kind gm_kind_field = {
     .facets = facets,
     .certify = certify,
     .families = families,
+    .quantities = gm_field_quantities,
 };

@@ -11,6 +11,7 @@
 
 #include "core/certify.h"
 #include "core/flow/boundary.h"
+#include "core/flow/certify/quantities.h"
 #include "core/flow/families/families.h"
 #include "core/flow/rectangle.h"
 #include "core/flow/start.h"
@@ -300,4 +301,5 @@ const struct gm_kind gm_kind_flow = {
     .problems = "flows on a mesh",
     .certify = certify,
     .families = families,
+    .quantities = gm_flow_quantities,
 };

@@ -8,6 +8,7 @@
 
 #include "core/certify.h"
 #include "core/mesh/certify/law.h"
+#include "core/mesh/certify/quantities.h"
 #include "core/mesh/certify/subject.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/nodes.h"
@@ -214,4 +215,5 @@ const struct gm_kind gm_kind_mesh = {
     .problems = "waves on moving meshes",
     .certify = certify,
     .families = families,
+    .quantities = gm_mesh_quantities,
 };

@@ -7,6 +7,7 @@
 
 #include "core/certify.h"
 #include "core/ode/certify/measure.h"
+#include "core/ode/certify/quantities.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 
@@ -115,4 +116,5 @@ const struct gm_kind gm_kind_ode = {
     .loop = loop,
     .certify = certify,
     .families = families,
+    .quantities = gm_ode_quantities,
 };

@@ -32,6 +32,7 @@ const struct gm_problem gm_problem_abc = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "x y z",
             .volume = &(const struct gm_volume){.pieces = 3, .flow = flow},
             .loops = GM_LOOPS(abc),
         },

@@ -70,7 +70,8 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
 #define CHAIN(springs, its_loops)                                                                            \
     .name = "fpu", .kind = &gm_kind_ode, .n = 4 * (springs), .m = 1, .facets = &(const struct gm_ode)        \
     {                                                                                                        \
-        .stiff = true, .split = &(const struct gm_split){.nystrom = true},                                   \
+        .components = "x[] y[] p_x[] p_y[]", .stiff = true,                                                  \
+        .split = &(const struct gm_split){.nystrom = true},                                                  \
         .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},                                     \
         .fast_linear = &(const struct gm_fast_linear){.frequency = frequency, .slow_force = slow_force},     \
         .loops = GM_LOOPS(its_loops)                                                                         \

@@ -21,6 +21,7 @@ const struct gm_problem gm_problem_henon_heiles = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "q1 q2 p1 p2",
             .quadratic = true,
             .split = &(const struct gm_split){.nystrom = true},
             .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},

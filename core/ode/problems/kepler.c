@@ -94,7 +94,7 @@ static void solution(const struct gm_problem *problem, double t, const double *y
 #define KEPLER(its_loops)                                                                                    \
     .kind = &gm_kind_ode, .n = 4, .m = 1, .facets = &(const struct gm_ode)                                   \
     {                                                                                                        \
-        .split = &(const struct gm_split){.nystrom = true},                                                  \
+        .components = "q1 q2 p1 p2", .split = &(const struct gm_split){.nystrom = true},                     \
         .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},                                     \
         .kepler_split =                                                                                      \
             &(const struct gm_kepler_split){.potential = potential, .perturbing_force = perturbing_force},   \

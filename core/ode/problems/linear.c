@@ -53,6 +53,7 @@ const struct gm_problem gm_problem_linear = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "y1 y2 y3",
             .volume = &(const struct gm_volume){.pieces = 2, .flow = flow},
             .loops = GM_LOOPS(linear),
         },

@@ -30,6 +30,7 @@ const struct gm_problem gm_problem_oscillator = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "q p",
             .quadratic = true,
             .split = &(const struct gm_split){.nystrom = true},
             .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
@@ -45,6 +46,7 @@ const struct gm_problem gm_problem_oscillator_tangent = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "q xi1 xi2 p eta1 eta2",
             .quadratic = true,
             .split = &(const struct gm_split){.nystrom = true},
             .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .partial = true},

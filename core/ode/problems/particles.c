@@ -24,6 +24,7 @@ const struct gm_problem gm_problem_particles = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "q1 q2 p1 p2",
             .split = &(const struct gm_split){.nystrom = true},
             .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
             .loops = GM_LOOPS(particles),

@@ -32,6 +32,7 @@ const struct gm_problem gm_problem_pendulum = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "q p",
             .split = &(const struct gm_split){.nystrom = true},
             .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
             .lagrangian = &(const struct gm_lagrangian){.potential = potential},
@@ -46,6 +47,7 @@ const struct gm_problem gm_problem_pendulum_tangent = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "q xi1 xi2 p eta1 eta2",
             .split = &(const struct gm_split){.nystrom = true},
             .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .partial = true},
             .loops = GM_LOOPS(pendulum_tangent),

@@ -21,6 +21,7 @@ const struct gm_problem gm_problem_product = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "q p",
             .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
             .loops = GM_LOOPS(product),
         },

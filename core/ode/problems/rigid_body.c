@@ -13,6 +13,7 @@ const struct gm_problem gm_problem_rigid_body = {
     .kind = &gm_kind_ode,
     .facets =
         &(const struct gm_ode){
+            .components = "y1 y2 y3",
             .quadratic = true,
             .loops = GM_LOOPS(rigid_body),
         },

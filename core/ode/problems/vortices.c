@@ -69,12 +69,11 @@ static void reduced_energy(const struct gm_problem *problem, const double *state
 static const struct gm_hamiltonian full = {.energy = energy, .weight = inverse_strength};
 static const struct gm_hamiltonian halved = {.energy = reduced_energy, .weight = inverse_of_two};
 
-#define VORTICES(components, its_hamiltonian, its_loops)                                                     \
+#define VORTICES(numbers, its_hamiltonian, its_loops)                                                        \
     {                                                                                                        \
-        .name = "vortices", .kind = &gm_kind_ode, .n = (components), .m = 1,                                 \
-        .facets = &(const struct gm_ode)                                                                     \
+        .name = "vortices", .kind = &gm_kind_ode, .n = (numbers), .m = 1, .facets = &(const struct gm_ode)   \
         {                                                                                                    \
-            .hamiltonian = &(its_hamiltonian), .loops = GM_LOOPS(its_loops)                                  \
+            .components = "x[] y[]", .hamiltonian = &(its_hamiltonian), .loops = GM_LOOPS(its_loops)         \
         }                                                                                                    \
     }
 

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A state of a field on a line by names. */
+#include "core/field/certify/quantities.h"
+
+#include <stdio.h>
+
+#include "core/field/families/burgers.h"
+#include "core/field/problems/burgers.h"
+#include "core/run.h"
+
+static void grid(const struct gm_run *run, double *values)
+{
+    const struct gm_line *line = &run->problem->line;
+    for (size_t i = 0; i < line->points; i++) {
+        values[i] = gm_line_node(line, i);
+    }
+}
+
+/* Where the nodes are by now that move with a frame. */
+static void places(const struct gm_run *run, double *values)
+{
+    const struct gm_burgers *burgers = gm_burgers_of(run->problem);
+    grid(run, values);
+    for (size_t i = 0; i < run->problem->line.points; i++) {
+        values[i] += burgers->lambda * (run->t - gm_burgers_t0(burgers));
+    }
+}
+
+static struct gm_quantity *add(struct gm_quantity *end, const char *name, enum gm_support support,
+                               size_t count, size_t first)
+{
+    *end = (struct gm_quantity){.unit = "", .support = support, .count = count, .width = 1, .first = first};
+    snprintf(end->name, sizeof end->name, "%s", name);
+    return end + 1;
+}
+
+size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantities)
+{
+    const struct gm_problem *problem = run->problem;
+    const struct gm_field *field = gm_field_of(problem);
+    const size_t points = problem->line.points;
+    const bool burgers = field->equation == GM_NEEDS_BURGERS;
+    const bool companion = burgers && gm_burgers_of(problem)->lambda != 0;
+    const bool moving = companion && !gm_burgers_fixed(gm_burgers_of(problem), run->scheme);
+    struct gm_quantity *end = add(quantities, moving ? "x" : "grid", GM_ON_NODES, points, 0);
+    quantities->axis = 1;
+    quantities->fixed = !moving;
+    quantities->derive = moving ? places : grid;
+    if (field->dispersive && field->dispersive->complex_valued) {
+        end = add(end, "psi_re", GM_ON_NODES, points, 0);
+        end = add(end, "psi_im", GM_ON_NODES, points, points);
+    } else {
+        end = add(end, "u", GM_ON_NODES, points, 0);
+    }
+    if (companion) {
+        end = add(end, "u_companion", GM_ON_NODES, points, points);
+    }
+    if (problem->n == gm_wave_size(points) && !burgers) {
+        end = add(end, "u_other", GM_ON_NODES, points, points);
+        end = add(end, "other_time", GM_ON_RUN, 1, 2 * points);
+    }
+    return (size_t)(end - quantities);
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A state on a moving mesh by names. */
+#include "core/mesh/certify/quantities.h"
+
+#include <stdio.h>
+
+#include "core/run.h"
+
+size_t gm_mesh_quantities(const struct gm_run *run, struct gm_quantity *quantities)
+{
+    static const char *const names[] = {"u", "x", "u_dot", "x_dot"};
+    enum { COUNT = sizeof names / sizeof names[0] };
+    const size_t points = run->problem->n / COUNT;
+    for (size_t i = 0; i < COUNT; i++) {
+        quantities[i] = (struct gm_quantity){.unit = "",
+                                             .support = GM_ON_NODES,
+                                             .count = points,
+                                             .width = 1,
+                                             .first = i * points,
+                                             .axis = i == 1 ? 1 : 0};
+        snprintf(quantities[i].name, sizeof quantities->name, "%s", names[i]);
+    }
+    return COUNT;
+}

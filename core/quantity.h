@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_QUANTITY_H
+#define GM_CORE_QUANTITY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct gm_run;
+
+/* What a state is called: named arrays, as files hold them that others read. Each kind of problem says which
+   there are (struct gm_kind). */
+
+/* What the values belong to. */
+enum gm_support {
+    GM_ON_RUN,     /* to the whole */
+    GM_ON_BODIES,  /* to each of several bodies */
+    GM_ON_TRACERS, /* to particles that are carried along */
+    GM_ON_NODES,   /* to points of a grid, nodes or vertices of a mesh */
+    GM_ON_CELLS,   /* to triangles */
+};
+
+/* An array of the shape (count, members, width): without the first axis on GM_ON_RUN, the second where m is
+   1, the third where width is 1. Where `derive` is NULL these are count components of the state, from `first`
+   on, as they lie there. */
+struct gm_quantity {
+    char name[32];
+    const char *unit; /* "": none */
+    enum gm_support support;
+    size_t count, width;
+    size_t first;
+    int axis;   /* 1, 2, 3: the values are coordinates x, y, z of what they belong to, of width 2 x and y */
+    bool fixed; /* the same at all times */
+    bool whole; /* whole numbers */
+    void (*derive)(const struct gm_run *run, double *values);
+};
+
+enum { GM_QUANTITIES = 16 /* most of a kind */ };
+
+/* The quantities of a run's states, into GM_QUANTITIES places; their number. They stay valid with the run. */
+size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities);
+
+/* How many numbers it has, over all members. */
+size_t gm_quantity_size(const struct gm_run *run, const struct gm_quantity *quantity);
+
+/* The numbers now: in the state, or in `scratch` (gm_quantity_size), where they are derived. */
+const double *gm_quantity_values(const struct gm_run *run, const struct gm_quantity *quantity,
+                                 double *scratch);
+
+#endif
