@@ -11,26 +11,8 @@
 #include <unistd.h>
 
 #include "app/output/folder.h"
+#include "app/output/snapshot.h"
 #include "render/files/temporary.h"
-
-/* The checksum of the running program: frames of another build are not ours, whatever its version says. False
-   if the program cannot be read. */
-static bool program_checksum(unsigned *checksum)
-{
-    FILE *file = fopen("/proc/self/exe", "rbe");
-    if (!file) {
-        return false;
-    }
-    char bytes[1 << 16];
-    size_t size = 0;
-    *checksum = 0;
-    while ((size = fread(bytes, 1, sizeof bytes, file)) > 0) {
-        *checksum = libdeflate_crc32(*checksum, bytes, size);
-    }
-    const bool good = !ferror(file);
-    fclose(file);
-    return good;
-}
 
 static char *identify(const struct gm_schedule *schedule, const struct gm_provenance *provenance,
                       unsigned program)
@@ -117,7 +99,7 @@ bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule
 {
     unsigned program = 0;
     *frames = (struct gm_frames){0};
-    if (!program_checksum(&program)) {
+    if (!gm_program_checksum(&program)) {
         snprintf(message, GM_MESSAGE, "the program itself could not be read: %s", strerror(errno));
         return false;
     }

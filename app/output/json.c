@@ -15,23 +15,28 @@ static bool is_proper(uint32_t code, size_t bytes)
     return bytes == needed && (code < 0xD800 || code > 0xDFFF) && code <= 0x10FFFF;
 }
 
-void gm_json_text(const char *text)
+void gm_json_put_text(FILE *stream, const char *text)
 {
-    putchar('"');
+    fputc('"', stream);
     while (*text) {
         const char *letter = text;
         const uint32_t code = gm_text_next(&text);
         if (code == '\n') {
-            fputs("\\n", stdout);
+            fputs("\\n", stream);
         } else if (code < ' ') {
-            printf("\\u%04x", (unsigned)code);
+            fprintf(stream, "\\u%04x", (unsigned)code);
         } else if (!is_proper(code, (size_t)(text - letter))) {
-            fputs("\\ufffd", stdout);
+            fputs("\\ufffd", stream);
         } else {
-            printf("%s%.*s", code == '"' || code == '\\' ? "\\" : "", (int)(text - letter), letter);
+            fprintf(stream, "%s%.*s", code == '"' || code == '\\' ? "\\" : "", (int)(text - letter), letter);
         }
     }
-    putchar('"');
+    fputc('"', stream);
+}
+
+void gm_json_text(const char *text)
+{
+    gm_json_put_text(stdout, text);
 }
 
 void gm_json_pair(const char *key, const char *text)
@@ -48,11 +53,16 @@ void gm_json_number_pair(const char *key, double value)
     gm_json_number(value);
 }
 
-void gm_json_number(double value)
+void gm_json_put_number(FILE *stream, double value)
 {
     if (isfinite(value)) {
-        printf("%.17g", value);
+        fprintf(stream, "%.17g", value);
     } else {
-        fputs("null", stdout);
+        fputs("null", stream);
     }
+}
+
+void gm_json_number(double value)
+{
+    gm_json_put_number(stdout, value);
 }

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OUTPUT_PAUSE_H
+#define GM_APP_OUTPUT_PAUSE_H
+
+#include <stdint.h>
+
+#include "app/request/request.h"
+
+/* The checkpoints of a command that runs lanes one after the other: how far each has come. */
+
+/* What is kept of a lane beside its state. */
+struct gm_paused {
+    double seconds;   /* processor time of its steps */
+    uint64_t rows;    /* of its states that were saved, an end out of turn not among them */
+    int64_t last_row; /* the step of the last row; -1: there is none */
+    double *numbers;  /* of the caller, as many as gm_pause_open was told */
+};
+
+struct gm_pause;
+
+/* Begins with nothing or, where `from` is not NULL, with what that file holds, which has to be of these
+   lanes: the same but for until and steps. NULL with a sentence (GM_MESSAGE bytes). */
+struct gm_pause *gm_pause_open(const struct gm_request *request, size_t numbers, const char *from,
+                               char *message);
+void gm_pause_close(struct gm_pause *pause);
+
+/* Puts lane `index`, just opened, where it was; a lane that had not begun stays as it is. False with a
+   sentence: it cannot be, or was further than it is to come now. */
+bool gm_pause_restore(struct gm_pause *pause, size_t index, struct gm_lane *lane, struct gm_paused *paused,
+                      char *message);
+
+/* Whether states of a lane were saved before; of NULL: no. */
+bool gm_pause_has_rows(const struct gm_pause *pause);
+
+/* Takes note of the lane's present state. False when memory is short. */
+bool gm_pause_note(struct gm_pause *pause, size_t index, const struct gm_lane *lane,
+                   const struct gm_paused *paused);
+
+/* Replaces the file by all that was noted. False with a sentence. */
+bool gm_pause_write(const struct gm_pause *pause, const char *path, char *message);
+
+#endif
