@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a state is called: asked of its kind. */
 #include "core/quantity.h"
 
 #include "core/kind.h"

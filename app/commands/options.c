@@ -34,7 +34,13 @@ static const struct row rows[] = {
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},
     {"--profile", TEXT, GM_RUN, AT(profile), "FILE", "write profiles of the final state to FILE"},
     {"--every", WHOLE, GM_RUN | GM_RENDER, AT(every), "K",
-     "run: a row of the history, render: a frame, every K steps"},
+     "run: a row of --csv and --save, render: a frame, every K steps"},
+    {"--interval", RATE, GM_RUN, AT(interval), "T",
+     "a row at the steps next to multiples of T in model time"},
+    {"--save", TEXT, GM_RUN, AT(save), "FILE", "write the states to FILE: .npz, .csv or .pvd"},
+    {"--save-tracks", TEXT, GM_RUN, AT(tracks), "FILE", "write trails, sections ... to FILE.npz"},
+    {"--checkpoint", TEXT, GM_RUN, AT(checkpoint), "FILE", "keep the state in FILE, to be gone on with"},
+    {"--continue", TEXT, GM_RUN, AT(from_checkpoint), "FILE", "go on from a checkpoint"},
     {"--frames", WHOLE, GM_RENDER, AT(frames), "N", "N frames, evenly spaced in model time"},
     {"--fps", FPS, GM_RENDER | GM_TOUR, AT(fps), "F", "frames a second of the movie (30)"},
     {"--rate", RATE, GM_RENDER, AT(rate), "R", "model time a second of the movie"},
@@ -207,6 +213,7 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
         {"--frames", "--every", "each says how many frames there are"},
         {"--frames", "--rate", "each says how many frames there are"},
         {"--every", "--rate", "each says how many frames there are"},
+        {"--every", "--interval", "each says which steps have a row"},
         {"--json", "--markdown", "they are two formats"},
         {"--list", "--movie", "the first only tells of the tour"},
         {"--list", "--out", "the first only tells of the tour"},
@@ -218,10 +225,23 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
             return false;
         }
     }
-    if (options->csv && options->profile && strcmp(options->csv, "-") != 0 &&
-        strcmp(options->csv, options->profile) == 0) {
-        snprintf(message, GM_MESSAGE, "--csv and --profile are to write to one file, %.300s", options->csv);
-        return false;
+    const struct {
+        const char *name, *path;
+    } files[] = {{"--csv", options->csv},
+                 {"--profile", options->profile},
+                 {"--save", options->save},
+                 {"--save-tracks", options->tracks},
+                 {"--checkpoint", options->checkpoint}};
+    enum { FILES = sizeof files / sizeof files[0] };
+    for (size_t i = 0; i < FILES; i++) {
+        for (size_t k = i + 1; k < FILES; k++) {
+            if (files[i].path && files[k].path && strcmp(files[i].path, "-") != 0 &&
+                strcmp(files[i].path, files[k].path) == 0) {
+                snprintf(message, GM_MESSAGE, "%s and %s are to write to one file, %.300s", files[i].name,
+                         files[k].name, files[i].path);
+                return false;
+            }
+        }
     }
     return true;
 }
@@ -233,6 +253,7 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
                                    .rate = NAN,
                                    .from = NAN,
                                    .at = NAN,
+                                   .interval = NAN,
                                    .width = 1280,
                                    .height = 720,
                                    .theme = GM_THEME_LIGHT};

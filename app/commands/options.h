@@ -27,12 +27,13 @@ enum gm_command {
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown, listing;
+    const char *save, *tracks, *checkpoint, *from_checkpoint;
     const char *csv, *profile, *out, *movie, *measure, *region, *changes;
     const char *name; /* of a chart's files, by `again` alone; NULL: the command's own */
     long every, frames;
     long shard, shards;                    /* 0, 0: not given */
     double fps, rate;                      /* NAN: not given */
-    double from, at;                       /* NAN: not given */
+    double from, at, interval;             /* NAN: not given */
     int width, height;                     /* 1280 x 720 */
     bool sized;                            /* these were given */
     enum gm_theme theme;                   /* light */

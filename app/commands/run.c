@@ -5,12 +5,30 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "app/commands/commands.h"
+#include "app/data/meta.h"
+#include "app/data/profile.h"
+#include "app/data/rows.h"
+#include "app/data/save.h"
+#include "app/data/tracks.h"
+#include "app/output/checkpoint.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
+#include "app/output/pause.h"
 #include "app/request/drive.h"
 #include "core/memory.h"
+
+/* What the command writes beside its numbers. */
+struct outputs {
+    const struct gm_options *options;
+    struct gm_rows rows;
+    FILE *csv; /* NULL: not asked for, as the others */
+    struct gm_save *save;
+    struct gm_pause *pause;
+    struct gm_tracks *tracks;
+};
 
 struct outcome {
     struct gm_drive drive;
@@ -18,6 +36,8 @@ struct outcome {
     double *maxima;            /* one per observable, of largest magnitude; NULL without --max */
     char *front;               /* "scene,lane,scheme" and the keys that differ: how a row of CSV begins */
     bool interrupted;          /* before it came to its end */
+    struct outputs *outputs;   /* of all lanes */
+    struct gm_paused paused;   /* numbers: the maxima */
     char warning[GM_SENTENCE]; /* what is wrong with an end that is called well; "" for nothing */
 };
 
@@ -49,31 +69,6 @@ static const char *tell_end(const struct outcome *outcome, char *sentence, size_
     return gm_status_name(lane->run->status);
 }
 
-static void print_json_parameters(const struct gm_lane *lane)
-{
-    const struct gm_scene *scene = lane->scene;
-    char text[GM_TEXT_SIZE];
-    printf("\"parameters\":{");
-    for (size_t i = 0; i < scene->parameter_count; i++) {
-        const struct gm_parameter *row = &scene->parameters[i];
-        if (gm_scene_idle(scene, lane->parameters, row->key)) {
-            continue;
-        }
-        printf("%s\"%s\":", i ? "," : "", row->key); /* the first, the step, always has an effect */
-        if (row->type == GM_TEXT) {
-            gm_json_text(gm_parameter_format(row, lane->parameters, text, sizeof text));
-        } else if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
-            printf("\"%s\"", gm_parameter_format(row, lane->parameters, text, sizeof text));
-        } else {
-            gm_json_number(gm_parameter_get(row, lane->parameters));
-        }
-    }
-    for (const struct gm_parameter *const *row = lane->scheme->family->parameters; row && *row; row++) {
-        printf(",\"%s\":\"%s\"", (*row)->key, gm_parameter_format(*row, &lane->settings, text, sizeof text));
-    }
-    printf("}");
-}
-
 /* Why values are null, where any is. */
 static void print_json_reasons(const struct outcome *outcome)
 {
@@ -96,8 +91,8 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     const struct gm_run *run = lane->run;
     char sentence[GM_SENTENCE];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
-    printf("{\"scene\":\"%s\",\"scheme\":\"%s\",", lane->scene->name, lane->scheme->name);
-    print_json_parameters(lane);
+    printf("{\"scene\":\"%s\",\"scheme\":\"%s\",\"parameters\":", lane->scene->name, lane->scheme->name);
+    gm_meta_parameters(stdout, lane);
     printf(",\"status\":\"%s\",\"message\":\"%s\",\"warning\":\"%s\",\"t\":", status, sentence,
            outcome->warning);
     gm_json_number(run->t);
@@ -257,52 +252,163 @@ static void take_maxima(struct outcome *outcome)
     }
 }
 
-/* Drives one lane to its end. Looks at every step only where that is asked for. */
-static bool drive_lane(struct outcome *outcome, long steps, const struct gm_options *options, FILE *csv,
-                       char *message)
+/* A row of the history and one of the states. */
+static bool write_rows(struct outcome *outcome, char *message)
 {
+    const struct outputs *outputs = outcome->outputs;
+    outcome->paused.last_row = outcome->drive.lane->run->steps;
+    if (outputs->csv) {
+        write_row(outputs->csv, outcome);
+    }
+    return !outputs->save || gm_save_row(outputs->save, outcome->drive.lane->run, message);
+}
+
+/* Writes the checkpoint: the rows that it counts are on the disk before it is. */
+static bool keep_state(struct outcome *outcome, char *message)
+{
+    const struct outputs *outputs = outcome->outputs;
+    const struct gm_drive *drive = &outcome->drive;
+    outcome->paused.seconds = drive->seconds;
+    outcome->paused.rows = 0;
+    if (outputs->save && !gm_save_sync(outputs->save, &outcome->paused.rows, message)) {
+        return false;
+    }
+    if (!gm_pause_note(outputs->pause, drive->index, drive->lane, &outcome->paused)) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        return false;
+    }
+    return gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
+}
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* The clock that says when a lane is to be kept: how many steps may be made before it is looked at again. */
+struct pace {
+    long steps;
+    double looked, kept;
+};
+
+static bool keep_pace(struct outcome *outcome, struct pace *pace, char *message)
+{
+    const double now = seconds_now(), often = 0.1, interval = 5, share = 20;
+    pace->steps = now - pace->looked < often ? 2 * pace->steps : pace->steps / 2 + 1;
+    pace->steps = pace->steps < GM_MOST_STEPS ? pace->steps : GM_MOST_STEPS;
+    pace->looked = now;
+    if (now < pace->kept + interval) {
+        return true;
+    }
+    const bool good = keep_state(outcome, message);
+    pace->looked = seconds_now();
+    /* what is kept may be large: it takes a small part of the time */
+    pace->kept = pace->looked + fmax(0, share * (pace->looked - now) - interval);
+    return good;
+}
+
+/* Drives one lane to its end. Looks at every step only where that is asked for. */
+static bool drive_lane(struct outcome *outcome, long steps, char *message)
+{
+    const struct outputs *outputs = outcome->outputs;
     struct gm_drive *drive = &outcome->drive;
     const struct gm_run *run = drive->lane->run;
-    const long every = outcome->maxima ? 1 : options->every ? options->every : 1;
-    const long row = options->every ? options->every : 1;
-    if (csv) {
-        write_row(csv, outcome);
-    }
-    take_maxima(outcome);
-    if (!csv && !outcome->maxima) {
-        return gm_drive_to(drive, steps, false, message);
-    }
+    const bool has_rows = outputs->csv || outputs->save;
+    struct pace pace = {.steps = 1, .looked = seconds_now(), .kept = seconds_now()};
     while (run->steps < steps && run->status == GM_OK && !gm_interrupted && !gm_drive_is_over(drive)) {
-        const long next = run->steps + every < steps ? run->steps + every : steps;
+        long next = outcome->maxima ? run->steps + 1 : steps;
+        if (has_rows) {
+            const long row = gm_rows_next(&outputs->rows, run);
+            next = row < next ? row : next;
+        }
+        if (outputs->options->checkpoint && pace.steps < next - run->steps) {
+            next = run->steps + pace.steps;
+        }
         const long before = run->steps;
-        if (!gm_drive_to(drive, next, false, message)) {
+        const double t_before = run->t;
+        if (!gm_drive_to(drive, next < steps ? next : steps, outputs->tracks != NULL, message)) {
             return false;
         }
         if (run->steps == before) {
             break;
         }
         take_maxima(outcome);
-        if (csv && run->status == GM_OK && (run->steps % row == 0 || run->steps == steps)) {
-            write_row(csv, outcome);
+        if (has_rows && run->status == GM_OK && gm_rows_due(&outputs->rows, run, t_before) &&
+            !write_rows(outcome, message)) {
+            return false;
+        }
+        if (outputs->options->checkpoint && !keep_pace(outcome, &pace, message)) {
+            return false;
         }
     }
     return true;
 }
 
+/* The rows of a lane begin: with its start or, where it goes on, behind those that are there. */
+static bool begin_rows(struct outcome *outcome, char *message)
+{
+    const struct outputs *outputs = outcome->outputs;
+    const struct gm_run *run = outcome->drive.lane->run;
+    const uint64_t rows = outcome->paused.rows;
+    if (outputs->save && !gm_save_begin(outputs->save, outcome->drive.index, run, rows, message)) {
+        return false;
+    }
+    if (outputs->save && rows > 0) {
+        if (outputs->csv) {
+            write_row(outputs->csv, outcome);
+        }
+        return true;
+    }
+    return !(outputs->csv || outputs->save) || write_rows(outcome, message);
+}
+
+/* ... and end with the last good state. A lane that did not come to its end says so in its history. */
+static bool end_rows(struct outcome *outcome, char *message)
+{
+    const struct outputs *outputs = outcome->outputs;
+    const struct gm_lane *lane = outcome->drive.lane;
+    const bool cut = outcome->interrupted || lane->run->status != GM_OK;
+    const bool missing = outcome->paused.last_row != lane->run->steps;
+    if (outputs->csv && (cut || missing)) {
+        write_row(outputs->csv, outcome);
+    }
+    if (!outputs->save) {
+        return true;
+    }
+    if (missing && !gm_save_row(outputs->save, lane->run, message)) {
+        return false;
+    }
+    char sentence[GM_SENTENCE];
+    char *meta = gm_meta_text(lane, tell_end(outcome, sentence, sizeof sentence), sentence);
+    if (!meta) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        return false;
+    }
+    const bool good = gm_save_end(outputs->save, meta, message);
+    free(meta);
+    return good;
+}
+
 /* Runs one lane; how it ended, if not well, is the last row of its history. */
-static bool run_lane(struct outcome *outcome, long steps, const struct gm_options *options, FILE *csv,
-                     char *message)
+static bool run_lane(struct outcome *outcome, long steps, char *message)
 {
     const struct gm_run *run = outcome->drive.lane->run;
-    if (!drive_lane(outcome, steps, options, csv, message)) {
+    outcome->paused = (struct gm_paused){.last_row = -1, .numbers = outcome->maxima};
+    if (outcome->outputs->pause && !gm_pause_restore(outcome->outputs->pause, outcome->drive.index,
+                                                     outcome->drive.lane, &outcome->paused, message)) {
+        return false;
+    }
+    outcome->drive.seconds = outcome->paused.seconds;
+    take_maxima(outcome);
+    if (!begin_rows(outcome, message) || !drive_lane(outcome, steps, message)) {
         return false;
     }
     outcome->interrupted =
         gm_interrupted && run->status == GM_OK && run->steps < steps && !gm_drive_is_over(&outcome->drive);
-    if (csv && (outcome->interrupted || run->status != GM_OK)) {
-        write_row(csv, outcome);
-    }
-    return true;
+    return (!outcome->outputs->options->checkpoint || keep_state(outcome, message)) &&
+           end_rows(outcome, message);
 }
 
 static bool is_standard_output(const char *path)
@@ -366,15 +472,23 @@ static bool write_profile(const char *path, const struct outcome *outcome, char 
         return false;
     }
     char *names = front_of(outcome->drive.request, NULL, 0), *front = NULL;
-    const bool told = names && asprintf(&front, "%s,%.17g", outcome->front, lane->run->t) >= 0;
+    bool told = names && asprintf(&front, "%s,%.17g", outcome->front, lane->run->t) >= 0;
     if (told && first) {
-        fprintf(stream, "%s,t," GM_PROFILE_COLUMNS "\n", names);
+        fprintf(stream, "%s,t,", names);
+        if (lane->scene->profile) {
+            fputs(GM_PROFILE_COLUMNS, stream);
+        } else {
+            gm_profile_columns(lane->run, stream);
+        }
+        fputc('\n', stream);
     }
-    if (told) {
+    if (told && lane->scene->profile) {
         const struct gm_view view = gm_lane_view(lane);
         lane->scene->profile(&view, front, stream);
-        free(front);
+    } else if (told) {
+        told = gm_profile_write(lane->run, front, stream);
     }
+    free(front);
     free(names);
     if (!close_csv(stream) || !told) {
         snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", path,
@@ -421,6 +535,126 @@ static void tell_written(const char *path)
     }
 }
 
+/* Whether the scene has profiles of its own, or its states have nodes on a line. */
+static bool has_profile(const struct gm_request *request)
+{
+    char message[GM_MESSAGE];
+    struct gm_lane *lane = request->scene->profile ? NULL : gm_request_open_lane(request, 0, message);
+    const bool has = request->scene->profile || !lane || gm_profile_is_there(lane->run);
+    gm_lane_close(lane);
+    return has; /* a lane that cannot be opened says why later */
+}
+
+/* Opens what is to be written; the status to exit with, and a sentence unless that is 0. */
+static int open_outputs(struct outputs *outputs, const struct gm_request *request, char *message)
+{
+    const struct gm_options *options = outputs->options;
+    const size_t numbers = options->maximum ? request->scene->observable_count : 0;
+    if (options->profile && !has_profile(request)) {
+        snprintf(message, GM_MESSAGE, "scene %s has no profiles", request->scene->name);
+        return GM_EXIT_USAGE;
+    }
+    if (options->save && !gm_save_knows(options->save, message)) {
+        return GM_EXIT_USAGE;
+    }
+    if ((options->checkpoint || options->from_checkpoint) && !gm_checkpoint_fits(request)) {
+        snprintf(message, GM_MESSAGE, "a run of these schemes cannot be gone on with from a checkpoint");
+        return GM_EXIT_USAGE;
+    }
+    if (options->tracks && !gm_tracks_knows(options->tracks, request->scene, message)) {
+        return GM_EXIT_USAGE;
+    }
+    if (options->checkpoint || options->from_checkpoint) {
+        outputs->pause = gm_pause_open(request, numbers, options->from_checkpoint, message);
+        if (!outputs->pause) {
+            return GM_EXIT_FILE;
+        }
+    }
+    const bool good =
+        (!options->checkpoint || gm_folder_make_for(options->checkpoint, message)) &&
+        (!options->csv || (outputs->csv = open_csv(options->csv, request, message))) &&
+        (!options->tracks || (outputs->tracks = gm_tracks_open(options->tracks, request->count, message))) &&
+        (!options->save || (outputs->save = gm_save_open(options->save, request->count,
+                                                         gm_pause_has_rows(outputs->pause), message)));
+    return good ? GM_EXIT_OK : GM_EXIT_FILE;
+}
+
+/* Finishes what was begun; the status to exit with. */
+static int close_outputs(struct outputs *outputs, bool opened, int status)
+{
+    char message[GM_MESSAGE];
+    const struct gm_options *options = outputs->options;
+    const bool refused = status == GM_EXIT_FILE || !opened;
+    if (outputs->csv && !close_csv(outputs->csv) && outputs->csv != stdout) {
+        gm_complain("%s could not be written: %s", options->csv, strerror(errno));
+        status = GM_EXIT_FILE;
+    }
+    if (outputs->save && !gm_save_close(outputs->save, !refused, options->checkpoint != NULL, message)) {
+        gm_complain("%s", message);
+        status = GM_EXIT_FILE;
+    }
+    if (outputs->tracks && !gm_tracks_close(outputs->tracks, !refused, message)) {
+        gm_complain("%s", message);
+        status = GM_EXIT_FILE;
+    }
+    gm_pause_close(outputs->pause);
+    if (status != GM_EXIT_FILE && status != GM_EXIT_USAGE) {
+        const char *const written[] = {options->csv, options->profile, options->save, options->tracks,
+                                       options->checkpoint};
+        for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
+            tell_written(written[i]);
+        }
+    }
+    return status;
+}
+
+/* Opens and runs lane `index` and tells of it; the status to exit with. */
+static int make_lane(struct outputs *outputs, const struct gm_request *request, size_t index)
+{
+    char message[GM_MESSAGE];
+    const struct gm_options *options = outputs->options;
+    const size_t observables = request->scene->observable_count;
+    struct outcome outcome = {.drive = {.request = request, .index = index}, .outputs = outputs};
+    outcome.drive.lane = gm_request_open_lane(request, index, message);
+    outcome.front = outcome.drive.lane ? front_of(request, outcome.drive.lane, index) : NULL;
+    outcome.values = malloc(2 * observables * sizeof(double));
+    int status = GM_EXIT_OK;
+    const bool good = outcome.front && outcome.values;
+    if (outcome.drive.lane && !good) {
+        snprintf(message, sizeof message, "not enough memory");
+    }
+    if (good && options->maximum) {
+        outcome.maxima = outcome.values + observables;
+        for (size_t k = 0; k < observables; k++) {
+            outcome.maxima[k] = NAN;
+        }
+    }
+    if (!good) {
+        gm_complain("%s", message);
+        status = GM_EXIT_USAGE;
+    } else if (!run_lane(&outcome, request->lanes[index].steps, message)) {
+        gm_complain("%s", message);
+        status = GM_EXIT_FILE;
+    } else {
+        observe(&outcome);
+        const bool told =
+            tell(&outcome, options, message) &&
+            (!outputs->tracks || gm_tracks_add(outputs->tracks, index, outcome.drive.lane, message));
+        const bool doubtful = options->strict && outcome.warning[0] != '\0';
+        const enum gm_status end = outcome.drive.lane->run->status;
+        if (!told) {
+            gm_complain("%s", message);
+            status = GM_EXIT_FILE;
+        } else if (end != GM_OK || doubtful) {
+            status = end == GM_OUT_OF_MEMORY ? GM_EXIT_MEMORY : GM_EXIT_NUMERICAL;
+        }
+    }
+    free(outcome.front);
+    free(outcome.values);
+    gm_lane_close(outcome.drive.lane);
+    return status;
+}
+
 static int command_run(const struct gm_options *options)
 {
     char message[GM_MESSAGE];
@@ -433,64 +667,22 @@ static int command_run(const struct gm_options *options)
         gm_complain("%s", message);
         return gm_request_refusal(&request);
     }
-    if (options->profile && !request.scene->profile) {
-        gm_complain("scene %s has no profiles", request.scene->name);
-        gm_request_close(&request);
-        return GM_EXIT_USAGE;
-    }
     gm_catch_interrupts();
-    FILE *csv = NULL;
-    int status = GM_EXIT_OK;
-    if (options->csv && !(csv = open_csv(options->csv, &request, message))) {
+    struct outputs outputs = {.options = options,
+                              .rows = {.every = options->every, .interval = options->interval}};
+    int status = open_outputs(&outputs, &request, message);
+    const bool opened = status == GM_EXIT_OK;
+    if (!opened) {
         gm_complain("%s", message);
-        status = GM_EXIT_FILE;
     }
-    for (size_t i = 0; i < request.count && status != GM_EXIT_FILE && !gm_interrupted; i++) {
-        struct outcome outcome = {.drive = {.request = &request, .index = i}};
-        const size_t observables = request.scene->observable_count;
-        outcome.drive.lane = gm_request_open_lane(&request, i, message);
-        outcome.front = outcome.drive.lane ? front_of(&request, outcome.drive.lane, i) : NULL;
-        outcome.values = malloc(2 * observables * sizeof(double));
-        const bool good = outcome.front && outcome.values;
-        if (outcome.drive.lane && !good) {
-            snprintf(message, sizeof message, "not enough memory");
-        }
-        if (good && options->maximum) {
-            outcome.maxima = outcome.values + observables;
-            for (size_t k = 0; k < observables; k++) {
-                outcome.maxima[k] = NAN;
-            }
-        }
-        if (!good || !run_lane(&outcome, request.lanes[i].steps, options, csv, message)) {
-            gm_complain("%s", message);
-            status = GM_EXIT_USAGE;
-        } else {
-            observe(&outcome);
-            if (!tell(&outcome, options, message)) {
-                gm_complain("%s", message);
-                status = GM_EXIT_FILE;
-            }
-            const bool doubtful = options->strict && outcome.warning[0] != '\0';
-            if ((outcome.drive.lane->run->status != GM_OK || doubtful) && status == GM_EXIT_OK) {
-                status =
-                    outcome.drive.lane->run->status == GM_OUT_OF_MEMORY ? GM_EXIT_MEMORY : GM_EXIT_NUMERICAL;
-            }
-        }
-        free(outcome.front);
-        free(outcome.values);
-        gm_lane_close(outcome.drive.lane);
-        if (csv && ferror(csv)) {
+    for (size_t i = 0; i < request.count && opened && status != GM_EXIT_FILE && !gm_interrupted; i++) {
+        const int lane = make_lane(&outputs, &request, i);
+        status = lane == GM_EXIT_FILE || lane == GM_EXIT_USAGE || status == GM_EXIT_OK ? lane : status;
+        if (outputs.csv && ferror(outputs.csv)) {
             break;
         }
     }
-    if (csv && !close_csv(csv) && csv != stdout) {
-        gm_complain("%s could not be written: %s", options->csv, strerror(errno));
-        status = GM_EXIT_FILE;
-    }
-    if (status != GM_EXIT_FILE && status != GM_EXIT_USAGE) {
-        tell_written(options->csv);
-        tell_written(options->profile);
-    }
+    status = close_outputs(&outputs, opened, status);
     gm_request_close(&request);
     return gm_finish(gm_interrupted ? GM_EXIT_INTERRUPTED : status);
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Checkpoints of `run`. */
 #include "app/output/pause.h"
 
 #include <stdio.h>

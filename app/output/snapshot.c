@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The file of a checkpoint, and the lanes that are packed in it. */
 #include "app/output/snapshot.h"
 
 #include <errno.h>

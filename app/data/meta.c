@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What was run, as JSON. */
+#include "app/data/meta.h"
+
+#include <stdlib.h>
+
+#include "app/output/json.h"
+#include "core/quantity.h"
+
+void gm_meta_parameters(FILE *stream, const struct gm_lane *lane)
+{
+    const struct gm_scene *scene = lane->scene;
+    char text[GM_TEXT_SIZE];
+    fputc('{', stream);
+    for (size_t i = 0; i < scene->parameter_count; i++) {
+        const struct gm_parameter *row = &scene->parameters[i];
+        if (gm_scene_idle(scene, lane->parameters, row->key)) {
+            continue;
+        }
+        fprintf(stream, "%s\"%s\":", i ? "," : "", row->key); /* the first, the step, always has an effect */
+        if (row->type == GM_TEXT) {
+            gm_json_put_text(stream, gm_parameter_format(row, lane->parameters, text, sizeof text));
+        } else if (row->type == GM_CHOICE || row->type == GM_BOOLEAN) {
+            fprintf(stream, "\"%s\"", gm_parameter_format(row, lane->parameters, text, sizeof text));
+        } else {
+            gm_json_put_number(stream, gm_parameter_get(row, lane->parameters));
+        }
+    }
+    for (const struct gm_parameter *const *row = lane->scheme->family->parameters; row && *row; row++) {
+        fprintf(stream, ",\"%s\":\"%s\"", (*row)->key,
+                gm_parameter_format(*row, &lane->settings, text, sizeof text));
+    }
+    fputc('}', stream);
+}
+
+static void put_units(FILE *stream, const struct gm_run *run)
+{
+    struct gm_quantity quantities[GM_QUANTITIES];
+    const size_t count = gm_quantities(run, quantities);
+    fputc('{', stream);
+    const char *front = "";
+    for (size_t i = 0; i < count; i++) {
+        if (quantities[i].unit[0]) {
+            fputs(front, stream);
+            gm_json_put_text(stream, quantities[i].name);
+            fputc(':', stream);
+            gm_json_put_text(stream, quantities[i].unit);
+            front = ",";
+        }
+    }
+    fputc('}', stream);
+}
+
+char *gm_meta_text(const struct gm_lane *lane, const char *status, const char *sentence)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    fprintf(stream,
+            "{\"version\":\"geomint %s\",\"scene\":\"%s\",\"scheme\":\"%s\",\"parameters\":", GM_VERSION,
+            lane->scene->name, lane->scheme->name);
+    gm_meta_parameters(stream, lane);
+    fprintf(stream, ",\"status\":\"%s\",\"message\":", status);
+    gm_json_put_text(stream, sentence);
+    fputs(",\"t\":", stream);
+    gm_json_put_number(stream, lane->run->t);
+    fprintf(stream, ",\"steps\":%ld,\"time\":", lane->run->steps);
+    gm_json_put_text(stream, lane->scene->time ? lane->scene->time : "");
+    fputs(",\"units\":", stream);
+    put_units(stream, lane->run);
+    fputc('}', stream);
+    if (fclose(stream) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which steps have a row. */
+#include "app/data/rows.h"
+
+#include <math.h>
+
+/* Whether the rows are not so dense that every step has one. */
+static bool is_by_time(const struct gm_rows *rows, const struct gm_run *run)
+{
+    return rows->every == 0 && !isnan(rows->interval) &&
+           (run->scheme->family->own_time || rows->interval > fabs(run->dt));
+}
+
+/* The step next to the first multiple of the interval whose step is not before `step`. */
+static double step_from(const struct gm_rows *rows, const struct gm_run *run, double step)
+{
+    const double steps = rows->interval / fabs(run->dt); /* more than 1 */
+    double k = fmax(0, ceil((step - 0.5) / steps) - 1);
+    while (round(k * steps) < step) {
+        k++;
+    }
+    return round(k * steps);
+}
+
+long gm_rows_next(const struct gm_rows *rows, const struct gm_run *run)
+{
+    const long next = run->steps + 1, far = 1L << 40;
+    if (!is_by_time(rows, run)) {
+        const long every = rows->every ? rows->every : 1;
+        return run->steps - run->steps % every + every;
+    }
+    if (run->scheme->family->own_time) {
+        return next;
+    }
+    return (long)fmin(step_from(rows, run, (double)next), (double)(next + far));
+}
+
+bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double before)
+{
+    if (!is_by_time(rows, run)) {
+        return run->steps % (rows->every ? rows->every : 1) == 0;
+    }
+    if (run->scheme->family->own_time) {
+        return floor(run->t / rows->interval) != floor(before / rows->interval);
+    }
+    return step_from(rows, run, (double)run->steps) == (double)run->steps;
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_DATA_ROWS_H
+#define GM_APP_DATA_ROWS_H
+
+#include "core/run.h"
+
+/* After which steps a run's history and states have a row, beside its start and its end. */
+struct gm_rows {
+    long every;      /* every so many steps; 0: see interval */
+    double interval; /* the steps next to its multiples of model time, or, where the scheme chooses its step,
+                        the first ones that reach them; NAN: every step, unless `every` says otherwise */
+};
+
+/* The step of the next row, after the present one. */
+long gm_rows_next(const struct gm_rows *rows, const struct gm_run *run);
+
+/* Whether the present step has a row; `before` is the time before it. */
+bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double before);
+
+#endif

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the states of lanes to a file, by the format of its ending. */
+#include "app/data/save.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "app/data/format.h"
+#include "render/files/temporary.h"
+#include "render/message.h"
+
+struct gm_save {
+    struct gm_saving saving;
+    const struct gm_format *format;
+    struct gm_part *part;
+    char *path;
+    double due; /* of a file that grows: when it is made anew */
+};
+
+static const struct gm_format *const formats[] = {&gm_format_npz, &gm_format_csv, &gm_format_pvd};
+enum { FORMATS = sizeof formats / sizeof formats[0] };
+
+static const struct gm_format *format_of(const char *path)
+{
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < FORMATS; i++) {
+        const size_t ending = strlen(formats[i]->ending);
+        if (length > ending && path[length - ending - 1] != '/' &&
+            strcmp(path + length - ending, formats[i]->ending) == 0) {
+            return formats[i];
+        }
+    }
+    return NULL;
+}
+
+bool gm_save_knows(const char *path, char *message)
+{
+    if (format_of(path)) {
+        return true;
+    }
+    snprintf(message, GM_MESSAGE, "%.300s cannot be saved: no ending of .npz, .csv, .pvd", path);
+    return false;
+}
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC_COARSE, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static bool complain(const struct gm_save *save, char *message)
+{
+    snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", save->path, strerror(errno));
+    return false;
+}
+
+struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, char *message)
+{
+    struct gm_save *save = calloc(1, sizeof *save);
+    struct gm_saved *saved = calloc(lanes, sizeof *saved);
+    char *name = strdup(path);
+    if (!save || !saved || !name || !gm_temporary_fits(path)) {
+        snprintf(message, GM_MESSAGE,
+                 save && saved && name ? "%.360s is no file that can be replaced" : "not enough memory",
+                 path);
+        free(save);
+        free(saved);
+        free(name);
+        return NULL;
+    }
+    *save = (struct gm_save){
+        .saving = {.path = name, .lanes = saved, .count = lanes}, .format = format_of(path), .path = name};
+    save->saving.part = save->part = gm_part_open(path, go_on, message);
+    if (!save->part) {
+        gm_save_close(save, false, true, message);
+        return NULL;
+    }
+    gm_temporary_sweep(path);
+    return save;
+}
+
+static struct gm_saved *present(struct gm_save *save)
+{
+    return &save->saving.lanes[save->saving.begun - 1];
+}
+
+bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows, char *message)
+{
+    struct gm_saved *lane = &save->saving.lanes[save->saving.begun++];
+    *lane = (struct gm_saved){.index = index, .rows = rows, .members = run->problem->m};
+    lane->count = gm_quantities(run, lane->quantities);
+    size_t longest = 1;
+    for (size_t i = 0; i < lane->count; i++) {
+        const size_t size = gm_quantity_size(run, &lane->quantities[i]);
+        longest = lane->quantities[i].derive && size > longest ? size : longest;
+    }
+    lane->scratch = malloc(longest * sizeof *lane->scratch);
+    const char *reason = save->format->refuse ? save->format->refuse(&save->saving) : NULL;
+    if (reason) {
+        snprintf(message, GM_MESSAGE, "%.240s cannot be saved: %s", save->path, reason);
+        return false;
+    }
+    errno = ENOMEM;
+    return (lane->scratch && save->format->begin(&save->saving, lane, run)) || complain(save, message);
+}
+
+/* Makes the file beside its place, and puts it there. */
+static bool publish(struct gm_save *save)
+{
+    char *temporary = gm_temporary_name(save->path, ".tmp");
+    FILE *file = temporary ? fopen(temporary, "wbxe") : NULL;
+    bool good =
+        file && save->format->join(&save->saving, file) && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    int why = errno;
+    if (file && fclose(file) != 0 && good) {
+        why = errno;
+        good = false;
+    }
+    if (good && rename(temporary, save->path) != 0) {
+        why = errno;
+        good = false;
+    }
+    if (file && !good) {
+        unlink(temporary);
+    }
+    free(temporary);
+    errno = why;
+    return good;
+}
+
+static bool flush(struct gm_saved *lane, bool sync)
+{
+    bool good = true;
+    for (size_t i = 0; i < GM_COLUMNS; i++) {
+        good = good && (!lane->columns[i].buffer || gm_column_flush(&lane->columns[i], sync));
+    }
+    return good;
+}
+
+bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message)
+{
+    enum { SECONDS = 1 }; /* between two makings of a file that grows */
+    struct gm_saved *lane = present(save);
+    if (!save->format->row(&save->saving, lane, run)) {
+        return complain(save, message);
+    }
+    lane->rows++;
+    if (save->format->grows && now() >= save->due) {
+        if (!flush(lane, false) || !publish(save)) {
+            return complain(save, message);
+        }
+        save->due = now() + SECONDS;
+    }
+    return true;
+}
+
+bool gm_save_sync(struct gm_save *save, uint64_t *rows, char *message)
+{
+    *rows = present(save)->rows;
+    return flush(present(save), true) || complain(save, message);
+}
+
+static bool finish(struct gm_saved *lane)
+{
+    bool good = true;
+    for (size_t i = 0; i < GM_COLUMNS; i++) {
+        good = gm_column_close(&lane->columns[i]) && good;
+    }
+    free(lane->scratch);
+    lane->scratch = NULL;
+    return good;
+}
+
+bool gm_save_end(struct gm_save *save, const char *meta, char *message)
+{
+    struct gm_saved *lane = present(save);
+    errno = ENOMEM;
+    lane->meta = strdup(meta);
+    const bool whole = lane->meta != NULL;
+    return (finish(lane) && whole) || complain(save, message);
+}
+
+bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message)
+{
+    for (size_t i = 0; i < save->saving.begun; i++) {
+        finish(&save->saving.lanes[i]);
+    }
+    const bool good = !complete || save->saving.begun == 0 || publish(save) || complain(save, message);
+    for (size_t i = 0; i < save->saving.begun; i++) {
+        free(save->saving.lanes[i].meta);
+    }
+    gm_part_close(save->part, !keep);
+    free(save->saving.lanes);
+    free(save->path);
+    free(save);
+    return good;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_DATA_SAVE_H
+#define GM_APP_DATA_SAVE_H
+
+#include <stdint.h>
+
+#include "core/run.h"
+
+/* The states of lanes, one lane after the other, as a file that other programs read: .npz, .csv, .pvd with
+   .vtu files. The file appears when it is complete, but for .pvd, which grows. */
+
+struct gm_save;
+
+/* Whether there is a format of this file's ending; false with a sentence (GM_MESSAGE bytes) that names them.
+ */
+bool gm_save_knows(const char *path, char *message);
+
+/* Begins a file of `lanes` lanes or, with go_on, one that was interrupted. NULL with a sentence. */
+struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, char *message);
+
+/* Lane `index` begins, with its first `rows` rows already there; lanes come in their order, and may be left
+   out. False with a sentence; so are the following. */
+bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows,
+                   char *message);
+/* A row: the state now. */
+bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message);
+/* The rows of the present lane, safe on the disk: what gm_save_begin goes on from. */
+bool gm_save_sync(struct gm_save *save, uint64_t *rows, char *message);
+/* The lane is over; meta: JSON that says what it was. */
+bool gm_save_end(struct gm_save *save, const char *meta, char *message);
+
+/* Makes the file if `complete` and any lane has begun, and frees; what it was made of stays with `keep`, to
+ * be gone on with. */
+bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message);
+
+#endif

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tracks as an .npz file. */
+#include "app/data/tracks.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "app/data/npz.h"
+#include "app/output/folder.h"
+#include "render/files/temporary.h"
+#include "render/message.h"
+
+struct gm_tracks {
+    const char *path;
+    char *temporary;
+    FILE *file;
+    struct gm_npz *npz;
+    size_t lanes;
+};
+
+bool gm_tracks_knows(const char *path, const struct gm_scene *scene, char *message)
+{
+    const size_t length = strlen(path), ending = strlen(".npz");
+    if (scene->track_count == 0) {
+        snprintf(message, GM_MESSAGE, "scene %s records no tracks", scene->name);
+        return false;
+    }
+    if (length <= ending || strcmp(path + length - ending, ".npz") != 0) {
+        snprintf(message, GM_MESSAGE, "%.300s cannot be saved: tracks go to an .npz file", path);
+        return false;
+    }
+    return true;
+}
+
+static bool complain(const struct gm_tracks *tracks, char *message)
+{
+    snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", tracks->path, strerror(errno));
+    return false;
+}
+
+struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
+{
+    if (!gm_folder_make_for(path, message)) {
+        return NULL;
+    }
+    struct gm_tracks *tracks = calloc(1, sizeof *tracks);
+    if (!tracks) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        return NULL;
+    }
+    *tracks = (struct gm_tracks){.path = path, .lanes = lanes};
+    gm_temporary_sweep(path);
+    tracks->temporary = gm_temporary_name(path, ".tmp");
+    tracks->file = tracks->temporary ? fopen(tracks->temporary, "wbxe") : NULL;
+    tracks->npz = tracks->file ? gm_npz_open(tracks->file) : NULL;
+    if (!tracks->npz) {
+        complain(tracks, message);
+        gm_tracks_close(tracks, false, message);
+        return NULL;
+    }
+    return tracks;
+}
+
+bool gm_tracks_add(struct gm_tracks *tracks, size_t index, const struct gm_lane *lane, char *message)
+{
+    bool good = true;
+    for (size_t i = 0; i < lane->scene->track_count && good; i++) {
+        const struct gm_entries *entries = &lane->entries[i];
+        const uint64_t shape[] = {entries->count, entries->width};
+        char name[96], prefix[40] = "";
+        if (tracks->lanes > 1) {
+            snprintf(prefix, sizeof prefix, "lane%zu/", index);
+        }
+        snprintf(name, sizeof name, "%s%s_t", prefix, lane->scene->tracks[i].key);
+        good = gm_npz_array(tracks->npz, name, GM_NPZ_REAL, shape, 1, entries->times, -1);
+        snprintf(name, sizeof name, "%s%s", prefix, lane->scene->tracks[i].key);
+        good = good && gm_npz_array(tracks->npz, name, GM_NPZ_REAL, shape, 2, entries->values, -1);
+    }
+    return good || complain(tracks, message);
+}
+
+bool gm_tracks_close(struct gm_tracks *tracks, bool complete, char *message)
+{
+    bool good = tracks->npz && gm_npz_close(tracks->npz);
+    good = tracks->file && fclose(tracks->file) == 0 && good;
+    good = good && (!complete || rename(tracks->temporary, tracks->path) == 0);
+    if (complete && !good) {
+        complain(tracks, message);
+    }
+    if (tracks->file && !(complete && good)) {
+        unlink(tracks->temporary);
+    }
+    free(tracks->temporary);
+    free(tracks);
+    return good || !complete;
+}

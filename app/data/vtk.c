@@ -1,0 +1,327 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* States for VTK: FILE.pvd is a list of times and files; these lie in the folder FILE, one .vtu file a row
+   for the mesh, the line or the bodies, and one for the tracers. "VTK XML Formats", vtk.org; raw appended
+   data, lowest byte first. Column 0 of a lane holds its lines of the list. */
+#include <errno.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/data/format.h"
+#include "app/output/folder.h"
+#include "render/message.h"
+
+/* What a group of points is joined to. */
+enum shape { POINTS, LINE, TRIANGLES };
+
+/* All quantities that belong to one set of points. */
+struct group {
+    const struct gm_saved *lane;
+    const struct gm_run *run;
+    enum gm_support support;
+    enum shape shape;
+    size_t points, cells;
+    const struct gm_quantity *axes[3]; /* NULL: 0 */
+    const struct gm_quantity *height;  /* of a line: what y is */
+    const struct gm_quantity *corners; /* of triangles */
+};
+
+enum section { FIELD, POINT, CELL, PLACES, TOPOLOGY, SECTIONS };
+enum { SOLID = 3 /* VTK's vectors have three components */, LONGEST = 32 };
+enum { VTK_POLY_VERTEX = 2, VTK_POLY_LINE = 4, VTK_TRIANGLE = 5 };
+
+/* An array of a file: what its head says, and who writes it. */
+struct array {
+    enum section section;
+    const char *name, *type;
+    size_t components, tuples, item; /* item: bytes of a number */
+    const struct gm_quantity *quantity;
+    void (*write)(const struct group *group, FILE *file);
+};
+
+static const struct gm_quantity *axis_of(const struct gm_saved *lane, enum gm_support support, int axis)
+{
+    for (size_t i = 0; i < lane->count; i++) {
+        const struct gm_quantity *quantity = &lane->quantities[i];
+        if (quantity->support == support && quantity->axis == axis) {
+            return quantity;
+        }
+    }
+    return NULL;
+}
+
+/* The first quantity on a support that is no place; NULL: there is none. */
+static const struct gm_quantity *first_on(const struct gm_saved *lane, enum gm_support support)
+{
+    for (size_t i = 0; i < lane->count; i++) {
+        if (lane->quantities[i].support == support && lane->quantities[i].axis == 0) {
+            return &lane->quantities[i];
+        }
+    }
+    return NULL;
+}
+
+/* False if nothing of the lane has its place there. */
+static bool group_of(const struct gm_saved *lane, const struct gm_run *run, enum gm_support support,
+                     struct group *group)
+{
+    *group = (struct group){.lane = lane, .run = run, .support = support, .cells = 1};
+    for (int axis = 0; axis < 3; axis++) {
+        group->axes[axis] = axis_of(lane, support, axis + 1);
+    }
+    if (!group->axes[0]) {
+        return false;
+    }
+    group->points = group->axes[0]->count * lane->members;
+    if (support == GM_ON_NODES) {
+        group->corners = first_on(lane, GM_ON_CELLS);
+        group->shape = group->corners ? TRIANGLES : LINE;
+        group->cells = group->corners ? group->corners->count : 1;
+        group->height = group->corners ? NULL : first_on(lane, support);
+    }
+    return true;
+}
+
+static const double *values_of(const struct group *group, const struct gm_quantity *quantity)
+{
+    return gm_quantity_values(group->run, quantity, group->lane->scratch);
+}
+
+/* Point by point, from quantities that may have to be derived one by one: x, y and z are collected first. */
+static void write_places(const struct group *group, FILE *file)
+{
+    double *places = calloc(group->points, SOLID * sizeof *places);
+    if (!places) {
+        return; /* the file is then too short, which is seen */
+    }
+    for (size_t axis = 0; axis < SOLID; axis++) {
+        const struct gm_quantity *quantity = group->axes[axis];
+        quantity = axis == 1 && group->height ? group->height : quantity;
+        if (!quantity) {
+            continue;
+        }
+        const double *values = values_of(group, quantity);
+        for (size_t k = 0; k < group->points; k++) {
+            for (size_t c = 0; c < quantity->width; c++) {
+                places[SOLID * k + axis + c] = values[quantity->width * k + c];
+            }
+        }
+    }
+    fwrite(places, sizeof *places, SOLID * group->points, file);
+    free(places);
+}
+
+static void write_whole(FILE *file, int64_t number)
+{
+    fwrite(&number, sizeof number, 1, file);
+}
+
+static void write_connectivity(const struct group *group, FILE *file)
+{
+    const size_t corners = group->corners ? group->corners->width * group->cells : group->points;
+    const double *values = group->corners ? values_of(group, group->corners) : NULL;
+    for (size_t k = 0; k < corners; k++) {
+        write_whole(file, values ? (int64_t)values[k] : (int64_t)k);
+    }
+}
+
+static void write_offsets(const struct group *group, FILE *file)
+{
+    for (size_t k = 1; k <= group->cells; k++) {
+        write_whole(file, (int64_t)(group->corners ? group->corners->width * k : group->points));
+    }
+}
+
+static void write_types(const struct group *group, FILE *file)
+{
+    const int types[] = {[POINTS] = VTK_POLY_VERTEX, [LINE] = VTK_POLY_LINE, [TRIANGLES] = VTK_TRIANGLE};
+    for (size_t k = 0; k < group->cells; k++) {
+        fputc(types[group->shape], file);
+    }
+}
+
+static void write_time(const struct group *group, FILE *file)
+{
+    fwrite(&group->run->t, sizeof group->run->t, 1, file);
+}
+
+static void write_values(const struct group *group, const struct array *array, FILE *file)
+{
+    const struct gm_quantity *quantity = array->quantity;
+    const double *values = values_of(group, quantity);
+    if (array->components == quantity->width) {
+        fwrite(values, sizeof *values, array->components * array->tuples, file);
+        return;
+    }
+    for (size_t k = 0; k < array->tuples; k++) {
+        double vector[SOLID] = {0};
+        memcpy(vector, values + quantity->width * k, quantity->width * sizeof *values);
+        fwrite(vector, sizeof *vector, SOLID, file);
+    }
+}
+
+/* Where a quantity goes; SECTIONS: nowhere in this file. */
+static enum section section_of(const struct group *group, const struct gm_quantity *quantity)
+{
+    const bool line = group->shape == LINE && quantity->fixed; /* its grid is the points' x */
+    if (quantity == group->corners || line || quantity == group->axes[0] || quantity == group->axes[1] ||
+        quantity == group->axes[2]) {
+        return SECTIONS;
+    }
+    if (quantity->support == group->support) {
+        return POINT;
+    }
+    if (quantity->support == GM_ON_CELLS && group->shape == TRIANGLES) {
+        return CELL;
+    }
+    return quantity->support == GM_ON_RUN && group->lane->members == 1 ? FIELD : SECTIONS;
+}
+
+static size_t list_arrays(const struct group *group, struct array arrays[LONGEST])
+{
+    size_t count = 0;
+    arrays[count++] = (struct array){FIELD, "TimeValue", "Float64", 1, 1, 8, NULL, write_time};
+    for (size_t i = 0; i < group->lane->count; i++) {
+        const struct gm_quantity *quantity = &group->lane->quantities[i];
+        const enum section section = section_of(group, quantity);
+        if (section != SECTIONS) {
+            arrays[count++] = (struct array){section,
+                                             quantity->name,
+                                             "Float64",
+                                             quantity->width > 1 ? SOLID : 1,
+                                             quantity->count * group->lane->members,
+                                             8,
+                                             quantity,
+                                             NULL};
+        }
+    }
+    const size_t corners = group->corners ? group->corners->width * group->cells : group->points;
+    arrays[count++] =
+        (struct array){PLACES, "Points", "Float64", SOLID, group->points, 8, NULL, write_places};
+    arrays[count++] =
+        (struct array){TOPOLOGY, "connectivity", "Int64", 1, corners, 8, NULL, write_connectivity};
+    arrays[count++] = (struct array){TOPOLOGY, "offsets", "Int64", 1, group->cells, 8, NULL, write_offsets};
+    arrays[count++] = (struct array){TOPOLOGY, "types", "UInt8", 1, group->cells, 1, NULL, write_types};
+    return count;
+}
+
+static void write_head(const struct group *group, const struct array *arrays, size_t count, FILE *file)
+{
+    static const char *const names[] = {"FieldData", "PointData", "CellData", "Points", "Cells"};
+    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n",
+          file);
+    for (int section = FIELD; section < SECTIONS; section++) {
+        uint64_t offset = 0;
+        fprintf(file, "<%s>\n", names[section]);
+        for (size_t i = 0; i < count; i++) {
+            if ((int)arrays[i].section == section) {
+                fprintf(file,
+                        "<DataArray type=\"%s\" Name=\"%s\" %s=\"%zu\" format=\"appended\" offset=\"%" PRIu64
+                        "\"/>\n",
+                        arrays[i].type, arrays[i].name,
+                        section == FIELD ? "NumberOfTuples" : "NumberOfComponents",
+                        section == FIELD ? arrays[i].tuples : arrays[i].components, offset);
+            }
+            offset += sizeof offset + arrays[i].components * arrays[i].tuples * arrays[i].item;
+        }
+        fprintf(file, "</%s>\n", names[section]);
+        if (section == FIELD) {
+            fprintf(file, "<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n", group->points,
+                    group->cells);
+        }
+    }
+    fputs("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_", file);
+}
+
+static bool write_group(const struct group *group, const char *path)
+{
+    struct array arrays[LONGEST];
+    const size_t count = list_arrays(group, arrays);
+    FILE *file = fopen(path, "wbe");
+    if (!file) {
+        return false;
+    }
+    write_head(group, arrays, count, file);
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        const uint64_t size = arrays[i].components * arrays[i].tuples * arrays[i].item;
+        fwrite(&size, sizeof size, 1, file);
+        const off_t before = ftello(file);
+        if (arrays[i].write) {
+            arrays[i].write(group, file);
+        } else {
+            write_values(group, &arrays[i], file);
+        }
+        errno = ferror(file) ? errno : ENOMEM;
+        good = good && !ferror(file) && ftello(file) - before == (off_t)size;
+    }
+    fputs("\n</AppendedData>\n</VTKFile>\n", file);
+    return fclose(file) == 0 && good;
+}
+
+/* The folder of the .vtu files, FILE without its ending; malloc'ed. */
+static char *folder_of(const struct gm_saving *saving)
+{
+    return strndup(saving->path, strlen(saving->path) - strlen(gm_format_pvd.ending));
+}
+
+static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+{
+    (void)run;
+    char message[GM_MESSAGE];
+    char *folder = folder_of(saving);
+    const bool made = folder && gm_folder_make(folder, message);
+    free(folder);
+    return made && gm_column_open(saving->part, lane->index, 0, lane->rows, 0, &lane->columns[0]);
+}
+
+static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+{
+    static const struct {
+        enum gm_support support;
+        const char *ending;
+    } groups[] = {{GM_ON_RUN, ""}, {GM_ON_BODIES, ""}, {GM_ON_NODES, ""}, {GM_ON_TRACERS, "-tracers"}};
+    char *folder = folder_of(saving), prefix[40] = "";
+    bool good = folder != NULL;
+    if (saving->count > 1) {
+        snprintf(prefix, sizeof prefix, "lane%zu-", lane->index);
+    }
+    const char *slash = folder ? strrchr(folder, '/') : NULL;
+    const char *name = slash ? slash + 1 : folder;
+    int parts = 0;
+    for (size_t i = 0; i < sizeof groups / sizeof groups[0] && good; i++) {
+        struct group group;
+        char *path = NULL;
+        if (!group_of(lane, run, groups[i].support, &group)) {
+            continue;
+        }
+        if (asprintf(&path, "%s/%s%06" PRIu64 "%s.vtu", folder, prefix, lane->rows, groups[i].ending) < 0) {
+            good = false;
+            break;
+        }
+        good = write_group(&group, path) &&
+               gm_column_print(&lane->columns[0], "%s<DataSet timestep=\"%.17g\" part=\"%zu\" file=\"",
+                               parts > 0 ? " " : "", run->t, 2 * lane->index + (size_t)(parts > 0)) &&
+               gm_column_put(&lane->columns[0], path + (name - folder), strlen(path + (name - folder))) &&
+               gm_column_print(&lane->columns[0], "\"/>");
+        parts++;
+        free(path);
+    }
+    free(folder);
+    return good && gm_column_put(&lane->columns[0], "\n", 1); /* one line a row */
+}
+
+static bool join(const struct gm_saving *saving, FILE *file)
+{
+    bool good = fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+                      "byte_order=\"LittleEndian\">\n<Collection>\n",
+                      file) >= 0;
+    for (size_t i = 0; i < saving->begun && good; i++) {
+        good = gm_column_copy(saving->part, saving->lanes[i].index, 0, file);
+    }
+    return good && fputs("</Collection>\n</VTKFile>\n", file) >= 0;
+}
+
+const struct gm_format gm_format_pvd = {
+    .ending = ".pvd", .grows = true, .begin = begin, .row = row, .join = join};

@@ -1,0 +1,395 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What leaves the program: `run --save`, `--save-tracks`, `--checkpoint` and `--continue`, read by NumPy and, where
+it is installed, by VTK.
+
+    data.py GEOMINT"""
+
+import csv
+import json
+import os
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree
+
+SYSTEM = "/usr/bin/python3"  # another one may come first in PATH, which has no NumPy
+try:
+    import numpy
+except ImportError:
+    if os.path.exists(SYSTEM) and os.path.realpath(sys.executable) != os.path.realpath(SYSTEM):
+        os.execv(SYSTEM, [SYSTEM] + sys.argv)
+    print("data: NumPy is not installed")
+    sys.exit(77)
+
+_, most = resource.getrlimit(resource.RLIMIT_FSIZE)
+resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30 if most < 0 else most, most))  # whatever goes wrong, disks stay usable
+GEOMINT = os.path.abspath(sys.argv[1])
+TANGENTS = ("q", "xi1", "xi2", "p", "eta1", "eta2")  # of the disc: a point with two tangent vectors
+faults = 0
+
+
+def check(holds, what):
+    global faults
+    if not holds:
+        faults += 1
+        print("data:", what, file=sys.stderr)
+
+
+def geomint(words, status=0, **more):
+    done = subprocess.run([GEOMINT] + words.split(), capture_output=True, text=True, timeout=100, **more)
+    check(done.returncode == status, f"{words}: exit status {done.returncode}, not {status}: {done.stderr}")
+    return done
+
+
+def state_after(words, steps):
+    """The final state as JSON tells it, by components and members."""
+    told = json.loads(geomint(f"run {words} steps={steps} --json --state").stdout)
+    n, m = map(int, re.search(r"n = (\d+) components, m = (\d+)", told["layout"]).groups())
+    return numpy.array(told["state"], dtype=float).reshape(n, m)
+
+
+def same(one, other):
+    one, other = numpy.asarray(one), numpy.asarray(other)
+    return one.shape == other.shape and one.tobytes() == other.tobytes()
+
+
+def rows_equal_states():
+    """Each array of each row equals the block of --state that bears its name."""
+    def of(words, blocks, steps):
+        geomint(f"run {words} steps={steps} --save s.npz")
+        with numpy.load("s.npz", allow_pickle=False) as saved:
+            meta = json.loads(str(saved["meta"]))
+            check(meta["scene"] == words.split()[0] and meta["status"] == "ok", f"{words}: meta {meta}")
+            check(saved["t"].shape == (steps + 1,), f"{words}: t has the shape {saved['t'].shape}")
+            blocks = [(name, count or saved[name].shape[1]) for name, count in blocks]
+            for step in range(steps + 1):
+                state = state_after(words, step)
+                place = 0
+                for name, count in blocks:
+                    block = state[place:place + count].reshape(saved[name][step].shape)
+                    check(same(block, saved[name][step]),
+                          f"{words}: {name} of row {step} is not that of --state")
+                    place += count
+    of("kepler scheme=rk4 dt=0.1", [("q1", 1), ("q2", 1), ("p1", 1), ("p2", 1)], 6)
+    of("disc scheme=midpoint points=7", [(name, 1) for name in TANGENTS], 4)
+    of("abc", [("x", 1), ("y", 1), ("z", 1)], 3)
+    of("stiff system=fpu", [("x", 3), ("y", 3), ("p_x", 3), ("p_y", 3)], 3)
+    of("sine-gordon points=101", [("u", 101), ("u_other", 101), ("other_time", 1)], 3)
+    of("nls points=64", [("psi_re", 64), ("psi_im", 64)], 3)
+    of("burgers dx=.05 test=front", [("u", None)], 2)
+    of("soliton points=21", [("u", 21), ("x", 21), ("u_dot", 21), ("x_dot", 21)], 3)
+
+
+def shapes():
+    """Members and mesh have axes of their own; what does not change is there once."""
+    geomint("run disc points=7 scheme=rk4,midpoint steps=3 --save new/folder/d.npz")
+    with numpy.load("new/folder/d.npz", allow_pickle=False) as saved:
+        names = {f"lane{i}/{name}" for i in (0, 1) for name in ("t", "meta") + TANGENTS}
+        check(set(saved.files) == names, f"arrays of two lanes: {saved.files}")
+        members = saved["lane0/q"].shape[1]
+        check(saved["lane1/p"].shape == (4, members) and members > 6, "members are the second axis")
+    geomint("run sine-gordon points=101 steps=2 --save s.npz")
+    with numpy.load("s.npz", allow_pickle=False) as saved:
+        check(saved["grid"].shape == (101,) and saved["u"].shape == (3, 101), "a grid, and u over it")
+    geomint("run soliton points=21 steps=2 --save s.npz")
+    with numpy.load("s.npz", allow_pickle=False) as saved:
+        check(saved["x"].shape == saved["u"].shape == (3, 21), "x(t, i) of a moving mesh")
+        check(bool((numpy.diff(saved["x"], axis=1) > 0).all()), "nodes in their order")
+    geomint("run vortices steps=2 --save s.npz")
+    with numpy.load("s.npz", allow_pickle=False) as saved:
+        check(saved["x"].ndim == 2 and saved["x"].shape == saved["y"].shape, "x(t, vortex)")
+
+
+def dual_areas(points, triangles):
+    """The areas of the circumcentric dual cells: of each corner, to the circumcentre, by its angles' cotangents."""
+    areas = numpy.zeros(len(points))
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    for one, two, opposite, first, second in ((a, b, c, 0, 1), (b, c, a, 1, 2), (c, a, b, 2, 0)):
+        to_one, to_two = one - opposite, two - opposite
+        cross = to_one[:, 0] * to_two[:, 1] - to_one[:, 1] * to_two[:, 0]
+        part = (to_one * to_two).sum(axis=1) / cross * ((one - two) ** 2).sum(axis=1) / 8
+        for corner in (first, second):
+            numpy.add.at(areas, triangles[:, corner], part)
+    return areas
+
+
+def observables(path, key):
+    with open(path, newline="") as file:
+        return [(float(row["t"]), float(row[key])) for row in csv.DictReader(file)]
+
+
+def flows():
+    geomint("run room steps=8 --every 2 --save r.npz --csv r.csv")
+    told = observables("r.csv", "scalar_total")
+    with numpy.load("r.npz", allow_pickle=False) as saved:
+        points, triangles = saved["points"], saved["triangles"]
+        check(points.shape[1] == 2 and triangles.shape[1] == 3 and triangles.dtype == numpy.int64, "a mesh")
+        areas = dual_areas(points, triangles)
+        check(len(saved["t"]) == len(told) == 5, "a row at the start and every second step")
+        for (t, total), time_saved, scalar in zip(told, saved["t"], saved["scalar"]):
+            check(t == time_saved, "the time of the history")
+            check(abs(float(areas @ scalar) - total) <= 1e-12 * max(1, abs(total)), "the scalar's total")
+        psi, velocity = saved["stream_function"][-1], saved["velocity"][-1]
+        a, b, c = (points[triangles[:, k]] for k in range(3))
+        cross = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+        pa, pb, pc = (psi[triangles[:, k]] for k in range(3))
+        slope = ((pb - pa)[:, None] * (c - a) - (pc - pa)[:, None] * (b - a)) / cross[:, None]
+        u = slope[:, 0] * -1  # d psi / dy = ((pb - pa) (c - a)_x - (pc - pa) (b - a)_x) / -cross
+        check(bool(numpy.allclose(velocity[:, 0], u, atol=1e-9)), "u = d psi / dy on every triangle")
+        check(bool(numpy.isnan(saved["pressure"][0]).all() and numpy.isfinite(saved["pressure"][1:]).all()),
+              "pressure after the first step")
+
+
+def read_vtu(path):
+    """The arrays of a .vtu file by name, from its appended bytes."""
+    with open(path, "rb") as file:
+        data = file.read()
+    start = data.index(b"_", data.index(b"<AppendedData")) + 1
+    head = data[:start] + b"</AppendedData></VTKFile>"
+    arrays = {}
+    for array in xml.etree.ElementTree.fromstring(head).iter("DataArray"):
+        at = start + int(array.get("offset"))
+        size = int(numpy.frombuffer(data, "<u8", 1, at)[0])
+        kind = {"Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}[array.get("type")]
+        values = numpy.frombuffer(data, kind, size // numpy.dtype(kind).itemsize, at + 8)
+        width = int(array.get("NumberOfComponents", 1))
+        arrays[array.get("Name")] = values.reshape(-1, width) if width > 1 else values
+    return arrays
+
+
+def entries(path):
+    return [(float(e.get("timestep")), e.get("file"))
+            for e in xml.etree.ElementTree.parse(path).getroot().iter("DataSet")]
+
+
+def vtk():
+    geomint("run room steps=4 --save v/r.pvd --csv r.csv")
+    geomint("run room steps=4 --save r.npz")
+    told = observables("r.csv", "scalar_total")
+    listed = entries("v/r.pvd")
+    with numpy.load("r.npz", allow_pickle=False) as saved:
+        tracers = "tracer_x" in saved.files
+        mesh = [entry for entry in listed if "tracers" not in entry[1]]
+        check(len(mesh) == 5 and len(listed) == (10 if tracers else 5), f"rows of a room: {listed}")
+        areas = dual_areas(saved["points"], saved["triangles"])
+        for row, (t, name) in enumerate(mesh):
+            arrays = read_vtu(os.path.join("v", name))
+            check(t == arrays["TimeValue"][0] == told[row][0], "model time")
+            check(same(arrays["scalar"], saved["scalar"][row]), "the scalar of npz and of vtu")
+            check(same(arrays["velocity"][:, :2], saved["velocity"][row]), "velocity")
+            check(abs(float(areas @ arrays["scalar"]) - told[row][1]) <= 1e-12, "the scalar's total")
+            check(same(arrays["connectivity"].reshape(-1, 3), saved["triangles"]), "the triangles")
+    for words, points, cells in (("sine-gordon points=101", 101, 1), ("soliton points=21", 21, 1),
+                                 ("kepler", 1, 1)):
+        geomint(f"run {words} steps=2 --save w.pvd")
+        for t, name in entries("w.pvd"):
+            arrays = read_vtu(name)
+            check(arrays["Points"].shape == (points, 3) and len(arrays["types"]) == cells, f"{words} for VTK")
+    try:
+        import vtk as library
+    except ImportError:
+        print("data: VTK is not installed: its own reader is not asked")
+        return
+    for _, name in mesh:
+        reader = library.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(os.path.join("v", name))
+        reader.Update()
+        grid = reader.GetOutput()
+        scalar = grid.GetPointData().GetArray("scalar")
+        total = sum(areas[k] * scalar.GetValue(k) for k in range(scalar.GetNumberOfTuples()))
+        row = mesh.index((_, name))
+        check(abs(total - told[row][1]) <= 1e-12, "the scalar's total by VTK")
+        check(grid.GetFieldData().GetArray("TimeValue").GetValue(0) == _, "model time by VTK")
+        check(grid.GetCellData().GetArray("velocity").GetNumberOfComponents() == 3, "vectors for VTK")
+
+
+def tables():
+    geomint("run kepler steps=5 --save k.csv")
+    geomint("run kepler steps=5 --save k.npz")
+    with open("k.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    with numpy.load("k.npz", allow_pickle=False) as saved:
+        check(rows[0] == ["t", "q1", "q2", "p1", "p2"], f"a head: {rows[0]}")
+        for column, name in enumerate(rows[0]):
+            values = numpy.array([float(row[column]) for row in rows[1:]])
+            check(same(values, saved[name]), f"{name} in CSV and in npz")
+    geomint("run nls points=8 steps=1 --save n.csv")
+    with open("n.csv") as file:
+        head = file.readline().strip().split(",")
+    check(head == ["t"] + [f"psi_re[{i}]" for i in range(8)] + [f"psi_im[{i}]" for i in range(8)], f"head {head}")
+    done = geomint("run nls points=8,16 steps=1 --save two.csv", 3)
+    check(".npz does" in done.stderr and not os.path.exists("two.csv"), "lanes of two sizes in one table")
+
+
+def rows():
+    """Which steps have a row."""
+    def times(words):
+        geomint(f"run kepler scheme=verlet {words} --save k.npz")
+        with numpy.load("k.npz") as saved:
+            return list(numpy.round(saved["t"], 9))
+    check(times("dt=0.1 steps=7 --every 3") == [0, .3, .6, .7], "every third step and the end")
+    check(times("dt=0.1 until=1 --interval 0.25") == [0, .2, .5, .8, 1] or
+          times("dt=0.1 until=1 --interval 0.25") == [0, .3, .5, .8, 1], "the steps next to .25, .5 ...")
+    check(times("dt=0.1 steps=3 --interval 0.01") == [0, .1, .2, .3], "no more rows than steps")
+    check(times("steps=0") == [0], "no steps: one row")
+    geomint("run kepler --every 2 --interval 1 --save k.npz", 1)
+    geomint("run kepler --interval 0 --save k.npz", 1)
+
+
+def profiles():
+    for words, columns in (("sine-gordon points=101", ["u", "u_other"]), ("kdv points=101", ["u", "u_other"]),
+                           ("wave points=64", ["u", "u_other"]), ("nls points=64", ["psi_re", "psi_im"]),
+                           ("burgers dx=.05", ["u"]), ("soliton points=21", ["u", "u_dot", "x_dot"])):
+        geomint(f"run {words} steps=3 --profile p.csv --save p.npz")
+        with open("p.csv", newline="") as file:
+            told = list(csv.DictReader(file))
+        with numpy.load("p.npz") as saved:
+            check(list(told[0]) == ["scene", "lane", "scheme", "t", "x"] + columns, f"{words}: {list(told[0])}")
+            for name in columns:
+                values = numpy.array([float(row[name]) for row in told])
+                check(same(values, saved[name][-1]), f"{words}: {name} of the profile")
+    check("no profiles" in geomint("run kepler steps=3 --profile p.csv", 1).stderr, "a profile of an orbit")
+
+
+def tracks():
+    geomint("run henon-heiles until=200 --save-tracks t.npz")
+    with numpy.load("t.npz", allow_pickle=False) as saved:
+        keys = [name for name in saved.files if not name.endswith("_t")]
+        check(bool(keys) and all(len(saved[k]) == len(saved[k + "_t"]) > 0 for k in keys), f"tracks {saved.files}")
+    check("npz" in geomint("run henon-heiles until=2 --save-tracks t.csv", 1).stderr, "tracks to a CSV file")
+
+
+def memory():
+    """It does not grow with the rows."""
+    def peak(steps):
+        script = ("import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, "
+                  "stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL); "
+                  "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)")
+        words = f"run kepler scheme=verlet steps={steps} --save m.npz".split()
+        return int(subprocess.run([sys.executable, "-c", script, GEOMINT] + words, capture_output=True, text=True,
+                                  check=True).stdout)
+    few, many = peak(100000), peak(1000000)
+    check(many - few < 2048, f"memory of a million rows: {many} KiB, of a tenth of them {few}")
+
+
+def bytes_of(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def numbers_of(path):
+    with numpy.load(path, allow_pickle=False) as saved:
+        return {name: saved[name].tobytes() for name in saved.files if not name.endswith("meta")}
+
+
+def killed():
+    """SIGKILL leaves a readable file or none, and a run that goes on ends where an undisturbed one does."""
+    words = "run kepler scheme=gauss8,verlet steps=900000 --every 50 --max --json --state"
+    whole = geomint(f"{words} --save whole.npz").stdout
+    rows_of_whole = numbers_of("whole.npz")
+    for late in (None, 0.1, 0.7):
+        for path in ("k.npz", "k.check"):
+            if os.path.exists(path):
+                os.remove(path)
+        shutil.rmtree("k.npz.part", ignore_errors=True)
+        process = subprocess.Popen([GEOMINT] + f"{words} --save k.npz --checkpoint k.check".split(),
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        if late is None:
+            time.sleep(0.5)
+        else:
+            while not os.path.exists("k.check") and process.poll() is None:
+                time.sleep(0.05)
+            time.sleep(late)
+        process.kill()
+        process.wait()
+        if os.path.exists("k.npz"):
+            numbers_of("k.npz")
+        goes_on = " --continue k.check" if os.path.exists("k.check") else ""
+        end = geomint(f"{words} --save k.npz --checkpoint k.check{goes_on}").stdout
+        without = lambda text: re.sub(r'"seconds":[^,]*', "", text)
+        check(without(end) == without(whole), f"a run that was killed and gone on with ({late})")
+        check(numbers_of("k.npz") == rows_of_whole, f"a save that was killed and gone on with ({late})")
+        check(os.path.isdir("k.npz.part"), "what the file was made of stays with --checkpoint")
+
+
+def continued():
+    """A longer end, bit for bit: states, counts, maxima and saved rows."""
+    for ending in ("csv", "pvd"):
+        geomint(f"run kepler scheme=verlet,rk4 steps=7 --every 2 --checkpoint c.check --save c.{ending}")
+        geomint(f"run kepler scheme=verlet,rk4 steps=12 --every 2 --continue c.check --save c.{ending}")
+        geomint(f"run kepler scheme=verlet,rk4 steps=12 --every 2 --save d.{ending}")
+        check(bytes_of(f"c.{ending}").replace(b'"c/', b'"d/') == bytes_of(f"d.{ending}"), f"{ending} gone on with")
+    for words in ("kepler scheme=verlet,rk4 dt=0.1", "disc points=9", "sine-gordon points=101", "soliton points=21",
+                  "room", "vortices", "stiff", "burgers dx=.05"):
+        geomint(f"run {words} steps=7 --every 2 --max --json --checkpoint c.check --save c.npz")
+        one = geomint(f"run {words} steps=12 --every 2 --max --json --state --continue c.check --save c.npz")
+        other = geomint(f"run {words} steps=12 --every 2 --max --json --state --save d.npz")
+        strip = lambda text: re.sub(r'"seconds":[^,]*', "", text)
+        check(strip(one.stdout) == strip(other.stdout), f"{words}: gone on with, it ends elsewhere")
+        check(numbers_of("c.npz") == numbers_of("d.npz"), f"{words}: saved rows of a run gone on with")
+        check(not os.path.exists("c.npz.part"), "what the file was made of is gone")
+    geomint("run kepler steps=9 --checkpoint c.check")
+    kept = bytes_of("c.check")
+    for words in ("run kepler dt=0.3 steps=20", "run disc steps=20", "run kepler steps=5"):
+        done = geomint(f"{words} --continue c.check --checkpoint c.check", 3)
+        check(len(done.stderr.splitlines()) == 1 and bytes_of("c.check") == kept, f"{words}: {done.stderr}")
+    with open("c.check", "wb") as file:
+        file.write(kept[:-3] + b"xyz")
+    check("damaged" in geomint("run kepler steps=12 --continue c.check", 3).stderr, "a damaged checkpoint")
+    geomint("run kepler steps=12 --continue nowhere.check", 3)
+
+
+def interrupted():
+    """SIGINT: what is there is complete."""
+    process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --every 1000 --save i.npz".split(),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(0.7)
+    process.send_signal(signal.SIGINT)
+    check(process.wait() == 130, "exit status of an interrupted save")
+    with numpy.load("i.npz") as saved:
+        check(len(saved["t"]) == len(saved["q1"]) > 2, "rows of an interrupted save")
+        check(json.loads(str(saved["meta"]))["status"] == "interrupted", "its status")
+
+
+def refusals():
+    done = geomint("run kepler steps=3 --save k.hdf5", 1)
+    check(all(ending in done.stderr for ending in (".npz", ".csv", ".pvd")), "the known endings")
+    with open("file", "w"):
+        pass
+    geomint("run kepler steps=3 --save file/k.npz", 3)
+    check(not os.path.exists("k.hdf5"), "nothing is written")
+    for ending in ("npz", "csv", "pvd"):
+        limit = lambda: (signal.signal(signal.SIGXFSZ, signal.SIG_IGN),
+                         resource.setrlimit(resource.RLIMIT_FSIZE, (10000, 10000)))
+        done = geomint(f"run sine-gordon points=401 steps=40 --save full.{ending}", 3, preexec_fn=limit)
+        check(len(done.stderr.splitlines()) == 1, f"a full disk: {done.stderr}")
+        check(not os.path.exists(f"full.{ending}.part"), "a full disk: nothing stays")
+        check(ending == "pvd" or not os.path.exists(f"full.{ending}"), "a full disk: no half file")
+    process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --every 1000 --save two.npz".split(),
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not os.path.exists("two.npz.part/column-0-0"):
+        time.sleep(0.01)
+    check("another process" in geomint("run kepler steps=3 --save two.npz", 3).stderr, "two processes, one file")
+    process.kill()
+    process.wait()
+    geomint("run kepler steps=3 --save two.npz")
+    check(len(numbers_of("two.npz")["t"]) == 32, "a file whose writer was killed can be written")
+    geomint("run disc scheme=explicit-euler dt=2 until=1000 --save bad.npz", 2)
+    with numpy.load("bad.npz") as saved:
+        check(json.loads(str(saved["meta"]))["status"] != "ok" and len(saved["t"]) >= 1, "a run that fails")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    for part in (rows_equal_states, shapes, flows, vtk, tables, rows, profiles, tracks, memory, continued, killed, interrupted,
+                 refusals):
+        if len(sys.argv) < 3 or part.__name__ in sys.argv[2:]:
+            part()
+    os.chdir("/")
+sys.exit(1 if faults else 0)
