@@ -5,10 +5,10 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "app/data/format.h"
+#include "render/clock.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
 
@@ -43,13 +43,6 @@ bool gm_save_knows(const char *path, char *message)
     }
     snprintf(message, GM_MESSAGE, "%.300s cannot be saved: no ending of .npz, .csv, .pvd", path);
     return false;
-}
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC_COARSE, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
 static bool complain(const struct gm_save *save, char *message)
@@ -149,11 +142,11 @@ bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message)
         return complain(save, message);
     }
     lane->rows++;
-    if (save->format->grows && now() >= save->due) {
+    if (save->format->grows && gm_clock_seconds() >= save->due) {
         if (!flush(lane, false) || !publish(save)) {
             return complain(save, message);
         }
-        save->due = now() + SECONDS;
+        save->due = gm_clock_seconds() + SECONDS;
     }
     return true;
 }

@@ -20,12 +20,12 @@ forbid core '(curses|ncurses|png|GL|EGL)'
 forbid render '(core|scenes|app|tests)/'
 forbid render '(curses|ncurses)'
 forbid scenes '(app|tests)/'
-forbid scenes 'render/(canvas|context|cells|png|sink|temporary)'
+forbid scenes 'render/(gl|cells|layout|clock|files/[^r])'
 forbid app 'tests/'
 
 # the floors of app: a room sees none above it, and the words of a command line stay with the commands
 above='commands|explorer'
-for floor in tours 'lanes studies figures' output request; do
+for floor in tours 'lanes studies figures data' output request; do
     for room in $floor; do
         forbid "app/$room" "app/($above)/"
     done
