@@ -130,9 +130,11 @@ static void emit_central(struct gm_npz *npz, const struct entry *entry)
 struct gm_npz *gm_npz_open(FILE *file)
 {
     struct gm_npz *npz = calloc(1, sizeof *npz);
-    if (npz) {
-        npz->file = file;
+    if (!npz) {
+        errno = ENOMEM;
+        return NULL;
     }
+    npz->file = file;
     return npz;
 }
 
@@ -143,6 +145,7 @@ static struct entry *add_entry(struct gm_npz *npz, const char *name)
         struct entry *entries = realloc(npz->entries, room * sizeof *entries);
         if (!entries) {
             npz->failed = true;
+            errno = ENOMEM;
             return NULL;
         }
         npz->entries = entries;
@@ -152,6 +155,7 @@ static struct entry *add_entry(struct gm_npz *npz, const char *name)
     *entry = (struct entry){.place = npz->place};
     if (asprintf(&entry->name, "%s.npy", name) < 0) {
         npz->failed = true;
+        errno = ENOMEM;
         return NULL;
     }
     npz->count++;
@@ -184,7 +188,10 @@ static size_t head_of(char head[256], const char *type, const uint64_t *shape, s
 static uint32_t copy(struct gm_npz *npz, uint32_t crc, int source, uint64_t size)
 {
     unsigned char *block = malloc(BLOCK);
-    npz->failed |= !block;
+    if (!block) {
+        npz->failed = true;
+        errno = ENOMEM;
+    }
     for (uint64_t at = 0; at < size && !npz->failed;) {
         const size_t wanted = size - at < BLOCK ? (size_t)(size - at) : BLOCK;
         const ssize_t got = pread(source, block, wanted, (off_t)at);
@@ -243,6 +250,7 @@ bool gm_npz_text(struct gm_npz *npz, const char *name, const char *text)
     char type[32];
     uint32_t *letters = malloc((strlen(text) + 1) * sizeof *letters);
     if (!letters) {
+        errno = ENOMEM;
         return false;
     }
     size_t count = 0;

@@ -65,7 +65,8 @@ struct gm_part *gm_part_open(const char *path, bool go_on, char *message)
     }
     part->folder = -1;
     bool held = false;
-    if ((go_on || gm_folder_make(part->path, message)) && hold(part, &held)) {
+    const bool there = go_on || gm_folder_make(part->path, message);
+    if (there && hold(part, &held)) {
         if (!go_on) {
             empty(part);
         }
@@ -76,7 +77,7 @@ struct gm_part *gm_part_open(const char *path, bool go_on, char *message)
     } else if (go_on && errno == ENOENT) {
         snprintf(message, GM_MESSAGE,
                  "%.200s.part is not there: what was saved before cannot be gone on with", path);
-    } else if (go_on || part->folder >= 0) {
+    } else if (there) {
         snprintf(message, GM_MESSAGE, "%.300s.part could not be opened: %s", path, strerror(errno));
     }
     gm_part_close(part, false);

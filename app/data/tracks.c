@@ -52,6 +52,7 @@ struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
     }
     *tracks = (struct gm_tracks){.path = path, .lanes = lanes};
     gm_temporary_sweep(path);
+    errno = ENOMEM;
     tracks->temporary = gm_temporary_name(path, ".tmp");
     tracks->file = tracks->temporary ? fopen(tracks->temporary, "wbxe") : NULL;
     tracks->npz = tracks->file ? gm_npz_open(tracks->file) : NULL;
