@@ -32,7 +32,7 @@ static int64_t heard;         /* when the last byte came */
 static struct termios before; /* as the shell had it */
 static char parting[256];     /* what restores the terminal, for handlers that may call hardly anything */
 static size_t parting_size;
-static volatile sig_atomic_t active, leaving, resized, stopping, lost;
+static volatile sig_atomic_t active, leaving, resized, stopping, lost, given_back;
 static pthread_t owner; /* of the terminal */
 static bool reports_mouse;
 
@@ -72,13 +72,15 @@ static void on_crash(int number)
 {
     if (pthread_equal(pthread_self(), owner)) {
         give_back_at_once();
+        given_back = 1;
         while (lost) {
             pause();
         }
     } else {
         lost = 1;
         pthread_kill(owner, number);
-        for (int waited = 0; active && waited < HOLD; waited++) {
+        /* not only while it is active: it may be about to take the terminal over */
+        for (int waited = 0; !given_back && waited < HOLD; waited++) {
             nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
         }
         give_back_at_once(); /* if that one cannot */
