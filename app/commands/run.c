@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "app/commands/commands.h"
 #include "app/data/meta.h"
@@ -19,6 +18,7 @@
 #include "app/output/pause.h"
 #include "app/request/drive.h"
 #include "core/memory.h"
+#include "render/clock.h"
 
 /* What the command writes beside its numbers. */
 struct outputs {
@@ -280,13 +280,6 @@ static bool keep_state(struct outcome *outcome, char *message)
     return gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* The clock that says when a lane is to be kept: how many steps may be made before it is looked at again. */
 struct pace {
     long steps;
@@ -295,7 +288,7 @@ struct pace {
 
 static bool keep_pace(struct outcome *outcome, struct pace *pace, char *message)
 {
-    const double now = seconds_now(), often = 0.1, interval = 5, share = 20;
+    const double now = gm_clock_seconds(), often = 0.1, interval = 5, share = 20;
     pace->steps = now - pace->looked < often ? 2 * pace->steps : pace->steps / 2 + 1;
     pace->steps = pace->steps < GM_MOST_STEPS ? pace->steps : GM_MOST_STEPS;
     pace->looked = now;
@@ -303,7 +296,7 @@ static bool keep_pace(struct outcome *outcome, struct pace *pace, char *message)
         return true;
     }
     const bool good = keep_state(outcome, message);
-    pace->looked = seconds_now();
+    pace->looked = gm_clock_seconds();
     /* what is kept may be large: it takes a small part of the time */
     pace->kept = pace->looked + fmax(0, share * (pace->looked - now) - interval);
     return good;
@@ -316,7 +309,7 @@ static bool drive_lane(struct outcome *outcome, long steps, char *message)
     struct gm_drive *drive = &outcome->drive;
     const struct gm_run *run = drive->lane->run;
     const bool has_rows = outputs->csv || outputs->save;
-    struct pace pace = {.steps = 1, .looked = seconds_now(), .kept = seconds_now()};
+    struct pace pace = {.steps = 1, .looked = gm_clock_seconds(), .kept = gm_clock_seconds()};
     while (run->steps < steps && run->status == GM_OK && !gm_interrupted && !gm_drive_is_over(drive)) {
         long next = outcome->maxima ? run->steps + 1 : steps;
         if (has_rows) {
