@@ -228,8 +228,7 @@ check(told.run(5, lambda: told.shows('SCHEMES')), 'the command line stays')
 # R: a movie of what is seen, finished when it is ended, and on leaving
 told.keys(' R')
 check(told.run(10, lambda: told.shows('Recording disc-0001.mp4')), 'R does not begin a movie')
-told.run(2)
-check(told.shows('●'), 'the status does not show the movie')
+check(told.run(30, lambda: told.shows('● 0:02')), 'the status does not show the movie and its length')
 told.keys('R')
 check(told.run(30, lambda: told.shows('Saved disc-0001.mp4')), 'R does not end the movie')
 
@@ -243,7 +242,7 @@ def seconds_of(path):
 length = seconds_of('disc-0001.mp4')
 check(2 <= length <= 8, f'the movie of some 2 s, whose last frame stands for one, is {length} s long')
 told.keys('R')
-told.run(1.5)
+told.run(30, lambda: told.shows('● 0:01'))
 os.kill(told.pid, signal.SIGTERM)
 told.run(30, lambda: told.status is not None)
 check(told.status is not None and os.WTERMSIG(told.status) == signal.SIGTERM, f'after SIGTERM its status is {told.status}')
