@@ -4,10 +4,10 @@
 
 #include <stdlib.h>
 
-bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_form form, int stages)
+bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_equations equations, int stages)
 {
     const size_t s = (size_t)stages;
-    *coefficients = (struct gm_coefficients){.form = form, .stages = stages, .evaluations = stages};
+    *coefficients = (struct gm_coefficients){.equations = equations, .stages = stages, .evaluations = stages};
     bool good = true;
     for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
         struct gm_ball *room = malloc((s * s + s) * sizeof *room);

@@ -10,30 +10,30 @@
    A splitting is one of the second form: each of its pieces is a stage. */
 
 /* What the method is for; its order is that for all such systems. */
-enum gm_form {
-    GM_FORM_PLAIN,       /* y' = f(y) */
-    GM_FORM_PARTITIONED, /* (q, p)' = (f_q(q, p), f_p(q, p)) */
-    GM_FORM_SEPARABLE,   /* (f_q(p), f_p(q)) */
-    GM_FORM_NYSTROM,     /* (f_q(p), f_p(q)) with f_q linear */
+enum gm_equations {
+    GM_EQUATIONS_PLAIN,       /* y' = f(y) */
+    GM_EQUATIONS_PARTITIONED, /* (q, p)' = (f_q(q, p), f_p(q, p)) */
+    GM_EQUATIONS_SEPARABLE,   /* (f_q(p), f_p(q)) */
+    GM_EQUATIONS_NYSTROM,     /* (f_q(p), f_p(q)) with f_q linear */
 };
 
 /* The first side is that of q, or all there is. */
 enum { GM_SIDE_Q, GM_SIDE_P, GM_SIDES };
 
 struct gm_coefficients {
-    enum gm_form form;
+    enum gm_equations equations;
     int stages;
-    int evaluations;            /* of f, or of the force, in a step */
+    int evaluations;                           /* of f, or of the force, in a step */
     struct gm_ball *a[GM_SIDES], *b[GM_SIDES]; /* stages * stages by rows, stages; a[GM_SIDE_P]: c, d */
 };
 
 /* All zeros. False: out of memory. */
-bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_form form, int stages);
+bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_equations equations, int stages);
 void gm_coefficients_close(struct gm_coefficients *coefficients);
 
 static inline int gm_coefficients_sides(const struct gm_coefficients *coefficients)
 {
-    return coefficients->form == GM_FORM_PLAIN ? 1 : GM_SIDES;
+    return coefficients->equations == GM_EQUATIONS_PLAIN ? 1 : GM_SIDES;
 }
 
 #endif

@@ -34,7 +34,8 @@ static bool reach(struct gm_polynomial *p, int degree)
     return true;
 }
 
-bool gm_polynomial_add(struct gm_polynomial *p, struct gm_ball factor, int shift, const struct gm_polynomial *q)
+bool gm_polynomial_add(struct gm_polynomial *p, struct gm_ball factor, int shift,
+                       const struct gm_polynomial *q)
 {
     if (!reach(p, q->degree + shift)) {
         return false;
@@ -107,7 +108,8 @@ static int crossings(const struct gm_ball *at, int degree, double *places)
         bound = fmax(bound, 2 * pow(fabs(gm_ball_midpoint(at[k])) / leading, 1. / (degree - k)));
     }
     int count = 0, turn_count = crossings(slope, degree - 1, turns);
-    turns[turn_count++] = 1.1 * bound; /* no zero lies beyond it. M. Fujiwara, Tohoku Math. J. 10 (1916) 167 */
+    turns[turn_count++] =
+        1.1 * bound; /* no zero lies beyond it. M. Fujiwara, Tohoku Math. J. 10 (1916) 167 */
     int lowest = 0;
     while (lowest < degree && gm_ball_may_vanish(at[lowest])) {
         lowest++;

@@ -16,7 +16,8 @@ struct gm_polynomial {
 /* The constant. */
 void gm_polynomial_set(struct gm_polynomial *p, struct gm_ball constant);
 /* p := p + factor x^shift q; false where the degree is too high. */
-bool gm_polynomial_add(struct gm_polynomial *p, struct gm_ball factor, int shift, const struct gm_polynomial *q);
+bool gm_polynomial_add(struct gm_polynomial *p, struct gm_ball factor, int shift,
+                       const struct gm_polynomial *q);
 /* p := p + factor q r */
 bool gm_polynomial_add_product(struct gm_polynomial *p, struct gm_ball factor, const struct gm_polynomial *q,
                                const struct gm_polynomial *r);

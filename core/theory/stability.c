@@ -77,7 +77,8 @@ static bool denominator(const struct gm_coefficients *coefficients, struct gm_ba
     gm_polynomial_set(q, gm_ball_of(1));
     for (int first = 0, last = 0; last < s && fits; last++) {
         if (is_closed(coefficients, last)) {
-            fits = multiply_determinant(last + 1 - first, coefficients->a[0] + first * s + first, s, x, next, q);
+            fits =
+                multiply_determinant(last + 1 - first, coefficients->a[0] + first * s + first, s, x, next, q);
             first = last + 1;
         }
     }
@@ -100,8 +101,8 @@ static bool add_modulus(struct gm_polynomial *sum, double factor, const struct g
     gm_polynomial_set(&one, gm_ball_of(1));
     for (int k = 0; k <= p->degree; k++) {
         const int half = k / 2;
-        gm_polynomial_add(&parts[k % 2], half % 2 == 0 ? p->at[k] : gm_ball_multiply(gm_ball_of(-1), p->at[k]),
-                          half, &one);
+        gm_polynomial_add(&parts[k % 2],
+                          half % 2 == 0 ? p->at[k] : gm_ball_multiply(gm_ball_of(-1), p->at[k]), half, &one);
     }
     struct gm_polynomial odd = zero;
     return gm_polynomial_add_product(sum, gm_ball_of(factor), &parts[0], &parts[0]) &&
@@ -185,13 +186,13 @@ bool gm_theory_stability_of(const struct gm_coefficients *coefficients, bool sym
                             struct gm_theory_stability *stability)
 {
     *stability = (struct gm_theory_stability){.real = NAN, .imaginary = NAN};
-    switch (coefficients->form) {
-    case GM_FORM_PLAIN:
+    switch (coefficients->equations) {
+    case GM_EQUATIONS_PLAIN:
         return of_plain(coefficients, symmetric, stability);
-    case GM_FORM_SEPARABLE:
-    case GM_FORM_NYSTROM:
+    case GM_EQUATIONS_SEPARABLE:
+    case GM_EQUATIONS_NYSTROM:
         return of_splitting(coefficients, stability);
-    case GM_FORM_PARTITIONED:
+    case GM_EQUATIONS_PARTITIONED:
         break;
     }
     return true;

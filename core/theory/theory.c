@@ -51,8 +51,8 @@ static void weigh(const struct gm_coefficients *coefficients, const struct gm_tr
                                                                     outer(weights, this->last)[i]);
     }
     for (int i = 0; i < stages; i++) {
-        outer(weights, tree)[i] = product(coefficients->a[this->side] + (size_t)i * (size_t)stages,
-                                          inner(weights, tree), stages);
+        outer(weights, tree)[i] =
+            product(coefficients->a[this->side] + (size_t)i * (size_t)stages, inner(weights, tree), stages);
     }
 }
 
@@ -120,9 +120,9 @@ static bool is_symplectic_to(const struct gm_coefficients *coefficients, const s
 }
 
 /* Up to which order conditions are asked for. */
-static int most_orders(enum gm_form form)
+static int most_orders(enum gm_equations equations)
 {
-    return form == GM_FORM_PARTITIONED ? 8 : GM_TREES_ORDER;
+    return equations == GM_EQUATIONS_PARTITIONED ? 8 : GM_TREES_ORDER;
 }
 
 /* Order by order to the first failure. False: out of memory. */
@@ -131,11 +131,11 @@ static bool find_order(const struct gm_coefficients *coefficients, struct gm_the
     struct gm_trees trees;
     struct weights weights = {.stages = coefficients->stages};
     const size_t each = 2 * (size_t)coefficients->stages * sizeof *weights.of;
-    const bool plain = coefficients->form == GM_FORM_PLAIN;
+    const bool plain = coefficients->equations == GM_EQUATIONS_PLAIN;
     bool good = true, searching = true;
     theory->error_constant = NAN;
-    gm_trees_open(&trees, coefficients->form);
-    for (int order = 1; good && searching && order <= most_orders(coefficients->form); order++) {
+    gm_trees_open(&trees, coefficients->equations);
+    for (int order = 1; good && searching && order <= most_orders(coefficients->equations); order++) {
         good = gm_trees_grow(&trees);
         struct gm_ball *grown =
             good ? realloc(weights.of, (size_t)trees.first[trees.orders + 1] * each) : NULL;
@@ -178,7 +178,7 @@ static bool is_symplectic(const struct gm_coefficients *coefficients)
                 return false;
             }
         }
-        if (coefficients->form == GM_FORM_PARTITIONED &&
+        if (coefficients->equations == GM_EQUATIONS_PARTITIONED &&
             !gm_ball_may_vanish(gm_ball_subtract(b, coefficients->b[other][i]))) {
             return false;
         }
@@ -190,7 +190,8 @@ static bool is_symplectic(const struct gm_coefficients *coefficients)
    other function is taken there. */
 static bool is_asked_for(const struct gm_coefficients *coefficients, int side, int stage)
 {
-    if (coefficients->form == GM_FORM_PLAIN || coefficients->form == GM_FORM_PARTITIONED) {
+    if (coefficients->equations == GM_EQUATIONS_PLAIN ||
+        coefficients->equations == GM_EQUATIONS_PARTITIONED) {
         return true;
     }
     bool taken = !gm_ball_may_vanish(coefficients->b[1 - side][stage]);
@@ -212,8 +213,7 @@ static bool is_symmetric(const struct gm_coefficients *coefficients)
             for (int i = 0; i < s; i++) {
                 const struct gm_ball sum =
                     gm_ball_add(at(coefficients, side, s - 1 - i, s - 1 - j), at(coefficients, side, i, j));
-                if (is_asked_for(coefficients, side, i) &&
-                    !gm_ball_may_vanish(gm_ball_subtract(sum, b[j]))) {
+                if (is_asked_for(coefficients, side, i) && !gm_ball_may_vanish(gm_ball_subtract(sum, b[j]))) {
                     return false;
                 }
             }
@@ -250,8 +250,8 @@ static bool find_simplifying(const struct gm_coefficients *coefficients, struct 
             struct gm_ball row = gm_ball_of(0), column = gm_ball_of(0);
             for (int i = 0; i < s; i++) {
                 row = gm_ball_add(row, gm_ball_multiply(at(coefficients, 0, j, i), power[i]));
-                column = gm_ball_add(column, gm_ball_multiply(gm_ball_multiply(b[i], power[i]),
-                                                              at(coefficients, 0, i, j)));
+                column = gm_ball_add(
+                    column, gm_ball_multiply(gm_ball_multiply(b[i], power[i]), at(coefficients, 0, i, j)));
             }
             const struct gm_ball next = gm_ball_multiply(power[j], c[j]);
             in_c = in_c && gm_ball_may_vanish(gm_ball_subtract(row, gm_ball_multiply(next, part)));
@@ -276,8 +276,9 @@ struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
         .symplectic = is_symplectic(coefficients),
         .symmetric = is_symmetric(coefficients),
     };
-    theory.known = find_order(coefficients, &theory) &&
-                   (coefficients->form != GM_FORM_PLAIN || find_simplifying(coefficients, &theory)) &&
-                   gm_theory_stability_of(coefficients, theory.symmetric, &theory.stability);
+    theory.known =
+        find_order(coefficients, &theory) &&
+        (coefficients->equations != GM_EQUATIONS_PLAIN || find_simplifying(coefficients, &theory)) &&
+        gm_theory_stability_of(coefficients, theory.symmetric, &theory.stability);
     return theory;
 }

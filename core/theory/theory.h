@@ -3,25 +3,17 @@
 #define GM_CORE_THEORY_THEORY_H
 
 #include "core/theory/coefficients.h"
+#include "core/theory/stability.h"
 
 /* What the coefficients of a method say of it, by order conditions and algebra. A condition fails where its
    residual is surely not 0: the coefficients are known as well as they are written. */
 
 enum { GM_CONDITION_TEXT = 96 };
 
-/* Where |R(z)| <= 1, for the stability function R with y1 = R(h lambda) y0 of y' = lambda y. Of splittings on the
-   oscillator: where the trace of the step lies between -2 and 2. */
-struct gm_theory_stability {
-    bool known;     /* not of partitioned methods that are no splittings */
-    bool oscillator; /* of a splitting: only `imaginary` is known, the largest omega h */
-    double real, imaginary; /* stable for real z in [-real, 0] and for z in i [0, imaginary]; INFINITY: for all */
-    bool a_stable, l_stable;
-};
-
 struct gm_theory {
-    bool known; /* false: out of memory, and nothing else is told */
-    int order;  /* the order conditions hold up to here */
-    bool at_least; /* and no further ones were asked for */
+    bool known;     /* false: out of memory, and nothing else is told */
+    int order;      /* the order conditions hold up to here */
+    bool at_least;  /* and no further ones were asked for */
     int conditions; /* so many hold; of the next order so many of how many fail */
     int failing, of;
     char condition[GM_CONDITION_TEXT]; /* the tree of the one that fails most; "": none is known */

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-void gm_trees_open(struct gm_trees *trees, enum gm_form form)
+void gm_trees_open(struct gm_trees *trees, enum gm_equations equations)
 {
-    *trees = (struct gm_trees){.form = form};
+    *trees = (struct gm_trees){.equations = equations};
 }
 
 void gm_trees_close(struct gm_trees *trees)
@@ -40,12 +40,12 @@ static bool add(struct gm_trees *trees, struct gm_tree tree)
 }
 
 /* Whether a vertex of the form may have this branch beside those that it has. */
-static bool may_branch(enum gm_form form, const struct gm_tree *tree, const struct gm_tree *branch)
+static bool may_branch(enum gm_equations equations, const struct gm_tree *tree, const struct gm_tree *branch)
 {
-    switch (form) {
-    case GM_FORM_SEPARABLE:
+    switch (equations) {
+    case GM_EQUATIONS_SEPARABLE:
         return tree->side != branch->side;
-    case GM_FORM_NYSTROM:
+    case GM_EQUATIONS_NYSTROM:
         return tree->side != branch->side && (tree->side == GM_SIDE_P || tree->last < 0);
     default:
         return true;
@@ -61,13 +61,13 @@ bool gm_trees_grow(struct gm_trees *trees)
             .order = 1, .without = -1, .last = -1, .symmetry = 1, .below = 1, .side = GM_SIDE_Q};
         struct gm_tree other = vertex;
         other.side = GM_SIDE_P;
-        return add(trees, vertex) && (trees->form == GM_FORM_PLAIN || add(trees, other));
+        return add(trees, vertex) && (trees->equations == GM_EQUATIONS_PLAIN || add(trees, other));
     }
     for (int without = 0; without < trees->first[order]; without++) {
         const int rest = order - trees->trees[without].order;
         for (int last = trees->first[rest]; last < trees->first[rest + 1]; last++) {
             const struct gm_tree *tree = &trees->trees[without], *branch = &trees->trees[last];
-            if (last < tree->last || !may_branch(trees->form, tree, branch)) {
+            if (last < tree->last || !may_branch(trees->equations, tree, branch)) {
                 continue;
             }
             const int times = last == tree->last ? tree->times + 1 : 1;
@@ -97,7 +97,9 @@ static size_t print(const struct gm_trees *trees, int index, char *text, size_t 
     const struct gm_tree *tree = &trees->trees[index];
     if (tree->last < 0) {
         return append(text, size, used,
-                      trees->form == GM_FORM_PLAIN ? "t" : tree->side == GM_SIDE_Q ? "q" : "p");
+                      trees->equations == GM_EQUATIONS_PLAIN ? "t"
+                      : tree->side == GM_SIDE_Q              ? "q"
+                                                             : "p");
     }
     used = print(trees, tree->without, text, size, used);
     if (trees->trees[tree->without].last < 0) {

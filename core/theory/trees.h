@@ -23,15 +23,15 @@ struct gm_tree {
 };
 
 struct gm_trees {
-    enum gm_form form;
-    int orders;                     /* that are there */
-    int first[GM_TREES_ORDER + 2];  /* of each order; the one behind the last */
+    enum gm_equations equations;
+    int orders;                    /* that are there */
+    int first[GM_TREES_ORDER + 2]; /* of each order; the one behind the last */
     int room;
     struct gm_tree *trees;
 };
 
 /* None yet; grown one order after the other. grow is false where memory is short. */
-void gm_trees_open(struct gm_trees *trees, enum gm_form form);
+void gm_trees_open(struct gm_trees *trees, enum gm_equations equations);
 bool gm_trees_grow(struct gm_trees *trees);
 void gm_trees_close(struct gm_trees *trees);
 

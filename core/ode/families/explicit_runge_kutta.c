@@ -135,7 +135,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     const enum gm_explicit_row *row = scheme->coefficients;
     const struct gm_explicit_tableau *tableau = tableaus[*row];
     const int stages = tableau->stages;
-    if (!gm_coefficients_open(coefficients, GM_FORM_PLAIN, stages)) {
+    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, stages)) {
         return false;
     }
     for (int i = 0; i < stages; i++) {

@@ -486,7 +486,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
 {
     const struct gm_implicit_row *row = scheme->coefficients;
     const int steps = row->composition->steps, stages = steps * row->stages;
-    if (!gm_coefficients_open(coefficients, GM_FORM_PLAIN, stages)) {
+    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, stages)) {
         return false;
     }
     for (int j = 0; j < stages; j++) {

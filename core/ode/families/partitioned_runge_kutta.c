@@ -245,7 +245,7 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
 {
     const struct tableau *tableau = scheme->coefficients;
     const size_t stages = tableau->stages;
-    if (!gm_coefficients_open(coefficients, GM_FORM_PARTITIONED, (int)stages)) {
+    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PARTITIONED, (int)stages)) {
         return false;
     }
     for (size_t i = 0; i < stages; i++) {

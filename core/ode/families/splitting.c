@@ -287,8 +287,9 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     struct gm_splitting made;
     const struct gm_splitting *splitting = gm_splitting_of(scheme->coefficients, &made);
     const int stages = splitting->count;
-    if (!gm_coefficients_open(coefficients,
-                              scheme->needs & GM_NEEDS_NYSTROM ? GM_FORM_NYSTROM : GM_FORM_SEPARABLE, stages)) {
+    if (!gm_coefficients_open(
+            coefficients, scheme->needs & GM_NEEDS_NYSTROM ? GM_EQUATIONS_NYSTROM : GM_EQUATIONS_SEPARABLE,
+            stages)) {
         return false;
     }
     coefficients->evaluations = 0;
