@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint certify: measured order and properties against the claims. */
+/* geomint certify: the claims against what is measured, and against what theory says of the coefficients. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/reference/theory.h"
 #include "app/output/json.h"
 #include "app/request/drive.h"
 #include "app/request/nearest.h"
@@ -45,12 +46,24 @@ static void print_json(const struct gm_certificate *certificate)
             comma = ",";
         }
     }
+    printf("},\"theory\":");
+    gm_theory_print_json(&certificate->theory);
+    printf(",\"measured\":{");
+    gm_json_number_pair("order", certificate->order);
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        const struct gm_verdict *measure = &certificate->claims[bit];
+        if (measure->measured) {
+            printf(",");
+            gm_json_number_pair(gm_claim_word(bit), measure->defect);
+        }
+    }
     printf("}}\n");
 }
 
 static void print_text(const struct gm_certificate *certificate)
 {
     const struct gm_scheme *scheme = certificate->scheme;
+    const struct gm_theory *theory = &certificate->theory;
     const char *broken = certificate->order_holds ? "" : "  BROKEN";
     printf("%s (%s, for %s)\n", scheme->name, scheme->family->title, gm_scheme_problems(scheme));
     if (scheme->order == 0) {
@@ -59,6 +72,14 @@ static void print_text(const struct gm_certificate *certificate)
     } else {
         printf("  order %d, measured %.3f (%s)%s\n", scheme->order, certificate->order,
                certificate->order_problem, broken);
+    }
+    if (theory->known) {
+        if (scheme->order > 0 && certificate->order > 1.05 * theory->order) {
+            printf("  what is measured above the order by theory is special to that problem\n");
+        }
+        printf("  by theory%s:\n", certificate->theory_holds ? "" : "  BROKEN");
+        gm_theory_print(theory, "    ");
+        printf("\n");
     }
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         const struct gm_verdict *measure = &certificate->claims[bit];
@@ -122,7 +143,7 @@ static int command_certify(const struct gm_options *options)
 const struct gm_command_row gm_command_certify = {
     .name = "certify",
     .synopsis = "SCHEME|all",
-    .help = "measured order and properties against the claims",
+    .help = "the claims against measurements and theory",
     .bit = GM_CERTIFY,
     .function = command_certify,
 };

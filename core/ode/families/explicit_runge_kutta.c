@@ -11,6 +11,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta_any.h"
 #include "core/ode/kernel/loops.h"
+#include "core/theory/coefficients.h"
 
 /* The loop where n is chosen at run time, through the problem's field. */
 
@@ -129,6 +130,23 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
+static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+{
+    const enum gm_explicit_row *row = scheme->coefficients;
+    const struct gm_explicit_tableau *tableau = tableaus[*row];
+    const int stages = tableau->stages;
+    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, stages)) {
+        return false;
+    }
+    for (int i = 0; i < stages; i++) {
+        for (int j = 0; j < i; j++) {
+            coefficients->a[0][i * stages + j] = gm_ball_written(tableau->a[i][j]);
+        }
+        coefficients->b[0][i] = gm_ball_written(tableau->b[i]);
+    }
+    return true;
+}
+
 static const enum gm_explicit_row rows[GM_EXPLICIT_COUNT] = {
 #define GM_EXPLICIT(identifier, ...) GM_EXPLICIT_##identifier,
 #include "core/ode/families/explicit_runge_kutta.def"
@@ -154,6 +172,7 @@ static const struct gm_scheme schemes[] = {
 const struct gm_family gm_family_explicit_runge_kutta = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_EXPLICIT,
+    .coefficients_open = coefficients_open,
     .title = "explicit Runge-Kutta",
     .schemes = schemes,
     .count = GM_EXPLICIT_COUNT,
