@@ -310,7 +310,7 @@ static bool drive_lane(struct outcome *outcome, long steps, char *message)
     const struct gm_run *run = drive->lane->run;
     const bool has_rows = outputs->csv || outputs->save;
     struct pace pace = {.steps = 1, .looked = gm_clock_seconds(), .kept = gm_clock_seconds()};
-    while (run->steps < steps && run->status == GM_OK && !gm_interrupted && !gm_drive_is_over(drive)) {
+    while (gm_drive_goes_on(drive, steps) && !gm_interrupted) {
         long next = outcome->maxima ? run->steps + 1 : steps;
         if (has_rows) {
             const long row = gm_rows_next(&outputs->rows, run);
@@ -387,7 +387,6 @@ static bool end_rows(struct outcome *outcome, char *message)
 /* Runs one lane; how it ended, if not well, is the last row of its history. */
 static bool run_lane(struct outcome *outcome, long steps, char *message)
 {
-    const struct gm_run *run = outcome->drive.lane->run;
     outcome->paused = (struct gm_paused){.last_row = -1, .numbers = outcome->maxima};
     if (outcome->outputs->pause && !gm_pause_restore(outcome->outputs->pause, outcome->drive.index,
                                                      outcome->drive.lane, &outcome->paused, message)) {
@@ -398,8 +397,7 @@ static bool run_lane(struct outcome *outcome, long steps, char *message)
     if (!begin_rows(outcome, message) || !drive_lane(outcome, steps, message)) {
         return false;
     }
-    outcome->interrupted =
-        gm_interrupted && run->status == GM_OK && run->steps < steps && !gm_drive_is_over(&outcome->drive);
+    outcome->interrupted = gm_interrupted && gm_drive_goes_on(&outcome->drive, steps);
     return (!outcome->outputs->options->checkpoint || keep_state(outcome, message)) &&
            end_rows(outcome, message);
 }

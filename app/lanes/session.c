@@ -508,8 +508,9 @@ bool gm_session_advance(struct gm_session *session, double t)
     }
     settle(session);
     struct gm_lane *lane = session->lanes[chosen];
-    double steps = (t - lane->run->t) / lane->run->dt;
-    gm_lane_advance(lane, steps > 2 * RECORDS ? (long)fmin(steps / RECORDS, 1e6) : 1);
+    const double steps = (t - lane->run->t) / lane->run->dt;
+    gm_lane_to(lane, lane->run->steps + (steps > 2 * RECORDS ? (long)fmin(steps / RECORDS, 1e6) : 1),
+               INFINITY);
     gm_lane_record(lane);
     if (goes(lane)) {
         note_lane(session, chosen, false);

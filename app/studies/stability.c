@@ -3,7 +3,6 @@
 #include "app/studies/stability.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -144,16 +143,12 @@ static double evaluate(const struct gm_lane *lane, const struct gm_observable *o
 static void run_to(struct gm_lane *lane, long steps, const struct gm_observable *observable, double *largest,
                    const struct gm_listener *listener)
 {
-    const struct gm_timing *timing = lane->parameters;
-    const bool own_time = lane->scheme->family->own_time;
+    const double until = ((const struct gm_timing *)lane->parameters)->until;
     const double started = gm_clock_processor_seconds();
-    while (lane->run->status == GM_OK && gm_clock_processor_seconds() - started < most_seconds &&
+    while (gm_run_goes_on(lane->run, steps, until) && gm_clock_processor_seconds() - started < most_seconds &&
            !gm_listener_stops(listener)) {
-        const long left = steps - lane->run->steps;
-        if (left <= 0 || (own_time && lane->run->t >= timing->until)) {
-            return;
-        }
-        gm_lane_advance(lane, own_time || largest ? 1 : left < 1000 ? left : 1000);
+        const long left = steps - lane->run->steps, burst = largest ? 1 : 1000;
+        gm_lane_to(lane, lane->run->steps + (left < burst ? left : burst), until);
         if (largest) {
             *largest = fmax(*largest, evaluate(lane, observable));
         }
@@ -165,10 +160,9 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, const s
 {
     const struct gm_observable *kept = find(lane->scene, plan->kept), *error = find(lane->scene, plan->error);
     const struct gm_timing *timing = lane->parameters;
-    const long all =
-        lane->scheme->family->own_time ? INT64_MAX : (long)fmax(1, round(timing->until / timing->dt));
+    const long some = gm_run_steps_at(lane->run, timing->until), all = some > 1 ? some : 1;
     double before = evaluate(lane, kept), after = -INFINITY;
-    if (plan->settle > 0 && all > 2 * plan->settle && all < INT64_MAX) {
+    if (plan->settle > 0 && all > 2 * plan->settle && !lane->scheme->family->own_time) {
         run_to(lane, plan->settle, kept, &before, listener);
         run_to(lane, all - plan->settle, NULL, NULL, listener);
         run_to(lane, all, kept, &after, listener);

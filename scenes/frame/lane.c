@@ -157,16 +157,17 @@ void gm_lane_follow(struct gm_lane *lane)
     settle(lane, refusals);
 }
 
-enum gm_status gm_lane_advance(struct gm_lane *lane, long steps)
+enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until)
 {
-    const long follow = lane->scene->follow;
-    while (steps > 0 && lane->run->status == GM_OK) {
-        const long burst = follow > 0 && follow < steps ? follow : steps;
-        gm_run_advance(lane->run, burst);
-        steps -= burst;
-        if (follow > 0) {
-            gm_lane_follow(lane);
-        }
+    if (lane->scene->follow == 0) {
+        return gm_run_to(lane->run, steps, until);
+    }
+    /* steps that the scheme chooses may each be as long as many */
+    const long follow = lane->scheme->family->own_time ? 1 : lane->scene->follow;
+    while (gm_run_goes_on(lane->run, steps, until)) {
+        const long left = steps - lane->run->steps;
+        gm_run_to(lane->run, lane->run->steps + (follow < left ? follow : left), until);
+        gm_lane_follow(lane);
     }
     return lane->run->status;
 }
