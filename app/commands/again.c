@@ -22,8 +22,7 @@ static bool drive(const struct gm_request *request, struct gm_lane **lanes, cons
         char *end = NULL;
         const long step = strtol(steps, &end, 10);
         if (end == steps || step < 0 || step > GM_MOST_STEPS) {
-            snprintf(message, GM_MESSAGE, "its steps are damaged");
-            return false;
+            return gm_refuse(message, "its steps are damaged");
         }
         steps = end;
         lanes[i] = gm_request_open_lane(request, i, message);
@@ -40,9 +39,7 @@ static bool is_complete(const char *path, char *const *texts, char *message)
 {
     for (size_t i = ARGUMENTS; i < TEXTS; i++) {
         if (!texts[i]) {
-            snprintf(message, GM_MESSAGE, "%.360s does not tell how it was made (it lacks %s)", path,
-                     keys[i]);
-            return false;
+            return gm_refuse(message, "%.360s does not tell how it was made (it lacks %s)", path, keys[i]);
         }
     }
     return true;
@@ -53,14 +50,13 @@ static bool parse(struct gm_request *request, const char *arguments, const char 
     struct gm_arguments words = {0};
     bool good = gm_arguments_split(&words, arguments);
     if (!good) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
+        gm_refuse(message, "not enough memory");
     }
     good = good && gm_request_parse(request, words.count, words.words, 1, message);
     gm_arguments_close(&words);
     if (good && !gm_changes_parse(request, changes)) {
         gm_request_close(request);
-        snprintf(message, GM_MESSAGE, "its log of changes is damaged");
-        good = false;
+        good = gm_refuse(message, "its log of changes is damaged");
     }
     return good;
 }

@@ -83,7 +83,7 @@ static void offer_tours(const struct stem *stem)
 static void offer_observables(const struct stem *stem, const struct gm_scene *scene)
 {
     for (size_t i = 0; scene && i < scene->observable_count; i++) {
-        char title[GM_SENTENCE];
+        char title[GM_MESSAGE];
         offer(stem, scene->observables[i].key,
               gm_observable_title(&scene->observables[i], title, sizeof title));
     }

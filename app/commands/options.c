@@ -68,8 +68,7 @@ enum { ROWS = sizeof rows / sizeof rows[0] };
 
 static bool refuse(char *message, const char *name, const char *value, const char *what)
 {
-    snprintf(message, GM_MESSAGE, "%s %.60s%s%s", name, value, *value ? " " : "", what);
-    return false;
+    return gm_refuse(message, "%s %.60s%s%s", name, value, *value ? " " : "", what);
 }
 
 static bool store(struct gm_options *options, const struct row *row, const char *value, char *message)
@@ -220,9 +219,8 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (is_given(given, pairs[i].one) && is_given(given, pairs[i].other)) {
-            snprintf(message, GM_MESSAGE, "%s and %s contradict each other: %s", pairs[i].one, pairs[i].other,
-                     pairs[i].why);
-            return false;
+            return gm_refuse(message, "%s and %s contradict each other: %s", pairs[i].one, pairs[i].other,
+                             pairs[i].why);
         }
     }
     const struct {
@@ -237,9 +235,8 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
         for (size_t k = i + 1; k < FILES; k++) {
             if (files[i].path && files[k].path && strcmp(files[i].path, "-") != 0 &&
                 strcmp(files[i].path, files[k].path) == 0) {
-                snprintf(message, GM_MESSAGE, "%s and %s are to write to one file, %.300s", files[i].name,
-                         files[k].name, files[i].path);
-                return false;
+                return gm_refuse(message, "%s and %s are to write to one file, %.300s", files[i].name,
+                                 files[k].name, files[i].path);
             }
         }
     }
@@ -262,8 +259,7 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
         const char *word = argv[i];
         if (strncmp(word, "--", 2) != 0) {
             if (!gm_arguments_add(&options->arguments, word)) {
-                snprintf(message, GM_MESSAGE, "not enough memory");
-                return false;
+                return gm_refuse(message, "not enough memory");
             }
             continue;
         }
@@ -275,19 +271,16 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
         }
         const char *value = "";
         if (row->kind == FLAG && equals) {
-            snprintf(message, GM_MESSAGE, "%s takes no value", row->name);
-            return false;
+            return gm_refuse(message, "%s takes no value", row->name);
         }
         if (row->kind != FLAG) {
             value = equals ? equals + 1 : i + 1 < argc ? argv[++i] : NULL;
             if (!value) {
-                snprintf(message, GM_MESSAGE, "%s needs a value: %s", row->name, row->value);
-                return false;
+                return gm_refuse(message, "%s needs a value: %s", row->name, row->value);
             }
         }
         if (given[row - rows]) {
-            snprintf(message, GM_MESSAGE, "%s is given twice", row->name);
-            return false;
+            return gm_refuse(message, "%s is given twice", row->name);
         }
         given[row - rows] = true;
         if (!store(options, row, value, message)) {

@@ -32,13 +32,13 @@ struct outputs {
 
 struct outcome {
     struct gm_drive drive;
-    double *values;            /* one per observable, at the end */
-    double *maxima;            /* one per observable, of largest magnitude; NULL without --max */
-    char *front;               /* "scene,lane,scheme" and the keys that differ: how a row of CSV begins */
-    bool interrupted;          /* before it came to its end */
-    struct outputs *outputs;   /* of all lanes */
-    struct gm_paused paused;   /* numbers: the maxima */
-    char warning[GM_SENTENCE]; /* what is wrong with an end that is called well; "" for nothing */
+    double *values;           /* one per observable, at the end */
+    double *maxima;           /* one per observable, of largest magnitude; NULL without --max */
+    char *front;              /* "scene,lane,scheme" and the keys that differ: how a row of CSV begins */
+    bool interrupted;         /* before it came to its end */
+    struct outputs *outputs;  /* of all lanes */
+    struct gm_paused paused;  /* numbers: the maxima */
+    char warning[GM_MESSAGE]; /* what is wrong with an end that is called well; "" for nothing */
 };
 
 /* Looks at the lane's end. Where there is no memory for that the lane says so, and the number is not one. */
@@ -89,7 +89,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
 {
     const struct gm_lane *lane = outcome->drive.lane;
     const struct gm_run *run = lane->run;
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
     printf("{\"scene\":\"%s\",\"scheme\":\"%s\",\"parameters\":", lane->scene->name, lane->scheme->name);
     gm_meta_parameters(stdout, lane);
@@ -135,7 +135,7 @@ static void print_text(const struct outcome *outcome)
         width = length > width ? length : width;
     }
     width = width > 20 ? width : 20;
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     printf("  %-*s %s%s\n", width, "status", tell_end(outcome, sentence, sizeof sentence),
            outcome->warning[0] ? " (with a warning)" : "");
     if (outcome->warning[0]) {
@@ -234,7 +234,7 @@ static char *front_of(const struct gm_request *request, const struct gm_lane *la
 static void write_row(FILE *csv, const struct outcome *outcome)
 {
     const struct gm_lane *lane = outcome->drive.lane;
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     fprintf(csv, "%s,%.17g,%s", outcome->front, lane->run->t, tell_end(outcome, sentence, sizeof sentence));
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         fprintf(csv, ",%.17g", gm_lane_observe(lane, i));
@@ -274,8 +274,7 @@ static bool keep_state(struct outcome *outcome, char *message)
         return false;
     }
     if (!gm_pause_note(outputs->pause, drive->index, drive->lane, &outcome->paused)) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
+        return gm_refuse(message, "not enough memory");
     }
     return gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
 }
@@ -373,11 +372,10 @@ static bool end_rows(struct outcome *outcome, char *message)
     if (missing && !gm_save_row(outputs->save, lane->run, message)) {
         return false;
     }
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     char *meta = gm_meta_text(lane, tell_end(outcome, sentence, sizeof sentence), sentence);
     if (!meta) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
+        return gm_refuse(message, "not enough memory");
     }
     const bool good = gm_save_end(outputs->save, meta, message);
     free(meta);
@@ -418,7 +416,7 @@ static FILE *open_stream(const char *path, const char *mode, char *message)
     }
     FILE *stream = fopen(path, mode);
     if (!stream) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", path, strerror(errno));
+        gm_refuse(message, "%.360s could not be written: %s", path, strerror(errno));
     }
     return stream;
 }
@@ -440,7 +438,7 @@ static FILE *open_csv(const char *path, const struct gm_request *request, char *
     }
     char *names = front_of(request, NULL, 0);
     if (!names) { /* rows without a head tell nothing */
-        snprintf(message, GM_MESSAGE, "not enough memory");
+        gm_refuse(message, "not enough memory");
         close_csv(csv);
         return NULL;
     }
@@ -482,9 +480,8 @@ static bool write_profile(const char *path, const struct outcome *outcome, char 
     free(front);
     free(names);
     if (!close_csv(stream) || !told) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", path,
-                 told ? strerror(errno) : "not enough memory");
-        return false;
+        return gm_refuse(message, "%.360s could not be written: %s", path,
+                         told ? strerror(errno) : "not enough memory");
     }
     return true;
 }
@@ -493,7 +490,7 @@ static bool write_profile(const char *path, const struct outcome *outcome, char 
  * written. */
 static bool tell(const struct outcome *outcome, const struct gm_options *options, char *message)
 {
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
     if (options->json) {
         print_json(outcome, options);
@@ -542,14 +539,14 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
     const struct gm_options *options = outputs->options;
     const size_t numbers = options->maximum ? request->scene->observable_count : 0;
     if (options->profile && !has_profile(request)) {
-        snprintf(message, GM_MESSAGE, "scene %s has no profiles", request->scene->name);
+        gm_refuse(message, "scene %s has no profiles", request->scene->name);
         return GM_EXIT_USAGE;
     }
     if (options->save && !gm_save_knows(options->save, message)) {
         return GM_EXIT_USAGE;
     }
     if ((options->checkpoint || options->from_checkpoint) && !gm_checkpoint_fits(request)) {
-        snprintf(message, GM_MESSAGE, "a run of these schemes cannot be gone on with from a checkpoint");
+        gm_refuse(message, "a run of these schemes cannot be gone on with from a checkpoint");
         return GM_EXIT_USAGE;
     }
     if (options->tracks && !gm_tracks_knows(options->tracks, request->scene, message)) {

@@ -41,14 +41,12 @@ bool gm_save_knows(const char *path, char *message)
     if (format_of(path)) {
         return true;
     }
-    snprintf(message, GM_MESSAGE, "%.300s cannot be saved: no ending of .npz, .csv, .pvd", path);
-    return false;
+    return gm_refuse(message, "%.300s cannot be saved: no ending of .npz, .csv, .pvd", path);
 }
 
 static bool complain(const struct gm_save *save, char *message)
 {
-    snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", save->path, strerror(errno));
-    return false;
+    return gm_refuse(message, "%.360s could not be written: %s", save->path, strerror(errno));
 }
 
 struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, char *message)
@@ -57,9 +55,9 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, char *m
     struct gm_saved *saved = calloc(lanes, sizeof *saved);
     char *name = strdup(path);
     if (!save || !saved || !name || !gm_temporary_fits(path)) {
-        snprintf(message, GM_MESSAGE,
-                 save && saved && name ? "%.360s is no file that can be replaced" : "not enough memory",
-                 path);
+        gm_refuse(message,
+                  save && saved && name ? "%.360s is no file that can be replaced" : "not enough memory",
+                  path);
         free(save);
         free(saved);
         free(name);
@@ -94,8 +92,7 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
     lane->scratch = malloc(longest * sizeof *lane->scratch);
     const char *reason = save->format->refuse ? save->format->refuse(&save->saving) : NULL;
     if (reason) {
-        snprintf(message, GM_MESSAGE, "%.240s cannot be saved: %s", save->path, reason);
-        return false;
+        return gm_refuse(message, "%.240s cannot be saved: %s", save->path, reason);
     }
     errno = ENOMEM;
     return (lane->scratch && save->format->begin(&save->saving, lane, run)) || complain(save, message);

@@ -69,7 +69,7 @@ bool gm_snapshot_write(const char *path, const struct gm_snapshot *snapshot, cha
     char *temporary = gm_temporary_name(path, ".tmp");
     const bool good = temporary && write_file(temporary, &head, snapshot) && rename(temporary, path) == 0;
     if (!good) {
-        snprintf(message, GM_MESSAGE, "cannot write %.360s: %s", path, strerror(errno));
+        gm_refuse(message, "cannot write %.360s: %s", path, strerror(errno));
         if (temporary) {
             unlink(temporary);
         }
@@ -120,13 +120,12 @@ bool gm_snapshot_read(const char *path, struct gm_snapshot *snapshot, char *mess
     gm_temporary_sweep(path);
     FILE *file = gm_regular_open(path, SIZE_MAX, &size, reason);
     if (!file) {
-        snprintf(message, GM_MESSAGE, "%.300s could not be read: %s", path, reason);
-        return false;
+        return gm_refuse(message, "%.300s could not be read: %s", path, reason);
     }
     const char *fault = read_file(file, size, snapshot);
     fclose(file);
     if (fault) {
-        snprintf(message, GM_MESSAGE, "%.360s %s", path, fault);
+        gm_refuse(message, "%.360s %s", path, fault);
     }
     return !fault;
 }

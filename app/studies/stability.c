@@ -12,12 +12,6 @@
 /* A run that takes longer than this is judged where it is. */
 static const double most_seconds = 10;
 
-static bool refuse(char *message, const char *text)
-{
-    snprintf(message, GM_MESSAGE, "%s", text);
-    return false;
-}
-
 /* Whether what the user typed leaves a word of the plan without effect, as a mesh file does its rows. */
 static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typed, const char *word)
 {
@@ -67,13 +61,12 @@ static bool parse(struct gm_stability_table *table, const struct gm_arguments *t
 {
     const struct gm_scene *scene = gm_scene_find(typed->words[0]);
     if (scene && !scene->stability) {
-        snprintf(message, GM_MESSAGE, "scene %s has no stability map", scene->name);
-        return false;
+        return gm_refuse(message, "scene %s has no stability map", scene->name);
     }
     struct gm_arguments words = {0};
     char *usual = scene ? usual_words(scene, typed) : strdup("");
     const bool good =
-        (usual && gm_arguments_complete(&words, typed, usual)) || refuse(message, "not enough memory");
+        (usual && gm_arguments_complete(&words, typed, usual)) || gm_refuse(message, "not enough memory");
     const bool parsed = good && gm_request_parse(&table->request, words.count, words.words, 6, message);
     gm_arguments_close(&words);
     free(usual);
@@ -84,7 +77,7 @@ bool gm_stability_open(struct gm_stability_table *table, const struct gm_argumen
 {
     *table = (struct gm_stability_table){0};
     if (arguments->count == 0) {
-        return refuse(message, "stability of which scene? Or --region SCHEME");
+        return gm_refuse(message, "stability of which scene? Or --region SCHEME");
     }
     if (!parse(table, arguments, message)) {
         return false;
@@ -102,8 +95,8 @@ bool gm_stability_open(struct gm_stability_table *table, const struct gm_argumen
         good = table->maps[i].cells != NULL;
         for (size_t k = 0; k < i; k++) {
             if (request->lanes[k].scheme == request->lanes[i].scheme) {
-                snprintf(message, GM_MESSAGE, "stability varies dt and %s itself: only scheme takes a list",
-                         table->plan->parameter);
+                gm_refuse(message, "stability varies dt and %s itself: only scheme takes a list",
+                          table->plan->parameter);
                 gm_stability_close(table);
                 return false;
             }
@@ -111,7 +104,7 @@ bool gm_stability_open(struct gm_stability_table *table, const struct gm_argumen
     }
     if (!good) {
         gm_stability_close(table);
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     return true;
 }

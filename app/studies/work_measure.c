@@ -15,12 +15,6 @@ enum { REPEATS = 5 };
 /* A measurement is repeated until it has taken so long, and given up when one run takes longer. */
 static const double enough_seconds = 0.1, most_seconds = 4;
 
-static bool refuse(char *message, const char *text)
-{
-    snprintf(message, GM_MESSAGE, "%s", text);
-    return false;
-}
-
 static struct gm_timing *timing_of(const struct gm_work_table *table)
 {
     return table->request.lanes[0].parameters;
@@ -103,8 +97,8 @@ static double *reference_state(struct gm_work_table *table, char *message)
         }
         if (!lane || lane->run->status != GM_OK || stopped(table)) {
             if (lane) {
-                snprintf(message, GM_MESSAGE, "the reference, %s, failed: %s", table->reference,
-                         gm_status_name(lane->run->status));
+                gm_refuse(message, "the reference, %s, failed: %s", table->reference,
+                          gm_status_name(lane->run->status));
             }
             free(state);
             state = NULL;
@@ -114,7 +108,7 @@ static double *reference_state(struct gm_work_table *table, char *message)
     } else {
         free(state);
         state = NULL;
-        refuse(
+        gm_refuse(
             message,
             "there is nothing to compare with: neither an exact solution nor a scheme of order 4 or more to "
             "make a reference with; --measure KEY compares an observable of the scene instead");
@@ -206,7 +200,7 @@ static double step_of(const struct gm_work_table *table, size_t rung)
     if (!table->ratio) {
         return table->steps[rung];
     }
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     gm_parameter_put(table->ratio, timing, table->steps[rung]);
     table->request.scene->settle(timing, &table->ratio->key, 1, sentence);
     return timing->dt;
@@ -265,7 +259,7 @@ static bool choose_best(const struct gm_work_table *table, struct gm_work_line *
         }
     }
     free(earned);
-    return good || refuse(message, "not enough memory");
+    return good || gm_refuse(message, "not enough memory");
 }
 
 bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *listener, char *message)
@@ -286,7 +280,7 @@ bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *list
         *line = (struct gm_work_line){.scheme = table->schemes[i]};
         line->points = calloc(table->step_count * table->resolution_count, sizeof *line->points);
         if (!line->points) {
-            good = refuse(message, "not enough memory");
+            good = gm_refuse(message, "not enough memory");
             break;
         }
         table->line_count++;

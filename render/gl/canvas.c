@@ -32,9 +32,8 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
     most = most < viewport[0] ? most : viewport[0];
     if (canvas->painter.width < 1 || canvas->painter.height < 1 || canvas->painter.width > most ||
         canvas->painter.height > most) {
-        snprintf(message, GM_MESSAGE, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
-                 canvas->painter.width, canvas->painter.height, most);
-        return false;
+        return gm_refuse(message, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
+                         canvas->painter.width, canvas->painter.height, most);
     }
     gl->GenFramebuffers(1, &canvas->framebuffer);
     gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
@@ -58,9 +57,8 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
             return true;
         }
     }
-    snprintf(message, GM_MESSAGE, "This OpenGL gives no framebuffer of %d x %d pixels.",
-             canvas->painter.width, canvas->painter.height);
-    return false;
+    return gm_refuse(message, "This OpenGL gives no framebuffer of %d x %d pixels.", canvas->painter.width,
+                     canvas->painter.height);
 }
 
 static void texture_parameters(const struct gm_gl *gl, GLint filter)
@@ -115,8 +113,7 @@ static bool gl_open(struct gm_canvas *canvas, char *message)
     }
     const char *missing = gm_gl_load(&canvas->gl, canvas->context);
     if (missing != NULL) {
-        snprintf(message, GM_MESSAGE, "This OpenGL lacks the function %s.", missing);
-        return false;
+        return gm_refuse(message, "This OpenGL lacks the function %s.", missing);
     }
     const char *version = (const char *)canvas->gl.GetString(GL_VERSION);
     const char *renderer = (const char *)canvas->gl.GetString(GL_RENDERER);
@@ -158,7 +155,7 @@ static struct gm_canvas *open_alone(int width, int height, enum gm_theme theme, 
 {
     struct gm_canvas *canvas = calloc(1, sizeof *canvas);
     if (canvas == NULL) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture.");
+        gm_refuse(message, "There is not enough memory for a picture.");
         return NULL;
     }
     canvas->painter =
@@ -172,8 +169,7 @@ static struct gm_canvas *open_alone(int width, int height, enum gm_theme theme, 
     canvas->painter.glyphs = gm_glyphs_open(message, GM_MESSAGE);
     canvas->pixels = malloc((size_t)width * (size_t)height * 4);
     if (canvas->painter.glyphs != NULL && canvas->pixels == NULL) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture of %d x %d pixels.", width,
-                 height);
+        gm_refuse(message, "There is not enough memory for a picture of %d x %d pixels.", width, height);
     }
     if (canvas->painter.glyphs == NULL || canvas->pixels == NULL) {
         close_alone(canvas);
@@ -273,7 +269,7 @@ struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, cha
     take_turn();
     struct gm_canvas *canvas = open_alone(width, height, theme, message);
     if (canvas == NULL && !gm_address_space_has(TAKEN)) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory to paint pictures.");
+        gm_refuse(message, "There is not enough memory to paint pictures.");
     }
     end_turn();
     return canvas;

@@ -44,7 +44,7 @@ struct gm_lane {
     struct gm_behind behind;    /* of sections */
 };
 
-/* Opens a lane at its start, with the start recorded. NULL with a sentence (GM_SENTENCE bytes) if the
+/* Opens a lane at its start, with the start recorded. NULL with a sentence (GM_MESSAGE bytes) if the
    parameters contradict, the scheme does not fit or memory is short. */
 struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameters,
                              const struct gm_settings *settings, const struct gm_scheme *scheme,

@@ -134,7 +134,7 @@ static void put_scene(const struct gm_scene *scene)
     printf("\n| observable | meaning |\n|---|---|\n");
     for (size_t i = 0; i < scene->observable_count; i++) {
         printf("| `%s` | ", scene->observables[i].key);
-        char title[GM_SENTENCE];
+        char title[GM_MESSAGE];
         put_cell(gm_observable_title(&scene->observables[i], title, sizeof title));
         if (scene->observables[i].unit[0]) {
             printf(", in ");
