@@ -47,18 +47,14 @@ static bool is_complete(const char *path, char *const *texts, char *message)
 
 static bool parse(struct gm_request *request, const char *arguments, const char *changes, char *message)
 {
-    struct gm_arguments words = {0};
-    bool good = gm_arguments_split(&words, arguments);
-    if (!good) {
-        gm_refuse(message, "not enough memory");
+    if (!gm_request_recall(request, arguments, message)) {
+        return false;
     }
-    good = good && gm_request_parse(request, words.count, words.words, 1, message);
-    gm_arguments_close(&words);
-    if (good && !gm_changes_parse(request, changes)) {
+    if (!gm_changes_parse(request, changes)) {
         gm_request_close(request);
-        good = gm_refuse(message, "its log of changes is damaged");
+        return gm_refuse(message, "its log of changes is damaged");
     }
-    return good;
+    return true;
 }
 
 /* NAME-again, with `end` after it; malloc'ed */

@@ -153,7 +153,8 @@ static void put_surroundings(void)
         {"0", "done"},
         {"1", "wrong usage"},
         {"2",
-         "a lane of run (of render with --strict) ended in a numerical failure; its numbers are printed"},
+         "a lane of run (of render with --strict) ended in a numerical failure; its numbers are printed; "
+         "with --strict also a lane of run that ended with a warning"},
         {"3", "a file could not be read or written"},
         {"4", "a claim of certify is broken"},
         {"5", "not enough memory; the status of such a lane is out-of-memory"},

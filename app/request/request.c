@@ -359,7 +359,7 @@ static bool equal_cost(struct gm_request *request, size_t index, size_t like, ch
     return !isnan(wanted);
 }
 
-static bool make_lanes(struct gm_request *request, struct gm_words *words, char *message)
+static bool make_lanes(struct gm_request *request, struct gm_words *words, bool recalled, char *message)
 {
     const struct gm_scene *scene = request->scene;
     size_t count = 0;
@@ -403,7 +403,7 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
             return false;
         }
     }
-    if (!check_effects(request, words, message) || !find_schemes(request, message)) {
+    if (!(recalled || check_effects(request, words, message)) || !find_schemes(request, message)) {
         return false;
     }
     for (size_t k = 0; k < count; k++) {
@@ -428,8 +428,8 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
     return check_settings(request, words, message);
 }
 
-bool gm_request_parse(struct gm_request *request, int count, char *const typed[], size_t schemes,
-                      char *message)
+static bool parse(struct gm_request *request, int count, char *const typed[], size_t schemes, bool recalled,
+                  char *message)
 {
     *request = (struct gm_request){0};
     if (count == 0) {
@@ -454,7 +454,7 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
     const unsigned long refusals = gm_memory_refusals();
     bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
     request->overlay = good && gm_words_chosen(&words, "overlay");
-    good = good && make_lanes(request, &words, message);
+    good = good && make_lanes(request, &words, recalled, message);
     if (good) {
         request->arguments = gm_words_join(request->scene, &words);
         good = request->arguments || gm_refuse(message, "not enough memory");
@@ -469,6 +469,23 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
         gm_request_close(request);
         request->unreadable = unreadable;
     }
+    return good;
+}
+
+bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
+                      char *message)
+{
+    return parse(request, count, words, schemes, false, message);
+}
+
+bool gm_request_recall(struct gm_request *request, const char *arguments, char *message)
+{
+    struct gm_arguments words = {0};
+    *request = (struct gm_request){0};
+    const bool good = gm_arguments_split(&words, arguments)
+                          ? parse(request, words.count, words.words, 1, true, message)
+                          : gm_refuse(message, "not enough memory");
+    gm_arguments_close(&words);
     return good;
 }
 
