@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "app/data/format.h"
 #include "render/clock.h"
@@ -98,28 +97,15 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
     return (lane->scratch && save->format->begin(&save->saving, lane, run)) || complain(save, message);
 }
 
-/* Makes the file beside its place, and puts it there. */
-static bool publish(struct gm_save *save)
+static bool join(FILE *file, const void *context)
 {
-    char *temporary = gm_temporary_name(save->path, ".tmp");
-    FILE *file = temporary ? fopen(temporary, "wbxe") : NULL;
-    bool good =
-        file && save->format->join(&save->saving, file) && fflush(file) == 0 && fsync(fileno(file)) == 0;
-    int why = errno;
-    if (file && fclose(file) != 0 && good) {
-        why = errno;
-        good = false;
-    }
-    if (good && rename(temporary, save->path) != 0) {
-        why = errno;
-        good = false;
-    }
-    if (file && !good) {
-        unlink(temporary);
-    }
-    free(temporary);
-    errno = why;
-    return good;
+    const struct gm_save *save = context;
+    return save->format->join(&save->saving, file);
+}
+
+static bool publish(const struct gm_save *save)
+{
+    return gm_temporary_make(save->path, join, save);
 }
 
 static bool flush(struct gm_saved *lane, bool sync)

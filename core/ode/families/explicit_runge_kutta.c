@@ -17,11 +17,15 @@
 
 enum { STAGES = GM_EXPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK };
 
-static const struct gm_explicit_tableau *const tableaus[GM_EXPLICIT_COUNT] = {
+const struct gm_explicit_tableau *gm_explicit_tableau_of(enum gm_explicit_row row)
+{
+    static const struct gm_explicit_tableau *const tableaus[GM_EXPLICIT_COUNT] = {
 #define GM_EXPLICIT(identifier, ...) &gm_explicit_##identifier,
 #include "core/ode/families/explicit_runge_kutta.def"
 #undef GM_EXPLICIT
-};
+    };
+    return tableaus[row];
+}
 
 struct workspace {
     double *stages, *slopes; /* of the active components, STAGES * active each */
@@ -104,7 +108,7 @@ static struct gm_progress advance(const struct gm_task *task)
 {
     const struct gm_problem *problem = task->problem;
     const enum gm_explicit_row *row = task->scheme->coefficients;
-    const struct gm_explicit_tableau *tableau = tableaus[*row];
+    const struct gm_explicit_tableau *tableau = gm_explicit_tableau_of(*row);
     const struct gm_loops *loops = gm_ode_of(problem)->loops[gm_isa_best()];
     struct workspace *workspace = task->workspace;
     const size_t active = gm_active_count(problem);
