@@ -27,7 +27,7 @@ static void empty(const struct gm_part *part)
 {
     DIR *entries = opendir(part->path);
     const struct dirent *entry = NULL;
-    while (entries && (entry = readdir(entries)) != NULL) {
+    while (entries && (entry = readdir(entries))) {
         if (strncmp(entry->d_name, "column-", strlen("column-")) == 0) {
             unlinkat(part->folder, entry->d_name, 0);
         }

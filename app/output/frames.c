@@ -85,7 +85,7 @@ static bool look(struct gm_frames *frames)
     DIR *folder = frames->there && !frames->schedule->still ? opendir(frames->folder) : NULL;
     bool good = frames->there != NULL;
     const struct dirent *entry = NULL;
-    while (good && folder && (entry = readdir(folder)) != NULL) {
+    while (good && folder && (entry = readdir(folder))) {
         good = look_at(frames, dirfd(folder), entry->d_name);
     }
     if (folder) {
