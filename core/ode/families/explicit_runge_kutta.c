@@ -137,7 +137,7 @@ static struct gm_progress advance(const struct gm_task *task)
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
     const enum gm_explicit_row *row = scheme->coefficients;
-    const struct gm_explicit_tableau *tableau = tableaus[*row];
+    const struct gm_explicit_tableau *tableau = gm_explicit_tableau_of(*row);
     const int stages = tableau->stages;
     if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, stages)) {
         return false;
