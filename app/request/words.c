@@ -118,19 +118,31 @@ static const struct gm_piece *piece_of(const struct gm_word *list, size_t *index
 const char *gm_word_value(const struct gm_word *list, size_t index, char *text)
 {
     const struct gm_piece *piece = piece_of(list, &index);
-    return piece->range.count ? gm_number_format(gm_range_at(&piece->range, index), text, GM_VALUE_TEXT)
-                              : piece->text;
+    if (piece->range.count == 0) {
+        return piece->text;
+    }
+    const double value = gm_range_at(&piece->range, index);
+    for (int digits = 15; digits <= 17; digits++) { /* most have 15 */
+        snprintf(text, GM_VALUE_TEXT, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) {
+            break;
+        }
+    }
+    return text;
 }
 
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text)
 {
     enum { SHORT = 8 };
-    const char *value = gm_word_value(list, index, text);
     const struct gm_piece *piece = piece_of(list, &index);
-    if (piece->range.count && strlen(value) > SHORT) {
-        snprintf(text, GM_VALUE_TEXT, "%.6g", gm_range_at(&piece->range, index));
+    if (piece->range.count == 0) {
+        return piece->text;
     }
-    return value;
+    const double value = gm_range_at(&piece->range, index);
+    if (strlen(gm_number_format(value, text, GM_VALUE_TEXT)) > SHORT) {
+        snprintf(text, GM_VALUE_TEXT, "%.6g", value);
+    }
+    return text;
 }
 
 static bool has_digits_alone(const char *text)

@@ -1,0 +1,3 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The picture of a sweep. */
+#include "app/studies/sweep.h"
