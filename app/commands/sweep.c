@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint sweep: a run for every combination of values, on all cores, and a table of them. */
-#include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -95,12 +93,30 @@ static void tell(const struct gm_sweep *sweep, const struct gm_sweep_sum *sum, c
         gm_complain("a run was refused: %s", sum->refusal);
     }
     if (path) {
-        const size_t rows = sum->kept > sum->made ? sum->kept : sum->made;
-        (void)rows;
         gm_complain("%zu of %zu runs made now, %zu of them not ok", sum->made, gm_sweep_share(sweep),
                     sum->failed);
         gm_complain("wrote %s", path);
     }
+}
+
+static void draw(const void *chart, struct gm_picture *picture)
+{
+    gm_sweep_chart_draw(chart, picture);
+}
+
+/* The picture of a table that is complete, where --out asks for one. */
+static int paint(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)
+{
+    char message[GM_MESSAGE], name[128];
+    struct gm_sweep_chart *chart = gm_sweep_chart_open(sweep, path, message);
+    if (!chart) {
+        gm_complain("%s", message);
+        return GM_EXIT_FILE;
+    }
+    snprintf(name, sizeof name, "%.80s-sweep", sweep->scene->name);
+    const int status = gm_command_chart(options, "sweep", name, chart, draw, NULL);
+    gm_sweep_chart_close(chart);
+    return status;
 }
 
 static int make(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)
@@ -119,7 +135,7 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
     gm_catch_interrupts();
     bool good = gm_sweep_table_fill(table, cores_of(options), &gm_terminal_listener, &sum, message);
     gm_terminal_listener_clear();
-    const int status = good || path || errno != EPIPE ? GM_EXIT_FILE : GM_EXIT_PIPE;
+    const int status = sum.unheard ? GM_EXIT_PIPE : GM_EXIT_FILE;
     if (good) {
         tell(sweep, &sum, gm_sweep_table_path(table));
     } else if (status != GM_EXIT_PIPE) {
@@ -130,7 +146,10 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
         gm_complain("%s", unwritten);
         good = false;
     }
-    return gm_interrupted ? GM_EXIT_INTERRUPTED : good ? GM_EXIT_OK : status;
+    if (gm_interrupted || !good) {
+        return gm_interrupted ? GM_EXIT_INTERRUPTED : status;
+    }
+    return options->out && !options->shards ? paint(sweep, options, path) : GM_EXIT_OK;
 }
 
 static void name_missing(size_t run, const char *words)
@@ -157,8 +176,12 @@ static int join(const struct gm_options *options)
     } else {
         gm_complain("wrote %s", options->join);
     }
+    int status = good && missing == 0 ? GM_EXIT_OK : GM_EXIT_FILE;
+    if (status == GM_EXIT_OK && options->out) {
+        status = paint(&sweep, options, options->join);
+    }
     gm_sweep_close(&sweep);
-    return good && missing == 0 ? GM_EXIT_OK : GM_EXIT_FILE;
+    return status;
 }
 
 static int command_sweep(const struct gm_options *options)
@@ -180,7 +203,9 @@ static int command_sweep(const struct gm_options *options)
         sweep.shard = options->shards ? (size_t)options->shard : 1;
         sweep.shards = options->shards ? (size_t)options->shards : 1;
         char *path = options->table || options->out ? path_of(options, &sweep) : NULL;
-        if (is_confirmed(&sweep, options)) {
+        if (options->out && !options->shards && !gm_sweep_is_drawable(&sweep, message)) {
+            gm_complain("%s; --table FILE.csv without --out makes none", message);
+        } else if (is_confirmed(&sweep, options)) {
             status = make(&sweep, options, path);
         }
         free(path);

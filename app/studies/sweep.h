@@ -63,7 +63,7 @@ const char *gm_sweep_table_path(const struct gm_sweep_table *table);
 
 struct gm_sweep_sum {
     size_t made, failed;      /* rows now, and those of them whose status is not ok */
-    size_t kept;              /* rows that were there */
+    bool unheard;             /* standard output is a pipe that nobody reads */
     char refusal[GM_MESSAGE]; /* of the first run that was refused; "" */
 };
 

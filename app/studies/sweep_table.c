@@ -21,6 +21,7 @@ struct gm_sweep_table {
     const struct gm_sweep *sweep;
     char *path;   /* NULL: standard output */
     int fd;       /* where rows go */
+    bool unheard; /* nobody reads what goes there */
     off_t size;   /* of the whole rows there */
     size_t there; /* rows: of the first runs of the share */
     /* where rows are made anew: they go to PATH.part, in their order with those that are kept, which are read
@@ -141,6 +142,7 @@ static bool append(struct gm_sweep_table *table, const char *text, char *message
            length) { /* a file takes all of it at once, unless the disk is full; a pipe may take parts */
         const ssize_t written = write(table->fd, text + sent, length - sent);
         if (written < 0 && errno != EINTR) {
+            table->unheard = errno == EPIPE;
             refuse_writing(message, path);
             if (table->path && ftruncate(table->fd, table->size) != 0) {
                 /* its last row stays torn, and is cut off when the table is opened again */
@@ -244,7 +246,7 @@ struct gm_sweep_table *gm_sweep_table_open(const struct gm_sweep *sweep, const c
         refuse(message, path ? path : "standard output", "could not be opened: not enough memory");
     } else {
         fflush(stdout);
-        good = path ? open_file(table, head, retry, message) : append(table, head, message);
+        good = !path || open_file(table, head, retry, message);
     }
     free(head);
     if (!good && table) {
@@ -357,8 +359,11 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, const struct
                          struct gm_sweep_sum *sum, char *message)
 {
     struct filling *filling = calloc(1, sizeof *filling);
+    char *head = table->path ? NULL : gm_sweep_head(table->sweep);
     *sum = (struct gm_sweep_sum){0};
-    if (!filling) {
+    if (!filling || !(head || table->path)) {
+        free(filling);
+        free(head);
         return refuse(message, table->path ? table->path : "standard output",
                       "is not filled: not enough memory");
     }
@@ -375,22 +380,24 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, const struct
                                  .stopped = fills_no_more,
                                  .self = filling};
     /* where that was interrupted, rows that are there stay, behind those that were made */
-    for (size_t k = filling->first + gm_pool_run(&pool); k < table->there && !filling->failed; k++) {
+    filling->failed = head && !append(table, head, message);
+    const size_t taken = filling->failed ? 0 : gm_pool_run(&pool);
+    free(head);
+    for (size_t k = filling->first + taken; k < table->there && !filling->failed; k++) {
         filling->failed = !keep_old(filling);
     }
-    sum->kept = table->there;
+    sum->unheard = table->unheard;
     const bool good = !filling->failed;
     for (size_t i = 0; i < WINDOW; i++) {
         free(filling->slots[i].row);
     }
     free(filling->kept);
+    free(filling);
     if (table->part && !good) {
         unlink(table->part);
     } else if (table->part && (fsync(table->fd) != 0 || rename(table->part, table->path) != 0)) {
-        free(filling);
         return refuse_writing(message, table->path);
     }
-    free(filling);
     return good;
 }
 
