@@ -226,6 +226,10 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
         {"--json", "--markdown", "they are two formats"},
         {"--list", "--movie", "the first only tells of the tour"},
         {"--list", "--out", "the first only tells of the tour"},
+        {"--join", "--table", "the first makes no run"},
+        {"--join", "--shard", "the first makes no run"},
+        {"--join", "--retry", "the first makes no run"},
+        {"--join", "--measure", "the tables have the columns that they have"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (is_given(given, pairs[i].one) && is_given(given, pairs[i].other)) {

@@ -104,18 +104,24 @@ static void draw(const void *chart, struct gm_picture *picture)
     gm_sweep_chart_draw(chart, picture);
 }
 
-/* The picture of a table that is complete, where --out asks for one. */
+/* The picture of a table that is complete, where --out asks for one; its words are those of the sweep. */
 static int paint(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)
 {
-    char message[GM_MESSAGE], name[128];
-    struct gm_sweep_chart *chart = gm_sweep_chart_open(sweep, path, message);
-    if (!chart) {
+    char message[GM_MESSAGE] = "not enough memory", name[128];
+    struct gm_options told = *options;
+    struct gm_sweep_chart *chart = NULL;
+    told.arguments = (struct gm_arguments){0};
+    told.measure = sweep->measure;
+    int status = GM_EXIT_FILE;
+    if (gm_arguments_split(&told.arguments, sweep->arguments) &&
+        (chart = gm_sweep_chart_open(sweep, path, message))) {
+        snprintf(name, sizeof name, "%.80s-sweep", sweep->scene->name);
+        status = gm_command_chart(&told, "sweep", name, chart, draw, NULL);
+    } else {
         gm_complain("%s", message);
-        return GM_EXIT_FILE;
     }
-    snprintf(name, sizeof name, "%.80s-sweep", sweep->scene->name);
-    const int status = gm_command_chart(options, "sweep", name, chart, draw, NULL);
     gm_sweep_chart_close(chart);
+    gm_arguments_close(&told.arguments);
     return status;
 }
 
@@ -202,8 +208,12 @@ static int command_sweep(const struct gm_options *options)
     } else {
         sweep.shard = options->shards ? (size_t)options->shard : 1;
         sweep.shards = options->shards ? (size_t)options->shards : 1;
-        char *path = options->table || options->out ? path_of(options, &sweep) : NULL;
-        if (options->out && !options->shards && !gm_sweep_is_drawable(&sweep, message)) {
+        const bool named = options->table || options->out;
+        char *path = named ? path_of(options, &sweep) : NULL;
+        if (named && !path) {
+            gm_complain("not enough memory");
+            status = GM_EXIT_MEMORY;
+        } else if (options->out && !options->shards && !gm_sweep_is_drawable(&sweep, message)) {
             gm_complain("%s; --table FILE.csv without --out makes none", message);
         } else if (is_confirmed(&sweep, options)) {
             status = make(&sweep, options, path);

@@ -39,10 +39,14 @@ double gm_range_at(const struct gm_range *range, size_t index)
 /* A piece of the text as a finite number. */
 static bool read_end(const char *from, const char *to, double *value)
 {
-    char *text = strndup(from, (size_t)(to - from));
-    const bool good = text && gm_number_parse(text, value) && isfinite(*value);
-    free(text);
-    return good;
+    char text[256];
+    const size_t length = (size_t)(to - from);
+    if (length >= sizeof text) {
+        return false;
+    }
+    memcpy(text, from, length);
+    text[length] = '\0';
+    return gm_number_parse(text, value) && isfinite(*value);
 }
 
 /* What is wrong with it; NULL: nothing. */

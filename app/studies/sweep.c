@@ -76,7 +76,8 @@ static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, 
     char text[GM_VALUE_TEXT];
     const struct gm_word *schemes = gm_words_find(&sweep->words, "scheme");
     const size_t choice = gm_words_choice(&sweep->words, (size_t)(schemes - sweep->words.list), run);
-    const struct gm_scheme *scheme = gm_scheme_find(gm_word_value(schemes, choice, text));
+    const struct gm_scheme *scheme =
+        gm_scheme_find(key && strcmp(key, "scheme") == 0 ? instead : gm_word_value(schemes, choice, text));
     *arguments = (struct gm_arguments){0};
     bool good = gm_arguments_add(arguments, sweep->scene->name);
     for (size_t i = 0; good && i < sweep->words.count; i++) {

@@ -82,11 +82,11 @@ static bool read_note(const char *path, struct note *note)
 static bool holds(const char *path, const char *text)
 {
     FILE *stream = fopen(path, "r");
-    const size_t length = strlen(text);
-    char *found = stream ? malloc(length + 1) : NULL;
-    const bool same =
-        found && fread(found, 1, length + 1, stream) == length && memcmp(found, text, length) == 0;
-    free(found);
+    bool same = stream != NULL;
+    for (; same && *text; text++) {
+        same = fgetc(stream) == (unsigned char)*text;
+    }
+    same = same && fgetc(stream) == EOF;
     if (stream) {
         fclose(stream);
     }

@@ -59,18 +59,6 @@ char *gm_sweep_share_path(const char *path, size_t shard, size_t shards)
 
 /* ---- what is there ---- */
 
-/* Whether a line is the row of a run: it begins as that does, and has as many cells as the head. */
-static bool is_row_of(const struct gm_sweep *sweep, size_t run, const char *line, size_t commas)
-{
-    char *front = gm_sweep_front(sweep, run);
-    const bool same = front && strncmp(line, front, strlen(front)) == 0;
-    free(front);
-    for (; *line; line++) {
-        commas -= *line == ',';
-    }
-    return same && commas == 0;
-}
-
 static size_t commas_of(const char *line)
 {
     size_t commas = 0;
@@ -78,6 +66,15 @@ static size_t commas_of(const char *line)
         commas += *line == ',';
     }
     return commas;
+}
+
+/* Whether a line is the row of a run: it begins as that does, and has as many cells as the head. */
+static bool is_row_of(const struct gm_sweep *sweep, size_t run, const char *line, size_t commas)
+{
+    char *front = gm_sweep_front(sweep, run);
+    const bool same = front && strncmp(line, front, strlen(front)) == 0;
+    free(front);
+    return same && commas_of(line) == commas;
 }
 
 /* The status of a row, behind the front. */

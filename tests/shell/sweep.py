@@ -169,6 +169,16 @@ def test_output(one):
     check(done.returncode == 141 and done.stderr == "", f"a broken pipe: {done.returncode} {done.stderr}")
 
 
+def test_kinds(folder):
+    """Runs of every wing of the core, two at once, are what they are one by one."""
+    for words in (["room", "dt=0.002..0.004:2", "until=0.02"], ["soliton", "dt=0.01,0.02", "until=0.1"],
+                  ["nls", "dt=0.001,0.002", "until=0.1"], ["kepler", "scheme=gsl-msbdf,gauss4,verlet", "until=9"]):
+        tables = [os.path.join(folder, f"{words[0]}{jobs}.csv") for jobs in (1, 2)]
+        for jobs, table in enumerate(tables, 1):
+            sweep(*words, "--jobs", str(jobs), "--table", table)
+        check(bare(tables[0]) == bare(tables[1]), f"{words[0]}: other rows with two at once")
+
+
 def test_shares(folder, one):
     table = os.path.join(folder, "shares.csv")
     for shard in (3, 1):
@@ -182,6 +192,12 @@ def test_shares(folder, one):
     sweep(*SWEEP, "--table", table, "--shard", "2/3")
     sweep("--join", table)
     check(bare(table) == bare(one), "three shares joined: the same rows")
+    pictures = os.path.join(folder, "joined")
+    picture = os.path.join(pictures, "kepler-sweep.png")
+    sweep("--join", table, "--out", pictures)
+    subprocess.run([geomint, "again", picture, "--out", pictures], capture_output=True)
+    check(content(picture) == content(picture.replace(".png", "-again.png")), "the joined picture, made again")
+    says("contradict", "sweep", "--join", table, "--shard", "1/3")
     says("could not be read", "sweep", "--join", os.path.join(folder, "none.csv"), status=3)
 
 
@@ -197,6 +213,12 @@ def test_statuses(folder):
     check("1 of 4 runs made now" in done.stderr and len(rows(table)) == 4 and bare(table) == found_without(found),
           f"only what failed is made anew: {done.stderr}")
     check(first.splitlines()[0] == content(table).splitlines()[0], "the head stays")
+    # what a scheme does not take is left to those that do
+    done = sweep("kepler", "scheme=verlet,gsl-rk8pd", "tolerance=1e-9,1e-3", "dt=0.5", "until=10", "--measure",
+                 "energy_error")
+    errors = [line.split(",")[-1] for line in done.stdout.splitlines()[1:]]
+    check(len(errors) == 4 and errors[0] == errors[1] and errors[2] != errors[3], f"tolerance of GSL's: {errors}")
+    says("those that do", "sweep", "kepler", "scheme=verlet", "tolerance=1e-9,1e-3")
     done = sweep("oscillator", "scheme=verlet,rk4", "dt=0.1,0.2", "zip=yes", "until=1")
     check(len(done.stdout.splitlines()) == 3, "zip=yes pairs")
 
@@ -237,6 +259,7 @@ with tempfile.TemporaryDirectory() as folder:
     one = test_sweep(folder)
     test_refusals(folder, one)
     test_output(one)
+    test_kinds(folder)
     test_shares(folder, one)
     test_statuses(folder)
     test_pictures(folder)
