@@ -183,7 +183,8 @@ static bool open_file(struct gm_sweep_table *table, const char *head, const char
     table->fd = open(table->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     struct stat found = {0};
     if (table->fd < 0 || fstat(table->fd, &found) != 0) {
-        return refuse_writing(message, table->path);
+        snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", table->path, strerror(errno));
+        return false;
     }
     if (!S_ISREG(found.st_mode)) {
         return refuse(message, table->path, "is not a regular file");
