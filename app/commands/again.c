@@ -72,7 +72,7 @@ static char *output_name(const char *path, const char *end)
 static const struct gm_command_row *chart_of(const char *name)
 {
     const struct gm_command_row *command = gm_command_find(name);
-    return command && command->bit & (GM_WORK_PRECISION | GM_STABILITY) ? command : NULL;
+    return command && command->bit & (GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP) ? command : NULL;
 }
 
 /* Measures a chart once more: the run times are those of now. */

@@ -39,6 +39,6 @@ int gm_command_chart(const struct gm_options *options, const char *command, cons
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
-    gm_complain("wrote %s and %s", chart.png, chart.csv);
+    gm_complain("wrote %s%s%s", chart.png, write ? " and " : "", write ? chart.csv : "");
     return GM_EXIT_OK;
 }

@@ -21,7 +21,7 @@ struct row {
 };
 
 #define AT(member) offsetof(struct gm_options, member)
-#define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_TOUR)
+#define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP | GM_TOUR)
 #define EXPLORES (GM_TUI | GM_TERMINAL | GM_TOUR)
 
 static const struct row rows[] = {
@@ -55,10 +55,19 @@ static const struct row rows[] = {
     {"--theme", TEXT, EXPLORES, AT(look), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
+    {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv", "keep the rows in FILE.csv; given again, it goes on"},
+    {"--jobs", WHOLE, GM_SWEEP, AT(jobs), "N", "N runs at once (one a core)"},
+    {"--retry", TEXT, GM_SWEEP, AT(retry), "STATUS", "rows of the table with this status are made anew"},
+    {"--yes", FLAG, GM_SWEEP, AT(yes), "", "even where these are more than a million runs"},
+    {"--join", TEXT, GM_SWEEP, AT(join), "FILE.csv",
+     "join the shares' tables, and name the rows that are missing"},
     {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},
+    {"--shard", SHARD, GM_SWEEP, AT(shard), "I/N",
+     "only the I-th of N shares of the runs, in a table of its own"},
     {"--strict", FLAG, GM_RUN | GM_RENDER, AT(strict), "",
      "exit 2 if a lane ends in a numerical failure (run: or with a warning)"},
     {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
+    {"--measure", TEXT, GM_SWEEP, AT(measure), "KEY,...", "the observables of the table (all)"},
     {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
      "the linear stability region of a scheme, no scene"},
     {"--list", FLAG, GM_TOUR, AT(listing), "", "what there is; with a tour, its steps"},
@@ -216,6 +225,10 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
         {"--json", "--markdown", "they are two formats"},
         {"--list", "--movie", "the first only tells of the tour"},
         {"--list", "--out", "the first only tells of the tour"},
+        {"--join", "--table", "the first makes no run"},
+        {"--join", "--shard", "the first makes no run"},
+        {"--join", "--retry", "the first makes no run"},
+        {"--join", "--measure", "the tables have the columns that they have"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (is_given(given, pairs[i].one) && is_given(given, pairs[i].other)) {

@@ -13,6 +13,7 @@
 #include "app/data/save.h"
 #include "app/data/tracks.h"
 #include "app/output/checkpoint.h"
+#include "app/output/csv.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
 #include "app/output/pause.h"
@@ -187,13 +188,8 @@ static void put_cell(FILE *stream, const struct gm_parameter *row, const void *o
         return;
     }
     gm_parameter_format(row, owner, text, sizeof text);
-    const bool quoted = strpbrk(text, ",\"") != NULL;
-    fputs(quoted ? ",\"" : ",", stream);
-    for (const char *at = text; *at; at++) {
-        fputs(*at == '"' ? "\"" : "", stream);
-        fputc(*at, stream);
-    }
-    fputs(quoted ? "\"" : "", stream);
+    fputc(',', stream);
+    gm_csv_put_text(stream, text);
 }
 
 /* How every row of CSV of a lane begins, or, without a lane, the names of these columns; malloc'ed, NULL when

@@ -58,7 +58,7 @@ bool gm_chart_write(struct gm_chart *chart, const void *data,
     if (!gm_folder_make(chart->folder, message) || !paint(chart, data, draw, message)) {
         return false;
     }
-    if (!write(data, chart->csv)) {
+    if (write && !write(data, chart->csv)) {
         snprintf(message, GM_MESSAGE, "%.400s could not be written: %s", chart->csv, strerror(errno));
         return false;
     }

@@ -75,7 +75,8 @@ static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, 
 static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const struct gm_word *list,
                   size_t index, char *message)
 {
-    const char *text = list->values[index];
+    char formatted[GM_VALUE_TEXT];
+    const char *text = gm_word_value(list, index, formatted);
     if (strcmp(list->key, "scheme") == 0) {
         return set_scheme(scene, spec, text, message);
     }
@@ -95,7 +96,8 @@ static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const
         return true;
     }
     char number[48];
-    if (row->type == GM_REAL && gm_words_decimal_comma(list, index, number, sizeof number)) {
+    if (row->type == GM_REAL && list->piece_count == list->count &&
+        gm_words_decimal_comma(list, index, number, sizeof number)) {
         const size_t used = strlen(message);
         snprintf(message + used, GM_MESSAGE - used, "; " GM_DECIMAL_POINT, number);
     }
@@ -107,12 +109,13 @@ static void add_name(const struct gm_word *list, size_t index, const struct gm_s
                      size_t size)
 {
     const size_t length = strlen(name);
+    char value[GM_VALUE_TEXT];
     const char *comma = length ? ", " : "";
     if (strcmp(list->key, "scheme") == 0) {
         snprintf(name + length, size - length, "%s%s", comma, scheme->title);
     } else {
         snprintf(name + length, size - length, "%s%s = %s", comma,
-                 strcmp(list->key, "dt") == 0 ? "Δt" : list->key, list->values[index]);
+                 strcmp(list->key, "dt") == 0 ? "Δt" : list->key, gm_word_name(list, index, value));
     }
 }
 
@@ -363,7 +366,7 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, bool 
 {
     const struct gm_scene *scene = request->scene;
     size_t count = 0;
-    if (!gm_words_lanes(words, &count, message)) {
+    if (!gm_words_count(words, GM_MOST_REQUESTED, &count, message)) {
         return false;
     }
     if (request->overlay && count > GM_LANE_COLOURS) {

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/cores/pool.h"
 #include "render/clock.h"
 
 /* A run that takes longer than this is judged where it is. */
@@ -178,31 +179,95 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, const s
     }
 }
 
+/* Cells that may wait for an earlier one. */
+enum { WINDOW = 64 };
+
+struct measuring {
+    struct gm_stability_table *table;
+    const struct gm_listener *listener;
+    bool failed;
+    char *message;
+    struct {
+        struct gm_map_cell cell;
+        bool opened;
+        char message[GM_MESSAGE];
+    } slots[WINDOW];
+};
+
+static size_t cells_of(const struct gm_stability_table *table)
+{
+    return table->plan->step_count * table->plan->value_count;
+}
+
+/* Tries a cell, in parameters of its own: stopped on the way, it stays untried. */
+static void try_cell(void *self, size_t index, size_t slot)
+{
+    struct measuring *measuring = self;
+    const struct gm_stability_table *table = measuring->table;
+    const struct gm_stability *plan = table->plan;
+    const struct gm_lane_spec *spec = &table->request.lanes[index / cells_of(table)];
+    const size_t k = index % cells_of(table);
+    struct gm_map_cell cell = {.verdict = GM_UNTRIED};
+    char *message = measuring->slots[slot].message;
+    struct gm_timing *timing = gm_parameters_copy(table->request.scene, spec->parameters);
+    struct gm_lane *lane = NULL;
+    if (timing) {
+        gm_parameter_put(table->parameter, timing, plan->values[k % plan->value_count]);
+        timing->dt = cell.dt = plan->steps[k / plan->value_count] * plan->unit(timing);
+        lane = gm_lane_open(table->request.scene, timing, &spec->settings, spec->scheme, message);
+    } else {
+        refuse(message, "not enough memory");
+    }
+    if (lane) {
+        judge(lane, plan, measuring->listener, &cell);
+    }
+    if (gm_listener_stops(measuring->listener)) {
+        cell.verdict = GM_UNTRIED;
+    }
+    measuring->slots[slot].opened = lane != NULL;
+    measuring->slots[slot].cell = cell;
+    gm_lane_close(lane);
+    free(timing);
+}
+
+static bool take_cell(void *self, size_t index, size_t slot)
+{
+    struct measuring *measuring = self;
+    struct gm_stability_table *table = measuring->table;
+    const size_t each = cells_of(table), all = table->count * each;
+    if (!measuring->slots[slot].opened) {
+        measuring->failed = true;
+        return refuse(measuring->message, measuring->slots[slot].message);
+    }
+    table->maps[index / each].cells[index % each] = measuring->slots[slot].cell;
+    const size_t next = index + 1 < all ? index + 1 : index;
+    gm_listener_hears(measuring->listener, table->maps[next / each].scheme->name, next, all);
+    return true;
+}
+
+static bool stops(void *self)
+{
+    return gm_listener_stops(((const struct measuring *)self)->listener);
+}
+
 bool gm_stability_measure(struct gm_stability_table *table, const struct gm_listener *listener, char *message)
 {
-    const struct gm_stability *plan = table->plan;
-    const size_t each = plan->step_count * plan->value_count;
-    for (size_t i = 0; i < table->count; i++) {
-        const struct gm_lane_spec *spec = &table->request.lanes[i];
-        struct gm_timing *timing = spec->parameters;
-        for (size_t k = 0; k < each; k++) {
-            struct gm_map_cell *cell = &table->maps[i].cells[k];
-            gm_listener_hears(listener, spec->scheme->name, i * each + k, table->count * each);
-            gm_parameter_put(table->parameter, spec->parameters, plan->values[k % plan->value_count]);
-            timing->dt = cell->dt = plan->steps[k / plan->value_count] * plan->unit(spec->parameters);
-            struct gm_lane *lane = gm_request_open_lane(&table->request, i, message);
-            if (!lane) {
-                return false;
-            }
-            judge(lane, plan, listener, cell);
-            gm_lane_close(lane);
-            if (gm_listener_stops(listener)) {
-                cell->verdict = GM_UNTRIED;
-                return true;
-            }
-        }
+    struct measuring *measuring = calloc(1, sizeof *measuring);
+    if (!measuring) {
+        return refuse(message, "not enough memory");
     }
-    return true;
+    *measuring = (struct measuring){.table = table, .listener = listener, .message = message};
+    const struct gm_pool pool = {.count = table->count * cells_of(table),
+                                 .window = WINDOW,
+                                 .work = try_cell,
+                                 .take = take_cell,
+                                 .stopped = stops,
+                                 .self = measuring};
+    gm_listener_hears(listener, table->maps[0].scheme->name, 0, pool.count);
+    gm_pool_run(&pool);
+    const bool good = !measuring->failed;
+    free(measuring);
+    return good;
 }
 
 const char *gm_cell_word(const struct gm_map_cell *cell)

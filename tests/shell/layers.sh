@@ -25,7 +25,7 @@ forbid app 'tests/'
 
 # the floors of app: a room sees none above it, and the words of a command line stay with the commands
 above='commands|explorer'
-for floor in tours 'lanes studies figures data' output request; do
+for floor in tours 'lanes studies figures data' output 'request cores'; do
     for room in $floor; do
         forbid "app/$room" "app/($above)/"
     done
