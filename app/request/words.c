@@ -2,7 +2,6 @@
 /* The words behind a scene's name: keys with lists of values, and their product. */
 #include "app/request/words.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,15 +10,6 @@
 #include "app/request/nearest.h"
 #include "render/cells/text.h"
 #include "render/message.h"
-
-__attribute__((format(printf, 2, 3))) static bool refuse(char *message, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, GM_MESSAGE, format, arguments);
-    va_end(arguments);
-    return false;
-}
 
 const struct gm_common_key gm_common_keys[] = {
     {"scheme", "NAME,...", "a scheme or several; without it the scene's preferred ones", {NULL}},
@@ -68,16 +58,16 @@ void gm_words_close(struct gm_words *words)
 static bool add_value(struct gm_word *list, const char *text, size_t length, char *message)
 {
     if (length == 0) {
-        return refuse(message, "%s= has an empty value", list->key);
+        return gm_refuse(message, "%s= has an empty value", list->key);
     }
     if (list->piece_count == GM_MOST_PIECES) {
-        return refuse(message, "%s= has more than %d values; a range, 0..1:%d, has any number", list->key,
-                      GM_MOST_PIECES, 2 * GM_MOST_PIECES);
+        return gm_refuse(message, "%s= has more than %d values; a range, 0..1:%d, has any number", list->key,
+                         GM_MOST_PIECES, 2 * GM_MOST_PIECES);
     }
     struct gm_piece *piece = &list->pieces[list->piece_count];
     *piece = (struct gm_piece){.text = strndup(text, length)};
     if (!piece->text) {
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     list->piece_count++;
     list->count++;
@@ -194,29 +184,29 @@ static bool read_word(struct gm_words *words, const struct gm_scene *scene, cons
 {
     const char *equals = strchr(word, '=');
     if (!equals || equals == word) {
-        return refuse(message, "\"%.60s\" is not of the form key=value", word);
+        return gm_refuse(message, "\"%.60s\" is not of the form key=value", word);
     }
     if (has_orders(word)) {
-        return refuse(message, "\"%.60s\" holds a character that cannot be shown", word);
+        return gm_refuse(message, "\"%.60s\" holds a character that cannot be shown", word);
     }
     if (words->count == GM_MOST_WORDS) {
-        return refuse(message, "more than %d keys", GM_MOST_WORDS);
+        return gm_refuse(message, "more than %d keys", GM_MOST_WORDS);
     }
     struct gm_word *list = &words->list[words->count];
     *list = (struct gm_word){.key = strndup(word, (size_t)(equals - word))};
     if (!list->key) {
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     words->count++;
     if (!known_key(scene, list->key)) {
         const size_t names = gm_common_key_count + scene->parameter_count + gm_settings_parameter_count;
         const char *near = gm_nearest(list->key, names, key_name, scene);
-        return refuse(message, "scene %s has no parameter \"%.40s\"%s%s", scene->name, list->key,
-                      near ? "; did you mean " : "; see geomint list ", near ? near : scene->name);
+        return gm_refuse(message, "scene %s has no parameter \"%.40s\"%s%s", scene->name, list->key,
+                         near ? "; did you mean " : "; see geomint list ", near ? near : scene->name);
     }
     for (size_t i = 0; i + 1 < words->count; i++) {
         if (strcmp(words->list[i].key, list->key) == 0) {
-            return refuse(message, "%s= is given twice", list->key);
+            return gm_refuse(message, "%s= is given twice", list->key);
         }
     }
     const char *at = equals + 1;
@@ -229,7 +219,7 @@ static bool read_word(struct gm_words *words, const struct gm_scene *scene, cons
         const size_t last = list->piece_count - 1;
         if (begins_with_zero(list->pieces[last].text) &&
             gm_words_decimal_comma(list, last, number, sizeof number)) {
-            return refuse(message, "%s=%.60s: " GM_DECIMAL_POINT, list->key, equals + 1, number);
+            return gm_refuse(message, "%s=%.60s: " GM_DECIMAL_POINT, list->key, equals + 1, number);
         }
         if (!read_range(list, scene, message)) {
             return false;
@@ -274,13 +264,13 @@ bool gm_words_count(const struct gm_words *words, size_t most, size_t *runs, cha
             continue;
         }
         if (words->zip && *runs > 1 && *runs != count) {
-            return refuse(message, "zip=yes pairs lists of equal length; %s= has %zu values, not %zu",
-                          words->list[i].key, count, *runs);
+            return gm_refuse(message, "zip=yes pairs lists of equal length; %s= has %zu values, not %zu",
+                             words->list[i].key, count, *runs);
         }
         const bool many = count > most || (!words->zip && *runs > most / count);
         if (many) {
-            return refuse(message, "that makes more than %zu %s", most,
-                          most == GM_MOST_REQUESTED ? "lanes; geomint sweep takes any number" : "runs");
+            return gm_refuse(message, "that makes more than %zu %s", most,
+                             most == GM_MOST_REQUESTED ? "lanes; geomint sweep takes any number" : "runs");
         }
         *runs = words->zip ? count : *runs * count;
     }
@@ -294,7 +284,7 @@ static bool prefer(struct gm_words *words, const struct gm_scene *scene, size_t 
         return true;
     }
     if (words->count == GM_MOST_WORDS) {
-        return refuse(message, "more than %d keys", GM_MOST_WORDS);
+        return gm_refuse(message, "more than %d keys", GM_MOST_WORDS);
     }
     struct gm_word list = {.key = strdup("scheme")};
     bool good = list.key != NULL;
@@ -304,7 +294,7 @@ static bool prefer(struct gm_words *words, const struct gm_scene *scene, size_t 
     memmove(&words->list[1], &words->list[0], words->count * sizeof words->list[0]);
     words->list[0] = list;
     words->count++;
-    return good || refuse(message, "not enough memory");
+    return good || gm_refuse(message, "not enough memory");
 }
 
 /* Those of the common keys that are not the lane's have one value, of their choices. */
@@ -315,7 +305,7 @@ static bool check_choices(const struct gm_words *words, char *message)
         const struct gm_word *word = key->choices[0] ? gm_words_find(words, key->name) : NULL;
         if (word && (word->count > 1 || (strcmp(word->pieces[0].text, key->choices[0]) != 0 &&
                                          strcmp(word->pieces[0].text, key->choices[1]) != 0))) {
-            return refuse(message, "%s= is one of: %s, %s", key->name, key->choices[0], key->choices[1]);
+            return gm_refuse(message, "%s= is one of: %s, %s", key->name, key->choices[0], key->choices[1]);
         }
     }
     return true;

@@ -216,7 +216,7 @@ static void try_cell(void *self, size_t index, size_t slot)
         timing->dt = cell.dt = plan->steps[k / plan->value_count] * plan->unit(timing);
         lane = gm_lane_open(table->request.scene, timing, &spec->settings, spec->scheme, message);
     } else {
-        refuse(message, "not enough memory");
+        gm_refuse(message, "not enough memory");
     }
     if (lane) {
         judge(lane, plan, measuring->listener, &cell);
@@ -237,7 +237,7 @@ static bool take_cell(void *self, size_t index, size_t slot)
     const size_t each = cells_of(table), all = table->count * each;
     if (!measuring->slots[slot].opened) {
         measuring->failed = true;
-        return refuse(measuring->message, measuring->slots[slot].message);
+        return gm_refuse(measuring->message, "%s", measuring->slots[slot].message);
     }
     table->maps[index / each].cells[index % each] = measuring->slots[slot].cell;
     const size_t next = index + 1 < all ? index + 1 : index;
@@ -254,7 +254,7 @@ bool gm_stability_measure(struct gm_stability_table *table, const struct gm_list
 {
     struct measuring *measuring = calloc(1, sizeof *measuring);
     if (!measuring) {
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     *measuring = (struct measuring){.table = table, .listener = listener, .message = message};
     const struct gm_pool pool = {.count = table->count * cells_of(table),

@@ -3,7 +3,6 @@
 #include "app/studies/sweep.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,15 +16,6 @@
 
 const char gm_sweep_statuses[] =
     "ok, blow-up, no-convergence, mesh-crossing, step-collapse, out-of-memory, refused";
-
-__attribute__((format(printf, 2, 3))) static bool refuse(char *message, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, GM_MESSAGE, format, arguments);
-    va_end(arguments);
-    return false;
-}
 
 static const struct gm_parameter *row_of(const struct gm_scene *scene, const char *key)
 {
@@ -112,7 +102,7 @@ static bool try_first(const struct gm_sweep *sweep, const char *key, const char 
 {
     struct gm_arguments arguments;
     struct gm_request request = {0};
-    const bool told = words_of(sweep, 0, key, value, &arguments) || refuse(message, "not enough memory");
+    const bool told = words_of(sweep, 0, key, value, &arguments) || gm_refuse(message, "not enough memory");
     const bool good = told && gm_request_parse(&request, arguments.count, arguments.words, 1, message);
     *unreadable = request.unreadable;
     gm_request_close(&request);
@@ -143,7 +133,7 @@ static bool check(const struct gm_sweep *sweep, bool *unreadable, char *message)
     for (size_t i = 0; i < sweep->words.count; i++) {
         const struct gm_word *word = &sweep->words.list[i];
         if (strcmp(word->key, "equal") == 0 || strcmp(word->key, "overlay") == 0) {
-            return refuse(message, "%s= is of lanes beside each other; a sweep has none", word->key);
+            return gm_refuse(message, "%s= is of lanes beside each other; a sweep has none", word->key);
         }
         if (strcmp(word->key, "scheme") == 0) {
             for (size_t k = 0; k < word->count; k++) {
@@ -186,7 +176,7 @@ static bool choose_observables(struct gm_sweep *sweep, const char *measure, char
     char *copy = measure ? strdup(measure) : NULL, *rest = NULL;
     if (!sweep->observables || (measure && (!copy || !sweep->measure))) {
         free(copy);
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     for (size_t i = 0; !measure && i < scene->observable_count; i++) {
         sweep->observables[sweep->observable_count++] = i;
@@ -195,8 +185,8 @@ static bool choose_observables(struct gm_sweep *sweep, const char *measure, char
         const int found = gm_scene_observable(scene, key);
         if (found < 0) {
             const char *near = gm_nearest(key, scene->observable_count, observable_name, scene);
-            refuse(message, "scene %s has no observable %.60s%s%s", scene->name, key,
-                   near ? "; did you mean " : "", near ? near : "");
+            gm_refuse(message, "scene %s has no observable %.60s%s%s", scene->name, key,
+                      near ? "; did you mean " : "", near ? near : "");
             free(copy);
             return false;
         }
@@ -212,7 +202,7 @@ bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments,
     *sweep = (struct gm_sweep){.shard = 1, .shards = 1};
     *unreadable = false;
     if (arguments->count == 0) {
-        return refuse(message, "sweep of which scene? See geomint list scenes");
+        return gm_refuse(message, "sweep of which scene? See geomint list scenes");
     }
     sweep->scene = gm_scene_find(arguments->words[0]);
     if (!sweep->scene) {
@@ -226,7 +216,7 @@ bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments,
         return false;
     }
     sweep->arguments = gm_words_join(sweep->scene, &sweep->words);
-    return sweep->arguments || refuse(message, "not enough memory");
+    return sweep->arguments || gm_refuse(message, "not enough memory");
 }
 
 void gm_sweep_close(struct gm_sweep *sweep)
@@ -340,8 +330,7 @@ static char *make_row(const struct gm_sweep *sweep, size_t run, const struct gm_
         gm_drive_to(&drive, request->lanes[0].steps, false, message);
     }
     const struct gm_run *ended = drive.lane ? drive.lane->run : NULL;
-    const bool interrupted = ended && gm_interrupted && ended->status == GM_OK &&
-                             ended->steps < request->lanes[0].steps && !gm_drive_is_over(&drive);
+    const bool interrupted = ended && gm_interrupted && gm_drive_goes_on(&drive, request->lanes[0].steps);
     double *values = interrupted ? NULL : malloc(sweep->observable_count * sizeof *values);
     for (size_t i = 0; ended && values && i < sweep->observable_count; i++) {
         values[i] = gm_lane_observe(drive.lane, sweep->observables[i]);
@@ -401,8 +390,7 @@ static double seconds_of(const struct gm_sweep *sweep, size_t run)
         const struct gm_timing *timing = drive.lane->parameters;
         const long steps = request.lanes[0].steps;
         seconds = gm_clock_seconds() - started;
-        for (long goal = 1; drive.seconds < enough && state->status == GM_OK && state->steps < steps &&
-                            !gm_drive_is_over(&drive) && !gm_interrupted;
+        for (long goal = 1; drive.seconds < enough && gm_drive_goes_on(&drive, steps) && !gm_interrupted;
              goal *= 2) {
             gm_drive_to(&drive, goal < steps ? goal : steps, false, message);
         }

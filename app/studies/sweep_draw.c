@@ -261,7 +261,7 @@ static const char *key_label(const struct gm_sweep_chart *chart, size_t axis, st
 
 static const char *title_of(const struct gm_sweep_chart *chart, size_t observable, struct gm_picture *picture)
 {
-    char title[GM_SENTENCE];
+    char title[GM_MESSAGE];
     const struct gm_scene *scene = chart->sweep->scene;
     return gm_picture_text(
         picture, "%s",
