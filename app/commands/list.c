@@ -10,7 +10,7 @@
 #include "app/output/wrapped.h"
 #include "app/request/drive.h"
 #include "app/request/fitting.h"
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 

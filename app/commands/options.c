@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "render/files/sink.h"
 
 enum kind { FLAG, TEXT, MOVIE, WHOLE, TIME, RATE, FPS, SIZE, THEME, SHARD };

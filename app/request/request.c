@@ -11,7 +11,7 @@
 
 #include "app/request/arguments.h"
 #include "app/request/fitting.h"
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "app/request/words.h"
 #include "core/memory.h"
 

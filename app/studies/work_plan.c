@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "app/studies/work.h"
 #include "core/schemes.h"
 

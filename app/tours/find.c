@@ -7,7 +7,7 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "app/tours/tour.h"
 
 static const char ending[] = ".tour";

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "app/request/arguments.h"
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "app/tours/tour.h"
 #include "render/cells/text.h"
 #include "render/files/regular_file.h"
