@@ -206,6 +206,14 @@ static bool simple_difference(struct gm_formula *graph, gm_node_id a, gm_node_id
     return true;
 }
 
+/* x * (c / y), c a constant: (c x) / y */
+static gm_node_id over(struct gm_formula *graph, gm_node_id x, gm_node_id quotient)
+{
+    const struct gm_node node = graph->nodes[quotient];
+    return gm_formula_apply(graph, GM_OPERATION_DIVIDE,
+                            gm_formula_apply(graph, GM_OPERATION_MULTIPLY, node.a, x), node.b);
+}
+
 static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
 {
     double coefficient;
@@ -222,10 +230,12 @@ static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b,
         *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[a].a, b));
     } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
         *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, graph->nodes[b].a));
-    } else if (is_operation(graph, b, GM_OPERATION_DIVIDE) && gm_is_constant(graph, graph->nodes[b].a, 1)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_DIVIDE, a, graph->nodes[b].b);
-    } else if (is_operation(graph, a, GM_OPERATION_DIVIDE) && gm_is_constant(graph, graph->nodes[a].a, 1)) {
-        *simple = gm_formula_apply(graph, GM_OPERATION_DIVIDE, b, graph->nodes[a].b);
+    } else if (is_operation(graph, b, GM_OPERATION_DIVIDE) &&
+               is_operation(graph, graph->nodes[b].a, GM_CONSTANT)) {
+        *simple = over(graph, a, b);
+    } else if (is_operation(graph, a, GM_OPERATION_DIVIDE) &&
+               is_operation(graph, graph->nodes[a].a, GM_CONSTANT)) {
+        *simple = over(graph, b, a);
     } else if (is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
         *simple = scale(graph, graph->nodes[a].value * coefficient, rest);
     } else if (!is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
@@ -236,6 +246,15 @@ static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b,
         return false;
     }
     return true;
+}
+
+/* node = coefficient * rest; false where nothing is left: it is a constant */
+static bool divided(const struct gm_formula *graph, gm_node_id node, double *coefficient, gm_node_id *rest)
+{
+    scaled(graph, node, coefficient, rest);
+    const bool constant = is_operation(graph, node, GM_CONSTANT);
+    *coefficient = constant ? graph->nodes[node].value : *coefficient;
+    return !constant;
 }
 
 static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
@@ -250,21 +269,20 @@ static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b
         *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_DIVIDE, graph->nodes[a].a, b));
         return true;
     }
-    scaled(graph, a, &of_a, &rest_a);
-    const bool constant = is_operation(graph, b, GM_CONSTANT);
-    if (constant) {
-        of_b = graph->nodes[b].value;
-        rest_b = b;
-    } else if (!scaled(graph, b, &of_b, &rest_b)) {
-        return false;
-    }
+    const bool above = divided(graph, a, &of_a, &rest_a), below = divided(graph, b, &of_b, &rest_b);
     const double ratio = of_a / of_b;
-    if (of_a == 1 || !isnormal(ratio) || fma(ratio, of_b, -of_a) != 0) {
-        return false;
+    const bool exact = isnormal(ratio) && fma(ratio, of_b, -of_a) == 0;
+    if (exact && of_b != 1) {
+        const gm_node_id top = above ? rest_a : gm_formula_constant(graph, ratio);
+        const gm_node_id rest = below ? gm_formula_apply(graph, GM_OPERATION_DIVIDE, top, rest_b) : top;
+        *simple = above ? scale(graph, ratio, rest) : rest;
+        return true;
     }
-    const gm_node_id top = scale(graph, ratio, rest_a);
-    *simple = constant ? top : gm_formula_apply(graph, GM_OPERATION_DIVIDE, top, rest_b);
-    return true;
+    if (above && of_a != 1) {
+        *simple = scale(graph, of_a, gm_formula_apply(graph, GM_OPERATION_DIVIDE, rest_a, b));
+        return true;
+    }
+    return false;
 }
 
 static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b,
@@ -283,6 +301,12 @@ static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_n
         *simple = graph->nodes[a].a;
         if (is_operation(graph, a, GM_OPERATION_SUBTRACT)) {
             *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, graph->nodes[a].b, graph->nodes[a].a);
+            return true;
+        }
+        if (is_operation(graph, a, GM_OPERATION_MULTIPLY) &&
+            is_operation(graph, graph->nodes[a].a, GM_OPERATION_NEGATE)) {
+            *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[graph->nodes[a].a].a,
+                                       graph->nodes[a].b);
             return true;
         }
         return is_operation(graph, a, GM_OPERATION_NEGATE);

@@ -66,9 +66,10 @@ gm_node_id gm_formula_constant(struct gm_formula *graph, double value);
 gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number);
 /* b of an operation of one operand is not looked at. A power whose exponent is a constant whole number up to
    16 becomes a chain. While `simplifies` is set also, where x and y are finite:
-     0 + x, x - 0, 1 x, x / 1, x^1 -> x    0 x, 0 / x, x^0 -> a constant    0 - x, -1 x -> -x
-     -(-x) -> x    signs leave products, quotients and sums    (1 / x) y -> y / x    x + x -> 2 x
-     c (d x) -> (c d) x    (c x) / (d y) -> ((c / d) x) / y where c / d is exact    x - x -> 0 */
+     0 + x, x - 0, 1 x, x / 1, x^1 -> x    0 x, 0 / x, x^0 -> a constant    0 - x, -1 x -> -x    x - x -> 0
+     -(-x) -> x    -(x - y) -> y - x    signs leave products, quotients and sums    c x + d x -> (c + d) x
+     constants gather in front: x (c y) -> c (x y), c (d x) -> (c d) x, (c / x) y -> (c y) / x,
+     (c x) / (d y) -> (c / d) (x / y) where c / d is exact, else (c x) / y -> c (x / y) */
 gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operation, gm_node_id a,
                             gm_node_id b);
 
