@@ -8,8 +8,8 @@
 #include "app/commands/reference/theory.h"
 #include "app/output/json.h"
 #include "app/request/drive.h"
-#include "core/formula/nearest.h"
 #include "core/certify.h"
+#include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 

@@ -11,8 +11,8 @@
 
 #include "app/request/arguments.h"
 #include "app/request/fitting.h"
-#include "core/formula/nearest.h"
 #include "app/request/words.h"
+#include "core/formula/nearest.h"
 #include "core/memory.h"
 
 __attribute__((format(printf, 2, 3))) static bool refuse(char *message, const char *format, ...)

@@ -46,7 +46,7 @@ enum role { COMPONENT, VELOCITY, PARAMETER, TIME, NAMED };
 
 /* A name of the system, or an element of a list. */
 struct entry {
-    const char *name;
+    char *name;                   /* its own, closed by a NUL, once it is among the entries */
     size_t length, place, number; /* the number among those of its role */
     bool indexed;
     long index;
@@ -73,8 +73,6 @@ struct reading {
     bool structural; /* and the graph depends on their values */
     bool initial;
     size_t component_count, velocity_count, parameter_count;
-    char **prefixed; /* names that nobody typed */
-    size_t prefixed_count;
     const struct gm_system_value *values;
     size_t value_count;
     struct gm_fault *fault;
@@ -355,6 +353,11 @@ static bool add_entry(struct reading *reading, struct entry entry)
         return fail(reading, entry.place, "%.*s is defined twice, first in line %zu", brief, entry.name,
                     line_of(reading, other->place));
     }
+    char *name = strndup(entry.name, entry.length);
+    if (!name) {
+        return no_memory(reading);
+    }
+    entry.name = name;
     reading->entries[reading->entry_count] = entry;
     *slot = (uint32_t)++reading->entry_count;
     return true;
@@ -362,14 +365,8 @@ static bool add_entry(struct reading *reading, struct entry entry)
 
 static const char *known(size_t i, const void *data)
 {
-    static _Thread_local char name[64];
     const struct reading *reading = data;
-    if (i >= reading->entry_count) {
-        return NULL;
-    }
-    const struct entry *entry = &reading->entries[i];
-    snprintf(name, sizeof name, "%.*s", (int)(entry->length < 60 ? entry->length : 60), entry->name);
-    return name;
+    return i < reading->entry_count ? reading->entries[i].name : NULL;
 }
 
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
@@ -603,7 +600,7 @@ static bool read_assignment(struct reading *reading, struct span span, struct ta
 
 static struct entry entry_for(const struct reading *reading, const struct target *target, enum role role)
 {
-    return (struct entry){.name = reading->text + target->name.begin,
+    return (struct entry){.name = (char *)reading->text + target->name.begin,
                           .length = target->name.end - target->name.begin,
                           .place = target->name.begin,
                           .role = role,
@@ -748,12 +745,9 @@ static bool add_prefixed(struct reading *reading, const char *prefix, enum role 
             continue;
         }
         char *name = NULL;
-        if (!reserve(reading, (void **)&reading->prefixed, reading->prefixed_count,
-                     sizeof *reading->prefixed) ||
-            asprintf(&name, "%s%.*s", prefix, (int)entry.length, entry.name) < 0) {
+        if (asprintf(&name, "%s%s", prefix, entry.name) < 0) {
             return no_memory(reading);
         }
-        reading->prefixed[reading->prefixed_count++] = name;
         entry.name = name;
         entry.length = strlen(name);
         entry.role = role;
@@ -761,6 +755,7 @@ static bool add_prefixed(struct reading *reading, const char *prefix, enum role 
         if (add_entry(reading, entry)) {
             add_variable(reading, &entry);
         }
+        free(name);
         made++;
     }
     return !reading->failed;
@@ -988,7 +983,8 @@ static bool add_state(struct reading *reading)
     if (!reading->failed && reading->component_count > GM_MOST_COMPONENTS) {
         fail(reading, 0, "a system has at most %d components", GM_MOST_COMPONENTS);
     }
-    const struct entry time = {.name = "t", .length = 1, .role = TIME};
+    char t[] = "t";
+    const struct entry time = {.name = t, .length = 1, .role = TIME};
     return !reading->failed && arrange(reading) && add_entry(reading, time);
 }
 
@@ -1483,10 +1479,9 @@ bool gm_system_read(struct gm_system *system, const char *text, size_t length,
         system->length = length;
     }
     const bool good = (system->source || length > GM_LARGEST_SYSTEM) && read_system(&reading);
-    for (size_t i = 0; i < reading.prefixed_count; i++) {
-        free(reading.prefixed[i]);
+    for (size_t i = 0; i < reading.entry_count; i++) {
+        free(reading.entries[i].name);
     }
-    free(reading.prefixed);
     free(reading.lines);
     free(reading.entries);
     free(reading.table);

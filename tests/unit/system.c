@@ -331,7 +331,7 @@ static const struct {
     {CANONICAL "let: a = a + 1\nH: a\n", 3, 6, "a needs itself"},
     {CANONICAL "let: a = 1\nlet: a = 2\nH: a\n", 4, 6, "a is defined twice, first in line 3"},
     {CANONICAL "parameter: a = 3; 0 .. 2\nH: a*q\n", 3, 12, "outside of its range"},
-    {CANONICAL "parameter: a = q\nH: a*q\n", 3, 16, "q is no parameter"},
+    {CANONICAL "parameter: a = q\nH: a*q\n", 3, 16, "no name q"},
     {CANONICAL "parameter: a = b\nparameter: b = a\nH: a*q\n", 3, 12, "a circle"},
     {CANONICAL "parameter: a = 1/0\nH: a*q\n", 3, 12, "no finite number"},
     {CANONICAL "parameter: m[1..3] = 1, 2\nH: q\n", 3, 22, "3 values were expected"},
