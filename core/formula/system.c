@@ -1194,6 +1194,11 @@ static bool read_named(struct reading *reading, const struct line *line)
         return fail(reading, target.name.begin, "the name %.*s is reserved", (int)(length < 60 ? length : 60),
                     name);
     }
+    const struct entry *other = entry_of(reading, name, length, false, 0);
+    if (other) {
+        return fail(reading, target.name.begin, "%s is defined twice, first in line %zu", other->name,
+                    line_of(reading, other->place));
+    }
     struct gm_system_item *item = add_item(reading, line, target.name);
     if (!item || !add_formula(reading, item, target.value)) {
         return false;

@@ -350,6 +350,7 @@ static const struct {
     {CANONICAL "H: p_q^2/2\nsection: q\n", 4, 10, "where something is 0"},
     {CANONICAL "H: p_q^2/2\nsection: q = 0\n", 4, 15, "shows two values"},
     {CANONICAL "H: p_q^2/2\nobserve: q[1] = 0\n", 4, 12, "no index"},
+    {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice, first in line 1"},
     {CANONICAL "H: p_q^2/2\ndt: q\n", 4, 5, "q is no parameter"},
     {"coordinates: q\nL: v_q*q\nstart: q = 1, v_q = 0\n", 1, 1, "Legendre transform of L is singular"},
     {THREE "rate: x = y\nrate: y = z\n", 1, 1, "there is no rate of z"},
