@@ -27,7 +27,7 @@ enum { MOST_EQUATIONS = 40 }; /* that are printed; --json has them all */
 
 struct report {
     const struct gm_options *options;
-    struct gm_system system;
+    struct gm_own_system system;
     struct gm_finding findings[GM_FACTS];
     unsigned facets; /* GM_NEEDS_... */
 };
@@ -35,7 +35,7 @@ struct report {
 /* The facets of the system as a problem. */
 static unsigned facets_of(const struct report *report)
 {
-    const struct gm_system *system = &report->system;
+    const struct gm_own_system *system = &report->system;
     const struct gm_finding *findings = report->findings;
     unsigned facets = 0;
     bool forced = false;
@@ -58,7 +58,7 @@ static unsigned facets_of(const struct report *report)
     return facets;
 }
 
-static bool is_constrained(const struct gm_system *system)
+static bool is_constrained(const struct gm_own_system *system)
 {
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == GM_WORD_CONSTRAINT) {
@@ -96,7 +96,7 @@ static void print_equation(const struct report *report, const char *left, gm_nod
 /* What the rate of component number i is called, and its node; GM_NO_NODE: it has none. */
 static gm_node_id equation_of(const struct report *report, size_t i, char *left, size_t size)
 {
-    const struct gm_system *system = &report->system;
+    const struct gm_own_system *system = &report->system;
     const size_t half = system->n / 2;
     if (system->kind == GM_LAGRANGIAN && i < half) {
         snprintf(left, size, "%.60s", system->variables[half + i].name);
@@ -121,7 +121,7 @@ static bool is_kept(const struct gm_system_item *item)
 }
 
 /* The name of an invariant; of a momentum map without one its number. */
-static void kept_name(const struct gm_system *system, const struct gm_system_item *item, char *name,
+static void kept_name(const struct gm_own_system *system, const struct gm_system_item *item, char *name,
                       size_t size)
 {
     int number = 0;
@@ -136,7 +136,7 @@ static void kept_name(const struct gm_system *system, const struct gm_system_ite
 }
 
 /* Its formula; GM_NO_NODE where a symmetry has no momentum map. */
-static gm_node_id kept_node(const struct gm_system *system, const struct gm_system_item *item)
+static gm_node_id kept_node(const struct gm_own_system *system, const struct gm_system_item *item)
 {
     return item->word != GM_WORD_SYMMETRY  ? item->nodes[0]
            : system->kind <= GM_LAGRANGIAN ? item->nodes[system->n / 2]
@@ -145,7 +145,7 @@ static gm_node_id kept_node(const struct gm_system *system, const struct gm_syst
 
 static void print_texts(const struct report *report)
 {
-    const struct gm_system *system = &report->system;
+    const struct gm_own_system *system = &report->system;
     static const enum gm_word order[] = {GM_WORD_TITLE, GM_WORD_ABOUT, GM_WORD_WATCH, GM_WORD_REFERENCE};
     for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
         if (system->texts[order[i]]) {
@@ -160,7 +160,7 @@ static void print_texts(const struct report *report)
 
 static void print_parameters(const struct report *report)
 {
-    const struct gm_system *system = &report->system;
+    const struct gm_own_system *system = &report->system;
     double *start = gm_equations_start(system);
     if (system->parameters < system->velocities) {
         printf("\nparameters\n");
@@ -187,7 +187,7 @@ static void print_parameters(const struct report *report)
 
 static void print_equations(const struct report *report)
 {
-    const struct gm_system *system = &report->system;
+    const struct gm_own_system *system = &report->system;
     printf("\nequations\n");
     if (system->kind != GM_RATES) {
         print_equation(report, system->kind == GM_LAGRANGIAN ? "L" : "H", system->energy);
@@ -210,7 +210,7 @@ static void print_equations(const struct report *report)
 
 static void print_kept(const struct report *report)
 {
-    const struct gm_system *system = &report->system;
+    const struct gm_own_system *system = &report->system;
     bool any = false;
     for (size_t i = 0; i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
@@ -274,7 +274,7 @@ static void print_schemes(const struct report *report)
 
 static void print_json(const struct report *report)
 {
-    const struct gm_system *system = &report->system;
+    const struct gm_own_system *system = &report->system;
     const char *comma = "";
     char name[80];
     printf("{");
@@ -338,7 +338,7 @@ static void print_json(const struct report *report)
 
 static void print_latex(const struct report *report)
 {
-    const struct gm_system *system = &report->system;
+    const struct gm_own_system *system = &report->system;
     const size_t half = system->n / 2;
     printf("\\begin{align}\n");
     if (system->kind != GM_RATES) {
@@ -384,7 +384,7 @@ static bool read_values(const struct gm_options *options, struct gm_system_value
 }
 
 /* every value was that of a parameter */
-static bool are_known(const struct gm_system *system, const struct gm_system_value *values, size_t count)
+static bool are_known(const struct gm_own_system *system, const struct gm_system_value *values, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
         bool known = false;

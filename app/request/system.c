@@ -93,12 +93,12 @@ static void show_place(const char *text, size_t length, size_t offset)
     fprintf(stderr, "\n    %*s^\n", columns, "");
 }
 
-int gm_system_open(struct gm_system *system, const char *path, const struct gm_system_value *values,
+int gm_system_open(struct gm_own_system *system, const char *path, const struct gm_system_value *values,
                    size_t count)
 {
     size_t length = 0;
     char *text = read_file(path, &length);
-    *system = (struct gm_system){0};
+    *system = (struct gm_own_system){0};
     if (!text) {
         return gm_memory_was_short() ? 5 : 3;
     }

@@ -11,7 +11,7 @@ bool gm_system_path(const char *word, char *path, size_t size);
 
 /* Opens the system of a file. Returns 0, or an exit status, and has complained: on the next two lines the text that is
    wrong, with a caret. To be closed in both cases. */
-int gm_system_open(struct gm_system *system, const char *path, const struct gm_system_value *values,
+int gm_system_open(struct gm_own_system *system, const char *path, const struct gm_system_value *values,
                    size_t count);
 
 #endif

@@ -10,7 +10,7 @@
 
 #include "core/formula/derivative.h"
 
-static gm_node_id apply(struct gm_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
+static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
 {
     system->graph.simplifies = true;
     const gm_node_id node = gm_formula_apply(&system->graph, operation, a, b);
@@ -18,13 +18,13 @@ static gm_node_id apply(struct gm_system *system, enum gm_operation operation, g
     return node;
 }
 
-static gm_node_id add_force(struct gm_system *system, gm_node_id rate, gm_node_id force)
+static gm_node_id add_force(struct gm_own_system *system, gm_node_id rate, gm_node_id force)
 {
     return force == GM_NO_NODE ? rate : apply(system, GM_OPERATION_ADD, rate, force);
 }
 
 /* the gradient of a node over all variables; malloc'ed */
-static gm_node_id *gradient_of(struct gm_system *system, gm_node_id node)
+static gm_node_id *gradient_of(struct gm_own_system *system, gm_node_id node)
 {
     bool *all = malloc(system->variable_count);
     gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient);
@@ -38,7 +38,7 @@ static gm_node_id *gradient_of(struct gm_system *system, gm_node_id node)
     return gradient;
 }
 
-static void derive_poisson(struct gm_system *system, const gm_node_id *gradient)
+static void derive_poisson(struct gm_own_system *system, const gm_node_id *gradient)
 {
     const size_t n = system->n;
     for (size_t i = 0; i < n; i++) {
@@ -51,7 +51,7 @@ static void derive_poisson(struct gm_system *system, const gm_node_id *gradient)
     }
 }
 
-static bool derive(struct gm_system *system)
+static bool derive(struct gm_own_system *system)
 {
     const size_t half = system->n / 2;
     gm_node_id *gradient = system->kind == GM_RATES ? NULL : gradient_of(system, system->energy);
@@ -88,7 +88,7 @@ static bool derive(struct gm_system *system)
     return good;
 }
 
-static bool has(const struct gm_system *system, enum gm_word word)
+static bool has(const struct gm_own_system *system, enum gm_word word)
 {
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == word) {
@@ -98,7 +98,7 @@ static bool has(const struct gm_system *system, enum gm_word word)
     return false;
 }
 
-static gm_node_id along(struct gm_system *system, gm_node_id node, const gm_node_id *direction)
+static gm_node_id along(struct gm_own_system *system, gm_node_id node, const gm_node_id *direction)
 {
     gm_node_id *slopes = gm_derivative_along(&system->graph, node + 1, direction, system->n + 1);
     const gm_node_id slope = slopes ? slopes[node] : GM_NO_NODE;
@@ -106,7 +106,7 @@ static gm_node_id along(struct gm_system *system, gm_node_id node, const gm_node
     return slope;
 }
 
-gm_node_id gm_equations_rate_of(struct gm_system *system, gm_node_id node)
+gm_node_id gm_equations_rate_of(struct gm_own_system *system, gm_node_id node)
 {
     gm_node_id *direction = malloc((system->n + 1) * sizeof *direction), rate = GM_NO_NODE;
     if (direction && system->kind != GM_LAGRANGIAN && !has(system, GM_WORD_CONSTRAINT)) {
@@ -118,7 +118,7 @@ gm_node_id gm_equations_rate_of(struct gm_system *system, gm_node_id node)
     return rate;
 }
 
-enum gm_identity gm_equations_vanishes(const struct gm_system *system, gm_node_id node)
+enum gm_identity gm_equations_vanishes(const struct gm_own_system *system, gm_node_id node)
 {
     double *fixed = malloc(system->variable_count * sizeof *fixed);
     enum gm_identity identity = GM_UNTESTED;
@@ -144,7 +144,7 @@ __attribute__((format(printf, 3, 4))) static bool fail(struct gm_fault *fault, s
 }
 
 /* sum over l of {i, l} d{j, k}/dl and cyclic */
-static bool check_jacobi(struct gm_system *system, struct gm_fault *fault)
+static bool check_jacobi(struct gm_own_system *system, struct gm_fault *fault)
 {
     const size_t n = system->n;
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
@@ -181,7 +181,7 @@ static bool check_jacobi(struct gm_system *system, struct gm_fault *fault)
 }
 
 /* {x_i, C} = 0 for all i */
-static enum gm_identity check_casimir(struct gm_system *system, gm_node_id node)
+static enum gm_identity check_casimir(struct gm_own_system *system, gm_node_id node)
 {
     enum gm_identity all = GM_ZERO_PROVED;
     gm_node_id *direction = malloc((system->n + 1) * sizeof *direction);
@@ -197,7 +197,7 @@ static enum gm_identity check_casimir(struct gm_system *system, gm_node_id node)
 
 /* Of coordinates: the energy does not change along the generator, lifted to momenta or velocities. Of
    components: generator and field commute. The momentum map is appended. */
-static enum gm_identity check_symmetry(struct gm_system *system, struct gm_system_item *item)
+static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_system_item *item)
 {
     const size_t half = system->n / 2, n = system->n;
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
@@ -257,7 +257,7 @@ static enum gm_identity check_symmetry(struct gm_system *system, struct gm_syste
     return gm_equations_vanishes(system, change);
 }
 
-static bool check_items(struct gm_system *system, struct gm_fault *fault)
+static bool check_items(struct gm_own_system *system, struct gm_fault *fault)
 {
     bool forced = has(system, GM_WORD_CONSTRAINT);
     for (size_t i = 0; i < system->n; i++) {
@@ -293,7 +293,7 @@ static bool check_items(struct gm_system *system, struct gm_fault *fault)
 }
 
 /* values of all nodes; malloc'ed */
-static double *values_for(const struct gm_system *system, const double *variables)
+static double *values_for(const struct gm_own_system *system, const double *variables)
 {
     double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
     if (values) {
@@ -302,7 +302,7 @@ static double *values_for(const struct gm_system *system, const double *variable
     return values;
 }
 
-double *gm_equations_start(const struct gm_system *system)
+double *gm_equations_start(const struct gm_own_system *system)
 {
     const size_t half = system->n / 2;
     double *variables = malloc(system->variable_count * sizeof *variables), *values = NULL;
@@ -369,7 +369,7 @@ static bool is_regular(double *matrix, size_t n)
     return true;
 }
 
-static bool check_legendre(struct gm_system *system, const double *start, struct gm_fault *fault)
+static bool check_legendre(struct gm_own_system *system, const double *start, struct gm_fault *fault)
 {
     const size_t half = system->n / 2;
     bool *marked = calloc(system->variable_count, sizeof *marked);
@@ -397,7 +397,7 @@ static bool check_legendre(struct gm_system *system, const double *start, struct
                 "the Legendre transform of L is singular at the start: momenta do not determine velocities");
 }
 
-static bool check_start(struct gm_system *system, struct gm_fault *fault)
+static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
 {
     double *start = gm_equations_start(system), *values = start ? values_for(system, start) : NULL;
     bool *reached = calloc(system->graph.count + (size_t)1, sizeof *reached);
@@ -435,7 +435,7 @@ static bool check_start(struct gm_system *system, struct gm_fault *fault)
     return good;
 }
 
-bool gm_equations_open(struct gm_system *system, const char *text, size_t length,
+bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
                        const struct gm_system_value *values, size_t count, struct gm_fault *fault)
 {
     return gm_system_read(system, text, length, values, count, fault) && derive(system) &&

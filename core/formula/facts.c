@@ -30,7 +30,7 @@ const char *gm_fact_word(enum gm_fact fact)
     return rows[fact].word;
 }
 
-static bool depends(struct gm_system *system, gm_node_id node, const bool *marked)
+static bool depends(struct gm_own_system *system, gm_node_id node, const bool *marked)
 {
     bool *dependent = gm_formula_dependent(&system->graph, marked, system->variable_count);
     const bool answer = !dependent || dependent[node];
@@ -40,7 +40,7 @@ static bool depends(struct gm_system *system, gm_node_id node, const bool *marke
 }
 
 /* Whether all derivatives of a node, over sets[0], of these over sets[1], and so on, are 0. */
-static enum gm_identity vanishes(struct gm_system *system, gm_node_id node, const bool *const *sets,
+static enum gm_identity vanishes(struct gm_own_system *system, gm_node_id node, const bool *const *sets,
                                  size_t depth)
 {
     if (depth == 0) {
@@ -66,7 +66,8 @@ static enum gm_identity vanishes(struct gm_system *system, gm_node_id node, cons
 
 /* The terms that a node is the sum of; factors that hold no component are left aside. Returns how many, at most
    MOST_TERMS. */
-static size_t terms_of(struct gm_system *system, gm_node_id root, const bool *components, gm_node_id *terms)
+static size_t terms_of(struct gm_own_system *system, gm_node_id root, const bool *components,
+                       gm_node_id *terms)
 {
     bool *dependent = gm_formula_dependent(&system->graph, components, system->variable_count);
     gm_node_id *stack = malloc((system->graph.count + (size_t)1) * sizeof *stack);
@@ -98,7 +99,7 @@ static size_t terms_of(struct gm_system *system, gm_node_id root, const bool *co
 }
 
 /* The first term whose derivatives do not vanish; the node itself where no term alone is to blame. */
-static gm_node_id culprit(struct gm_system *system, gm_node_id node, const bool *components,
+static gm_node_id culprit(struct gm_own_system *system, gm_node_id node, const bool *components,
                           const bool *const *sets, size_t depth)
 {
     gm_node_id terms[MOST_TERMS];
@@ -117,7 +118,7 @@ static void conclude(struct gm_finding *finding, enum gm_identity found)
     finding->how = found == GM_ZERO_PROVED ? finding->how : found;
 }
 
-static void find_hamiltonian(struct gm_system *system, struct gm_finding *findings, const bool *q,
+static void find_hamiltonian(struct gm_own_system *system, struct gm_finding *findings, const bool *q,
                              const bool *p, const bool *components)
 {
     struct gm_finding *separable = &findings[GM_FACT_SEPARABLE], *nystrom = &findings[GM_FACT_NYSTROM];
@@ -134,7 +135,7 @@ static void find_hamiltonian(struct gm_system *system, struct gm_finding *findin
     }
 }
 
-static void find_of_rates(struct gm_system *system, struct gm_finding *findings, const bool *components,
+static void find_of_rates(struct gm_own_system *system, struct gm_finding *findings, const bool *components,
                           bool *own)
 {
     struct gm_finding *quadratic = &findings[GM_FACT_QUADRATIC], *volume = &findings[GM_FACT_VOLUME],
@@ -170,7 +171,7 @@ static void find_of_rates(struct gm_system *system, struct gm_finding *findings,
 }
 
 /* Of all that the equations are made of, the first node of a kind. */
-static void find_of_parts(struct gm_system *system, struct gm_finding *findings)
+static void find_of_parts(struct gm_own_system *system, struct gm_finding *findings)
 {
     struct gm_finding *smooth = &findings[GM_FACT_SMOOTH], *autonomous = &findings[GM_FACT_AUTONOMOUS];
     const size_t last = system->kind == GM_RATES ? system->n : system->n + 1;
@@ -199,7 +200,7 @@ static void find_of_parts(struct gm_system *system, struct gm_finding *findings)
     free(reached);
 }
 
-bool gm_facts_find(struct gm_system *system, struct gm_finding findings[GM_FACTS])
+bool gm_facts_find(struct gm_own_system *system, struct gm_finding findings[GM_FACTS])
 {
     const size_t half = system->n / 2;
     bool *marks = calloc(4 * system->variable_count, sizeof *marks);
@@ -228,7 +229,7 @@ bool gm_facts_find(struct gm_system *system, struct gm_finding findings[GM_FACTS
     return !system->graph.failed;
 }
 
-char *gm_fact_reason(const struct gm_system *system, enum gm_fact fact, const struct gm_finding *finding)
+char *gm_fact_reason(const struct gm_own_system *system, enum gm_fact fact, const struct gm_finding *finding)
 {
     char *reason = NULL, *text = NULL;
     int made = -1;

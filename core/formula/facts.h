@@ -27,8 +27,8 @@ struct gm_finding {
 /* "separable" */
 const char *gm_fact_word(enum gm_fact fact);
 /* Finds all. False where memory was refused. */
-bool gm_facts_find(struct gm_system *system, struct gm_finding findings[GM_FACTS]);
+bool gm_facts_find(struct gm_own_system *system, struct gm_finding findings[GM_FACTS]);
 /* The reason in words: what was found how, or the term with its place. malloc'ed; NULL: no memory. */
-char *gm_fact_reason(const struct gm_system *system, enum gm_fact fact, const struct gm_finding *finding);
+char *gm_fact_reason(const struct gm_own_system *system, enum gm_fact fact, const struct gm_finding *finding);
 
 #endif

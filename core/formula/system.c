@@ -59,7 +59,7 @@ struct entry {
 };
 
 struct reading {
-    struct gm_system *system;
+    struct gm_own_system *system;
     const char *text;
     size_t length;
     struct line *lines;
@@ -372,7 +372,7 @@ static const char *known(size_t i, const void *data)
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
     struct reading *reading = data;
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     const int brief = (int)(name->length < 60 ? name->length : 60);
     const bool fixed = name->fixed || reading->fixed;
     struct entry *entry = entry_of(reading, name->text, name->length, name->indexed, name->index);
@@ -667,7 +667,7 @@ static bool for_elements(struct reading *reading, const struct target *target,
 
 static struct gm_system_variable *add_variable(struct reading *reading, const struct entry *entry)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     if (!reserve(reading, (void **)&system->variables, system->variable_count, sizeof *system->variables)) {
         return NULL;
     }
@@ -911,7 +911,7 @@ static bool add_components_in_order(struct reading *reading, enum gm_word word)
    components at the start */
 static bool arrange(struct reading *reading)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     const size_t n = reading->component_count, p = reading->parameter_count, v = reading->velocity_count;
     struct gm_system_variable *all = calloc(2 * n + 1 + p + v, sizeof *all), *met = system->variables;
     char *t = strdup("t");
@@ -951,7 +951,7 @@ static bool arrange(struct reading *reading)
 
 static bool add_state(struct reading *reading)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     const struct line *coordinates = line_with(reading, GM_WORD_COORDINATES),
                       *momenta = line_with(reading, GM_WORD_MOMENTA),
                       *velocities = line_with(reading, GM_WORD_VELOCITIES),
@@ -1014,7 +1014,7 @@ static bool add_lets(struct reading *reading)
 
 static struct gm_system_item *add_item(struct reading *reading, const struct line *line, struct span name)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     if (!reserve(reading, (void **)&system->items, system->item_count, sizeof *system->items)) {
         return NULL;
     }
@@ -1054,7 +1054,7 @@ static bool add_formulas(struct reading *reading, struct gm_system_item *item, s
 static bool assign(struct reading *reading, struct entry *entry, const struct target *target, gm_node_id node,
                    void *data)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     const enum gm_word word = *(const enum gm_word *)data;
     const bool is_velocity = entry->role == VELOCITY && word == GM_WORD_START;
     if (entry->role != COMPONENT && !is_velocity) {
@@ -1094,7 +1094,7 @@ static bool read_assignments(struct reading *reading, const struct line *line)
 
 static bool read_bracket(struct reading *reading, const struct line *line)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     struct span rest = line->value;
     size_t pair[2];
     for (int i = 0; i < 2; i++) {
@@ -1142,7 +1142,7 @@ static bool read_bracket(struct reading *reading, const struct line *line)
 static bool generate(struct reading *reading, struct entry *entry, const struct target *target,
                      gm_node_id node, void *data)
 {
-    const struct gm_system *system = reading->system;
+    const struct gm_own_system *system = reading->system;
     struct gm_system_item *item = data;
     if (entry->role != COMPONENT || entry->number >= item->count) {
         return fail(reading, target->name.begin, "a symmetry moves %s, not %.*s",
@@ -1156,7 +1156,7 @@ static bool generate(struct reading *reading, struct entry *entry, const struct 
 /* symmetry: [name;] x = -y, y = x */
 static bool read_symmetry(struct reading *reading, const struct line *line)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     struct span rest = line->value, name = {0, 0}, piece;
     if (next_of(reading, rest, ";") < rest.end) {
         take_piece(reading, &rest, ";", &name);
@@ -1290,7 +1290,7 @@ static bool read_view(struct reading *reading, const struct line *line)
 
 static bool read_angles(struct reading *reading, const struct line *line)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     for (struct span rest = trimmed(reading, line->value); rest.begin < rest.end && !reading->failed;
          rest = trimmed(reading, rest)) {
         struct target target;
@@ -1318,7 +1318,7 @@ static bool read_angles(struct reading *reading, const struct line *line)
 
 static bool read_what_is_said(struct reading *reading, const struct line *line)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     double number;
     struct gm_system_item *item;
     switch (line->word) {
@@ -1386,7 +1386,7 @@ static bool all_nodes(struct reading *reading, gm_node_id **nodes, size_t count)
 
 static bool is_complete(struct reading *reading)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
     for (size_t i = 0; i < system->n && system->kind == GM_RATES; i++) {
         if (system->rates[i] == GM_NO_NODE) {
@@ -1414,7 +1414,7 @@ static bool is_complete(struct reading *reading)
 /* Lets give their names to nodes that have none. */
 static bool name_parts(struct reading *reading)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     system->part_count = system->graph.count;
     system->parts = calloc(system->part_count + 1, sizeof *system->parts);
     for (size_t i = 0; system->parts && i < reading->entry_count && !reading->failed; i++) {
@@ -1435,7 +1435,7 @@ static bool name_parts(struct reading *reading)
 
 static bool read_system(struct reading *reading)
 {
-    struct gm_system *system = reading->system;
+    struct gm_own_system *system = reading->system;
     if (reading->length > GM_LARGEST_SYSTEM) {
         return fail(reading, 0, "a system has at most 100 MB");
     }
@@ -1465,7 +1465,7 @@ static bool read_system(struct reading *reading)
     return is_complete(reading) && name_parts(reading);
 }
 
-bool gm_system_read(struct gm_system *system, const char *text, size_t length,
+bool gm_system_read(struct gm_own_system *system, const char *text, size_t length,
                     const struct gm_system_value *values, size_t count, struct gm_fault *fault)
 {
     struct reading reading = {.system = system,
@@ -1474,7 +1474,7 @@ bool gm_system_read(struct gm_system *system, const char *text, size_t length,
                               .values = values,
                               .value_count = count,
                               .fault = fault};
-    *system = (struct gm_system){0};
+    *system = (struct gm_own_system){0};
     *fault = (struct gm_fault){0};
     gm_formula_open(&system->graph);
     system->source = length <= GM_LARGEST_SYSTEM ? malloc(length + 1) : NULL;
@@ -1493,7 +1493,7 @@ bool gm_system_read(struct gm_system *system, const char *text, size_t length,
     return good;
 }
 
-void gm_system_close(struct gm_system *system)
+void gm_system_close(struct gm_own_system *system)
 {
     for (size_t i = 0; i < system->variable_count; i++) {
         free(system->variables[i].name);
@@ -1515,21 +1515,21 @@ void gm_system_close(struct gm_system *system)
     free(system->bracket);
     free(system->parts);
     gm_formula_close(&system->graph);
-    *system = (struct gm_system){0};
+    *system = (struct gm_own_system){0};
 }
 
 static const char *variable_name(size_t number, const void *data)
 {
-    return ((const struct gm_system *)data)->variables[number].name;
+    return ((const struct gm_own_system *)data)->variables[number].name;
 }
 
 static const char *part_name(gm_node_id node, const void *data)
 {
-    const struct gm_system *system = data;
+    const struct gm_own_system *system = data;
     return node < system->part_count ? system->parts[node] : NULL;
 }
 
-struct gm_naming gm_system_naming(const struct gm_system *system)
+struct gm_naming gm_system_naming(const struct gm_own_system *system)
 {
     return (struct gm_naming){.variable = variable_name, .part = part_name, .data = system};
 }

@@ -52,7 +52,7 @@ struct gm_system_item {
 /* nodes: of a section what becomes 0, the two that are shown, and what must be positive; of a symmetry the
    generator, one for a coordinate or component, and last its momentum map; of a rod one end and the other. */
 
-struct gm_system {
+struct gm_own_system {
     enum gm_system_kind kind;
     char *source; /* the text that it was read from, closed by a NUL */
     size_t length;
@@ -81,11 +81,11 @@ struct gm_system_value {
 
 /* Reads what a system says, not yet what follows from it: that is gm_equations_open. False with a fault, whose
    sentence is empty where memory was refused. To be closed in both cases. */
-bool gm_system_read(struct gm_system *system, const char *text, size_t length,
+bool gm_system_read(struct gm_own_system *system, const char *text, size_t length,
                     const struct gm_system_value *values, size_t count, struct gm_fault *fault);
-void gm_system_close(struct gm_system *system);
+void gm_system_close(struct gm_own_system *system);
 
 /* The names of variables and of lets. It holds as long as the system. */
-struct gm_naming gm_system_naming(const struct gm_system *system);
+struct gm_naming gm_system_naming(const struct gm_own_system *system);
 
 #endif

@@ -19,7 +19,7 @@ static void require(bool holds)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    struct gm_system system;
+    struct gm_own_system system;
     struct gm_fault fault;
     struct gm_finding findings[GM_FACTS];
     char *text = malloc(size + 1);

@@ -53,7 +53,7 @@ assert len(about["equations"]) == 2 * int(sys.argv[1]) and set(about["invariants
 done
 
 printf 'coordinates: q\nH: p_q^2/2 + 2q\nstart: q = 1, p_q = 0\n' >wrong.system
-refused 1 'wrong.system:2:13: there is no operator' list wrong.system
+refused 1 'wrong.system:2:15: there is no operator' list wrong.system
 [ "$(sed -n 2p err)" = '    H: p_q^2/2 + 2q' ] && [ "$(sed -n 3p err)" = '                  ^' ] || fail "no caret: $(cat err)"
 printf 'coordinates: q\nH: p_q^2 + \033[31mq\n' >wild.system
 refused 1 '0x1b' list wild.system

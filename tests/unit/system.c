@@ -16,7 +16,7 @@
 #include "core/formula/facts.h"
 #include "tests/common/reference.h"
 
-static bool open_text(struct gm_system *system, const char *text, struct gm_fault *fault)
+static bool open_text(struct gm_own_system *system, const char *text, struct gm_fault *fault)
 {
     return gm_equations_open(system, text, strlen(text), NULL, 0, fault);
 }
@@ -53,7 +53,7 @@ static char *lines_of(const char *line)
 
 static void expect_facts(const char *line, char *words, const char *term)
 {
-    struct gm_system system;
+    struct gm_own_system system;
     struct gm_fault fault;
     struct gm_finding findings[GM_FACTS];
     char *text = lines_of(line), *rest = NULL;
@@ -221,7 +221,7 @@ static void equations_are_those_by_hand(void **unused)
                  {"lorenz", lorenz, 3, 0},
                  {"driven-pendulum", driven_pendulum, 2, 0}};
     for (size_t k = 0; k < sizeof eight / sizeof *eight; k++) {
-        struct gm_system system;
+        struct gm_own_system system;
         struct gm_fault fault;
         size_t length = 0, kept = 0;
         char *text = system_text(eight[k].name, &length);
@@ -274,7 +274,7 @@ static void lagrangians_are_transformed(void **unused)
     static const char text[] = "coordinates: a b\nparameter: m = 2\n"
                                "L: m*(v_a^2 + a^2*v_b^2)/2 - a^3\nforce: a = -0.5*v_a\n"
                                "symmetry: b = 1\nstart: a = 2, b = 1, v_a = 3, v_b = 0.25\n";
-    struct gm_system system;
+    struct gm_own_system system;
     struct gm_fault fault;
     if (!open_text(&system, text, &fault)) {
         fail_msg("%s", fault.sentence);
@@ -368,7 +368,7 @@ static void what_is_wrong_is_named(void **unused)
 {
     (void)unused;
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
-        struct gm_system system;
+        struct gm_own_system system;
         struct gm_fault fault;
         size_t line, column;
         if (open_text(&system, refused[i].text, &fault)) {
@@ -381,7 +381,7 @@ static void what_is_wrong_is_named(void **unused)
         }
         gm_system_close(&system);
     }
-    struct gm_system system;
+    struct gm_own_system system;
     struct gm_fault fault;
     assert_false(gm_equations_open(&system, "H: \0", 4, NULL, 0, &fault));
     assert_true(fault.offset == 3 && strstr(fault.sentence, "no text"));
