@@ -9,7 +9,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/reference/version.h"
 #include "app/request/drive.h"
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "core/memory.h"
 
 /* What may stand first: a command or a scene. */

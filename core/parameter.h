@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "core/formula/number.h"
+
 /* A parameter is one row of a table. The row makes the key=value of the command line, the slider of the
    explorer, the help, the axis of a sweep, the text chunk of a PNG and the range that is fuzzed. */
 
@@ -39,14 +41,6 @@ enum gm_parse {
     GM_NOT_UNDERSTOOD, /* not a number, not one of the choices */
     GM_OUT_OF_RANGE,   /* below lowest, above highest, or not finite */
 };
-
-/* Evaluates text such as "1e-3", "pi/60", "2*pi", "sqrt(2/3)", ".5/800"; + - * / ( ) pi sqrt.
-   Returns false, and leaves *value alone, if the text is anything else. The value may be infinite or NaN. */
-bool gm_number_parse(const char *text, double *value);
-
-/* Writes value so that gm_number_parse gives the same double: multiples and fractions of pi as such,
-   otherwise the shortest decimal. Returns text. */
-char *gm_number_format(double value, char *text, size_t size);
 
 /* Reads text as a value of row and stores it in owner. owner is unchanged unless GM_PARSED is returned. */
 enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, const char *text);

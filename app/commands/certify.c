@@ -10,9 +10,9 @@
 #include "app/cores/pool.h"
 #include "app/output/json.h"
 #include "app/request/drive.h"
-#include "app/request/nearest.h"
 #include "app/studies/listener.h"
 #include "core/certify.h"
+#include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 

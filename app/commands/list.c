@@ -6,11 +6,13 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
+#include "app/commands/system.h"
 #include "app/output/json.h"
 #include "app/output/wrapped.h"
 #include "app/request/drive.h"
 #include "app/request/fitting.h"
-#include "app/request/nearest.h"
+#include "app/request/system.h"
+#include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 
@@ -338,8 +340,18 @@ static const char *list_name(size_t i, const void *data)
 
 static int command_list(const struct gm_options *options)
 {
+    char path[4096];
+    const bool is_system = options->arguments.count > 0 && !gm_scene_find(options->arguments.words[0]) &&
+                           gm_system_path(options->arguments.words[0], path, sizeof path);
+    if (is_system && !options->markdown) {
+        return gm_list_system(options, path);
+    }
+    if (options->latex) {
+        gm_complain("--latex writes the equations of a system, such as share/systems/toda.system");
+        return GM_EXIT_USAGE;
+    }
     if (options->arguments.count > 1) {
-        gm_complain("list takes one name: scenes, schemes, figures or a scene");
+        gm_complain("list takes one name: scenes, schemes, figures, a scene or a system");
         return GM_EXIT_USAGE;
     }
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
@@ -367,7 +379,7 @@ static int command_list(const struct gm_options *options)
 
 const struct gm_command_row gm_command_list = {
     .name = "list",
-    .synopsis = "[scenes|schemes|figures|SCENE]",
+    .synopsis = "[scenes|schemes|figures|SCENE|SYSTEM]",
     .help = "what there is",
     .bit = GM_LIST,
     .function = command_list,

@@ -169,6 +169,7 @@ static void put_surroundings(void)
          "kitty, sixel, braille, quadrants, half or ascii: what pictures in the terminal are made of"},
         {"GEOMINT_THEME", "light, dark or mono, in the terminal"},
         {"GEOMINT_TOURS", "a folder with tours, in place of the installed ones"},
+        {"GEOMINT_SYSTEMS", "a folder with systems, in place of the installed ones"},
         {"NO_COLOR", "if it is not empty, the explorer uses no colour"},
     };
     printf(".SH EXIT STATUS\n");

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "render/files/sink.h"
 
 enum kind { FLAG, TEXT, MOVIE, WHOLE, TIME, RATE, FPS, SIZE, THEME, SHARD };
@@ -29,6 +29,7 @@ static const struct row rows[] = {
      "", "one JSON object a line"},
     {"--long", FLAG, GM_LIST, AT(longer), "", "with formulas and references"},
     {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
+    {"--latex", FLAG, GM_LIST, AT(latex), "", "the equations of a system, for a paper"},
     {"--state", FLAG, GM_RUN, AT(state), "", "with the final state (needs --json)"},
     {"--max", FLAG, GM_RUN, AT(maximum), "", "with NAME_max, of all steps the value of largest magnitude"},
     {"--csv", TEXT, GM_RUN, AT(csv), "FILE", "write the history to FILE"},
@@ -223,6 +224,8 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
         {"--every", "--rate", "each says how many frames there are"},
         {"--every", "--interval", "each says which steps have a row"},
         {"--json", "--markdown", "they are two formats"},
+        {"--json", "--latex", "they are two formats"},
+        {"--latex", "--markdown", "they are two formats"},
         {"--list", "--movie", "the first only tells of the tour"},
         {"--list", "--out", "the first only tells of the tour"},
         {"--join", "--table", "the first makes no run"},

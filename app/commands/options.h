@@ -27,7 +27,7 @@ enum gm_command {
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
-    int json, state, maximum, strict, longer, quick, markdown, listing, yes;
+    int json, state, maximum, strict, longer, quick, markdown, latex, listing, yes;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
     const char *csv, *profile, *out, *movie, *measure, *region, *changes;
     const char *name;                 /* of a chart's files, by `again` alone; NULL: the command's own */

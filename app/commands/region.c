@@ -11,7 +11,7 @@
 #include "app/commands/charted.h"
 #include "app/output/json.h"
 #include "app/request/drive.h"
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "core/ode/certify/linear_stability.h"
 

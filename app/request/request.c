@@ -10,8 +10,8 @@
 
 #include "app/request/arguments.h"
 #include "app/request/fitting.h"
-#include "app/request/nearest.h"
 #include "app/request/words.h"
+#include "core/formula/nearest.h"
 #include "core/memory.h"
 
 static const char *scene_name(size_t i, const void *data)

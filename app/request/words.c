@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "app/request/arguments.h"
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "render/cells/text.h"
 #include "render/message.h"
 

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/nearest.h"
 #include "app/studies/work.h"
+#include "core/formula/nearest.h"
 #include "core/schemes.h"
 
 static const double usual_errors[3] = {1e-3, 1e-6, 1e-9};

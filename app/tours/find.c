@@ -7,40 +7,15 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include "app/request/nearest.h"
+#include "app/request/share.h"
 #include "app/tours/tour.h"
+#include "core/formula/nearest.h"
 
 static const char ending[] = ".tour";
 
-/* bin/geomint beside share/geomint/tours, wherever the two have been moved together. */
-static bool beside_program(char *path, size_t size)
-{
-    char program[4096];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length <= 0) {
-        return false;
-    }
-    program[length] = '\0';
-    for (int i = 0; i < 2; i++) {
-        char *slash = strrchr(program, '/');
-        if (!slash) {
-            return false;
-        }
-        *slash = '\0';
-    }
-    const int wanted = snprintf(path, size, "%s/share/geomint/tours", program);
-    return wanted < (int)size && access(path, R_OK) == 0;
-}
-
 const char *gm_tour_folder(char *path, size_t size)
 {
-    const char *own = getenv("GEOMINT_TOURS");
-    if (own && *own) {
-        snprintf(path, size, "%s", own);
-    } else if (!beside_program(path, size)) {
-        snprintf(path, size, "%s", GM_TOURS);
-    }
-    return path;
+    return gm_share_folder("tours", "GEOMINT_TOURS", path, size);
 }
 
 static bool has_ending(const char *name)

@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "app/request/arguments.h"
-#include "app/request/nearest.h"
 #include "app/tours/tour.h"
+#include "core/formula/nearest.h"
 #include "render/cells/text.h"
 #include "render/files/regular_file.h"
 

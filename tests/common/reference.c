@@ -61,12 +61,19 @@ static void read_array(FILE *stream, const char *name)
     }
 }
 
-void reference_open(const char *file)
+FILE *reference_file(const char *file)
 {
-    char path[1024], name[NAME];
+    char path[1024];
     snprintf(path, sizeof path, "%s/%s", GM_REFERENCE, file);
     FILE *stream = fopen(path, "r");
     require(stream != NULL, path);
+    return stream;
+}
+
+void reference_open(const char *file)
+{
+    char name[NAME];
+    FILE *stream = reference_file(file);
     while (fscanf(stream, " %63s", name) == 1) {
         if (name[0] == '#') {
             skip_line(stream);

@@ -37,7 +37,9 @@ forbid app/explorer 'app/commands/'
 wings=$(sed -n 's/^GM_KIND(\(.*\))$/\1/p' core/kinds.def)
 [ -n "$wings" ] || { echo "core/kinds.def names no kind"; exit 1; }
 of_a_wing="${include}\"core/($(echo $wings | tr ' ' '|'))/"
-found=$(grep -nE "$of_a_wing" core/*.[ch] core/linear/*.[ch] core/theory/*.[ch])
+found=$(grep -nE "$of_a_wing" core/*.[ch] core/linear/*.[ch] core/theory/*.[ch] core/formula/*.[ch])
+# formula serves the hall, and knows nothing of it
+found="$found$(grep -nE "${include}\"core/" core/formula/*.[ch] | grep -v '"core/formula/')"
 for wing in $wings; do
     found="$found$(grep -rnE --include='*.[ch]' --include='*.def' "$of_a_wing" core/$wing |
         grep -vE "\"core/$wing/")"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What was probably meant by a word that is none. */
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 
 #include <stdbool.h>
 #include <string.h>

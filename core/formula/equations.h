@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The equations of motion of a system, and whether what its file says of it is so. */
+#ifndef GM_CORE_FORMULA_EQUATIONS_H
+#define GM_CORE_FORMULA_EQUATIONS_H
+
+#include "core/formula/system.h"
+
+/* Reads a system (gm_system_read), derives its equations, and checks Jacobi's identity, Casimirs, invariants,
+   symmetries, whose momentum maps are appended, and the start: constraints, the Legendre transform, what is not
+   finite. False with a fault, whose sentence is empty where memory was refused. To be closed, by
+   gm_system_close, in both cases. */
+bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
+                       const struct gm_system_value *values, size_t count, struct gm_fault *fault);
+
+/* Values for all variables at the start, t = 0: parameters, and components as `start` says; a Lagrangian's
+   momenta of its velocities, where these are given. What needs itself is NaN. malloc'ed; NULL where memory is
+   short. */
+double *gm_equations_start(const struct gm_own_system *system);
+
+/* The rate of change of a node along the motion; GM_NO_NODE where it is not known (of a Lagrangian, or with a
+   constraint) or memory was refused. */
+gm_node_id gm_equations_rate_of(struct gm_own_system *system, gm_node_id node);
+/* Whether a node is 0 whatever the state: parameters have any value, or else the system's own. */
+enum gm_identity gm_equations_vanishes(const struct gm_own_system *system, gm_node_id node);
+
+#endif

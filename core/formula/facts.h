@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The structure that a system has, found in its formulas. */
+#ifndef GM_CORE_FORMULA_FACTS_H
+#define GM_CORE_FORMULA_FACTS_H
+
+#include "core/formula/system.h"
+
+enum gm_fact {
+    GM_FACT_SEPARABLE,       /* H = T(p) + V(q) */
+    GM_FACT_NYSTROM,         /* and T is quadratic */
+    GM_FACT_QUADRATIC,       /* the rates are polynomials of degree 2 */
+    GM_FACT_VOLUME,          /* no rate contains its own variable: exact flows without divergence */
+    GM_FACT_DIVERGENCE_FREE, /* the sum of d rate / d component is 0 */
+    GM_FACT_SMOOTH,          /* no min, max, abs, mod */
+    GM_FACT_AUTONOMOUS,      /* t does not occur */
+    GM_FACTS
+};
+
+struct gm_finding {
+    bool asked; /* the kind of system has such a structure, or not */
+    bool holds;
+    enum gm_identity how; /* proved, or tested at random points */
+    gm_node_id term;      /* what stands in its way; GM_NO_NODE */
+    size_t component;     /* in the rate of this component; n: in H or L */
+};
+
+/* "separable" */
+const char *gm_fact_word(enum gm_fact fact);
+/* Finds all. False where memory was refused. */
+bool gm_facts_find(struct gm_own_system *system, struct gm_finding findings[GM_FACTS]);
+/* The reason in words: what was found how, or the term with its place. malloc'ed; NULL: no memory. */
+char *gm_fact_reason(const struct gm_own_system *system, enum gm_fact fact, const struct gm_finding *finding);
+
+#endif

@@ -1,0 +1,382 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The graph of a formula: every node once, constants folded by the running library, derivatives simplified. */
+#include "core/formula/graph.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const struct gm_operation_row gm_operation_rows[GM_OPERATIONS] = {
+#define GM_OPERATION(constant, name, latex, arity, smooth, value, over_a, over_b)                            \
+    [GM_OPERATION_##constant] = {name, latex, arity, smooth, #value, {over_a, over_b}},
+#include "core/formula/operations.def"
+#undef GM_OPERATION
+};
+
+double gm_whole_power(double x, double n)
+{
+    double power = 1;
+    const int whole = (int)fabs(n);
+    for (int bit = GM_MOST_CHAINED; bit > 0; bit /= 2) {
+        power = power == 1 ? 1 : power * power;
+        power = whole & bit ? (whole < 2 * bit ? x : power * x) : power;
+    }
+    return n < 0 ? 1 / power : power;
+}
+
+double gm_modulo(double a, double b)
+{
+    const double rest = fmod(a, b);
+    return rest != 0 && (rest < 0) != (b < 0) ? rest + b : rest;
+}
+
+double gm_operation_value(enum gm_operation operation, double a, double b)
+{
+    switch (operation) {
+#define GM_OPERATION(constant, name, latex, arity, smooth, value, over_a, over_b)                            \
+    case GM_OPERATION_##constant:                                                                            \
+        return value;
+#include "core/formula/operations.def"
+#undef GM_OPERATION
+    case GM_CONSTANT:
+    case GM_VARIABLE:
+    case GM_OPERATIONS:
+        break;
+    }
+    return NAN;
+}
+
+void gm_formula_open(struct gm_formula *graph)
+{
+    *graph = (struct gm_formula){.place = SIZE_MAX};
+}
+
+void gm_formula_close(struct gm_formula *graph)
+{
+    free(graph->nodes);
+    free(graph->places);
+    free(graph->table);
+    *graph = (struct gm_formula){0};
+}
+
+static uint64_t bits_of(double value)
+{
+    uint64_t bits = 0;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static size_t hash_of(const struct gm_node *node)
+{
+    uint64_t hash = (uint64_t)node->operation * UINT64_C(0x9e3779b97f4a7c15) ^ bits_of(node->value);
+    hash = (hash ^ node->a) * UINT64_C(0xbf58476d1ce4e5b9);
+    hash = (hash ^ (hash >> 29) ^ node->b) * UINT64_C(0x94d049bb133111eb);
+    return (size_t)(hash ^ (hash >> 32));
+}
+
+static bool is_same(const struct gm_node *x, const struct gm_node *y)
+{
+    return x->operation == y->operation && x->a == y->a && x->b == y->b &&
+           bits_of(x->value) == bits_of(y->value);
+}
+
+/* The entry of the table that holds such a node, or the free one where it belongs. */
+static gm_node_id *entry_of(const struct gm_formula *graph, const struct gm_node *node)
+{
+    size_t slot = hash_of(node) & (graph->slots - 1);
+    while (graph->table[slot] && !is_same(&graph->nodes[graph->table[slot] - 1], node)) {
+        slot = (slot + 1) & (graph->slots - 1);
+    }
+    return &graph->table[slot];
+}
+
+static bool grow(struct gm_formula *graph)
+{
+    const size_t capacity = graph->capacity ? 2 * graph->capacity : 32;
+    struct gm_node *nodes = realloc(graph->nodes, capacity * sizeof *nodes);
+    graph->nodes = nodes ? nodes : graph->nodes;
+    size_t *places = realloc(graph->places, capacity * sizeof *places);
+    graph->places = places ? places : graph->places;
+    gm_node_id *table = calloc(2 * capacity, sizeof *table);
+    if (!nodes || !places || !table || graph->count >= GM_MOST_NODES) {
+        free(table);
+        return false;
+    }
+    free(graph->table);
+    graph->table = table;
+    graph->capacity = capacity;
+    graph->slots = 2 * capacity;
+    for (gm_node_id i = 0; i < graph->count; i++) {
+        *entry_of(graph, &nodes[i]) = i + 1;
+    }
+    return true;
+}
+
+static gm_node_id intern(struct gm_formula *graph, struct gm_node node)
+{
+    if (graph->failed || (graph->count == graph->capacity && !grow(graph))) {
+        graph->failed = true;
+        return 0;
+    }
+    gm_node_id *entry = entry_of(graph, &node);
+    if (!*entry && (node.operation == GM_OPERATION_ADD || node.operation == GM_OPERATION_MULTIPLY)) {
+        /* a + b and b + a are the same bits */
+        const struct gm_node swapped = {.operation = node.operation, .a = node.b, .b = node.a};
+        gm_node_id *other = entry_of(graph, &swapped);
+        entry = *other ? other : entry;
+    }
+    if (!*entry) {
+        graph->nodes[graph->count] = node;
+        graph->places[graph->count] = graph->simplifies ? SIZE_MAX : graph->place;
+        *entry = ++graph->count;
+    }
+    return *entry - 1;
+}
+
+gm_node_id gm_formula_constant(struct gm_formula *graph, double value)
+{
+    /* all that are no number are one */
+    return intern(graph, (struct gm_node){.operation = GM_CONSTANT, .value = isnan(value) ? NAN : value});
+}
+
+gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number)
+{
+    return intern(graph, (struct gm_node){.operation = GM_VARIABLE, .a = (gm_node_id)number});
+}
+
+static bool is_operation(const struct gm_formula *graph, gm_node_id node, enum gm_operation operation)
+{
+    return graph->nodes[node].operation == operation;
+}
+
+static gm_node_id negative(struct gm_formula *graph, gm_node_id a)
+{
+    return gm_formula_apply(graph, GM_OPERATION_NEGATE, a, a);
+}
+
+/* node = coefficient * rest; false where no coefficient is written */
+static bool scaled(const struct gm_formula *graph, gm_node_id node, double *coefficient, gm_node_id *rest)
+{
+    const struct gm_node *product = &graph->nodes[node];
+    const bool is_scaled =
+        product->operation == GM_OPERATION_MULTIPLY && is_operation(graph, product->a, GM_CONSTANT);
+    *coefficient = is_scaled ? graph->nodes[product->a].value : 1;
+    *rest = is_scaled ? product->b : node;
+    return is_scaled;
+}
+
+static gm_node_id scale(struct gm_formula *graph, double coefficient, gm_node_id rest)
+{
+    return gm_formula_apply(graph, GM_OPERATION_MULTIPLY, gm_formula_constant(graph, coefficient), rest);
+}
+
+static bool simple_sum(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+{
+    double of_a, of_b;
+    gm_node_id rest_a, rest_b;
+    if (gm_is_constant(graph, a, 0) || gm_is_constant(graph, b, 0)) {
+        *simple = gm_is_constant(graph, a, 0) ? b : a;
+    } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, a, graph->nodes[b].a);
+    } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, b, graph->nodes[a].a);
+    } else if (scaled(graph, a, &of_a, &rest_a), scaled(graph, b, &of_b, &rest_b), rest_a == rest_b) {
+        *simple = scale(graph, of_a + of_b, rest_a);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+static bool simple_difference(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+{
+    if (a == b) {
+        *simple = gm_formula_constant(graph, 0);
+    } else if (gm_is_constant(graph, b, 0)) {
+        *simple = a;
+    } else if (gm_is_constant(graph, a, 0)) {
+        *simple = negative(graph, b);
+    } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_ADD, a, graph->nodes[b].a);
+    } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
+        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_ADD, graph->nodes[a].a, b));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* x * (c / y), c a constant: (c x) / y */
+static gm_node_id over(struct gm_formula *graph, gm_node_id x, gm_node_id quotient)
+{
+    const struct gm_node node = graph->nodes[quotient];
+    return gm_formula_apply(graph, GM_OPERATION_DIVIDE,
+                            gm_formula_apply(graph, GM_OPERATION_MULTIPLY, node.a, x), node.b);
+}
+
+static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+{
+    double coefficient;
+    gm_node_id rest;
+    if (is_operation(graph, b, GM_CONSTANT) && !is_operation(graph, a, GM_CONSTANT)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, b, a);
+    } else if (gm_is_constant(graph, a, 0)) {
+        *simple = a;
+    } else if (gm_is_constant(graph, a, 1)) {
+        *simple = b;
+    } else if (gm_is_constant(graph, a, -1)) {
+        *simple = negative(graph, b);
+    } else if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
+        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[a].a, b));
+    } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
+        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, graph->nodes[b].a));
+    } else if (is_operation(graph, b, GM_OPERATION_DIVIDE) &&
+               is_operation(graph, graph->nodes[b].a, GM_CONSTANT)) {
+        *simple = over(graph, a, b);
+    } else if (is_operation(graph, a, GM_OPERATION_DIVIDE) &&
+               is_operation(graph, graph->nodes[a].a, GM_CONSTANT)) {
+        *simple = over(graph, b, a);
+    } else if (is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
+        *simple = scale(graph, graph->nodes[a].value * coefficient, rest);
+    } else if (!is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
+        *simple = scale(graph, coefficient, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, rest));
+    } else if (scaled(graph, a, &coefficient, &rest)) {
+        *simple = scale(graph, coefficient, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, rest, b));
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/* node = coefficient * rest; false where nothing is left: it is a constant */
+static bool divided(const struct gm_formula *graph, gm_node_id node, double *coefficient, gm_node_id *rest)
+{
+    scaled(graph, node, coefficient, rest);
+    const bool constant = is_operation(graph, node, GM_CONSTANT);
+    *coefficient = constant ? graph->nodes[node].value : *coefficient;
+    return !constant;
+}
+
+static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
+{
+    double of_a, of_b;
+    gm_node_id rest_a, rest_b;
+    if (gm_is_constant(graph, a, 0) || gm_is_constant(graph, b, 1)) {
+        *simple = a;
+        return true;
+    }
+    if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
+        *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_DIVIDE, graph->nodes[a].a, b));
+        return true;
+    }
+    const bool above = divided(graph, a, &of_a, &rest_a), below = divided(graph, b, &of_b, &rest_b);
+    const double ratio = of_a / of_b;
+    const bool exact = isnormal(ratio) && fma(ratio, of_b, -of_a) == 0;
+    if (exact && of_b != 1) {
+        const gm_node_id top = above ? rest_a : gm_formula_constant(graph, ratio);
+        const gm_node_id rest = below ? gm_formula_apply(graph, GM_OPERATION_DIVIDE, top, rest_b) : top;
+        *simple = above ? scale(graph, ratio, rest) : rest;
+        return true;
+    }
+    if (above && of_a != 1) {
+        *simple = scale(graph, of_a, gm_formula_apply(graph, GM_OPERATION_DIVIDE, rest_a, b));
+        return true;
+    }
+    return false;
+}
+
+static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b,
+                     gm_node_id *simple)
+{
+    switch (operation) {
+    case GM_OPERATION_ADD:
+        return simple_sum(graph, a, b, simple);
+    case GM_OPERATION_SUBTRACT:
+        return simple_difference(graph, a, b, simple);
+    case GM_OPERATION_MULTIPLY:
+        return simple_product(graph, a, b, simple);
+    case GM_OPERATION_DIVIDE:
+        return simple_quotient(graph, a, b, simple);
+    case GM_OPERATION_NEGATE:
+        *simple = graph->nodes[a].a;
+        if (is_operation(graph, a, GM_OPERATION_SUBTRACT)) {
+            *simple = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, graph->nodes[a].b, graph->nodes[a].a);
+            return true;
+        }
+        if (is_operation(graph, a, GM_OPERATION_MULTIPLY) &&
+            is_operation(graph, graph->nodes[a].a, GM_OPERATION_NEGATE)) {
+            *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[graph->nodes[a].a].a,
+                                       graph->nodes[a].b);
+            return true;
+        }
+        return is_operation(graph, a, GM_OPERATION_NEGATE);
+    case GM_OPERATION_WHOLE_POWER:
+        *simple = gm_is_constant(graph, b, 0) ? gm_formula_constant(graph, 1) : a;
+        return gm_is_constant(graph, b, 0) || gm_is_constant(graph, b, 1);
+    default:
+        return false;
+    }
+}
+
+gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    const bool single = gm_operation_rows[operation].arity == 1;
+    b = single ? 0 : b;
+    if (graph->failed || a >= graph->count || b >= graph->count) {
+        return 0; /* an operand that could not be read */
+    }
+    const double exponent = graph->nodes[b].value;
+    if (operation == GM_OPERATION_POWER && is_operation(graph, b, GM_CONSTANT) &&
+        exponent == floor(exponent) && fabs(exponent) <= GM_MOST_CHAINED) {
+        operation = GM_OPERATION_WHOLE_POWER;
+    }
+    if (is_operation(graph, a, GM_CONSTANT) && (single || is_operation(graph, b, GM_CONSTANT))) {
+        return gm_formula_constant(graph, gm_operation_value(operation, graph->nodes[a].value, exponent));
+    }
+    gm_node_id simple;
+    if (graph->simplifies && simplify(graph, operation, a, b, &simple)) {
+        return simple;
+    }
+    return intern(graph, (struct gm_node){.operation = operation, .a = a, .b = b});
+}
+
+void gm_formula_evaluate(const struct gm_formula *graph, gm_node_id count, const double *variables,
+                         double *values)
+{
+    for (gm_node_id i = 0; i < count; i++) {
+        const struct gm_node *node = &graph->nodes[i];
+        values[i] = node->operation == GM_CONSTANT ? node->value
+                    : node->operation == GM_VARIABLE
+                        ? variables[node->a]
+                        : gm_operation_value(node->operation, values[node->a], values[node->b]);
+    }
+}
+
+void gm_formula_reach(const struct gm_formula *graph, gm_node_id node, bool *reached)
+{
+    memset(reached, 0, node + (size_t)1);
+    reached[node] = true;
+    for (gm_node_id i = node + 1; i-- > 0;) {
+        if (reached[i] && graph->nodes[i].operation > GM_VARIABLE) {
+            reached[graph->nodes[i].a] = true;
+            if (gm_operation_rows[graph->nodes[i].operation].arity == 2) {
+                reached[graph->nodes[i].b] = true;
+            }
+        }
+    }
+}
+
+bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, size_t variables)
+{
+    bool *dependent = malloc(graph->count + (size_t)1);
+    for (gm_node_id i = 0; dependent && i < graph->count; i++) {
+        const struct gm_node *node = &graph->nodes[i];
+        if (node->operation <= GM_VARIABLE) {
+            dependent[i] = node->operation == GM_VARIABLE && node->a < variables && marked[node->a];
+        } else {
+            dependent[i] =
+                dependent[node->a] || (gm_operation_rows[node->operation].arity == 2 && dependent[node->b]);
+        }
+    }
+    return dependent;
+}

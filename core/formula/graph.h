@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A formula as a graph: nodes that stand behind what they are made of, each of them once. */
+#ifndef GM_CORE_FORMULA_GRAPH_H
+#define GM_CORE_FORMULA_GRAPH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum gm_operation {
+    GM_CONSTANT, /* `value` */
+    GM_VARIABLE, /* number `a` of the array of variables */
+#define GM_OPERATION(constant, ...) GM_OPERATION_##constant,
+#include "core/formula/operations.def"
+#undef GM_OPERATION
+    GM_OPERATIONS
+};
+
+struct gm_operation_row {
+    const char *name, *latex;
+    unsigned arity;
+    bool smooth;
+    const char *value; /* C text in a and b */
+    const char *partials[2];
+};
+/* Of the operations; the two that are leaves have no name. */
+extern const struct gm_operation_row gm_operation_rows[GM_OPERATIONS];
+
+/* The value of an operation: the same one wherever a formula is computed. */
+double gm_operation_value(enum gm_operation operation, double a, double b);
+/* x^n for whole |n| <= GM_MOST_CHAINED by one chain: x^n = (x^(n/2))^2, times x where n is odd; 1 / x^-n. */
+enum { GM_MOST_CHAINED = 16 };
+double gm_whole_power(double x, double n);
+/* a - b floor(a / b), exact */
+double gm_modulo(double a, double b);
+
+/* A node's number. What it is made of has smaller numbers, so that a pass upwards evaluates, and one downwards
+   gathers derivatives, without recursion. */
+typedef uint32_t gm_node_id;
+
+struct gm_node {
+    enum gm_operation operation;
+    gm_node_id a, b;
+    double value; /* of a constant */
+};
+
+struct gm_formula {
+    struct gm_node *nodes;
+    size_t *places; /* where in the text a node was first written; SIZE_MAX: it was derived */
+    gm_node_id count;
+    size_t capacity;
+    gm_node_id *table; /* open addressing; 0: free, else number + 1 */
+    size_t slots;
+    size_t place; /* of the nodes to come */
+    /* Numbers of a formula as written are those of its operations one by one: only constants are folded. While
+       derivatives are built this is set, and more is simplified: gm_formula_apply says what. */
+    bool simplifies;
+    bool failed; /* memory was refused, or there would be more than GM_MOST_NODES: the graph is of no use */
+};
+enum { GM_MOST_NODES = 20000000 };
+
+void gm_formula_open(struct gm_formula *graph);
+void gm_formula_close(struct gm_formula *graph);
+
+gm_node_id gm_formula_constant(struct gm_formula *graph, double value);
+gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number);
+/* b of an operation of one operand is not looked at. A power whose exponent is a constant whole number up to
+   16 becomes a chain. While `simplifies` is set also, where x and y are finite:
+     0 + x, x - 0, 1 x, x / 1, x^1 -> x    0 x, 0 / x, x^0 -> a constant    0 - x, -1 x -> -x    x - x -> 0
+     -(-x) -> x    -(x - y) -> y - x    signs leave products, quotients and sums    c x + d x -> (c + d) x
+     constants gather in front: x (c y) -> c (x y), c (d x) -> (c d) x, (c / x) y -> (c y) / x,
+     (c x) / (d y) -> (c / d) (x / y) where c / d is exact, else (c x) / y -> c (x / y) */
+gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operation, gm_node_id a,
+                            gm_node_id b);
+
+/* Values of nodes 0 .. count - 1 for these variables. */
+void gm_formula_evaluate(const struct gm_formula *graph, gm_node_id count, const double *variables,
+                         double *values);
+
+/* Marks those of nodes 0 .. node that a node is made of, and itself. */
+void gm_formula_reach(const struct gm_formula *graph, gm_node_id node, bool *reached);
+/* For each node whether it depends on one of the variables that are marked; there are `variables` of these.
+   malloc'ed, NULL if memory is short. */
+bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, size_t variables);
+
+static inline bool gm_is_constant(const struct gm_formula *graph, gm_node_id node, double value)
+{
+    return graph->nodes[node].operation == GM_CONSTANT && graph->nodes[node].value == value;
+}
+
+#endif

@@ -1,0 +1,1535 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads systems: lines, then names, then formulas; a name that needs another one first waits for it. */
+#include "core/formula/system.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/formula/nearest.h"
+#include "core/formula/number.h"
+
+enum {
+    ONCE = 0,
+    OFTEN = 1,
+    CANONICAL = 1 << GM_CANONICAL,
+    LAGRANGIAN = 1 << GM_LAGRANGIAN,
+    RATES = 1 << GM_RATES,
+    POISSON = 1 << GM_POISSON,
+    ANY = CANONICAL | LAGRANGIAN | RATES | POISSON
+};
+
+static const struct {
+    const char *word;
+    bool repeated;
+    unsigned kinds;
+} words[GM_WORDS] = {
+#define GM_WORD(constant, word, often, kinds) {word, often, kinds},
+#include "core/formula/words.def"
+#undef GM_WORD
+};
+
+/* Bytes of the text. */
+struct span {
+    size_t begin, end;
+};
+
+struct line {
+    enum gm_word word;
+    size_t place;
+    struct span value;
+};
+
+enum role { COMPONENT, VELOCITY, PARAMETER, TIME, NAMED };
+
+/* A name of the system, or an element of a list. */
+struct entry {
+    char *name;                   /* its own, closed by a NUL, once it is among the entries */
+    size_t length, place, number; /* the number among those of its role */
+    bool indexed;
+    long index;
+    enum role role;
+    enum { UNREAD, READING, READ } state; /* of parameters and lets */
+    struct span value;                    /* their formula */
+    long element;                         /* the index that is bound in it; LONG_MIN: none */
+    struct span bound;
+    gm_node_id node;
+};
+
+struct reading {
+    struct gm_own_system *system;
+    const char *text;
+    size_t length;
+    struct line *lines;
+    size_t line_count;
+    struct entry *entries;
+    size_t entry_count, entry_capacity;
+    uint32_t *table; /* open addressing, number + 1 */
+    size_t slots;
+    uint32_t wanted; /* the entry that has to be read first */
+    bool fixed;      /* parameters are constants in what is read */
+    bool structural; /* and the graph depends on their values */
+    bool initial;
+    size_t component_count, velocity_count, parameter_count;
+    const struct gm_system_value *values;
+    size_t value_count;
+    struct gm_fault *fault;
+    bool failed, no_memory;
+};
+
+__attribute__((format(printf, 3, 4))) static bool fail(struct reading *reading, size_t place,
+                                                       const char *format, ...)
+{
+    if (!reading->failed) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(reading->fault->sentence, sizeof reading->fault->sentence, format, arguments);
+        va_end(arguments);
+        reading->fault->offset = place;
+        reading->failed = true;
+    }
+    return false;
+}
+
+static bool no_memory(struct reading *reading)
+{
+    if (!reading->failed) {
+        *reading->fault = (struct gm_fault){0};
+    }
+    reading->failed = reading->no_memory = true;
+    return false;
+}
+
+/* memory for `count` more of an array that grows by doubling */
+static bool reserve(struct reading *reading, void **array, size_t count, size_t size)
+{
+    if ((count & (count - 1)) == 0) {
+        void *more = realloc(*array, (count ? 2 * count : 1) * size);
+        if (!more) {
+            return no_memory(reading);
+        }
+        *array = more;
+    }
+    return true;
+}
+
+/* -- lines ------------------------------------------------------------------------------------------------- */
+
+static const char *word_at(size_t i, const void *data)
+{
+    (void)data;
+    return words[i].word;
+}
+
+static size_t line_of(const struct reading *reading, size_t place)
+{
+    size_t line, column;
+    gm_text_place(reading->text, place, &line, &column);
+    return line;
+}
+
+static bool is_blank(char character)
+{
+    return character == ' ' || character == '\t' || character == '\n' || character == '\r';
+}
+
+/* Without blanks around it; a comment is blank. */
+static struct span trimmed(const struct reading *reading, struct span span)
+{
+    const char *text = reading->text;
+    while (span.begin < span.end && (is_blank(text[span.begin]) || text[span.begin] == '#')) {
+        if (text[span.begin] == '#') {
+            const char *newline = memchr(text + span.begin, '\n', span.end - span.begin);
+            span.begin = newline ? (size_t)(newline - text) : span.end;
+        } else {
+            span.begin++;
+        }
+    }
+    while (span.end > span.begin && is_blank(text[span.end - 1])) {
+        span.end--;
+    }
+    return span;
+}
+
+static bool read_line(struct reading *reading, size_t place, size_t end)
+{
+    const char *text = reading->text + place;
+    const size_t length = end - place;
+    size_t letters = 0;
+    while (letters < length && text[letters] != ':' && !is_blank(text[letters]) && text[letters] != '#') {
+        letters++;
+    }
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)(letters < 60 ? letters : 60), text);
+    if (letters == length || text[letters] != ':') {
+        return fail(reading, place + letters,
+                    "a line begins with a word and a colon, or with a blank where it goes on");
+    }
+    enum gm_word word = 0;
+    while (word < GM_WORDS && strcmp(words[word].word, name) != 0) {
+        word++;
+    }
+    if (word == GM_WORDS) {
+        const char *near = gm_nearest(name, GM_WORDS, word_at, NULL);
+        return fail(reading, place, "a system has no line \"%s\"%s%s", name, near ? "; did you mean " : "",
+                    near ? near : "");
+    }
+    for (size_t i = 0; i < reading->line_count && !words[word].repeated; i++) {
+        if (reading->lines[i].word == word) {
+            return fail(reading, place, "%s is said twice, first in line %zu", name,
+                        line_of(reading, reading->lines[i].place));
+        }
+    }
+    if (!reserve(reading, (void **)&reading->lines, reading->line_count, sizeof *reading->lines)) {
+        return false;
+    }
+    const struct span value = trimmed(reading, (struct span){place + letters + 1, end});
+    reading->lines[reading->line_count++] = (struct line){word, place, value};
+    return value.begin < value.end || fail(reading, place + letters + 1, "%s: says nothing", name);
+}
+
+static bool read_lines(struct reading *reading)
+{
+    const char *text = reading->text;
+    for (size_t at = 0; at < reading->length && !reading->failed;) {
+        size_t end = at;
+        /* a line, and those behind it that begin with a blank */
+        do {
+            const char *newline = memchr(text + end, '\n', reading->length - end);
+            end = newline ? (size_t)(newline - text) + 1 : reading->length;
+        } while (end < reading->length && (text[end] == ' ' || text[end] == '\t'));
+        const struct span span = trimmed(reading, (struct span){at, end});
+        if (span.begin < span.end && span.begin > at && (text[at] == ' ' || text[at] == '\t')) {
+            fail(reading, span.begin, "this line goes on, but there is none before it");
+        } else if (span.begin < span.end) {
+            read_line(reading, span.begin, end);
+        }
+        at = end;
+    }
+    return !reading->failed;
+}
+
+/* The next separator outside of parentheses, or the end. */
+static size_t next_of(const struct reading *reading, struct span span, const char *separator)
+{
+    int depth = 0;
+    const size_t width = strlen(separator);
+    for (size_t i = span.begin; i < span.end; i++) {
+        const char here = reading->text[i];
+        if (here == '#') {
+            const char *newline = memchr(reading->text + i, '\n', span.end - i);
+            i = newline ? (size_t)(newline - reading->text) : span.end - 1;
+        } else if (depth == 0 && i + width <= span.end && memcmp(reading->text + i, separator, width) == 0) {
+            return i;
+        }
+        depth += (here == '(' || here == '[') - (here == ')' || here == ']');
+    }
+    return span.end;
+}
+
+/* Takes the piece before the next separator off the front; false where nothing is left. */
+static bool take_piece(const struct reading *reading, struct span *rest, const char *separator,
+                       struct span *piece)
+{
+    if (rest->begin >= rest->end) {
+        return false;
+    }
+    const size_t end = next_of(reading, *rest, separator);
+    *piece = trimmed(reading, (struct span){rest->begin, end});
+    rest->begin = end < rest->end ? end + strlen(separator) : end;
+    return true;
+}
+
+/* Words with one blank between them; malloc'ed. */
+static char *text_of(struct reading *reading, struct span span)
+{
+    char *text = malloc(span.end - span.begin + 1), *out = text;
+    if (!text) {
+        no_memory(reading);
+        return NULL;
+    }
+    for (struct span rest = trimmed(reading, span); rest.begin < rest.end; rest = trimmed(reading, rest)) {
+        while (rest.begin < rest.end && !is_blank(reading->text[rest.begin]) &&
+               reading->text[rest.begin] != '#') {
+            *out++ = reading->text[rest.begin++];
+        }
+        *out++ = ' ';
+    }
+    out[out > text ? -1 : 0] = '\0';
+    return text;
+}
+
+/* -- names ------------------------------------------------------------------------------------------------- */
+
+static uint32_t *slot_of(const struct reading *reading, const char *name, size_t length, bool indexed,
+                         long index)
+{
+    uint64_t hash = indexed ? (uint64_t)index * 2 + 1 : 0;
+    for (size_t i = 0; i < length; i++) {
+        hash = (hash ^ (unsigned char)name[i]) * UINT64_C(0x100000001b3);
+    }
+    hash ^= hash >> 29;
+    for (size_t slot = (size_t)hash & (reading->slots - 1);; slot = (slot + 1) & (reading->slots - 1)) {
+        const uint32_t number = reading->table[slot];
+        const struct entry *entry = number ? &reading->entries[number - 1] : NULL;
+        if (!entry || (entry->length == length && entry->indexed == indexed && entry->index == index &&
+                       memcmp(entry->name, name, length) == 0)) {
+            return &reading->table[slot];
+        }
+    }
+}
+
+static struct entry *entry_of(const struct reading *reading, const char *name, size_t length, bool indexed,
+                              long index)
+{
+    const uint32_t number =
+        reading->slots ? *slot_of(reading, name, length, indexed, indexed ? index : 0) : 0;
+    return number ? &reading->entries[number - 1] : NULL;
+}
+
+/* Any element of a list of that name. */
+static const struct entry *list_of(const struct reading *reading, const char *name, size_t length, long *low,
+                                   long *high)
+{
+    const struct entry *found = NULL;
+    for (size_t i = 0; i < reading->entry_count; i++) {
+        const struct entry *entry = &reading->entries[i];
+        if (entry->indexed && entry->length == length && memcmp(entry->name, name, length) == 0) {
+            *low = found && *low < entry->index ? *low : entry->index;
+            *high = found && *high > entry->index ? *high : entry->index;
+            found = entry;
+        }
+    }
+    return found;
+}
+
+static bool is_reserved(const char *name, size_t length)
+{
+    static const char *const reserved[] = {"dt",          "until",   "steps", "scheme",    "schemes",
+                                           "zip",         "overlay", "equal", "show",      "members",
+                                           "compensated", "binding", "tau0",  "tolerance", "t"};
+    for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
+        if (strlen(reserved[i]) == length && memcmp(reserved[i], name, length) == 0) {
+            return true;
+        }
+    }
+    return gm_formula_reserves(name, length);
+}
+
+static bool add_entry(struct reading *reading, struct entry entry)
+{
+    const int brief = (int)(entry.length < 60 ? entry.length : 60);
+    if (entry.role != TIME && is_reserved(entry.name, entry.length)) {
+        return fail(reading, entry.place, "the name %.*s is reserved", brief, entry.name);
+    }
+    if (reading->entry_count == reading->entry_capacity) {
+        const size_t capacity = reading->entry_capacity ? 2 * reading->entry_capacity : 32;
+        struct entry *more = realloc(reading->entries, capacity * sizeof *more);
+        reading->entries = more ? more : reading->entries;
+        uint32_t *table = calloc(4 * capacity, sizeof *table);
+        if (!more || !table) {
+            free(table);
+            return no_memory(reading);
+        }
+        free(reading->table);
+        reading->table = table;
+        reading->entry_capacity = capacity;
+        reading->slots = 4 * capacity;
+        for (size_t i = 0; i < reading->entry_count; i++) {
+            *slot_of(reading, more[i].name, more[i].length, more[i].indexed, more[i].index) = (uint32_t)i + 1;
+        }
+    }
+    const struct entry *other = entry_of(reading, entry.name, entry.length, !entry.indexed, 0);
+    uint32_t *slot = slot_of(reading, entry.name, entry.length, entry.indexed, entry.index);
+    long low = 0, high = 0;
+    if (*slot) {
+        other = &reading->entries[*slot - 1];
+    } else if (!entry.indexed) {
+        other = list_of(reading, entry.name, entry.length, &low, &high);
+    }
+    if (other) {
+        return fail(reading, entry.place, "%.*s is defined twice, first in line %zu", brief, entry.name,
+                    line_of(reading, other->place));
+    }
+    char *name = strndup(entry.name, entry.length);
+    if (!name) {
+        return no_memory(reading);
+    }
+    entry.name = name;
+    reading->entries[reading->entry_count] = entry;
+    *slot = (uint32_t)++reading->entry_count;
+    return true;
+}
+
+static const char *known(size_t i, const void *data)
+{
+    const struct reading *reading = data;
+    return i < reading->entry_count ? reading->entries[i].name : NULL;
+}
+
+static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    struct reading *reading = data;
+    struct gm_own_system *system = reading->system;
+    const int brief = (int)(name->length < 60 ? name->length : 60);
+    const bool fixed = name->fixed || reading->fixed;
+    struct entry *entry = entry_of(reading, name->text, name->length, name->indexed, name->index);
+    if (!entry) {
+        long low = 0, high = 0;
+        const bool is_scalar = entry_of(reading, name->text, name->length, false, 0) != NULL;
+        const bool is_list = list_of(reading, name->text, name->length, &low, &high) != NULL;
+        if (name->indexed && is_list) {
+            snprintf(sentence, GM_FAULT_SENTENCE, "%.*s[%ld] lies outside of %.*s[%ld] .. %.*s[%ld]", brief,
+                     name->text, name->index, brief, name->text, low, brief, name->text, high);
+        } else if (is_list) {
+            snprintf(sentence, GM_FAULT_SENTENCE,
+                     "%.*s is a list: an index was expected, %.*s[%ld] .. %.*s[%ld]", brief, name->text,
+                     brief, name->text, low, brief, name->text, high);
+        } else if (is_scalar) {
+            snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is no list", brief, name->text);
+        } else {
+            return GM_UNKNOWN;
+        }
+        return GM_REFUSED;
+    }
+    if ((fixed && entry->role != PARAMETER) || (name->initial && entry->role != COMPONENT)) {
+        snprintf(sentence, GM_FAULT_SENTENCE, "%.*s is no %s", brief, name->text,
+                 fixed ? "parameter: its value is not known here"
+                       : "component: it has no value at the start");
+        return GM_REFUSED;
+    }
+    if (entry->state != READ && (entry->role == NAMED || (entry->role == PARAMETER && fixed))) {
+        reading->wanted = (uint32_t)(entry - reading->entries);
+        return GM_POSTPONED;
+    }
+    switch (entry->role) {
+    case NAMED:
+        *node = entry->node;
+        break;
+    case PARAMETER:
+        if (fixed) {
+            system->variables[system->parameters + entry->number].fixed |= name->fixed || reading->structural;
+            *node = entry->node;
+        } else {
+            *node = gm_formula_variable(&system->graph, system->parameters + entry->number);
+        }
+        break;
+    case COMPONENT:
+        *node = gm_formula_variable(&system->graph, entry->number + (name->initial ? system->initial : 0));
+        break;
+    case TIME:
+        *node = gm_formula_variable(&system->graph, system->n);
+        break;
+    case VELOCITY:
+        *node = gm_formula_variable(&system->graph, system->velocities + entry->number);
+        break;
+    }
+    return GM_KNOWN;
+}
+
+/* -- formulas ---------------------------------------------------------------------------------------------- */
+
+/* One attempt; false without a fault where another name has to be read first. */
+static bool attempt(struct reading *reading, struct span span, const struct span *bound, long element,
+                    gm_node_id *node, bool *postponed)
+{
+    struct gm_scope scope = {
+        .find = find, .known = known, .data = reading, .lines = true, .initial = reading->initial};
+    if (bound && bound->begin < bound->end) {
+        scope.indices[scope.index_count++] =
+            (struct gm_index){reading->text + bound->begin, bound->end - bound->begin, element};
+    }
+    struct gm_fault fault;
+    *postponed = false;
+    if (gm_formula_read(&reading->system->graph, reading->text, span.begin, span.end, &scope, node, &fault)) {
+        return true;
+    }
+    if (reading->system->graph.failed) {
+        return no_memory(reading);
+    }
+    *postponed = fault.sentence[0] == '\0';
+    return *postponed ? false : fail(reading, fault.offset, "%s", fault.sentence);
+}
+
+static bool is_circle(struct reading *reading, const uint32_t *stack, size_t depth)
+{
+    size_t first = 0, used = 0;
+    while (first < depth && stack[first] != reading->wanted) {
+        first++;
+    }
+    if (first == depth) {
+        return false;
+    }
+    char names[200] = "";
+    for (size_t i = first; i < depth && used + 70 < sizeof names; i++) {
+        const struct entry *entry = &reading->entries[stack[i]];
+        used +=
+            (size_t)snprintf(names + used, sizeof names - used, "%s%.*s", i > first ? ", which needs " : "",
+                             (int)(entry->length < 50 ? entry->length : 50), entry->name);
+    }
+    const struct entry *entry = &reading->entries[stack[first]];
+    fail(reading, entry->place, depth - first == 1 ? "%s needs itself" : "%s needs itself again: a circle",
+         names);
+    return true;
+}
+
+/* Reads a parameter or a let, and first what it needs. */
+static bool define(struct reading *reading, uint32_t number)
+{
+    uint32_t *stack = NULL;
+    size_t depth = 0;
+    if (!reserve(reading, (void **)&stack, depth, sizeof *stack)) {
+        return false;
+    }
+    stack[depth++] = number;
+    while (depth > 0 && !reading->failed) {
+        struct entry *entry = &reading->entries[stack[depth - 1]];
+        const bool was_fixed = reading->fixed;
+        bool postponed = false;
+        gm_node_id node = 0;
+        reading->fixed = entry->role == PARAMETER;
+        const bool good = attempt(reading, entry->value, &entry->bound, entry->element, &node, &postponed);
+        reading->fixed = was_fixed;
+        if (good) {
+            entry->node = node;
+            entry->state = READ;
+            depth--;
+        } else if (postponed && !is_circle(reading, stack, depth) &&
+                   reserve(reading, (void **)&stack, depth, sizeof *stack)) {
+            stack[depth++] = reading->wanted;
+        }
+    }
+    free(stack);
+    return !reading->failed;
+}
+
+static bool read_bound(struct reading *reading, struct span span, const struct span *bound, long element,
+                       gm_node_id *node)
+{
+    bool postponed = true;
+    while (!reading->failed && postponed) {
+        if (attempt(reading, span, bound, element, node, &postponed)) {
+            return true;
+        }
+        if (postponed) {
+            define(reading, reading->wanted);
+        }
+    }
+    return false;
+}
+
+static bool read_formula(struct reading *reading, struct span span, gm_node_id *node)
+{
+    return read_bound(reading, span, NULL, 0, node);
+}
+
+/* A number that parameters alone make. */
+static bool read_number(struct reading *reading, struct span span, double *value)
+{
+    gm_node_id node;
+    const bool was_fixed = reading->fixed;
+    reading->fixed = true;
+    const bool good = read_formula(reading, span, &node);
+    reading->fixed = was_fixed;
+    *value = good ? reading->system->graph.nodes[node].value : NAN;
+    return good;
+}
+
+static bool read_whole(struct reading *reading, struct span span, long *value)
+{
+    double number;
+    reading->structural = true;
+    const bool good = read_number(reading, span, &number);
+    reading->structural = false;
+    if (!good) {
+        return false;
+    }
+    if (number != floor(number) || fabs(number) > 1e9) {
+        return fail(reading, span.begin, "an index has to be a whole number, not %g", number);
+    }
+    *value = (long)number;
+    return true;
+}
+
+/* NAME, NAME[low .. high], NAME[index] */
+struct target {
+    struct span name, index; /* empty: there is none */
+    struct span value;       /* behind the = */
+};
+
+static bool read_target(struct reading *reading, struct span *rest, struct target *target)
+{
+    *rest = trimmed(reading, *rest);
+    const size_t length = gm_name_length(reading->text + rest->begin, rest->end - rest->begin);
+    *target = (struct target){.name = {rest->begin, rest->begin + length}};
+    if (length == 0) {
+        return fail(reading, rest->begin, "a name was expected");
+    }
+    rest->begin += length;
+    *rest = trimmed(reading, *rest);
+    if (rest->begin < rest->end && reading->text[rest->begin] == '[') {
+        const struct span inside = {rest->begin + 1, rest->end};
+        const size_t close = next_of(reading, inside, "]");
+        if (close == rest->end) {
+            return fail(reading, rest->begin, "this bracket is not closed");
+        }
+        target->index = trimmed(reading, (struct span){inside.begin, close});
+        rest->begin = close + 1;
+        if (target->index.begin == target->index.end) {
+            return fail(reading, close, "an index was expected");
+        }
+    }
+    return true;
+}
+
+/* NAME = formula */
+static bool read_assignment(struct reading *reading, struct span span, struct target *target)
+{
+    if (!read_target(reading, &span, target)) {
+        return false;
+    }
+    span = trimmed(reading, span);
+    if (span.begin == span.end || reading->text[span.begin] != '=') {
+        return fail(reading, span.begin, "= was expected");
+    }
+    target->value = trimmed(reading, (struct span){span.begin + 1, span.end});
+    return target->value.begin < target->value.end || fail(reading, span.begin + 1, "a formula was expected");
+}
+
+static struct entry entry_for(const struct reading *reading, const struct target *target, enum role role)
+{
+    return (struct entry){.name = (char *)reading->text + target->name.begin,
+                          .length = target->name.end - target->name.begin,
+                          .place = target->name.begin,
+                          .role = role,
+                          .value = target->value};
+}
+
+/* The bounds of NAME[low .. high]; false where it is none. */
+static bool read_bounds(struct reading *reading, const struct target *target, long *low, long *high)
+{
+    const size_t dots = next_of(reading, target->index, "..");
+    return dots < target->index.end && read_whole(reading, (struct span){target->index.begin, dots}, low) &&
+           read_whole(reading, trimmed(reading, (struct span){dots + 2, target->index.end}), high);
+}
+
+/* Calls `each` for the elements that a target names: one, or, where the index is a free name, all of a list. */
+static bool for_elements(struct reading *reading, const struct target *target,
+                         bool (*each)(struct reading *reading, struct entry *entry,
+                                      const struct target *target, gm_node_id node, void *data),
+                         void *data)
+{
+    const char *name = reading->text + target->name.begin;
+    const size_t length = target->name.end - target->name.begin;
+    const int brief = (int)(length < 60 ? length : 60);
+    const size_t letters =
+        gm_name_length(reading->text + target->index.begin, target->index.end - target->index.begin);
+    const bool all = letters > 0 && target->index.begin + letters == target->index.end &&
+                     !entry_of(reading, reading->text + target->index.begin, letters, false, 0);
+    const bool indexed = target->index.begin < target->index.end;
+    long low = 0, high = 0;
+    gm_node_id node;
+    if (all && !list_of(reading, name, length, &low, &high)) {
+        return fail(reading, target->name.begin, "there is no list %.*s", brief, name);
+    }
+    if (!all && indexed && !read_whole(reading, target->index, &low)) {
+        return false;
+    }
+    high = all ? high : low;
+    for (long i = low; i <= high && !reading->failed; i++) {
+        struct entry *entry = entry_of(reading, name, length, indexed, i);
+        if (all && entry && entry->role == NAMED) {
+            continue; /* a wall, q[0] = 0 */
+        }
+        if (!entry) {
+            const struct gm_name used = {.text = name, .length = length, .indexed = indexed, .index = i};
+            char sentence[GM_FAULT_SENTENCE] = "";
+            if (find(reading, &used, &node, sentence) == GM_REFUSED) {
+                return fail(reading, target->name.begin, "%s", sentence);
+            }
+            char word[64];
+            snprintf(word, sizeof word, "%.*s", brief, name);
+            const char *near = gm_nearest(word, reading->entry_count, known, reading);
+            return fail(reading, target->name.begin, "there is no name %s%s%s", word,
+                        near ? "; did you mean " : "", near ? near : "");
+        }
+        const size_t number = (size_t)(entry - reading->entries);
+        if (read_bound(reading, target->value, all ? &target->index : NULL, i, &node)) {
+            each(reading, &reading->entries[number], target, node, data);
+        }
+    }
+    return !reading->failed;
+}
+
+/* -- variables --------------------------------------------------------------------------------------------- */
+
+static struct gm_system_variable *add_variable(struct reading *reading, const struct entry *entry)
+{
+    struct gm_own_system *system = reading->system;
+    if (!reserve(reading, (void **)&system->variables, system->variable_count, sizeof *system->variables)) {
+        return NULL;
+    }
+    struct gm_system_variable *variable = &system->variables[system->variable_count];
+    *variable = (struct gm_system_variable){
+        .value = NAN, .low = NAN, .high = NAN, .start = GM_NO_NODE, .force = GM_NO_NODE, .exact = GM_NO_NODE};
+    const int made =
+        entry->indexed ? asprintf(&variable->name, "%.*s[%ld]", (int)entry->length, entry->name, entry->index)
+                       : asprintf(&variable->name, "%.*s", (int)entry->length, entry->name);
+    if (made < 0) {
+        variable->name = NULL;
+        no_memory(reading);
+        return NULL;
+    }
+    system->variable_count++;
+    return variable;
+}
+
+/* A name, or all elements of a list, in a role; they are numbered on from *count. */
+static bool add_names(struct reading *reading, const struct target *target, enum role role, size_t *count)
+{
+    struct entry entry = entry_for(reading, target, role);
+    long low = 0, high = 0;
+    entry.indexed = target->index.begin < target->index.end;
+    if (entry.indexed && !read_bounds(reading, target, &low, &high)) {
+        return fail(reading, target->index.begin, "the bounds of a list were expected, as in %.*s[1..3]",
+                    (int)(entry.length < 60 ? entry.length : 60), entry.name);
+    }
+    if (entry.indexed && (high < low || high - low >= GM_MOST_COMPONENTS)) {
+        return fail(reading, target->index.begin,
+                    high < low ? "a list has at least one element" : "a list has at most %d elements",
+                    GM_MOST_COMPONENTS);
+    }
+    for (long i = low; i <= high && !reading->failed; i++) {
+        entry.index = i;
+        entry.number = (*count)++;
+        if (add_entry(reading, entry)) {
+            add_variable(reading, &entry);
+        }
+    }
+    return !reading->failed;
+}
+
+static const struct line *line_with(const struct reading *reading, enum gm_word word)
+{
+    for (size_t i = 0; i < reading->line_count; i++) {
+        if (reading->lines[i].word == word) {
+            return &reading->lines[i];
+        }
+    }
+    return NULL;
+}
+
+/* Names that are separated by blanks or commas. */
+static bool add_all_names(struct reading *reading, struct span rest, enum role role, size_t *count)
+{
+    for (rest = trimmed(reading, rest); rest.begin < rest.end && !reading->failed;
+         rest = trimmed(reading, rest)) {
+        struct target target;
+        if (reading->text[rest.begin] == ',') {
+            rest.begin++;
+        } else if (read_target(reading, &rest, &target)) {
+            add_names(reading, &target, role, count);
+        }
+    }
+    return !reading->failed;
+}
+
+/* p_NAME or v_NAME for every coordinate */
+static bool add_prefixed(struct reading *reading, const char *prefix, enum role role, size_t *count, size_t n)
+{
+    for (size_t i = 0, made = 0; made < n && !reading->failed; i++) {
+        struct entry entry = reading->entries[i];
+        if (entry.role != COMPONENT) {
+            continue;
+        }
+        char *name = NULL;
+        if (asprintf(&name, "%s%s", prefix, entry.name) < 0) {
+            return no_memory(reading);
+        }
+        entry.name = name;
+        entry.length = strlen(name);
+        entry.role = role;
+        entry.number = (*count)++;
+        if (add_entry(reading, entry)) {
+            add_variable(reading, &entry);
+        }
+        free(name);
+        made++;
+    }
+    return !reading->failed;
+}
+
+/* parameter: NAME = value; low .. high; meaning; unit */
+static bool add_parameter(struct reading *reading, const struct line *line, bool lists)
+{
+    struct span rest = line->value, piece, range = {0, 0}, meaning = {0, 0}, unit = {0, 0};
+    struct target target;
+    take_piece(reading, &rest, ";", &piece);
+    if (!read_assignment(reading, piece, &target)) {
+        return false;
+    }
+    const bool is_list = target.index.begin < target.index.end;
+    if (is_list != lists) {
+        return true;
+    }
+    (void)(take_piece(reading, &rest, ";", &range) && take_piece(reading, &rest, ";", &meaning) &&
+           take_piece(reading, &rest, ";", &unit));
+    const size_t first = reading->parameter_count, entries = reading->entry_count;
+    if (!add_names(reading, &target, PARAMETER, &reading->parameter_count)) {
+        return false;
+    }
+    struct span values = target.value, value = values;
+    size_t pieces = 0;
+    for (size_t i = first; i < reading->parameter_count && !reading->failed; i++) {
+        struct entry *entry = &reading->entries[entries + i - first];
+        struct gm_system_variable *variable = &reading->system->variables[i];
+        pieces += is_list && take_piece(reading, &values, ",", &value);
+        entry->value = value;
+        variable->meaning = text_of(reading, meaning);
+        variable->unit = text_of(reading, unit);
+    }
+    if (is_list &&
+        (values.begin < values.end || (pieces != 1 && pieces != reading->parameter_count - first))) {
+        return fail(reading, target.value.begin, "%zu values were expected, or one for all",
+                    reading->parameter_count - first);
+    }
+    const size_t dots = next_of(reading, range, "..");
+    if (range.begin < range.end && dots == range.end) {
+        return fail(reading, range.begin, "a range was expected, low .. high");
+    }
+    if (range.begin < range.end) {
+        double low, high;
+        if (!read_number(reading, trimmed(reading, (struct span){range.begin, dots}), &low) ||
+            !read_number(reading, trimmed(reading, (struct span){dots + 2, range.end}), &high)) {
+            return false;
+        }
+        for (size_t i = first; i < reading->parameter_count; i++) {
+            reading->system->variables[i].low = low;
+            reading->system->variables[i].high = high;
+        }
+    }
+    return !reading->failed;
+}
+
+static bool add_parameters(struct reading *reading)
+{
+    for (int lists = 0; lists < 2; lists++) {
+        for (size_t i = 0; i < reading->line_count && !reading->failed; i++) {
+            if (reading->lines[i].word == GM_WORD_PARAMETER) {
+                add_parameter(reading, &reading->lines[i], lists);
+            }
+        }
+        for (size_t i = 0; i < reading->entry_count && !reading->failed; i++) {
+            struct entry *entry = &reading->entries[i];
+            struct gm_system_variable *variable = &reading->system->variables[entry->number];
+            double given = NAN;
+            for (size_t k = 0; k < reading->value_count; k++) {
+                if (strcmp(reading->values[k].name, variable->name) == 0 && entry->state == UNREAD &&
+                    gm_number_parse(reading->values[k].text, &given)) {
+                    entry->node = gm_formula_constant(&reading->system->graph, given);
+                    entry->state = READ;
+                }
+            }
+            if (entry->state == READ || define(reading, (uint32_t)i)) {
+                variable->value = reading->system->graph.nodes[reading->entries[i].node].value;
+            }
+            if (!reading->failed && !isfinite(variable->value)) {
+                fail(reading, entry->place, "%s is no finite number", variable->name);
+            } else if (!reading->failed &&
+                       (variable->value < variable->low || variable->value > variable->high)) {
+                fail(reading, entry->place, "%s = %g lies outside of its range, %g .. %g", variable->name,
+                     variable->value, variable->low, variable->high);
+            }
+        }
+    }
+    return !reading->failed;
+}
+
+/* The kind, by its lines. */
+static bool find_kind(struct reading *reading)
+{
+    const struct line *energy = line_with(reading, GM_WORD_HAMILTONIAN),
+                      *lagrange = line_with(reading, GM_WORD_LAGRANGE),
+                      *rate = line_with(reading, GM_WORD_RATE),
+                      *bracket = line_with(reading, GM_WORD_BRACKET);
+    enum gm_system_kind kind = lagrange  ? GM_LAGRANGIAN
+                               : rate    ? GM_RATES
+                               : bracket ? GM_POISSON
+                                         : GM_CANONICAL;
+    static const char *const called[] = {"with H", "with L", "with rates", "with a bracket"};
+    if (!energy && !lagrange && !rate && !bracket) {
+        return fail(reading, 0, "the file has no equation: H, L, rate, or bracket and H");
+    }
+    if (kind == GM_POISSON && !energy) {
+        return fail(reading, bracket->place, "a system with a bracket needs H");
+    }
+    for (size_t i = 0; i < reading->line_count; i++) {
+        const struct line *line = &reading->lines[i];
+        if (!(words[line->word].kinds & 1u << kind)) {
+            return fail(reading, line->place, "a system %s has no line \"%s\"", called[kind],
+                        words[line->word].word);
+        }
+    }
+    if (kind <= GM_LAGRANGIAN && !line_with(reading, GM_WORD_COORDINATES)) {
+        return fail(reading, (kind ? lagrange : energy)->place, "a system %s needs a line \"coordinates\"",
+                    called[kind]);
+    }
+    reading->system->kind = kind;
+    return true;
+}
+
+/* Components in the order in which rates and brackets name them. */
+static bool add_components_in_order(struct reading *reading, enum gm_word word)
+{
+    for (size_t i = 0; i < reading->line_count && !reading->failed; i++) {
+        struct span rest = reading->lines[i].value;
+        if (reading->lines[i].word != word) {
+            continue;
+        }
+        rest.end = next_of(reading, rest, "=");
+        for (rest = trimmed(reading, rest); rest.begin < rest.end && !reading->failed;
+             rest = trimmed(reading, rest)) {
+            struct target target;
+            const struct entry *entry = NULL;
+            if (read_target(reading, &rest, &target)) {
+                entry = entry_of(reading, reading->text + target.name.begin,
+                                 target.name.end - target.name.begin, false, 0);
+                if (target.index.begin < target.index.end) {
+                    fail(reading, target.name.begin, "a system with lists needs a line \"components\"");
+                } else if (!entry) {
+                    add_names(reading, &target, COMPONENT, &reading->component_count);
+                }
+            }
+        }
+    }
+    return !reading->failed;
+}
+
+/* variables: parameters, components, velocities as they were met become components, t, parameters, velocities,
+   components at the start */
+static bool arrange(struct reading *reading)
+{
+    struct gm_own_system *system = reading->system;
+    const size_t n = reading->component_count, p = reading->parameter_count, v = reading->velocity_count;
+    struct gm_system_variable *all = calloc(2 * n + 1 + p + v, sizeof *all), *met = system->variables;
+    char *t = strdup("t");
+    if (!all || !t) {
+        free(all);
+        free(t);
+        return no_memory(reading);
+    }
+    memcpy(all, met + p, n * sizeof *all);
+    all[n] = (struct gm_system_variable){.name = t,
+                                         .value = NAN,
+                                         .low = NAN,
+                                         .high = NAN,
+                                         .start = GM_NO_NODE,
+                                         .force = GM_NO_NODE,
+                                         .exact = GM_NO_NODE};
+    memcpy(all + n + 1, met, p * sizeof *all);
+    memcpy(all + n + 1 + p, met + p + n, v * sizeof *all);
+    free(met);
+    system->variables = all;
+    system->n = n;
+    system->parameters = n + 1;
+    system->velocities = n + 1 + p;
+    system->initial = system->velocities + v;
+    system->variable_count = system->initial;
+    for (size_t i = 0; i < n; i++) {
+        struct gm_system_variable *initial = &all[system->initial + i];
+        *initial = all[n];
+        if (asprintf(&initial->name, "%s(0)", all[i].name) < 0) {
+            initial->name = NULL;
+            return no_memory(reading);
+        }
+        system->variable_count++;
+    }
+    return true;
+}
+
+static bool add_state(struct reading *reading)
+{
+    struct gm_own_system *system = reading->system;
+    const struct line *coordinates = line_with(reading, GM_WORD_COORDINATES),
+                      *momenta = line_with(reading, GM_WORD_MOMENTA),
+                      *velocities = line_with(reading, GM_WORD_VELOCITIES),
+                      *components = line_with(reading, GM_WORD_COMPONENTS);
+    if (coordinates) {
+        add_all_names(reading, coordinates->value, COMPONENT, &reading->component_count);
+        const size_t n = reading->component_count;
+        if (momenta && add_all_names(reading, momenta->value, COMPONENT, &reading->component_count) &&
+            reading->component_count != 2 * n) {
+            fail(reading, momenta->place, "%zu momenta for %zu coordinates", reading->component_count - n, n);
+        }
+        if (!momenta) {
+            add_prefixed(reading, "p_", COMPONENT, &reading->component_count, n);
+        }
+        if (system->kind == GM_LAGRANGIAN && velocities) {
+            add_all_names(reading, velocities->value, VELOCITY, &reading->velocity_count);
+        } else if (system->kind == GM_LAGRANGIAN) {
+            add_prefixed(reading, "v_", VELOCITY, &reading->velocity_count, n);
+        }
+        if (!reading->failed && system->kind == GM_LAGRANGIAN && reading->velocity_count != n) {
+            fail(reading, velocities->place, "%zu velocities for %zu coordinates", reading->velocity_count,
+                 n);
+        }
+    } else if (components) {
+        add_all_names(reading, components->value, COMPONENT, &reading->component_count);
+    } else {
+        add_components_in_order(reading, system->kind == GM_RATES ? GM_WORD_RATE : GM_WORD_BRACKET);
+    }
+    if (!reading->failed && reading->component_count > GM_MOST_COMPONENTS) {
+        fail(reading, 0, "a system has at most %d components", GM_MOST_COMPONENTS);
+    }
+    char t[] = "t";
+    const struct entry time = {.name = t, .length = 1, .role = TIME};
+    return !reading->failed && arrange(reading) && add_entry(reading, time);
+}
+
+static bool add_lets(struct reading *reading)
+{
+    for (size_t i = 0; i < reading->line_count && !reading->failed; i++) {
+        struct target target;
+        if (reading->lines[i].word != GM_WORD_LET ||
+            !read_assignment(reading, reading->lines[i].value, &target)) {
+            continue;
+        }
+        struct entry entry = entry_for(reading, &target, NAMED);
+        entry.indexed = target.index.begin < target.index.end;
+        if (!entry.indexed || read_whole(reading, target.index, &entry.index)) {
+            add_entry(reading, entry);
+        }
+    }
+    for (uint32_t i = 0; i < reading->entry_count && !reading->failed; i++) {
+        if (reading->entries[i].role == NAMED && reading->entries[i].state != READ) {
+            define(reading, i);
+        }
+    }
+    return !reading->failed;
+}
+
+/* -- what lines say ---------------------------------------------------------------------------------------- */
+
+static struct gm_system_item *add_item(struct reading *reading, const struct line *line, struct span name)
+{
+    struct gm_own_system *system = reading->system;
+    if (!reserve(reading, (void **)&system->items, system->item_count, sizeof *system->items)) {
+        return NULL;
+    }
+    struct gm_system_item *item = &system->items[system->item_count];
+    *item = (struct gm_system_item){
+        .word = line->word, .place = line->value.begin, .name = text_of(reading, name)};
+    system->item_count += item->name != NULL;
+    return item->name ? item : NULL;
+}
+
+static bool add_node(struct reading *reading, struct gm_system_item *item, gm_node_id node)
+{
+    if (!reserve(reading, (void **)&item->nodes, item->count, sizeof *item->nodes)) {
+        return false;
+    }
+    item->nodes[item->count++] = node;
+    return true;
+}
+
+static bool add_formula(struct reading *reading, struct gm_system_item *item, struct span span)
+{
+    gm_node_id node;
+    return read_formula(reading, span, &node) && add_node(reading, item, node);
+}
+
+/* formulas that are separated by commas */
+static bool add_formulas(struct reading *reading, struct gm_system_item *item, struct span rest)
+{
+    struct span piece;
+    while (!reading->failed && take_piece(reading, &rest, ",", &piece)) {
+        add_formula(reading, item, piece);
+    }
+    return !reading->failed;
+}
+
+/* where a component keeps what a line assigns to it */
+static bool assign(struct reading *reading, struct entry *entry, const struct target *target, gm_node_id node,
+                   void *data)
+{
+    struct gm_own_system *system = reading->system;
+    const enum gm_word word = *(const enum gm_word *)data;
+    const bool is_velocity = entry->role == VELOCITY && word == GM_WORD_START;
+    if (entry->role != COMPONENT && !is_velocity) {
+        return fail(reading, target->name.begin, "%.*s is no component",
+                    (int)(entry->length < 60 ? entry->length : 60), entry->name);
+    }
+    struct gm_system_variable *variable =
+        &system->variables[(is_velocity ? system->velocities : 0) + entry->number];
+    gm_node_id *place = word == GM_WORD_START   ? &variable->start
+                        : word == GM_WORD_FORCE ? &variable->force
+                        : word == GM_WORD_EXACT ? &variable->exact
+                                                : &system->rates[entry->number];
+    if (word == GM_WORD_FORCE && entry->number >= system->n / 2) {
+        return fail(reading, target->name.begin, "a force acts on a coordinate, not on %s", variable->name);
+    }
+    if (*place != GM_NO_NODE) {
+        return fail(reading, target->name.begin, "%s: %s is said twice", words[word].word, variable->name);
+    }
+    *place = node;
+    return true;
+}
+
+static bool read_assignments(struct reading *reading, const struct line *line)
+{
+    struct span rest = line->value, piece;
+    enum gm_word word = line->word;
+    while (!reading->failed && take_piece(reading, &rest, ",", &piece)) {
+        struct target target;
+        reading->initial = word == GM_WORD_EXACT;
+        if (read_assignment(reading, piece, &target)) {
+            for_elements(reading, &target, assign, &word);
+        }
+        reading->initial = false;
+    }
+    return !reading->failed;
+}
+
+static bool read_bracket(struct reading *reading, const struct line *line)
+{
+    struct gm_own_system *system = reading->system;
+    struct span rest = line->value;
+    size_t pair[2];
+    for (int i = 0; i < 2; i++) {
+        struct target target;
+        long index = 0;
+        if (!read_target(reading, &rest, &target)) {
+            return false;
+        }
+        const bool indexed = target.index.begin < target.index.end;
+        if (indexed && !read_whole(reading, target.index, &index)) {
+            return false;
+        }
+        const struct entry *entry = entry_of(reading, reading->text + target.name.begin,
+                                             target.name.end - target.name.begin, indexed, index);
+        if (!entry || entry->role != COMPONENT) {
+            return fail(reading, target.name.begin, "a bracket is of two components: bracket: x y = z");
+        }
+        pair[i] = entry->number;
+    }
+    rest = trimmed(reading, rest);
+    if (rest.begin == rest.end || reading->text[rest.begin] != '=') {
+        return fail(reading, rest.begin, "= was expected");
+    }
+    rest.begin++;
+    gm_node_id node, *entry = &system->bracket[pair[0] * system->n + pair[1]],
+                     *opposite = &system->bracket[pair[1] * system->n + pair[0]];
+    if (pair[0] == pair[1]) {
+        return fail(reading, line->value.begin, "the bracket of %s with itself is 0",
+                    system->variables[pair[0]].name);
+    }
+    if (!read_formula(reading, rest, &node)) {
+        return false;
+    }
+    if (*entry != GM_NO_NODE) {
+        return fail(reading, line->value.begin, "the bracket of %s and %s is said twice",
+                    system->variables[pair[0]].name, system->variables[pair[1]].name);
+    }
+    *entry = node;
+    system->graph.simplifies = true;
+    *opposite = gm_formula_apply(&system->graph, GM_OPERATION_NEGATE, node, node);
+    system->graph.simplifies = false;
+    return true;
+}
+
+static bool generate(struct reading *reading, struct entry *entry, const struct target *target,
+                     gm_node_id node, void *data)
+{
+    const struct gm_own_system *system = reading->system;
+    struct gm_system_item *item = data;
+    if (entry->role != COMPONENT || entry->number >= item->count) {
+        return fail(reading, target->name.begin, "a symmetry moves %s, not %.*s",
+                    system->kind <= GM_LAGRANGIAN ? "coordinates" : "components",
+                    (int)(entry->length < 60 ? entry->length : 60), entry->name);
+    }
+    item->nodes[entry->number] = node;
+    return true;
+}
+
+/* symmetry: [name;] x = -y, y = x */
+static bool read_symmetry(struct reading *reading, const struct line *line)
+{
+    struct gm_own_system *system = reading->system;
+    struct span rest = line->value, name = {0, 0}, piece;
+    if (next_of(reading, rest, ";") < rest.end) {
+        take_piece(reading, &rest, ";", &name);
+    }
+    struct gm_system_item *item = add_item(reading, line, name);
+    const size_t size = system->kind <= GM_LAGRANGIAN ? system->n / 2 : system->n;
+    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; item && i < size && !reading->failed; i++) {
+        add_node(reading, item, zero);
+    }
+    while (item && !reading->failed && take_piece(reading, &rest, ",", &piece)) {
+        struct target target;
+        if (read_assignment(reading, piece, &target)) {
+            for_elements(reading, &target, generate, item);
+        }
+    }
+    return !reading->failed;
+}
+
+/* NAME = formula; scale 1 */
+static bool read_named(struct reading *reading, const struct line *line)
+{
+    struct span rest = line->value, piece, scale;
+    struct target target;
+    take_piece(reading, &rest, ";", &piece);
+    if (!read_assignment(reading, piece, &target)) {
+        return false;
+    }
+    if (target.index.begin < target.index.end) {
+        return fail(reading, target.index.begin, "this name has no index");
+    }
+    const char *name = reading->text + target.name.begin;
+    const size_t length = target.name.end - target.name.begin;
+    if (is_reserved(name, length)) {
+        return fail(reading, target.name.begin, "the name %.*s is reserved", (int)(length < 60 ? length : 60),
+                    name);
+    }
+    const struct entry *other = entry_of(reading, name, length, false, 0);
+    if (other) {
+        return fail(reading, target.name.begin, "%s is defined twice, first in line %zu", other->name,
+                    line_of(reading, other->place));
+    }
+    struct gm_system_item *item = add_item(reading, line, target.name);
+    if (!item || !add_formula(reading, item, target.value)) {
+        return false;
+    }
+    for (size_t i = 0; i + 1 < reading->system->item_count; i++) {
+        if (strcmp(reading->system->items[i].name, item->name) == 0) {
+            return fail(reading, target.name.begin, "%.60s is said twice", item->name);
+        }
+    }
+    if (take_piece(reading, &rest, ";", &scale)) {
+        if (line->word == GM_WORD_OBSERVE || scale.end - scale.begin < 7 ||
+            memcmp(reading->text + scale.begin, "scale ", 6) != 0) {
+            return fail(reading, scale.begin,
+                        line->word == GM_WORD_OBSERVE ? "nothing follows an observable"
+                                                      : "scale was expected, as in \"; scale 1\"");
+        }
+        scale.begin += 6;
+        return read_number(reading, scale, &item->scale);
+    }
+    return true;
+}
+
+/* section: y = 0, p_y > 0; x, p_x   or   section: every T; x, p_x */
+static bool read_section(struct reading *reading, const struct line *line)
+{
+    struct span rest = line->value, where, piece;
+    struct gm_system_item *item = add_item(reading, line, (struct span){0, 0});
+    take_piece(reading, &rest, ";", &where);
+    if (!item) {
+        return false;
+    }
+    item->periodic = where.end - where.begin > 6 && memcmp(reading->text + where.begin, "every ", 6) == 0;
+    where.begin += item->periodic ? 6 : 0;
+    struct span condition;
+    take_piece(reading, &where, ",", &condition);
+    if (!item->periodic) {
+        const size_t equals = next_of(reading, condition, "=");
+        const struct span right = trimmed(reading, (struct span){equals + 1, condition.end});
+        if (equals == condition.end || right.end - right.begin != 1 || reading->text[right.begin] != '0') {
+            return fail(reading, condition.begin, "a section is where something is 0, x = 0, or every T");
+        }
+        condition.end = equals;
+    }
+    if (!add_formula(reading, item, condition)) {
+        return false;
+    }
+    if (rest.begin == rest.end || !add_formulas(reading, item, rest) || item->count != 3) {
+        return fail(reading, rest.begin, "a section shows two values: ; x, p_x");
+    }
+    while (!reading->failed && take_piece(reading, &where, ",", &piece)) {
+        const size_t more = next_of(reading, piece, ">"), less = next_of(reading, piece, "<"),
+                     sign = more < less ? more : less;
+        if (sign == piece.end) {
+            return fail(reading, piece.begin, "a condition was expected, p_x > 0");
+        }
+        gm_node_id left, right;
+        if (read_formula(reading, (struct span){piece.begin, sign}, &left) &&
+            read_formula(reading, (struct span){sign + 1, piece.end}, &right)) {
+            add_node(reading, item,
+                     gm_formula_apply(&reading->system->graph, GM_OPERATION_SUBTRACT,
+                                      sign == more ? left : right, sign == more ? right : left));
+        }
+    }
+    return !reading->failed;
+}
+
+/* one body, or both ends of a rod, in two or three dimensions */
+static bool read_view(struct reading *reading, const struct line *line)
+{
+    struct gm_system_item *item = add_item(reading, line, (struct span){0, 0});
+    struct span rest = line->value, piece;
+    size_t ends = 0, dimensions = 0;
+    bool equal = true;
+    while (item && !reading->failed && take_piece(reading, &rest, ";", &piece)) {
+        const size_t before = item->count;
+        add_formulas(reading, item, piece);
+        equal = equal && (ends == 0 || item->count - before == dimensions);
+        dimensions = item->count - before;
+        ends++;
+    }
+    if (!reading->failed &&
+        (!equal || dimensions < 2 || dimensions > 3 || ends != (line->word == GM_WORD_ROD ? 2 : 1))) {
+        return fail(reading, line->value.begin,
+                    line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
+                                              : "a body stands at two or three coordinates: x, y");
+    }
+    return !reading->failed;
+}
+
+static bool read_angles(struct reading *reading, const struct line *line)
+{
+    struct gm_own_system *system = reading->system;
+    for (struct span rest = trimmed(reading, line->value); rest.begin < rest.end && !reading->failed;
+         rest = trimmed(reading, rest)) {
+        struct target target;
+        long index = 0;
+        if (reading->text[rest.begin] == ',') {
+            rest.begin++;
+            continue;
+        }
+        if (!read_target(reading, &rest, &target)) {
+            return false;
+        }
+        const bool indexed = target.index.begin < target.index.end;
+        if (indexed && !read_whole(reading, target.index, &index)) {
+            return false;
+        }
+        const struct entry *entry = entry_of(reading, reading->text + target.name.begin,
+                                             target.name.end - target.name.begin, indexed, index);
+        if (!entry || entry->role != COMPONENT || entry->number >= system->n / 2) {
+            return fail(reading, target.name.begin, "an angle is one of the coordinates");
+        }
+        system->variables[entry->number].angle = true;
+    }
+    return !reading->failed;
+}
+
+static bool read_what_is_said(struct reading *reading, const struct line *line)
+{
+    struct gm_own_system *system = reading->system;
+    double number;
+    struct gm_system_item *item;
+    switch (line->word) {
+    case GM_WORD_GEOMINT:
+        return read_number(reading, line->value, &number) &&
+               (number == 1 ||
+                fail(reading, line->value.begin, "this program reads files of format 1, not %g", number));
+    case GM_WORD_DT:
+    case GM_WORD_UNTIL:
+    case GM_WORD_STEPS:
+        if (!read_number(reading, line->value, &number)) {
+            return false;
+        }
+        system->texts[line->word] = text_of(reading, line->value);
+        return true;
+    case GM_WORD_TITLE:
+    case GM_WORD_ABOUT:
+    case GM_WORD_WATCH:
+    case GM_WORD_REFERENCE:
+    case GM_WORD_SCHEMES:
+    case GM_WORD_MEMBERS:
+        system->texts[line->word] = text_of(reading, line->value);
+        return true;
+    case GM_WORD_HAMILTONIAN:
+    case GM_WORD_LAGRANGE:
+        return read_formula(reading, line->value, &system->energy);
+    case GM_WORD_RATE:
+    case GM_WORD_START:
+    case GM_WORD_FORCE:
+    case GM_WORD_EXACT:
+        return read_assignments(reading, line);
+    case GM_WORD_BRACKET:
+        return read_bracket(reading, line);
+    case GM_WORD_ANGLE:
+        return read_angles(reading, line);
+    case GM_WORD_INVARIANT:
+    case GM_WORD_CASIMIR:
+    case GM_WORD_OBSERVE:
+        return read_named(reading, line);
+    case GM_WORD_SYMMETRY:
+        return read_symmetry(reading, line);
+    case GM_WORD_SECTION:
+        return read_section(reading, line);
+    case GM_WORD_VIEW:
+    case GM_WORD_ROD:
+        return read_view(reading, line);
+    case GM_WORD_CONSTRAINT:
+    case GM_WORD_STOP:
+    case GM_WORD_MONITOR:
+        item = add_item(reading, line, (struct span){0, 0});
+        return item && add_formula(reading, item, line->value);
+    default: /* names, which were read before */
+        return true;
+    }
+}
+
+static bool all_nodes(struct reading *reading, gm_node_id **nodes, size_t count)
+{
+    *nodes = malloc((count + 1) * sizeof **nodes);
+    for (size_t i = 0; *nodes && i < count; i++) {
+        (*nodes)[i] = GM_NO_NODE;
+    }
+    return *nodes || no_memory(reading);
+}
+
+static bool is_complete(struct reading *reading)
+{
+    struct gm_own_system *system = reading->system;
+    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; i < system->n && system->kind == GM_RATES; i++) {
+        if (system->rates[i] == GM_NO_NODE) {
+            return fail(reading, 0, "there is no rate of %s", system->variables[i].name);
+        }
+    }
+    for (size_t i = 0; i < system->n * system->n && system->kind == GM_POISSON; i++) {
+        system->bracket[i] = system->bracket[i] == GM_NO_NODE ? zero : system->bracket[i];
+    }
+    for (size_t i = 0; i < system->n; i++) {
+        const bool by_velocity =
+            system->kind == GM_LAGRANGIAN && i >= system->n / 2 &&
+            system->variables[system->velocities + i - system->n / 2].start != GM_NO_NODE;
+        if (system->variables[i].start == GM_NO_NODE && !by_velocity) {
+            return fail(reading, reading->length, "%s has no value at the start", system->variables[i].name);
+        }
+        if (system->variables[i].start != GM_NO_NODE && by_velocity) {
+            return fail(reading, reading->length, "%s and its velocity are both given at the start",
+                        system->variables[i].name);
+        }
+    }
+    return true;
+}
+
+/* Lets give their names to nodes that have none. */
+static bool name_parts(struct reading *reading)
+{
+    struct gm_own_system *system = reading->system;
+    system->part_count = system->graph.count;
+    system->parts = calloc(system->part_count + 1, sizeof *system->parts);
+    for (size_t i = 0; system->parts && i < reading->entry_count && !reading->failed; i++) {
+        const struct entry *entry = &reading->entries[i];
+        const struct line line = {.word = GM_WORD_LET, .place = entry->place, .value = entry->value};
+        if (entry->role != NAMED) {
+            continue;
+        }
+        struct gm_system_item *item =
+            add_item(reading, &line, (struct span){entry->place, entry->place + entry->length});
+        if (item && add_node(reading, item, entry->node) &&
+            system->graph.nodes[entry->node].operation > GM_VARIABLE) {
+            system->parts[entry->node] = item->name;
+        }
+    }
+    return (system->parts && !reading->failed) || no_memory(reading);
+}
+
+static bool read_system(struct reading *reading)
+{
+    struct gm_own_system *system = reading->system;
+    if (reading->length > GM_LARGEST_SYSTEM) {
+        return fail(reading, 0, "a system has at most 100 MB");
+    }
+    const size_t valid = gm_text_valid(reading->text, reading->length);
+    if (valid < reading->length) {
+        return fail(reading, valid,
+                    reading->text[valid] ? "the byte 0x%02x is no UTF-8" : "a byte is 0: this is no text",
+                    (unsigned char)reading->text[valid]);
+    }
+    if (!read_lines(reading) || !find_kind(reading) || !add_parameters(reading) || !add_state(reading) ||
+        !all_nodes(reading, &system->rates, system->n)) {
+        return false;
+    }
+    if (system->kind == GM_POISSON &&
+        (system->n > 2000 ? !fail(reading, 0, "a system with a bracket has at most 2000 components")
+                          : !all_nodes(reading, &system->bracket, system->n * system->n))) {
+        return false;
+    }
+    if (!add_lets(reading)) {
+        return false;
+    }
+    for (size_t i = 0; i < reading->line_count; i++) {
+        if (!read_what_is_said(reading, &reading->lines[i])) {
+            return reading->failed ? false : no_memory(reading);
+        }
+    }
+    return is_complete(reading) && name_parts(reading);
+}
+
+bool gm_system_read(struct gm_own_system *system, const char *text, size_t length,
+                    const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+{
+    struct reading reading = {.system = system,
+                              .text = text,
+                              .length = length,
+                              .values = values,
+                              .value_count = count,
+                              .fault = fault};
+    *system = (struct gm_own_system){0};
+    *fault = (struct gm_fault){0};
+    gm_formula_open(&system->graph);
+    system->source = length <= GM_LARGEST_SYSTEM ? malloc(length + 1) : NULL;
+    if (system->source) {
+        memcpy(system->source, text, length);
+        system->source[length] = '\0';
+        system->length = length;
+    }
+    const bool good = (system->source || length > GM_LARGEST_SYSTEM) && read_system(&reading);
+    for (size_t i = 0; i < reading.entry_count; i++) {
+        free(reading.entries[i].name);
+    }
+    free(reading.lines);
+    free(reading.entries);
+    free(reading.table);
+    return good;
+}
+
+void gm_system_close(struct gm_own_system *system)
+{
+    for (size_t i = 0; i < system->variable_count; i++) {
+        free(system->variables[i].name);
+        free(system->variables[i].meaning);
+        free(system->variables[i].unit);
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        free(system->items[i].name);
+        free(system->items[i].nodes);
+    }
+    for (size_t i = 0; i < GM_WORDS; i++) {
+        free(system->texts[i]);
+    }
+    free(system->source);
+    free(system->variables);
+    free(system->items);
+    free(system->rates);
+    free(system->momenta);
+    free(system->bracket);
+    free(system->parts);
+    gm_formula_close(&system->graph);
+    *system = (struct gm_own_system){0};
+}
+
+static const char *variable_name(size_t number, const void *data)
+{
+    return ((const struct gm_own_system *)data)->variables[number].name;
+}
+
+static const char *part_name(gm_node_id node, const void *data)
+{
+    const struct gm_own_system *system = data;
+    return node < system->part_count ? system->parts[node] : NULL;
+}
+
+struct gm_naming gm_system_naming(const struct gm_own_system *system)
+{
+    return (struct gm_naming){.variable = variable_name, .part = part_name, .data = system};
+}

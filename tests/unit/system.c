@@ -1,0 +1,403 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Systems: the structure of tests/reference/formulas.test, the equations of the eight that the program brings
+   against equations written by hand, and what is refused. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/formula/equations.h"
+#include "core/formula/facts.h"
+#include "tests/common/reference.h"
+
+static bool open_text(struct gm_own_system *system, const char *text, struct gm_fault *fault)
+{
+    return gm_equations_open(system, text, strlen(text), NULL, 0, fault);
+}
+
+/* Lines of a system from one line, with a start for each of its variables. */
+static char *lines_of(const char *line)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    for (const char *at = line; *at; at++) {
+        if (*at == ';' && at[1] == ' ') {
+            fputc('\n', out);
+            at++;
+        } else if (*at != ' ' || at[1] != ';') {
+            fputc(*at, out);
+        }
+    }
+    static const char *const starts[][2] = {{"coordinates: q[1..3]", "q[i] = i, p_q[i] = 1"},
+                                            {"coordinates: q ", "q = 1, p_q = 2"},
+                                            {"coordinates: a b", "a = 1, b = 2, p_a = 3, p_b = 4"},
+                                            {"rate: z", "x = 1, y = 2, z = 3"},
+                                            {"rate: x", "x = 1, y = 2"}};
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
+        if (strstr(line, starts[i][0])) {
+            fprintf(out, "\nstart: %s\n", starts[i][1]);
+            break;
+        }
+    }
+    fclose(out);
+    return text;
+}
+
+static void expect_facts(const char *line, char *words, const char *term)
+{
+    struct gm_own_system system;
+    struct gm_fault fault;
+    struct gm_finding findings[GM_FACTS];
+    char *text = lines_of(line), *rest = NULL;
+    if (!open_text(&system, text, &fault)) {
+        fail_msg("%s: %s", line, fault.sentence);
+    }
+    assert_true(gm_facts_find(&system, findings));
+    const struct gm_finding *last = NULL;
+    for (char *word = strtok_r(words, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        enum gm_fact fact = 0;
+        while (fact < GM_FACTS && strcmp(gm_fact_word(fact), word + (word[0] == '-')) != 0) {
+            fact++;
+        }
+        assert_true(fact < GM_FACTS);
+        char *reason = gm_fact_reason(&system, fact, &findings[fact]);
+        if (!findings[fact].asked || findings[fact].holds != (word[0] != '-')) {
+            fail_msg("%s: %s? %s", line, word, reason);
+        }
+        last = findings[fact].holds ? last : &findings[fact];
+        free(reason);
+    }
+    struct gm_naming naming = gm_system_naming(&system);
+    naming.part = NULL;
+    char *found = last && term[0] ? gm_formula_text(&system.graph, last->term, &naming) : NULL;
+    if (term[0] && (!found || strcmp(found, term) != 0)) {
+        fail_msg("%s: %s, not %s", line, found, term);
+    }
+    free(found);
+    gm_system_close(&system);
+    free(text);
+}
+
+static void structure_is_recognised(void **unused)
+{
+    (void)unused;
+    char line[1000];
+    int count = 0;
+    FILE *file = reference_file("formulas.test");
+    while (fgets(line, sizeof line, file)) {
+        line[strcspn(line, "\n")] = '\0';
+        if (strncmp(line, "facts | ", 8) != 0) {
+            continue;
+        }
+        char *words = strstr(line + 8, " | "), *term = NULL;
+        assert_non_null(words);
+        *words = '\0';
+        words += 3;
+        term = strstr(words, " |");
+        assert_non_null(term);
+        *term = '\0';
+        expect_facts(line + 8, words, term + 2 + strspn(term + 2, " "));
+        count++;
+    }
+    fclose(file);
+    assert_true(count >= 40);
+}
+
+/* -- equations by hand; p: the parameters in the order of the file ----------------------------------------- */
+
+static void double_pendulum(const double *p, double t, const double *y, double *f)
+{
+    (void)t;
+    const double m = p[0], l = p[1], g = p[2], c = cos(y[0] - y[1]), s = sin(y[0] - y[1]);
+    const double D = 1 + m * s * s;
+    const double k1 = y[2] * y[3] * s / (l * D);
+    const double k2 = (m * l * l * y[2] * y[2] + (1 + m) * y[3] * y[3] - 2 * m * l * y[2] * y[3] * c) *
+                      sin(2 * (y[0] - y[1])) / (2 * l * l * D * D);
+    f[0] = (l * y[2] - y[3] * c) / (l * D);
+    f[1] = ((1 + m) * y[3] - m * l * y[2] * c) / (m * l * l * D);
+    f[2] = -(1 + m) * g * sin(y[0]) - k1 + k2;
+    f[3] = -m * g * l * sin(y[1]) + k1 - k2;
+}
+
+static void figure_eight(const double *p, double t, const double *y, double *f)
+{
+    (void)p;
+    (void)t;
+    for (int i = 0; i < 3; i++) {
+        f[i] = y[6 + i];
+        f[3 + i] = y[9 + i];
+        f[6 + i] = f[9 + i] = 0;
+        for (int j = 0; j < 3; j++) {
+            const double dx = y[j] - y[i], dy = y[3 + j] - y[3 + i], r = hypot(dx, dy);
+            f[6 + i] += i == j ? 0 : dx / (r * r * r);
+            f[9 + i] += i == j ? 0 : dy / (r * r * r);
+        }
+    }
+}
+
+static void restricted_three_body(const double *p, double t, const double *y, double *f)
+{
+    (void)t;
+    const double mu = p[0], a = y[0] + mu, b = y[0] - 1 + mu;
+    const double r1 = pow(hypot(a, y[1]), -3), r2 = pow(hypot(b, y[1]), -3);
+    f[0] = y[2] + y[1];
+    f[1] = y[3] - y[0];
+    f[2] = y[3] - (1 - mu) * a * r1 - mu * b * r2;
+    f[3] = -y[2] - (1 - mu) * y[1] * r1 - mu * y[1] * r2;
+}
+
+static void toda(const double *p, double t, const double *y, double *f)
+{
+    (void)t;
+    const int n = (int)p[0];
+    for (int i = 0; i < n; i++) {
+        f[i] = y[n + i];
+        f[n + i] = exp(y[(i + n - 1) % n] - y[i]) - exp(y[i] - y[(i + 1) % n]);
+    }
+}
+
+static void lotka_volterra(const double *p, double t, const double *y, double *f)
+{
+    (void)t;
+    f[0] = y[0] * (p[0] - p[1] * y[1]);
+    f[1] = y[1] * (p[3] * y[0] - p[2]);
+}
+
+static void rigid_body(const double *p, double t, const double *y, double *f)
+{
+    (void)t;
+    f[0] = (1 / p[2] - 1 / p[1]) * y[1] * y[2];
+    f[1] = (1 / p[0] - 1 / p[2]) * y[2] * y[0];
+    f[2] = (1 / p[1] - 1 / p[0]) * y[0] * y[1];
+}
+
+static void lorenz(const double *p, double t, const double *y, double *f)
+{
+    (void)t;
+    f[0] = p[0] * (y[1] - y[0]);
+    f[1] = p[1] * y[0] - y[0] * y[2] - y[1];
+    f[2] = y[0] * y[1] - p[2] * y[2];
+}
+
+static void driven_pendulum(const double *p, double t, const double *y, double *f)
+{
+    f[0] = y[1];
+    f[1] = -(1 + p[0] * cos(p[1] * t)) * sin(y[0]);
+}
+
+static char *system_text(const char *name, size_t *length)
+{
+    char path[200];
+    snprintf(path, sizeof path, "../../share/systems/%s.system", name);
+    FILE *file = reference_file(path);
+    char *text = malloc(100000);
+    assert_non_null(text);
+    *length = fread(text, 1, 100000, file);
+    fclose(file);
+    return text;
+}
+
+static void equations_are_those_by_hand(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *name;
+        void (*field)(const double *p, double t, const double *y, double *f);
+        size_t n, kept; /* invariants, Casimirs and symmetries */
+    } eight[] = {{"double-pendulum", double_pendulum, 4, 0},
+                 {"figure-eight", figure_eight, 12, 4},
+                 {"restricted-three-body", restricted_three_body, 4, 0},
+                 {"toda", toda, 10, 5},
+                 {"lotka-volterra", lotka_volterra, 2, 0},
+                 {"rigid-body", rigid_body, 3, 1},
+                 {"lorenz", lorenz, 3, 0},
+                 {"driven-pendulum", driven_pendulum, 2, 0}};
+    for (size_t k = 0; k < sizeof eight / sizeof *eight; k++) {
+        struct gm_own_system system;
+        struct gm_fault fault;
+        size_t length = 0, kept = 0;
+        char *text = system_text(eight[k].name, &length);
+        if (!gm_equations_open(&system, text, length, NULL, 0, &fault)) {
+            fail_msg("%s: %s", eight[k].name, fault.sentence);
+        }
+        assert_int_equal(system.n, eight[k].n);
+        double *variables = gm_equations_start(&system);
+        double *values = malloc(system.graph.count * sizeof *values);
+        assert_true(variables && values);
+        srand(3);
+        for (int trial = 0; trial < 20; trial++) {
+            double field[12], size = 0;
+            for (size_t i = 0; i <= system.n && trial > 0; i++) {
+                variables[i] = .5 + (double)rand() / RAND_MAX + (double)i / 7; /* t among them */
+            }
+            gm_formula_evaluate(&system.graph, system.graph.count, variables, values);
+            eight[k].field(variables + system.parameters, variables[system.n], variables, field);
+            for (size_t i = 0; i < system.n; i++) {
+                size = fmax(size, fabs(field[i]));
+            }
+            for (size_t i = 0; i < system.n; i++) {
+                const double derived = values[system.rates[i]];
+                if (!(fabs(derived - field[i]) <= 2e-14 * size * (1 + (double)system.n))) {
+                    fail_msg("%s: component %zu is %.17g, by hand %.17g", eight[k].name, i, derived,
+                             field[i]);
+                }
+            }
+        }
+        for (size_t i = 0; i < system.item_count; i++) {
+            const struct gm_system_item *item = &system.items[i];
+            if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR ||
+                item->word == GM_WORD_SYMMETRY) {
+                assert_true(item->check == GM_ZERO_PROVED);
+                kept++;
+            }
+        }
+        assert_int_equal(kept, eight[k].kept);
+        free(values);
+        free(variables);
+        free(text);
+        gm_system_close(&system);
+    }
+}
+
+/* A Lagrangian gives the momenta and rates that its Hamiltonian gives. */
+static void lagrangians_are_transformed(void **unused)
+{
+    (void)unused;
+    static const char text[] = "coordinates: a b\nparameter: m = 2\n"
+                               "L: m*(v_a^2 + a^2*v_b^2)/2 - a^3\nforce: a = -0.5*v_a\n"
+                               "symmetry: b = 1\nstart: a = 2, b = 1, v_a = 3, v_b = 0.25\n";
+    struct gm_own_system system;
+    struct gm_fault fault;
+    if (!open_text(&system, text, &fault)) {
+        fail_msg("%s", fault.sentence);
+    }
+    double *variables = gm_equations_start(&system);
+    double *values = malloc(system.graph.count * sizeof *values);
+    assert_true(variables && values);
+    gm_formula_evaluate(&system.graph, system.graph.count, variables, values);
+    assert_true(variables[2] == 6 && variables[3] == 2); /* p_a = m v_a, p_b = m a^2 v_b */
+    assert_true(values[system.momenta[0]] == 6 && values[system.momenta[1]] == 2);
+    assert_true(fabs(values[system.rates[2]] - (2 * 2 * .25 * .25 - 12 - 1.5)) < 1e-14);
+    assert_true(values[system.rates[3]] == 0);
+    assert_true(system.items[0].check == GM_ZERO_PROVED && values[system.items[0].nodes[2]] == 2);
+    free(values);
+    free(variables);
+    gm_system_close(&system);
+}
+
+#define CANONICAL "coordinates: q\nstart: q = 1, p_q = 0\n"
+#define THREE "components: x y z\nstart: x = 1, y = 1, z = 1\n"
+
+static const struct {
+    const char *text;
+    size_t line, column;
+    const char *sentence;
+} refused[] = {
+    {"", 1, 1, "no equation"},
+    {"# nothing\n\n", 1, 1, "no equation"},
+    {"H p^2", 1, 2, "a line begins with a word and a colon"},
+    {"  H: q", 1, 3, "there is none before it"},
+    {"titel: x\n", 1, 1, "no line \"titel\"; did you mean title"},
+    {"H:\n", 1, 3, "says nothing"},
+    {"H: q\nH: q\n", 2, 1, "said twice, first in line 1"},
+    {"H: q\nL: q\n", 1, 1, "a system with L has no line \"H\""},
+    {"H: q\nrate: q = 1\n", 1, 1, "a system with rates has no line \"H\""},
+    {"bracket: x y = 1\n", 1, 1, "needs H"},
+    {"H: q^2\n", 1, 1, "needs a line \"coordinates\""},
+    {CANONICAL "H: p_q^2 + qq\n", 3, 12, "no name qq; did you mean q"},
+    {CANONICAL "H: p_q^2 + 2q\n", 3, 13, "2*q"},
+    {CANONICAL "H: p_q^2 + coz(q)\n", 3, 12, "did you mean cos"},
+    {CANONICAL "H: p_q^2\n  + sin(q\n", 4, 10, "ends where ) was expected"},
+    {"geomint: 2\n" CANONICAL "H: p_q^2\n", 1, 10, "format 1, not 2"},
+    {"coordinates: q q\nH: q\n", 1, 16, "q is defined twice"},
+    {"coordinates: sin\nH: q\n", 1, 14, "the name sin is reserved"},
+    {"coordinates: dt\nH: q\n", 1, 14, "the name dt is reserved"},
+    {"coordinates: q\nparameter: until = 2\nH: q\n", 2, 12, "the name until is reserved"},
+    {"coordinates: q\nparameter: q = 2\nH: q\n", 1, 14, "q is defined twice, first in line 2"},
+    {"coordinates: q\nmomenta: a b\nH: q\n", 2, 1, "2 momenta for 1 coordinates"},
+    {"coordinates: q\nH: q^2 + p_q^2\nstart: q = 1\n", 4, 1, "p_q has no value at the start"},
+    {"coordinates: q\nH: p_q^2\nstart: q = 1, r = 2\n", 3, 15, "no name r"},
+    {"coordinates: q\nH: p_q^2\nstart: q = 1, q = 2\n", 3, 15, "start: q is said twice"},
+    {"coordinates: q\nH: p_q^2\nstart: q 1\n", 3, 10, "= was expected"},
+    {CANONICAL "let: a = b\nlet: b = a\nH: a\n", 3, 6, "a circle"},
+    {CANONICAL "let: a = a + 1\nH: a\n", 3, 6, "a needs itself"},
+    {CANONICAL "let: a = 1\nlet: a = 2\nH: a\n", 4, 6, "a is defined twice, first in line 3"},
+    {CANONICAL "parameter: a = 3; 0 .. 2\nH: a*q\n", 3, 12, "outside of its range"},
+    {CANONICAL "parameter: a = q\nH: a*q\n", 3, 16, "no name q"},
+    {CANONICAL "parameter: a = b\nparameter: b = a\nH: a*q\n", 3, 12, "a circle"},
+    {CANONICAL "parameter: a = 1/0\nH: a*q\n", 3, 12, "no finite number"},
+    {CANONICAL "parameter: m[1..3] = 1, 2\nH: q\n", 3, 22, "3 values were expected"},
+    {"coordinates: q[1..1e9]\nH: 1\n", 1, 16, "at most 100000 elements"},
+    {"coordinates: q[3..1]\nH: 1\n", 1, 16, "at least one element"},
+    {"coordinates: q[N]\nH: 1\n", 1, 16, "the bounds of a list"},
+    {"coordinates: q[1..2]\nH: q[3]\n", 2, 4, "q[3] lies outside of q[1] .. q[2]"},
+    {CANONICAL "H: p_q^2/2 + 1/(q - 1)\n", 3, 14, "not finite at the start"},
+    {CANONICAL "H: p_q^2/2\nconstraint: q - 2\n", 4, 13, "breaks this constraint"},
+    {CANONICAL "H: p_q^2/2\ninvariant: a = q\n", 4, 12, "a is no invariant"},
+    {CANONICAL "H: p_q^2/2 + q^2\nsymmetry: q = 1\n", 4, 11, "no symmetry: it changes H"},
+    {CANONICAL "H: p_q^2/2\nforce: p_q = 1\n", 4, 8, "a force acts on a coordinate"},
+    {CANONICAL "H: p_q^2/2\nangle: p_q\n", 4, 8, "one of the coordinates"},
+    {CANONICAL "H: p_q^2/2\nview: q\n", 4, 7, "two or three coordinates"},
+    {CANONICAL "H: p_q^2/2\nrod: 0, 0\n", 4, 6, "a rod has two ends"},
+    {CANONICAL "H: p_q^2/2\nsection: q\n", 4, 10, "where something is 0"},
+    {CANONICAL "H: p_q^2/2\nsection: q = 0\n", 4, 15, "shows two values"},
+    {CANONICAL "H: p_q^2/2\nobserve: q[1] = 0\n", 4, 12, "no index"},
+    {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice, first in line 1"},
+    {CANONICAL "H: p_q^2/2\ndt: q\n", 4, 5, "q is no parameter"},
+    {"coordinates: q\nL: v_q*q\nstart: q = 1, v_q = 0\n", 1, 1, "Legendre transform of L is singular"},
+    {THREE "rate: x = y\nrate: y = z\n", 1, 1, "there is no rate of z"},
+    {THREE "rate: x = y\nrate: x = z\n", 4, 7, "rate: x is said twice"},
+    {THREE "bracket: x y = z\nbracket: y z = x*y\nbracket: z x = y*z\nH: x\n", 1, 1,
+     "breaks Jacobi's identity for x, y and z"},
+    {THREE "bracket: x y = z\nbracket: y z = x\nbracket: z x = y\nH: x\ncasimir: C = x\n", 7, 10,
+     "C is no Casimir"},
+    {THREE "bracket: x x = 1\nH: x\n", 3, 10, "with itself is 0"},
+    {THREE "bracket: x y = 1\nbracket: y x = 1\nH: x\n", 4, 10, "said twice"},
+    {CANONICAL "H: \xff\n", 3, 4, "0xff is no UTF-8"},
+};
+
+static void what_is_wrong_is_named(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        struct gm_own_system system;
+        struct gm_fault fault;
+        size_t line, column;
+        if (open_text(&system, refused[i].text, &fault)) {
+            fail_msg("%s was read", refused[i].text);
+        }
+        gm_text_place(refused[i].text, fault.offset, &line, &column);
+        if (line != refused[i].line || column != refused[i].column ||
+            !strstr(fault.sentence, refused[i].sentence)) {
+            fail_msg("%s: %zu:%zu: %s", refused[i].text, line, column, fault.sentence);
+        }
+        gm_system_close(&system);
+    }
+    struct gm_own_system system;
+    struct gm_fault fault;
+    assert_false(gm_equations_open(&system, "H: \0", 4, NULL, 0, &fault));
+    assert_true(fault.offset == 3 && strstr(fault.sentence, "no text"));
+    gm_system_close(&system);
+    assert_false(gm_equations_open(&system, "", (size_t)GM_LARGEST_SYSTEM + 1, NULL, 0, &fault));
+    assert_non_null(strstr(fault.sentence, "100 MB"));
+    gm_system_close(&system);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(structure_is_recognised),
+        cmocka_unit_test(equations_are_those_by_hand),
+        cmocka_unit_test(lagrangians_are_transformed),
+        cmocka_unit_test(what_is_wrong_is_named),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
