@@ -9,7 +9,7 @@
 
 #include "app/output/csv.h"
 #include "app/request/drive.h"
-#include "app/request/nearest.h"
+#include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "render/clock.h"
