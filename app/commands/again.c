@@ -5,15 +5,14 @@
 #include <string.h>
 
 #include "app/commands/commands.h"
-#include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/output/still.h"
 #include "app/request/drive.h"
 
 /* The texts that it reads. */
-enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, TEXTS };
+enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, NEEDED, SCALE = NEEDED, DPI, TITLE, TEXTS };
 static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY_CHANGES, GM_KEY_STEPS,
-                                        GM_KEY_PICTURE};
+                                        GM_KEY_PICTURE, GM_KEY_SCALE,     GM_KEY_DPI,     GM_KEY_TITLE};
 
 /* Opens every lane and drives it to the step that `steps` names for it. */
 static bool drive(const struct gm_request *request, struct gm_lane **lanes, const char *steps, char *message)
@@ -38,7 +37,7 @@ static bool drive(const struct gm_request *request, struct gm_lane **lanes, cons
 /* Whether the picture has all the texts of a picture of lanes; a sentence if not. */
 static bool is_complete(const char *path, char *const *texts, char *message)
 {
-    for (size_t i = ARGUMENTS; i < TEXTS; i++) {
+    for (size_t i = ARGUMENTS; i < NEEDED; i++) {
         if (!texts[i]) {
             snprintf(message, GM_MESSAGE, "%.360s does not tell how it was made (it lacks %s)", path,
                      keys[i]);
@@ -95,6 +94,8 @@ static int chart_again(const struct gm_options *options, const char *command)
     int status = GM_EXIT_FILE;
     if (name && chart && gm_options_parse(&again, chart->bit, words.count, words.words, 1, message)) {
         again.out = options->out;
+        again.output = options->output;
+        again.format = options->format;
         again.name = name;
         status = chart->function(&again);
     } else {
@@ -106,6 +107,43 @@ static int chart_again(const struct gm_options *options, const char *command)
     return status;
 }
 
+/* A number of a text within bounds; 0 for no text. False where it is damaged. */
+static bool take_number(const char *text, double low, double high, double *number)
+{
+    *number = 0;
+    return !text || (gm_number_parse(text, number) && *number >= low && *number <= high);
+}
+
+/* The look that the texts tell of; its title is one of them. */
+static bool take_look(struct gm_look *look, char *const *texts)
+{
+    char theme[8] = "";
+    if (sscanf(texts[PICTURE], "%5dx%5d %7s", &look->width, &look->height, theme) != 3 || look->width < 64 ||
+        look->height < 64 || look->width > 16384 || look->height > 16384) {
+        return false;
+    }
+    look->theme = strcmp(theme, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
+    look->title = texts[TITLE];
+    return take_number(texts[SCALE], GM_LEAST_SCALE, GM_MOST_SCALE, &look->scale) &&
+           take_number(texts[DPI], GM_LEAST_DPI, GM_MOST_DPI, &look->dpi);
+}
+
+/* Where the picture goes; malloc'ed. */
+static char *print_path(const struct gm_options *options)
+{
+    char end[8], *name = NULL;
+    if (options->output) {
+        return strdup(options->output);
+    }
+    snprintf(end, sizeof end, ".%s", gm_format_name(options->format));
+    char *base = output_name(options->arguments.words[0], end);
+    if (!base || asprintf(&name, "%s/%s", options->out ? options->out : ".", base) < 0) {
+        name = NULL;
+    }
+    free(base);
+    return name;
+}
+
 /* Draws a picture of lanes once more. */
 static int picture_again(const struct gm_options *options, char *const *texts)
 {
@@ -113,34 +151,26 @@ static int picture_again(const struct gm_options *options, char *const *texts)
     char message[GM_MESSAGE] = "not enough memory";
     struct gm_request request = {0};
     struct gm_lane **lanes = NULL;
-    char *base = output_name(path, ".png"), *name = NULL;
-    if (!base || asprintf(&name, "%s/%s", options->out ? options->out : ".", base) < 0) {
-        name = NULL;
-    }
-    free(base);
-    int width = 0, height = 0, status = GM_EXIT_FILE;
-    char theme[8] = "";
+    char *name = print_path(options);
+    struct gm_print print = {.path = name, .format = options->format};
+    int status = GM_EXIT_FILE;
     if (!name || !is_complete(path, texts, message)) {
         gm_complain("%s", message);
-    } else if (sscanf(texts[PICTURE], "%5dx%5d %7s", &width, &height, theme) != 3 || width < 64 ||
-               height < 64 || width > 16384 || height > 16384) {
+    } else if (!take_look(&print.look, texts)) {
         gm_complain("%s cannot be made again: its size is damaged", path);
     } else if (!parse(&request, texts[ARGUMENTS], texts[CHANGES], message)) {
         gm_complain("%s cannot be made again: %s", path, message);
     } else {
         gm_catch_interrupts();
         lanes = calloc(request.count, sizeof *lanes);
-        const enum gm_theme shade = strcmp(theme, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
         if (!lanes || !drive(&request, lanes, texts[STEPS], message)) {
             gm_complain("%s cannot be made again: %s", path, message);
         } else if (gm_interrupted) {
             status = GM_EXIT_INTERRUPTED;
-        } else if (!gm_folder_make(options->out, message) ||
-                   !gm_still_write(name, width, height, shade, &request, (const struct gm_lane *const *)lanes,
-                                   message)) {
+        } else if (!gm_still_write(&print, &request, (const struct gm_lane *const *)lanes, message)) {
             gm_complain("%s", message);
         } else {
-            gm_complain("wrote %s", name);
+            gm_press_tell(&print, "");
             status = GM_EXIT_OK;
         }
     }

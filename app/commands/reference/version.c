@@ -20,7 +20,7 @@ static void print_painter(void)
 {
     char message[GM_MESSAGE];
     enum { SMALL = 64 }; /* any size tells */
-    struct gm_canvas *canvas = gm_canvas_open(SMALL, SMALL, GM_THEME_LIGHT, message);
+    struct gm_canvas *canvas = gm_canvas_open(&(struct gm_look){.width = SMALL, .height = SMALL}, message);
     if (canvas && !gm_memory_was_short()) {
         printf("%s\n", gm_canvas_backend(canvas));
     } else if (!canvas) {
