@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint again FILE.png: makes a picture once more from what it tells of itself. */
+/* geomint again FILE: makes a picture once more from what it tells of itself. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +8,7 @@
 #include "app/output/provenance.h"
 #include "app/output/still.h"
 #include "app/request/drive.h"
+#include "render/vector/svg.h"
 
 /* The texts that it reads. */
 enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, NEEDED, SCALE = NEEDED, DPI, TITLE, TEXTS };
@@ -115,7 +116,7 @@ static bool take_number(const char *text, double low, double high, double *numbe
 }
 
 /* The look that the texts tell of; its title is one of them. */
-static bool take_look(struct gm_look *look, char *const *texts)
+static bool take_look(struct gm_appearance *look, char *const *texts)
 {
     char theme[8] = "";
     if (sscanf(texts[PICTURE], "%5dx%5d %7s", &look->width, &look->height, theme) != 3 || look->width < 64 ||
@@ -186,11 +187,14 @@ static int picture_again(const struct gm_options *options, char *const *texts)
 static int command_again(const struct gm_options *options)
 {
     if (options->arguments.count != 1) {
-        gm_complain("again which picture? A PNG file that geomint made");
+        gm_complain("again which picture? A PNG or SVG file that geomint made");
         return GM_EXIT_USAGE;
     }
     char message[GM_MESSAGE], *texts[TEXTS];
-    if (!gm_png_read_texts(options->arguments.words[0], keys, texts, TEXTS, message)) {
+    const char *path = options->arguments.words[0];
+    enum gm_format format = GM_FORMAT_PNG;
+    const bool drawn = gm_format_of(path, &format) && format == GM_FORMAT_SVG;
+    if (!(drawn ? gm_svg_read_texts : gm_png_read_texts)(path, keys, texts, TEXTS, message)) {
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
@@ -203,7 +207,7 @@ static int command_again(const struct gm_options *options)
 
 const struct gm_command_row gm_command_again = {
     .name = "again",
-    .synopsis = "FILE.png",
+    .synopsis = "FILE.png|FILE.svg",
     .help = "make a picture once more from what it tells of itself",
     .bit = GM_AGAIN,
     .function = command_again,

@@ -48,7 +48,8 @@ static const struct row rows[] = {
     {"--rate", RATE, GM_RENDER, AT(rate), "R", "model time a second of the movie"},
     {"--from", TIME, GM_RENDER, AT(from), "T", "first frame at model time T"},
     {"--at", TIME, GM_RENDER, AT(at), "T", "one picture at model time T"},
-    {"--output", TEXT, PRINTS, AT(output), "FILE", "one picture to FILE (-o): .png, .svg or .pdf; - is standard output"},
+    {"--output", TEXT, PRINTS, AT(output), "FILE",
+     "one picture to FILE (-o): .png, .svg or .pdf; - is standard output"},
     {"--format", FORMAT, PRINTS | GM_FIGURES, AT(format_name), "png|svg|pdf",
      "format of pictures whose names do not tell it (png)"},
     {"--title", TITLE, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.title), "TEXT",
@@ -100,7 +101,7 @@ static bool is_painted(double width, double height)
 }
 
 /* "1280x720", or "16x9cm", of which the pixels follow when --dpi is known: page[] then is in mm. */
-static bool read_size(const char *value, double page[2], struct gm_look *look)
+static bool read_size(const char *value, double page[2], struct gm_appearance *look)
 {
     int width = 0, height = 0, used = 0;
     char unit[3] = "", more = '\0';
@@ -123,7 +124,7 @@ static bool read_size(const char *value, double page[2], struct gm_look *look)
 static bool settle_size(struct gm_options *options, char *message)
 {
     const double mm_an_inch = 25.4, print_dpi = 300;
-    struct gm_look *look = &options->look;
+    struct gm_appearance *look = &options->look;
     if (!(options->page[0] > 0)) {
         return true;
     }
@@ -147,7 +148,11 @@ static bool settle_size(struct gm_options *options, char *message)
 static bool settle_format(struct gm_options *options, char *message)
 {
     enum gm_format format;
-    if (!options->output || strcmp(options->output, "-") == 0) {
+    if (gm_options_take_stdout(options) && options->json) {
+        snprintf(message, GM_MESSAGE, "--output - and --json are both to write to standard output");
+        return false;
+    }
+    if (!options->output || gm_options_take_stdout(options)) {
         return true;
     }
     if (!gm_format_of(options->output, &format)) {
@@ -359,10 +364,7 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
                                    .look = {.width = 1280, .height = 720}};
     bool given[ROWS] = {false};
     for (int i = first; i < argc; i++) {
-        const char *word = argv[i];
-        if (strcmp(word, "-o") == 0) {
-            word = "--output";
-        }
+        const char *word = gm_option_name(argv[i]);
         if (strncmp(word, "--", 2) != 0) {
             if (!gm_arguments_add(&options->arguments, word)) {
                 snprintf(message, GM_MESSAGE, "not enough memory");
@@ -401,9 +403,19 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
            settle_format(options, message);
 }
 
+bool gm_options_take_stdout(const struct gm_options *options)
+{
+    return options->output && strcmp(options->output, "-") == 0;
+}
+
 void gm_options_close(struct gm_options *options)
 {
     gm_arguments_close(&options->arguments);
+}
+
+const char *gm_option_name(const char *word)
+{
+    return strcmp(word, "-o") == 0 ? "--output" : word;
 }
 
 size_t gm_option_count(void)

@@ -29,19 +29,19 @@ struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown, listing;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
     const char *csv, *profile, *out, *movie, *measure, *region, *changes;
-    const char *output;    /* one picture's file; NULL: not given */
+    const char *output; /* one picture's file; NULL: not given */
     const char *format_name;
     enum gm_format format; /* of pictures: png, unless the two before say otherwise */
     const char *name;      /* of a chart's files, by `again` alone; NULL: the command's own */
     long every, frames;
-    long shard, shards;                    /* 0, 0: not given */
-    double fps, rate;                      /* NAN: not given */
-    double from, at, interval;             /* NAN: not given */
-    struct gm_look look;                   /* 1280 x 720, light */
-    double page[2];                        /* its size in mm, where that was given; else 0 */
-    bool sized;                            /* a size was given */
+    long shard, shards;                     /* 0, 0: not given */
+    double fps, rate;                       /* NAN: not given */
+    double from, at, interval;              /* NAN: not given */
+    struct gm_appearance look;              /* 1280 x 720, light */
+    double page[2];                         /* its size in mm, where that was given; else 0 */
+    bool sized;                             /* a size was given */
     const char *graphics, *colours, *shade; /* what to believe of the terminal */
-    struct gm_arguments arguments;         /* what is left: scene, key=value, names */
+    struct gm_arguments arguments;          /* what is left: scene, key=value, names */
 };
 
 /* Bounds of --scale and --dpi. */
@@ -56,6 +56,9 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
                       char *message);
 void gm_options_close(struct gm_options *options);
 
+/* Whether a picture goes to standard output, and nothing else may. */
+bool gm_options_take_stdout(const struct gm_options *options);
+
 /* What is known of an option. */
 struct gm_option {
     const char *name;  /* "--size" */
@@ -63,6 +66,8 @@ struct gm_option {
     const char *help;
     unsigned commands; /* those that take it */
 };
+/* The name of the option that a short one stands for, "--output" for "-o"; other words are returned. */
+const char *gm_option_name(const char *word);
 size_t gm_option_count(void);
 struct gm_option gm_option_at(size_t index);
 

@@ -141,7 +141,8 @@ static bool reuse_frame(struct work *work, long frame, char *message)
         return false; /* the sink tells why when it is closed */
     }
     char *path = gm_frames_path(&work->frames, frame);
-    const bool good = path && gm_png_read(path, work->options->look.width, work->options->look.height, rgb, message);
+    const bool good =
+        path && gm_png_read(path, work->options->look.width, work->options->look.height, rgb, message);
     if (good) {
         gm_sink_put(work->movie, rgb, frame, NULL, 0);
     }
@@ -459,8 +460,8 @@ static int render(struct gm_request *request, const struct gm_options *options, 
                                  .shards = options->shards};
     int status = GM_EXIT_USAGE;
     if (!work.drives || !work.lanes || !work.picture ||
-        !gm_schedule_make(&work.schedule, request, &pace, message) ||
-        !takes_format(&work, message) || !open_lanes(&work, message)) {
+        !gm_schedule_make(&work.schedule, request, &pace, message) || !takes_format(&work, message) ||
+        !open_lanes(&work, message)) {
         gm_complain("%s", message);
     } else {
         status = work.schedule.still ? paint_still(&work, name) : paint_all(&work, name);

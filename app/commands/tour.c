@@ -62,9 +62,9 @@ static int make_movie(const struct gm_tour *tour, const struct gm_options *optio
         return GM_EXIT_USAGE;
     }
     struct gm_tour_output output = {.movie = options->movie,
-                                          .folder = options->out,
-                                          .fps = isnan(options->fps) ? 30 : options->fps,
-                                          .look = options->look};
+                                    .folder = options->out,
+                                    .fps = isnan(options->fps) ? 30 : options->fps,
+                                    .look = options->look};
     output.look.theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
     gm_catch_interrupts();
     return gm_finish(gm_tour_render(tour, &output));

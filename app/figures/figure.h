@@ -34,10 +34,10 @@ struct gm_outcome {
 
 /* Where the figures go. */
 struct gm_figure_output {
-    const char *folder; /* that there is */
-    struct gm_look look; /* of their pictures; each is made in both themes */
+    const char *folder;        /* that there is */
+    struct gm_appearance look; /* of their pictures; each is made in both themes */
     enum gm_format format;
-    bool quick;         /* long runs are coarser: nothing is judged of them, and the page says so */
+    bool quick; /* long runs are coarser: nothing is judged of them, and the page says so */
 };
 
 /* A figure as asked for. */

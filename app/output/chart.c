@@ -40,10 +40,9 @@ static bool name_files(struct gm_chart *chart)
     const char *path = chart->path ? chart->path : "";
     const bool stream = strcmp(path, "-") == 0;
     const size_t stem = strlen(path) > strlen(".png") ? strlen(path) - strlen(".png") : 0;
-    const int picture =
-        chart->path ? snprintf(chart->picture, sizeof chart->picture, "%s", path)
-                    : snprintf(chart->picture, sizeof chart->picture, "%s/%s.%s", folder, chart->name,
-                               gm_format_name(chart->print.format));
+    const int picture = chart->path ? snprintf(chart->picture, sizeof chart->picture, "%s", path)
+                                    : snprintf(chart->picture, sizeof chart->picture, "%s/%s.%s", folder,
+                                               chart->name, gm_format_name(chart->print.format));
     const int csv = stream        ? snprintf(chart->csv, sizeof chart->csv, "%s", "")
                     : chart->path ? snprintf(chart->csv, sizeof chart->csv, "%.*s.csv", (int)stem, path)
                                   : snprintf(chart->csv, sizeof chart->csv, "%s/%s.csv", folder, chart->name);

@@ -6,11 +6,11 @@
 
 /* The diagram of a study and its numbers, beside each other: FOLDER/NAME.png and FOLDER/NAME.csv. */
 struct gm_chart {
-    const char *path;    /* of the picture; NULL: FOLDER/NAME with the format's ending; "-": no numbers then */
-    const char *folder;  /* NULL: the present one */
-    const char *name;    /* of both files, without their endings */
-    const char *command; /* the words that `again` measures it with, escaped; the look is added */
-    struct gm_print print; /* its path is set here */
+    const char *path;   /* of the picture; NULL: FOLDER/NAME with the format's ending; "-": no numbers then */
+    const char *folder; /* NULL: the present one */
+    const char *name;   /* of both files, without their endings */
+    const char *command;           /* the words that `again` measures it with, escaped; the look is added */
+    struct gm_print print;         /* its path is set here */
     char picture[4096], csv[4096]; /* where they are, when they are written; the second is "" for none */
 };
 

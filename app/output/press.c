@@ -44,7 +44,7 @@ bool gm_format_of(const char *path, enum gm_format *format)
     return dot && gm_format_find(dot + 1, format);
 }
 
-static bool no_memory(const struct gm_look *look, char *message)
+static bool no_memory(const struct gm_appearance *look, char *message)
 {
     snprintf(message, GM_MESSAGE, "not enough memory for a picture of %dx%d", look->width, look->height);
     return false;
@@ -52,7 +52,7 @@ static bool no_memory(const struct gm_look *look, char *message)
 
 struct gm_press *gm_press_open(const struct gm_print *print, char *message)
 {
-    const struct gm_look *look = &print->look;
+    const struct gm_appearance *look = &print->look;
     struct gm_press *press = calloc(1, sizeof *press);
     if (!press) {
         no_memory(look, message);
@@ -92,7 +92,7 @@ const char *gm_press_backend(const struct gm_press *press)
 bool gm_press_write(struct gm_press *press, struct gm_print *print, struct gm_picture *picture,
                     const struct gm_png_text *texts, size_t count, char *message)
 {
-    const struct gm_look *look = &print->look;
+    const struct gm_appearance *look = &print->look;
     const char *path = strcmp(print->path, "-") == 0 ? "/dev/stdout" : print->path;
     if (gm_memory_was_short()) {
         return no_memory(look, message);

@@ -3,7 +3,7 @@
 #define GM_APP_OUTPUT_PRESS_H
 
 #include "render/files/png.h"
-#include "render/layout/look.h"
+#include "render/layout/appearance.h"
 #include "render/picture/picture.h"
 
 /* One picture to a file, in the format of its ending. */
@@ -14,7 +14,7 @@ enum gm_format { GM_FORMAT_PNG, GM_FORMAT_SVG, GM_FORMAT_PDF, GM_FORMAT_COUNT };
 struct gm_print {
     const char *path; /* "-": standard output */
     enum gm_format format;
-    struct gm_look look;
+    struct gm_appearance look;
     size_t fields; /* set when it is printed: the fields of colours that a drawing holds as images */
 };
 

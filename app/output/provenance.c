@@ -74,19 +74,19 @@ static char *all_parameters(const struct gm_request *request)
     return text;
 }
 
-static const char *theme_name(const struct gm_look *look)
+static const char *theme_name(const struct gm_appearance *look)
 {
     return look->theme == GM_THEME_DARK ? "dark" : "light";
 }
 
 /* Whether the look has another scale of letters and lines than that of most. */
-static bool is_scaled(const struct gm_look *look)
+static bool is_scaled(const struct gm_appearance *look)
 {
     return look->scale > 0 && look->scale != 1;
 }
 
 /* What of the look is not as it mostly is. */
-static bool take_look(struct gm_provenance *provenance, const struct gm_look *look)
+static bool take_look(struct gm_provenance *provenance, const struct gm_appearance *look)
 {
     return (!is_scaled(look) || take(provenance, GM_KEY_SCALE, format("%.17g", look->scale))) &&
            (!(look->dpi > 0) || take(provenance, GM_KEY_DPI, format("%.17g", look->dpi))) &&
@@ -94,7 +94,7 @@ static bool take_look(struct gm_provenance *provenance, const struct gm_look *lo
 }
 
 bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request,
-                        const struct gm_look *look, const char *backend)
+                        const struct gm_appearance *look, const char *backend)
 {
     *provenance = (struct gm_provenance){0};
     const bool good =
@@ -105,8 +105,7 @@ bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_reques
         take(provenance, "geomint:parameters", all_parameters(request)) &&
         take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request)) &&
         take(provenance, GM_KEY_CHANGES, gm_changes_format(request)) &&
-        take(provenance, GM_KEY_PICTURE,
-             format("%dx%d %s", look->width, look->height, theme_name(look))) &&
+        take(provenance, GM_KEY_PICTURE, format("%dx%d %s", look->width, look->height, theme_name(look))) &&
         take_look(provenance, look) && take(provenance, "geomint:context", format("%s", backend));
     if (!good) {
         gm_provenance_close(provenance);
@@ -115,7 +114,7 @@ bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_reques
 }
 
 /* The options of a look, each with a blank before it. */
-static char *look_options(const struct gm_look *look)
+static char *look_options(const struct gm_appearance *look)
 {
     char *text = NULL;
     size_t size = 0;
@@ -139,7 +138,7 @@ static char *look_options(const struct gm_look *look)
 }
 
 bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
-                              const struct gm_look *look, const char *backend)
+                              const struct gm_appearance *look, const char *backend)
 {
     *provenance = (struct gm_provenance){0};
     char *options = look_options(look);

@@ -4,7 +4,7 @@
 
 #include "app/request/request.h"
 #include "render/files/png.h"
-#include "render/layout/look.h"
+#include "render/layout/appearance.h"
 
 /* What a PNG tells of how it was made: enough for `geomint again`. */
 
@@ -34,10 +34,10 @@ struct gm_provenance {
 
 /* Everything but the steps. False when memory is short. */
 bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request,
-                        const struct gm_look *look, const char *backend);
+                        const struct gm_appearance *look, const char *backend);
 /* The same for a chart: the words that `again` measures it with, to which the look is added. */
 bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
-                              const struct gm_look *look, const char *backend);
+                              const struct gm_appearance *look, const char *backend);
 void gm_provenance_close(struct gm_provenance *provenance);
 
 /* The steps of the lanes now, as the text of GM_KEY_STEPS; malloc'ed, NULL when memory is short. */

@@ -134,8 +134,8 @@ static bool write_page(struct show *show, const char *suffix)
     } else {
         memcpy(texts, provenance.texts, provenance.count * sizeof texts[0]);
         texts[provenance.count] = (struct gm_png_text){GM_KEY_STEPS, steps};
-        good = gm_png_write(path, output->look.width, output->look.height, show->rgb, texts, provenance.count + 1,
-                            show->message);
+        good = gm_png_write(path, output->look.width, output->look.height, show->rgb, texts,
+                            provenance.count + 1, show->message);
         show->failed = !good;
     }
     gm_provenance_close(&provenance);

@@ -9,7 +9,7 @@ static void set_sizes(struct gm_painter *painter)
 {
     static const double shares[GM_TEXT_SIZE_COUNT] = {0.036, 0.025, 0.022, 0.021};
     const double smallest = 9.0, screen_dpi = 96.0;
-    const struct gm_look *look = &painter->look;
+    const struct gm_appearance *look = &painter->look;
     const double larger = look->scale > 0.0 ? look->scale : 1.0;
     const double by_width = look->width / 960.0, by_height = look->height / 720.0;
     painter->density = look->dpi > 0.0 ? look->dpi / screen_dpi : 1.0;
@@ -22,7 +22,7 @@ static void set_sizes(struct gm_painter *painter)
 }
 
 bool gm_page_open(struct gm_painter *painter, const struct gm_pen *pen, void *self,
-                  const struct gm_look *look, char *message)
+                  const struct gm_appearance *look, char *message)
 {
     *painter = (struct gm_painter){.pen = pen, .self = self, .look = *look};
     set_sizes(painter);

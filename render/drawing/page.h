@@ -9,7 +9,7 @@
 
 /* False on failure, with one sentence in message (GM_MESSAGE bytes). To be closed in both cases. */
 bool gm_page_open(struct gm_painter *painter, const struct gm_pen *pen, void *self,
-                  const struct gm_look *look, char *message);
+                  const struct gm_appearance *look, char *message);
 void gm_page_close(struct gm_painter *painter);
 
 /* Lays the picture out and draws it. False when memory is short. */

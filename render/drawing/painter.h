@@ -3,15 +3,15 @@
 #define GM_RENDER_DRAWING_PAINTER_H
 
 #include "render/drawing/pen.h"
+#include "render/layout/appearance.h"
 #include "render/layout/layout.h"
-#include "render/layout/look.h"
 
 /* What draws a layout with a pen, alike for all pens: the sizes of letters and strokes, the look, and memory
    that is used again for every frame. Each of its functions has a file of its own. */
 struct gm_painter {
     const struct gm_pen *pen;
     void *self; /* of the pen */
-    struct gm_look look;
+    struct gm_appearance look;
     double scale;                    /* pixels for a pixel of a picture 720 high */
     double density;                  /* pixels for one of a screen, which is 1/96 inch */
     int letters[GM_TEXT_SIZE_COUNT]; /* heights of letters (em) */

@@ -17,8 +17,9 @@ struct gm_ink {
 
 enum { GM_DASH_PARTS = 6 };
 
-/* Where dots are lengths of 0 Cairo leaves out those among dashes: drawings have this length for them. */
-#define GM_SHORTEST_DASH 0.02f
+/* Where dots are lengths of 0 Cairo leaves out those among dashes: drawings have this
+   length for them, in widths of the line. */
+#define GM_SHORTEST_DASH 0.25f
 
 /* A line has round joints and ends. */
 struct gm_stroke {
@@ -32,10 +33,10 @@ struct gm_stroke {
 
 struct gm_writing {
     enum gm_font font;
-    int letters;                /* their height (the em) */
-    double x, y;                /* where the text begins on its baseline */
-    double width;               /* of all of it */
-    enum gm_anchor anchor;      /* which of its ends keeps its place in other fonts */
+    int letters;           /* their height (the em) */
+    double x, y;           /* where the text begins on its baseline */
+    double width;          /* of all of it */
+    enum gm_anchor anchor; /* which of its ends keeps its place in other fonts */
     bool upwards;
     struct gm_ink ink;
 };

@@ -76,8 +76,8 @@ unsigned char *gm_palette_png(const uint8_t *pixels, int columns, int rows,
     }
     size_t packed_size = 0;
     unsigned char *packed = pack(pixels, (size_t)columns, (size_t)rows, &packed_size);
-    *size = sizeof signature + sizeof head + sizeof colours + sizeof opacities + packed_size +
-            5 * (size_t)CHUNK;
+    *size =
+        sizeof signature + sizeof head + sizeof colours + sizeof opacities + packed_size + 5 * (size_t)CHUNK;
     unsigned char *png = packed ? malloc(*size) : NULL;
     if (png) {
         memcpy(png, signature, sizeof signature);

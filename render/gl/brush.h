@@ -17,11 +17,7 @@ struct gm_brush {
     struct gm_polyline dash;
 };
 
-/* brush.c: lines, discs, polygons, texts; its self is a gm_brush. */
+/* Its self is a gm_brush. */
 extern const struct gm_pen gm_brush_pen;
-
-/* fields.c: meshes, images and colour bars. */
-void gm_brush_field(void *self, const struct gm_frame *frame, const struct gm_mark *mark);
-void gm_brush_ramp(void *self, struct gm_box box, enum gm_map map);
 
 #endif

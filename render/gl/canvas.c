@@ -32,8 +32,8 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
     gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     most = most < viewport[0] ? most : viewport[0];
-    if (canvas->painter.look.width < 1 || canvas->painter.look.height < 1 || canvas->painter.look.width > most ||
-        canvas->painter.look.height > most) {
+    if (canvas->painter.look.width < 1 || canvas->painter.look.height < 1 ||
+        canvas->painter.look.width > most || canvas->painter.look.height > most) {
         snprintf(message, GM_MESSAGE, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
                  canvas->painter.look.width, canvas->painter.look.height, most);
         return false;
@@ -42,7 +42,8 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
     gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
     gl->GenRenderbuffers(1, &canvas->colour_buffer);
     gl->BindRenderbuffer(GL_RENDERBUFFER, canvas->colour_buffer);
-    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, canvas->painter.look.width, canvas->painter.look.height);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, canvas->painter.look.width,
+                            canvas->painter.look.height);
     gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, canvas->colour_buffer);
     gl->GenRenderbuffers(1, &canvas->stencil_buffer);
     gl->BindRenderbuffer(GL_RENDERBUFFER, canvas->stencil_buffer);
@@ -141,7 +142,7 @@ static void close_alone(struct gm_canvas *canvas)
     free(canvas);
 }
 
-static struct gm_canvas *open_alone(const struct gm_look *look, char *message)
+static struct gm_canvas *open_alone(const struct gm_appearance *look, char *message)
 {
     struct gm_canvas *canvas = calloc(1, sizeof *canvas);
     if (canvas == NULL) {
@@ -229,7 +230,8 @@ static bool paint_alone(struct gm_canvas *canvas, struct gm_picture *picture, un
     }
     update_atlas(canvas);
     clear(canvas);
-    const bool drawn = gm_batch_draw(&canvas->brush.batch, canvas->painter.look.width, canvas->painter.look.height);
+    const bool drawn =
+        gm_batch_draw(&canvas->brush.batch, canvas->painter.look.width, canvas->painter.look.height);
     read_back(canvas, rgb);
     return drawn;
 }
@@ -252,7 +254,7 @@ static void end_turn(void)
 
 enum { TAKEN = 512 << 20 /* bytes of the address space, by Mesa and what it loads */ };
 
-struct gm_canvas *gm_canvas_open(const struct gm_look *look, char *message)
+struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message)
 {
     take_turn();
     struct gm_canvas *canvas = open_alone(look, message);

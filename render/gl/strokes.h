@@ -2,8 +2,8 @@
 #ifndef GM_RENDER_GL_STROKES_H
 #define GM_RENDER_GL_STROKES_H
 
-#include "render/gl/batch.h"
 #include "render/drawing/pen.h"
+#include "render/gl/batch.h"
 
 /* Polylines and discs as triangles whose edges fade over a pixel. */
 

@@ -17,7 +17,7 @@
 #include "render/cells/text.h"
 #include "render/drawing/page.h"
 #include "render/files/temporary.h"
-#include "render/vector/field.h"
+#include "render/vector/field_image.h"
 
 enum { STOPS = 64 };
 
@@ -64,7 +64,7 @@ static void line(void *self, const struct gm_polyline *line, const struct gm_str
     struct gm_pdf *pdf = self;
     double pattern[GM_DASH_PARTS];
     for (size_t i = 0; i < stroke->parts; i++) {
-        pattern[i] = fmaxf(stroke->pattern[i], GM_SHORTEST_DASH);
+        pattern[i] = fmaxf(stroke->pattern[i], GM_SHORTEST_DASH * stroke->width);
     }
     put_path(pdf, line, line->closed);
     set_ink(pdf, stroke->ink);
@@ -104,11 +104,11 @@ static void box(void *self, float left, float top, float right, float bottom, st
 
 /* ---- fields ---- */
 
-static cairo_surface_t *image_of(const struct gm_field *image, enum gm_map map, enum gm_theme theme)
+static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_map map, enum gm_theme theme)
 {
     uint32_t colours[GM_FIELD_COLOURS + 1] = {0};
     for (int i = 0; i < GM_FIELD_COLOURS; i++) {
-        const struct gm_rgb rgb = gm_field_colour(map, theme, i);
+        const struct gm_rgb rgb = gm_field_image_colour(map, theme, i);
         colours[i] = 0xff000000u | (uint32_t)rgb.r << 16 | (uint32_t)rgb.g << 8 | rgb.b;
     }
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image->columns, image->rows);
@@ -116,8 +116,8 @@ static cairo_surface_t *image_of(const struct gm_field *image, enum gm_map map, 
     const size_t stride = (size_t)cairo_image_surface_get_stride(surface);
     for (size_t y = 0; data != NULL && y < (size_t)image->rows; y++) {
         for (size_t x = 0; x < (size_t)image->columns; x++) {
-            memcpy(data + y * stride + 4 * x,
-                   &colours[image->pixels[y * (size_t)image->columns + x]], sizeof *colours);
+            memcpy(data + y * stride + 4 * x, &colours[image->pixels[y * (size_t)image->columns + x]],
+                   sizeof *colours);
         }
     }
     cairo_surface_mark_dirty(surface);
@@ -127,8 +127,8 @@ static cairo_surface_t *image_of(const struct gm_field *image, enum gm_map map, 
 static void field(void *self, const struct gm_frame *frame, const struct gm_mark *mark)
 {
     struct gm_pdf *pdf = self;
-    struct gm_field image;
-    if (!gm_field_paint(&image, frame, mark, pdf->clip, GM_FIELD_FINE)) {
+    struct gm_field_image image;
+    if (!gm_field_image_paint(&image, frame, mark, pdf->clip, GM_FIELD_FINE)) {
         pdf->short_of_memory = true;
         return;
     }
@@ -143,7 +143,7 @@ static void field(void *self, const struct gm_frame *frame, const struct gm_mark
         cairo_surface_destroy(surface);
         pdf->fields++;
     }
-    gm_field_close(&image);
+    gm_field_image_close(&image);
 }
 
 static void ramp(void *self, struct gm_box box, enum gm_map map)
@@ -246,7 +246,7 @@ static void set_metadata(cairo_surface_t *surface, const char *title, const stru
     free(subject);
 }
 
-static void draw_page(struct gm_pdf *pdf, const struct gm_look *look, struct gm_picture *picture)
+static void draw_page(struct gm_pdf *pdf, const struct gm_appearance *look, struct gm_picture *picture)
 {
     for (int i = 0; i < GM_FONT_COUNT; i++) {
         pdf->fonts[i] = font_of(gm_glyphs_file(pdf->painter.glyphs, (enum gm_font)i));
@@ -270,7 +270,7 @@ static void draw_page(struct gm_pdf *pdf, const struct gm_look *look, struct gm_
 }
 
 /* The whole file in memory, malloc'ed; NULL when that is short. */
-static char *make_file(struct gm_pdf *pdf, const struct gm_look *look, struct gm_picture *picture,
+static char *make_file(struct gm_pdf *pdf, const struct gm_appearance *look, struct gm_picture *picture,
                        const struct gm_png_text *texts, size_t count, size_t *size)
 {
     const double points = 72.0, mm = 25.4, dpi = look->dpi > 0.0 ? look->dpi : 96.0;
@@ -299,7 +299,7 @@ static char *make_file(struct gm_pdf *pdf, const struct gm_look *look, struct gm
     return bytes;
 }
 
-bool gm_pdf_write(const char *path, const struct gm_look *look, struct gm_picture *picture,
+bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
                   const struct gm_png_text *texts, size_t count, size_t *fields, char *message)
 {
     enum { TAKEN = 16 << 20 /* bytes, by Cairo for a picture */ };

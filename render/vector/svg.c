@@ -15,7 +15,7 @@
 #include "render/files/base64.h"
 #include "render/files/palette_png.h"
 #include "render/files/temporary.h"
-#include "render/vector/field.h"
+#include "render/vector/field_image.h"
 
 enum shape { NO_SHAPE, LINES, DISCS, FILLS, BOXES };
 
@@ -186,7 +186,7 @@ static void begin_shapes(struct gm_svg *svg, enum shape shape, const struct gm_s
         put_attribute(svg->out, "stroke-width", stroke->width);
         for (size_t i = 0; i < stroke->parts; i++) {
             fputs(i == 0 ? " stroke-dasharray=\"" : " ", svg->out);
-            put_hundredths(svg->out, hundredths(fmaxf(stroke->pattern[i], GM_SHORTEST_DASH)));
+            put_hundredths(svg->out, hundredths(fmaxf(stroke->pattern[i], GM_SHORTEST_DASH * stroke->width)));
         }
         fputs(stroke->parts > 0 ? "\"" : "", svg->out);
     } else {
@@ -282,23 +282,22 @@ static void put_base64(struct gm_svg *svg, const unsigned char *bytes, size_t si
     free(text);
 }
 
-static void put_image(struct gm_svg *svg, const struct gm_field *image, enum gm_map map, double alpha)
+static void put_image(struct gm_svg *svg, const struct gm_field_image *image, enum gm_map map, double alpha)
 {
     uint8_t palette[GM_PALETTE][4] = {{0}};
     for (int i = 0; i < GM_FIELD_COLOURS; i++) {
-        const struct gm_rgb rgb = gm_field_colour(map, svg->painter.look.theme, i);
+        const struct gm_rgb rgb = gm_field_image_colour(map, svg->painter.look.theme, i);
         memcpy(palette[i], (const uint8_t[]){rgb.r, rgb.g, rgb.b, 255}, 4);
     }
     size_t size = 0;
-    unsigned char *png = gm_palette_png(image->pixels, image->columns, image->rows,
-                                        (const uint8_t(*)[4])palette, &size);
+    unsigned char *png =
+        gm_palette_png(image->pixels, image->columns, image->rows, (const uint8_t(*)[4])palette, &size);
     if (png == NULL) {
         svg->short_of_memory = true;
         return;
     }
-    fprintf(svg->out,
-            "<image x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" preserveAspectRatio=\"none\"", image->left,
-            image->top, image->width, image->height);
+    fprintf(svg->out, "<image x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" preserveAspectRatio=\"none\"",
+            image->left, image->top, image->width, image->height);
     if (alpha < 1.0) {
         put_attribute(svg->out, "opacity", alpha);
     }
@@ -311,9 +310,9 @@ static void put_image(struct gm_svg *svg, const struct gm_field *image, enum gm_
 static void field(void *self, const struct gm_frame *frame, const struct gm_mark *mark)
 {
     struct gm_svg *svg = self;
-    struct gm_field image;
+    struct gm_field_image image;
     end_shapes(svg);
-    if (!gm_field_paint(&image, frame, mark, svg->clip, GM_FIELD_FINE)) {
+    if (!gm_field_image_paint(&image, frame, mark, svg->clip, GM_FIELD_FINE)) {
         svg->short_of_memory = true;
         return;
     }
@@ -321,7 +320,7 @@ static void field(void *self, const struct gm_frame *frame, const struct gm_mark
         put_image(svg, &image, mark->map, mark->style.alpha);
         svg->fields++;
     }
-    gm_field_close(&image);
+    gm_field_image_close(&image);
 }
 
 static void ramp(void *self, struct gm_box box, enum gm_map map)
@@ -405,7 +404,7 @@ static const struct gm_pen pen = {.clip = clip,
 static void put_head(struct gm_svg *svg, const struct gm_picture *picture, const struct gm_png_text *texts,
                      size_t count)
 {
-    const struct gm_look *look = &svg->painter.look;
+    const struct gm_appearance *look = &svg->painter.look;
     const struct gm_rgb paper = gm_theme_colour(look->theme, GM_PAPER);
     const bool paged = look->page_width > 0.0 && look->page_height > 0.0;
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -433,7 +432,7 @@ static void put_head(struct gm_svg *svg, const struct gm_picture *picture, const
     fputs("/>\n", svg->out);
 }
 
-bool gm_svg_write(const char *path, const struct gm_look *look, struct gm_picture *picture,
+bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
                   const struct gm_png_text *texts, size_t count, size_t *fields, char *message)
 {
     char *bytes = NULL;

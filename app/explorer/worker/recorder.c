@@ -39,7 +39,7 @@ struct gm_recorder {
 static bool open_canvas(struct gm_recorder *recorder)
 {
     if (!recorder->canvas) {
-        const struct gm_look look = {.width = WIDTH, .height = HEIGHT, .theme = recorder->theme};
+        const struct gm_appearance look = {.width = WIDTH, .height = HEIGHT, .theme = recorder->theme};
         recorder->canvas = gm_canvas_open(&look, recorder->message);
     }
     if (!recorder->rgb) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_RENDER_VECTOR_FIELD_H
-#define GM_RENDER_VECTOR_FIELD_H
+#ifndef GM_RENDER_VECTOR_FIELD_IMAGE_H
+#define GM_RENDER_VECTOR_FIELD_IMAGE_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -17,7 +17,7 @@ enum { GM_FIELD_FINE = 2 };
 /* The colours of a map, and none. */
 enum { GM_FIELD_COLOURS = 255, GM_FIELD_NONE = GM_FIELD_COLOURS };
 
-struct gm_field {
+struct gm_field_image {
     int left, top, width, height; /* on the surface, in its pixels */
     int columns, rows;            /* of the pixels here: a multiple of these */
     uint8_t *pixels;              /* numbers of colours, top row first; malloc'ed */
@@ -26,11 +26,11 @@ struct gm_field {
 /* Paints a mesh or an image, as far as it lies in a rectangle {left, top, width, height} of the surface, with
    `fine` pixels for one of the surface. An empty field (width 0) where nothing of it does. False when memory
    is short. */
-bool gm_field_paint(struct gm_field *field, const struct gm_frame *frame, const struct gm_mark *mark,
-                    const int clip[4], int fine);
-void gm_field_close(struct gm_field *field);
+bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *frame,
+                          const struct gm_mark *mark, const int clip[4], int fine);
+void gm_field_image_close(struct gm_field_image *field);
 
 /* Colour `index` of a map. */
-struct gm_rgb gm_field_colour(enum gm_map map, enum gm_theme theme, int index);
+struct gm_rgb gm_field_image_colour(enum gm_map map, enum gm_theme theme, int index);
 
 #endif

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fields of colours as pixels: values are interpolated as OpenGL does it, linearly in triangles, bilinearly
    between the cells' middles in images. */
-#include "render/vector/field.h"
+#include "render/vector/field_image.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-struct gm_rgb gm_field_colour(enum gm_map map, enum gm_theme theme, int index)
+struct gm_rgb gm_field_image_colour(enum gm_map map, enum gm_theme theme, int index)
 {
     return gm_map_colour(map, theme, (double)index / (GM_FIELD_COLOURS - 1));
 }
 
-void gm_field_close(struct gm_field *field)
+void gm_field_image_close(struct gm_field_image *field)
 {
     free(field->pixels);
     field->pixels = NULL;
@@ -24,7 +24,7 @@ static int clamp(double value, int low, int high)
     return value > low ? (value < high ? (int)value : high) : low;
 }
 
-static void put(struct gm_field *field, int x, int y, const struct gm_mark *mark, double value)
+static void put(struct gm_field_image *field, int x, int y, const struct gm_mark *mark, double value)
 {
     const double place = (value - mark->low) / (mark->high - mark->low);
     field->pixels[(size_t)y * (size_t)field->columns + (size_t)x] =
@@ -36,7 +36,7 @@ struct corner {
 };
 
 /* Every pixel whose middle lies in the triangle, or on an edge of it. */
-static void paint_triangle(struct gm_field *field, const struct gm_mark *mark, const struct corner c[3])
+static void paint_triangle(struct gm_field_image *field, const struct gm_mark *mark, const struct corner c[3])
 {
     const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
     const double rounding = 1e-9;
@@ -60,7 +60,7 @@ static void paint_triangle(struct gm_field *field, const struct gm_mark *mark, c
     }
 }
 
-static void paint_mesh(struct gm_field *field, const struct gm_frame *frame, const struct gm_mark *mark,
+static void paint_mesh(struct gm_field_image *field, const struct gm_frame *frame, const struct gm_mark *mark,
                        int fine)
 {
     for (size_t i = 0; i < mark->triangle_count; i++) {
@@ -68,10 +68,9 @@ static void paint_mesh(struct gm_field *field, const struct gm_frame *frame, con
         bool known = true;
         for (size_t k = 0; k < 3; k++) {
             const size_t vertex = (size_t)mark->triangles[3 * i + k];
-            corners[k] =
-                (struct corner){fine * (gm_frame_x(frame, mark->points[2 * vertex]) - field->left),
-                                fine * (gm_frame_y(frame, mark->points[2 * vertex + 1]) - field->top),
-                                mark->values[vertex]};
+            corners[k] = (struct corner){
+                fine * (gm_frame_x(frame, mark->points[2 * vertex]) - field->left),
+                fine * (gm_frame_y(frame, mark->points[2 * vertex + 1]) - field->top), mark->values[vertex]};
             known = known && isfinite(corners[k].value);
         }
         if (known) {
@@ -94,8 +93,8 @@ static double value_at(const struct gm_mark *mark, double u, double v)
            t * ((1.0 - s) * high[left] + s * high[right]);
 }
 
-static void paint_image(struct gm_field *field, const struct gm_frame *frame, const struct gm_mark *mark,
-                        int fine)
+static void paint_image(struct gm_field_image *field, const struct gm_frame *frame,
+                        const struct gm_mark *mark, int fine)
 {
     const double left = gm_frame_x(frame, mark->points[0]), right = gm_frame_x(frame, mark->points[2]);
     const double bottom = gm_frame_y(frame, mark->points[1]), top = gm_frame_y(frame, mark->points[3]);
@@ -112,8 +111,43 @@ static void paint_image(struct gm_field *field, const struct gm_frame *frame, co
     }
 }
 
-bool gm_field_paint(struct gm_field *field, const struct gm_frame *frame, const struct gm_mark *mark,
-                    const int clip[4], int fine)
+static bool paint(struct gm_field_image *field, const struct gm_frame *frame, const struct gm_mark *mark,
+                  int fine)
+{
+    field->columns = fine * field->width;
+    field->rows = fine * field->height;
+    const size_t size = (size_t)field->columns * (size_t)field->rows;
+    field->pixels = malloc(size);
+    if (field->pixels == NULL) {
+        return false;
+    }
+    memset(field->pixels, GM_FIELD_NONE, size);
+    if (mark->kind == GM_MARK_MESH) {
+        paint_mesh(field, frame, mark, fine);
+    } else {
+        paint_image(field, frame, mark, fine);
+    }
+    return true;
+}
+
+/* A pixel of the surface is painted as a whole or not at all, by its middle, as on a screen: nothing that lies
+   under the field's edge shines through half of it. */
+static void keep_whole_pixels(struct gm_field_image *field, const struct gm_field_image *whole, int fine)
+{
+    for (int y = 0; y < field->rows; y++) {
+        for (int x = 0; x < field->columns; x++) {
+            uint8_t *pixel = &field->pixels[(size_t)y * (size_t)field->columns + (size_t)x];
+            const uint8_t middle =
+                whole->pixels[(size_t)(y / fine) * (size_t)whole->columns + (size_t)(x / fine)];
+            if (middle == GM_FIELD_NONE || *pixel == GM_FIELD_NONE) {
+                *pixel = middle;
+            }
+        }
+    }
+}
+
+bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *frame,
+                          const struct gm_mark *mark, const int clip[4], int fine)
 {
     const size_t count = mark->kind == GM_MARK_IMAGE ? 2 : mark->count;
     double low_x = INFINITY, high_x = -INFINITY, low_y = INFINITY, high_y = -INFINITY;
@@ -129,24 +163,17 @@ bool gm_field_paint(struct gm_field *field, const struct gm_frame *frame, const 
     const int right = clamp(ceil(high_x), clip[0], clip[0] + clip[2]);
     const int top = clamp(floor(low_y), clip[1], clip[1] + clip[3]);
     const int bottom = clamp(ceil(high_y), clip[1], clip[1] + clip[3]);
-    *field = (struct gm_field){.left = left, .top = top};
+    *field = (struct gm_field_image){.left = left, .top = top};
     if (right <= left || bottom <= top || !(mark->high > mark->low)) {
         return true;
     }
     field->width = right - left;
     field->height = bottom - top;
-    field->columns = fine * field->width;
-    field->rows = fine * field->height;
-    const size_t size = (size_t)field->columns * (size_t)field->rows;
-    field->pixels = malloc(size);
-    if (field->pixels == NULL) {
-        return false;
+    struct gm_field_image whole = *field;
+    const bool painted = paint(&whole, frame, mark, 1) && paint(field, frame, mark, fine);
+    if (painted) {
+        keep_whole_pixels(field, &whole, fine);
     }
-    memset(field->pixels, GM_FIELD_NONE, size);
-    if (mark->kind == GM_MARK_MESH) {
-        paint_mesh(field, frame, mark, fine);
-    } else {
-        paint_image(field, frame, mark, fine);
-    }
-    return true;
+    gm_field_image_close(&whole);
+    return painted;
 }
