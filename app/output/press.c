@@ -2,6 +2,7 @@
 /* Pictures to files: pixels by OpenGL to PNG, drawings to SVG and PDF. */
 #include "app/output/press.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,17 +98,18 @@ bool gm_press_write(struct gm_press *press, struct gm_print *print, struct gm_pi
     if (gm_memory_was_short()) {
         return no_memory(look, message);
     }
-    switch (print->format) {
-    case GM_FORMAT_SVG:
-        return gm_svg_write(path, look, picture, texts, count, &print->fields, message);
-    case GM_FORMAT_PDF:
-        return gm_pdf_write(path, look, picture, texts, count, &print->fields, message);
-    default:
-        if (!gm_canvas_paint(press->canvas, picture, press->rgb) || gm_memory_was_short()) {
-            return no_memory(look, message);
+    if (print->format != GM_FORMAT_PNG) {
+        const bool drawn = (print->format == GM_FORMAT_SVG ? gm_svg_write : gm_pdf_write)(
+            path, look, picture, texts, count, &print->fields, message);
+        if (!drawn && errno == ENOMEM) {
+            gm_memory_refused(); /* Cairo, perhaps, which tells nobody else */
         }
-        return gm_png_write(path, look->width, look->height, press->rgb, texts, count, message);
+        return drawn || (gm_memory_was_short() ? no_memory(look, message) : false);
     }
+    if (!gm_canvas_paint(press->canvas, picture, press->rgb) || gm_memory_was_short()) {
+        return no_memory(look, message);
+    }
+    return gm_png_write(path, look->width, look->height, press->rgb, texts, count, message);
 }
 
 void gm_press_tell(const struct gm_print *print, const char *table)
@@ -115,7 +117,7 @@ void gm_press_tell(const struct gm_print *print, const char *table)
     if (strcmp(print->path, "-") != 0) {
         gm_complain("wrote %s%s%s", print->path, table[0] ? " and " : "", table);
     }
-    if (print->fields > 0) {
+    if (print->fields > 0 && !gm_memory_was_short()) {
         gm_complain("%s in it %s of pixels; all else is lines and letters",
                     print->fields > 1 ? "the fields of colours" : "the field of colours",
                     print->fields > 1 ? "are images" : "is an image");

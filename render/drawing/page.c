@@ -14,7 +14,8 @@ static void set_sizes(struct gm_painter *painter)
     const double by_width = look->width / 960.0, by_height = look->height / 720.0;
     painter->density = look->dpi > 0.0 ? look->dpi / screen_dpi : 1.0;
     painter->scale = larger * (by_height < by_width ? by_height : by_width);
-    const int least = (int)(smallest * painter->density * fmax(larger, 1.0) + 0.5);
+    painter->enlarged = fmax(larger, 1.0);
+    const int least = (int)(smallest * painter->density * painter->enlarged + 0.5);
     for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++) {
         const int letters = (int)(720.0 * painter->scale * shares[i] + 0.5);
         painter->letters[i] = letters > least ? letters : least;

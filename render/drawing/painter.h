@@ -14,6 +14,7 @@ struct gm_painter {
     struct gm_appearance look;
     double scale;                    /* pixels for a pixel of a picture 720 high */
     double density;                  /* pixels for one of a screen, which is 1/96 inch */
+    double enlarged;                 /* how many times letters are larger than usual; at least 1 */
     int letters[GM_TEXT_SIZE_COUNT]; /* heights of letters (em) */
     struct gm_glyphs *glyphs;
     struct gm_polyline line, piece;

@@ -36,7 +36,7 @@ struct gm_metrics gm_painter_metrics(const struct gm_painter *painter)
         .measure = measure,
         .self = painter,
         .scale = painter->scale,
-        .terse = painter->look.height < roomy * painter->density,
+        .terse = painter->look.height < roomy * painter->density * painter->enlarged,
     };
     for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++) {
         metrics.line[i] = line_height(painter, painter->letters[i]);

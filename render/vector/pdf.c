@@ -13,7 +13,6 @@
 #include <cairo-pdf.h>
 #include <fontconfig/fontconfig.h>
 
-#include "render/address_space.h"
 #include "render/cells/text.h"
 #include "render/drawing/page.h"
 #include "render/files/temporary.h"
@@ -221,9 +220,27 @@ static const struct gm_pen pen = {.clip = clip,
 
 /* ---- the page ---- */
 
+/* A file as it grows in memory. */
+struct bytes {
+    char *at;
+    size_t size, capacity;
+};
+
 static cairo_status_t take_bytes(void *closure, const unsigned char *data, unsigned length)
 {
-    return fwrite(data, 1, length, closure) == length ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+    struct bytes *bytes = closure;
+    if (bytes->size + length > bytes->capacity) {
+        const size_t capacity = 2 * (bytes->size + length);
+        char *more = realloc(bytes->at, capacity);
+        if (more == NULL) {
+            return CAIRO_STATUS_NO_MEMORY;
+        }
+        bytes->at = more;
+        bytes->capacity = capacity;
+    }
+    memcpy(bytes->at + bytes->size, data, length);
+    bytes->size += length;
+    return CAIRO_STATUS_SUCCESS;
 }
 
 /* What the file tells of itself: how it was made, in its subject. */
@@ -277,12 +294,8 @@ static char *make_file(struct gm_pdf *pdf, const struct gm_appearance *look, str
     const bool paged = look->page_width > 0.0 && look->page_height > 0.0;
     const double width = points * (paged ? look->page_width / mm : look->width / dpi);
     const double height = points * (paged ? look->page_height / mm : look->height / dpi);
-    char *bytes = NULL;
-    FILE *stream = open_memstream(&bytes, size);
-    if (stream == NULL) {
-        return NULL;
-    }
-    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(take_bytes, stream, width, height);
+    struct bytes bytes = {0};
+    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(take_bytes, &bytes, width, height);
     set_metadata(surface, look->title != NULL ? look->title : picture->title, texts, count);
     pdf->cairo = cairo_create(surface);
     cairo_scale(pdf->cairo, width / look->width, height / look->height);
@@ -292,26 +305,23 @@ static char *make_file(struct gm_pdf *pdf, const struct gm_appearance *look, str
     cairo_surface_finish(surface);
     const bool finished = cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS;
     cairo_surface_destroy(surface);
-    if (fclose(stream) != 0 || !drawn || !finished || pdf->short_of_memory) {
-        free(bytes);
+    if (!drawn || !finished || pdf->short_of_memory) {
+        free(bytes.at);
         return NULL;
     }
-    return bytes;
+    *size = bytes.size;
+    return bytes.at;
 }
 
 bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
                   const struct gm_png_text *texts, size_t count, size_t *fields, char *message)
 {
-    enum { TAKEN = 16 << 20 /* bytes, by Cairo for a picture */ };
     struct gm_pdf pdf = {.clip = {0, 0, look->width, look->height}};
     char *bytes = NULL;
     size_t size = 0;
     const bool opened = gm_page_open(&pdf.painter, &pen, &pdf, look, message);
     if (opened) {
         bytes = make_file(&pdf, look, picture, texts, count, &size);
-        if (bytes == NULL) {
-            gm_address_space_has(TAKEN); /* notes a refusal that was Cairo's */
-        }
     }
     gm_page_close(&pdf.painter);
     const int error = bytes != NULL ? gm_temporary_write(path, bytes, size) : ENOMEM;
@@ -320,6 +330,7 @@ bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_
     if (error != 0 && opened) {
         snprintf(message, GM_MESSAGE, "cannot write %.360s: %s", path, strerror(error));
     }
+    errno = error;
     return error == 0;
 }
 

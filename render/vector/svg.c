@@ -104,7 +104,7 @@ static void put_text(FILE *out, const char *text)
             break;
         default:
             if (gm_text_is_shown(code) || code == '\n') {
-                fwrite(start, 1, (size_t)(text - start), out);
+                fprintf(out, "%.*s", (int)(text - start), start);
             } else {
                 fputs(unknown, out);
             }
@@ -272,13 +272,14 @@ static void box(void *self, float left, float top, float right, float bottom, st
 static void put_base64(struct gm_svg *svg, const unsigned char *bytes, size_t size)
 {
     const size_t length = gm_base64_size(size);
-    char *text = malloc(length);
+    char *text = malloc(length + 1);
     if (text == NULL) {
         svg->short_of_memory = true;
         return;
     }
     gm_base64(bytes, size, text);
-    fwrite(text, 1, length, svg->out);
+    text[length] = '\0';
+    fputs(text, svg->out);
     free(text);
 }
 
@@ -457,5 +458,6 @@ bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_
     if (error != 0 && opened) {
         snprintf(message, GM_MESSAGE, "cannot write %.360s: %s", path, strerror(error));
     }
+    errno = error;
     return error == 0;
 }

@@ -8,7 +8,8 @@
 
 /* Draws the picture as SVG 1.1: lines, shapes and texts, and fields of colours as images of pixels, whose
    number is set. The texts stand in its metadata. By way of a temporary name, so that a killed program leaves
-   no half file. False on failure, with one sentence in message (GM_MESSAGE bytes). */
+   no half file. False on failure, with one sentence in message (GM_MESSAGE bytes) and
+   errno: ENOMEM also where a library was refused memory. */
 bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
                   const struct gm_png_text *texts, size_t count, size_t *fields, char *message);
 
