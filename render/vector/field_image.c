@@ -147,7 +147,7 @@ static void keep_whole_pixels(struct gm_field_image *field, const struct gm_fiel
 }
 
 bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *frame,
-                          const struct gm_mark *mark, const int clip[4], int fine)
+                          const struct gm_mark *mark, const int clip[4])
 {
     const size_t count = mark->kind == GM_MARK_IMAGE ? 2 : mark->count;
     double low_x = INFINITY, high_x = -INFINITY, low_y = INFINITY, high_y = -INFINITY;
@@ -169,6 +169,8 @@ bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *f
     }
     field->width = right - left;
     field->height = bottom - top;
+    const double large = 4e6; /* pixels */
+    const int fine = (double)field->width * field->height > large ? 1 : 2;
     struct gm_field_image whole = *field;
     const bool painted = paint(&whole, frame, mark, 1) && paint(field, frame, mark, fine);
     if (painted) {

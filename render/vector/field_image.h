@@ -11,9 +11,6 @@
 /* A field of colours as pixels: between the values that are given the picture has others, and each pixel the
    colour of its own, which no few shapes of a drawing can tell. */
 
-/* Pixels for one of the surface, in drawings that are looked at from near. */
-enum { GM_FIELD_FINE = 2 };
-
 /* The colours of a map, and none. */
 enum { GM_FIELD_COLOURS = 255, GM_FIELD_NONE = GM_FIELD_COLOURS };
 
@@ -23,11 +20,11 @@ struct gm_field_image {
     uint8_t *pixels;              /* numbers of colours, top row first; malloc'ed */
 };
 
-/* Paints a mesh or an image, as far as it lies in a rectangle {left, top, width, height} of the surface, with
-   `fine` pixels for one of the surface. An empty field (width 0) where nothing of it does. False when memory
-   is short. */
+/* Paints a mesh or an image, as far as it lies in a rectangle {left, top, width, height} of the surface, with two
+   pixels for one of the surface, as drawings are looked at from near, or one where it is large. An empty field
+   (width 0) where nothing of it does. False when memory is short. */
 bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *frame,
-                          const struct gm_mark *mark, const int clip[4], int fine);
+                          const struct gm_mark *mark, const int clip[4]);
 void gm_field_image_close(struct gm_field_image *field);
 
 /* Colour `index` of a map. */

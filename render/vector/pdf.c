@@ -127,7 +127,7 @@ static void field(void *self, const struct gm_frame *frame, const struct gm_mark
 {
     struct gm_pdf *pdf = self;
     struct gm_field_image image;
-    if (!gm_field_image_paint(&image, frame, mark, pdf->clip, GM_FIELD_FINE)) {
+    if (!gm_field_image_paint(&image, frame, mark, pdf->clip)) {
         pdf->short_of_memory = true;
         return;
     }
@@ -135,7 +135,7 @@ static void field(void *self, const struct gm_frame *frame, const struct gm_mark
         cairo_surface_t *surface = image_of(&image, mark->map, pdf->painter.look.theme);
         cairo_save(pdf->cairo);
         cairo_translate(pdf->cairo, image.left, image.top);
-        cairo_scale(pdf->cairo, 1.0 / GM_FIELD_FINE, 1.0 / GM_FIELD_FINE);
+        cairo_scale(pdf->cairo, (double)image.width / image.columns, (double)image.height / image.rows);
         cairo_set_source_surface(pdf->cairo, surface, 0.0, 0.0);
         cairo_paint_with_alpha(pdf->cairo, mark->style.alpha);
         cairo_restore(pdf->cairo);

@@ -313,7 +313,7 @@ static void field(void *self, const struct gm_frame *frame, const struct gm_mark
     struct gm_svg *svg = self;
     struct gm_field_image image;
     end_shapes(svg);
-    if (!gm_field_image_paint(&image, frame, mark, svg->clip, GM_FIELD_FINE)) {
+    if (!gm_field_image_paint(&image, frame, mark, svg->clip)) {
         svg->short_of_memory = true;
         return;
     }
