@@ -46,7 +46,7 @@ static int help(void)
         "  geomint --version (-V) | --help (-h), geomint COMMAND --help (-h)\n\n"
         "key=value sets a parameter (geomint list SCENE names them), scheme=a,b,c the schemes; every key takes\n"
         "a list, and lanes are the product of the lists (zip=yes pairs them, overlay=yes puts all\n"
-        "into one panel). Numbers are typed as 1e-3, pi/60.\n"
+        "into one panel). Numbers are typed as 1e-3, pi/60; ranges as 0..0.9:10, or 1e-4..1e-1:log7 by equal factors.\n"
         "Exit: 0 done, 1 wrong usage, 2 numerical failure, 3 a file, 4 a broken claim,\n"
         "      5 not enough memory, 130 interrupted.\n");
     return gm_finish(GM_EXIT_OK);

@@ -58,6 +58,23 @@ bool gm_certify_solve(const gsl_odeiv2_system *equations, double tolerance, doub
     return gm_memory_guard_gsl(solve, &(struct solution){equations, tolerance, until, y});
 }
 
+static void ask_theory(struct gm_certificate *certificate)
+{
+    const struct gm_scheme *scheme = certificate->scheme;
+    struct gm_coefficients coefficients;
+    certificate->theory_holds = true;
+    if (!scheme->family->coefficients_open || !scheme->family->coefficients_open(scheme, &coefficients)) {
+        return;
+    }
+    const struct gm_theory theory = gm_theory_of(&coefficients);
+    gm_coefficients_close(&coefficients);
+    certificate->theory = theory;
+    certificate->theory_holds = scheme->order <= theory.order &&
+                                (theory.symplectic || !(scheme->claims & GM_SYMPLECTIC)) &&
+                                (theory.symmetric || !(scheme->claims & GM_SYMMETRIC));
+    certificate->order_holds &= certificate->order > 0.95 * theory.order;
+}
+
 struct gm_certificate gm_certify(const struct gm_scheme *scheme)
 {
     struct gm_certificate certificate = {.scheme = scheme, .order = NAN, .order_problem = ""};
@@ -69,7 +86,8 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
     gm_certificate_claim(&certificate, GM_SYMPLECTIC)->tolerance = 1e-10;
     gm_certificate_claim(&certificate, GM_KEEPS_VOLUME)->tolerance = 1e-10;
     scheme->family->kind->certify(scheme, &certificate);
-    certificate.holds = certificate.order_holds;
+    ask_theory(&certificate);
+    certificate.holds = certificate.order_holds && certificate.theory_holds;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
         struct gm_verdict *result = &certificate.claims[bit];
         result->holds = result->measured && result->defect <= result->tolerance;

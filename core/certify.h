@@ -5,6 +5,7 @@
 #include <gsl/gsl_odeiv2.h>
 
 #include "core/kind.h"
+#include "core/theory/theory.h"
 
 /* Measures what a scheme's row claims. Order is a log-log slope on non-linear problems, against a solution of
    GSL's Prince-Dormand stepper at its tightest tolerance (for a scheme that chooses its order, whose row says
@@ -20,13 +21,18 @@ struct gm_verdict {
     const char *problem; /* where the worst was seen */
 };
 
+/* What was measured, and what the coefficients say: a claim that either refutes is broken. */
 struct gm_certificate {
     const struct gm_scheme *scheme;
     double order; /* measured, the lowest over the problems */
     bool order_holds;
     const char *order_problem;
     struct gm_verdict claims[GM_CLAIM_COUNT]; /* by bit number */
-    bool holds;                               /* the order and every claim */
+    /* Of schemes whose rows are coefficients (gm_family.coefficients_open), else not known. It holds where the
+       conditions of the claimed order do, and the algebra of what is claimed of structure. */
+    struct gm_theory theory;
+    bool theory_holds;
+    bool holds; /* the order and every claim, by both */
 };
 
 struct gm_certificate gm_certify(const struct gm_scheme *scheme);

@@ -186,6 +186,34 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
     return run->status;
 }
 
+long gm_run_steps_at(const struct gm_run *run, double t)
+{
+    const double most = (double)(LONG_MAX / 4);
+    const double steps = round((t - run->t0) / run->dt);
+    return run->scheme->family->own_time || !(steps < most) ? LONG_MAX / 4
+                                                            : run->steps - run->n + (long)steps;
+}
+
+bool gm_run_goes_on(const struct gm_run *run, long steps, double until)
+{
+    const bool there = run->scheme->family->own_time && run->t >= until - 1e-12 * fabs(until);
+    return run->status == GM_OK && run->steps < steps && !there;
+}
+
+enum gm_status gm_run_to(struct gm_run *run, long steps, double until)
+{
+    const bool own_time = run->scheme->family->own_time;
+    while (gm_run_goes_on(run, steps, until)) {
+        gm_run_advance(run, own_time ? 1 : steps - run->steps);
+    }
+    return run->status;
+}
+
+enum gm_status gm_run_until(struct gm_run *run, double t)
+{
+    return gm_run_to(run, gm_run_steps_at(run, t), t);
+}
+
 void gm_run_set_step(struct gm_run *run, double dt)
 {
     run->t0 = run->t;

@@ -42,6 +42,18 @@ double gm_run_per_member(const struct gm_run *run, unsigned long count);
    and further calls do nothing. GM_OUT_OF_MEMORY leaves the state where it was before the call. */
 enum gm_status gm_run_advance(struct gm_run *run, long steps);
 
+/* How many steps in all a run has made when it is at the time t, to the nearest; of a scheme that chooses its
+   steps, more than it will ever make. */
+long gm_run_steps_at(const struct gm_run *run, double t);
+
+/* Whether a run is still on its way to an end: `steps` steps in all, or, if its scheme chooses them, the first
+   that is not before the time `until`; one that misses it by round-off has reached it. */
+bool gm_run_goes_on(const struct gm_run *run, long steps, double until);
+
+/* Advances to that end, as gm_run_advance does; gm_run_until to the time t alone. */
+enum gm_status gm_run_to(struct gm_run *run, long steps, double until);
+enum gm_status gm_run_until(struct gm_run *run, double t);
+
 /* Starts a new segment at the present time with another step (its sign may change). */
 void gm_run_set_step(struct gm_run *run, double dt);
 

@@ -59,6 +59,8 @@ struct gm_scheme {
     unsigned claims;          /* GM_SYMPLECTIC | ... */
 };
 
+struct gm_coefficients; /* core/theory/coefficients.h */
+
 struct gm_family {
     const struct gm_kind *kind; /* of the problems that it advances */
     const char *title;
@@ -67,6 +69,9 @@ struct gm_family {
     const struct gm_parameter *const *parameters; /* rows of gm_settings_parameters, NULL-terminated */
     /* Which of the loops over a problem's kernels is its, as its kind numbers them; 0: none. */
     int over_kernels;
+    /* Opens what theory knows a scheme by, where its rows are Runge-Kutta methods, plain or partitioned, or
+       splittings; false: out of memory. NULL: they are not. */
+    bool (*coefficients_open)(const struct gm_scheme *scheme, struct gm_coefficients *coefficients);
 
     /* All that follows is for families that are not loops over a problem's kernels. */
     /* Advances any problem that has the facets, where its kind has no other loop; NULL: none. */

@@ -2,8 +2,13 @@
 #ifndef GM_RENDER_MESSAGE_H
 #define GM_RENDER_MESSAGE_H
 
+#include <stdbool.h>
+
 /* Bytes of a message, the final zero among them: a sentence that says what is wrong, and may quote a path or
    another sentence. */
 enum { GM_MESSAGE = 512 };
+
+/* Writes the sentence into a message, cut to its size. Returns false, which is what a refusal returns. */
+__attribute__((format(printf, 2, 3))) bool gm_refuse(char *message, const char *format, ...);
 
 #endif

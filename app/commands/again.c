@@ -22,8 +22,7 @@ static bool drive(const struct gm_request *request, struct gm_lane **lanes, cons
         char *end = NULL;
         const long step = strtol(steps, &end, 10);
         if (end == steps || step < 0 || step > GM_MOST_STEPS) {
-            snprintf(message, GM_MESSAGE, "its steps are damaged");
-            return false;
+            return gm_refuse(message, "its steps are damaged");
         }
         steps = end;
         lanes[i] = gm_request_open_lane(request, i, message);
@@ -40,9 +39,7 @@ static bool is_complete(const char *path, char *const *texts, char *message)
 {
     for (size_t i = ARGUMENTS; i < NEEDED; i++) {
         if (!texts[i]) {
-            snprintf(message, GM_MESSAGE, "%.360s does not tell how it was made (it lacks %s)", path,
-                     keys[i]);
-            return false;
+            return gm_refuse(message, "%.360s does not tell how it was made (it lacks %s)", path, keys[i]);
         }
     }
     return true;
@@ -50,19 +47,14 @@ static bool is_complete(const char *path, char *const *texts, char *message)
 
 static bool parse(struct gm_request *request, const char *arguments, const char *changes, char *message)
 {
-    struct gm_arguments words = {0};
-    bool good = gm_arguments_split(&words, arguments);
-    if (!good) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
+    if (!gm_request_recall(request, arguments, message)) {
+        return false;
     }
-    good = good && gm_request_parse(request, words.count, words.words, 1, message);
-    gm_arguments_close(&words);
-    if (good && !gm_changes_parse(request, changes)) {
+    if (!gm_changes_parse(request, changes)) {
         gm_request_close(request);
-        snprintf(message, GM_MESSAGE, "its log of changes is damaged");
-        good = false;
+        return gm_refuse(message, "its log of changes is damaged");
     }
-    return good;
+    return true;
 }
 
 /* NAME-again, with `end` after it; malloc'ed */
@@ -80,7 +72,7 @@ static char *output_name(const char *path, const char *end)
 static const struct gm_command_row *chart_of(const char *name)
 {
     const struct gm_command_row *command = gm_command_find(name);
-    return command && command->bit & (GM_WORK_PRECISION | GM_STABILITY) ? command : NULL;
+    return command && command->bit & (GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP) ? command : NULL;
 }
 
 /* Measures a chart once more: the run times are those of now. */

@@ -38,6 +38,6 @@ int gm_command_chart(const struct gm_options *options, const char *command, cons
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
-    gm_press_tell(&chart.print, chart.csv);
+    gm_press_tell(&chart.print, write ? chart.csv : "");
     return GM_EXIT_OK;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* geomint complete WORD ...: what the last word may become, a line each, with a tab and a few words on it.
    The completions of the shells ask this, so that they know what the tables know. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -9,6 +10,7 @@
 #include "app/request/drive.h"
 #include "app/request/fitting.h"
 #include "app/request/words.h"
+#include "app/studies/sweep.h"
 #include "app/tours/tour.h"
 #include "core/schemes.h"
 
@@ -83,7 +85,7 @@ static void offer_tours(const struct stem *stem)
 static void offer_observables(const struct stem *stem, const struct gm_scene *scene)
 {
     for (size_t i = 0; scene && i < scene->observable_count; i++) {
-        char title[GM_SENTENCE];
+        char title[GM_MESSAGE];
         offer(stem, scene->observables[i].key,
               gm_observable_title(&scene->observables[i], title, sizeof title));
     }
@@ -106,7 +108,17 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
                          const struct gm_scene *scene)
 {
     if (strcmp(option->name, "--measure") == 0) {
-        offer_observables(stem, scene);
+        const char *comma = option->commands & GM_SWEEP ? strrchr(stem->begin, ',') : NULL;
+        struct stem last = *stem;
+        if (comma) { /* of a list the last one */
+            const size_t used = strlen(last.front);
+            snprintf(last.front + used, sizeof last.front - used, "%.*s", (int)(comma + 1 - stem->begin),
+                     stem->begin);
+            last.begin = comma + 1;
+        }
+        offer_observables(&last, scene);
+    } else if (strcmp(option->name, "--retry") == 0) {
+        offer_named(stem, gm_sweep_statuses);
     } else if (strcmp(option->name, "--region") == 0) {
         offer_schemes(stem, NULL);
     } else if (strcmp(option->name, "--format") == 0) {
@@ -149,8 +161,24 @@ static void offer_keys(const struct stem *stem, const struct gm_scene *scene)
     }
 }
 
+/* All values of a parameter as a range: one of another kind is soon made of it. */
+static void offer_range(const struct stem *stem, const struct gm_parameter *row)
+{
+    enum { FEW = 20 };
+    char low[40], high[40], text[128];
+    const bool whole = row->type == GM_INTEGER, equal_factors = row->logarithmic && row->lowest > 0 && !whole;
+    const double count = whole ? row->highest - row->lowest + 1 : 11;
+    if (!isfinite(row->lowest) || !isfinite(row->highest) || !(count > 1 && count <= FEW)) {
+        return;
+    }
+    gm_number_format(row->lowest, low, sizeof low);
+    gm_number_format(row->highest, high, sizeof high);
+    snprintf(text, sizeof text, "%s..%s:%s%.0f", low, high, equal_factors ? "log" : "", count);
+    offer(stem, text, equal_factors ? "a range, by equal factors" : "a range, evenly");
+}
+
 /* key=value, where the value may be a list. */
-static void offer_assignment(const char *word, const struct gm_scene *scene)
+static void offer_assignment(const char *word, const struct gm_scene *scene, bool sweeps)
 {
     const struct stem stem = behind_last(word, "=,");
     char key[64];
@@ -175,6 +203,9 @@ static void offer_assignment(const char *word, const struct gm_scene *scene)
         snprintf(range, sizeof range, "the default; ");
         gm_catalogue_range(row, range + strlen(range), sizeof range - strlen(range));
         offer(&stem, row->standard, range);
+        if (sweeps && (row->type == GM_REAL || row->type == GM_INTEGER)) {
+            offer_range(&stem, row);
+        }
     }
 }
 
@@ -239,10 +270,11 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
     case GM_RENDER:
     case GM_WORK_PRECISION:
     case GM_STABILITY:
+    case GM_SWEEP:
         if (!scene) {
             offer_scenes(&stem);
         } else if (strchr(word, '=')) {
-            offer_assignment(word, scene);
+            offer_assignment(word, scene, command->bit == GM_SWEEP);
         } else {
             offer_keys(&stem, scene);
         }

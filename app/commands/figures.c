@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "app/commands/commands.h"
+#include "app/cores/pool.h"
 #include "app/figures/page.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
@@ -120,8 +121,8 @@ static bool open_series(struct series *series, const struct gm_options *options)
         }
     }
     qsort(series->jobs, series->count, sizeof *series->jobs, by_name);
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    series->worker_count = processors < 1 ? 1 : processors > MOST_WORKERS ? MOST_WORKERS : (size_t)processors;
+    const size_t cores = gm_pool_cores();
+    series->worker_count = cores > MOST_WORKERS ? MOST_WORKERS : cores;
     series->progress = isatty(STDERR_FILENO);
     series->started = series->page_written = gm_clock_seconds();
     return true;

@@ -210,8 +210,7 @@ static bool open_entry(struct entry *entry, const struct gm_scene *scene, char *
     entry->run = default_lanes(scene, GM_RUN_SCHEMES, message);
     entry->render = entry->run ? default_lanes(scene, GM_RENDER_SCHEMES, message) : NULL;
     if (!entry->rows) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
+        return gm_refuse(message, "not enough memory");
     }
     for (size_t i = 0; i < scene->parameter_count; i++) {
         entry->rows[entry->row_count++] = &scene->parameters[i];
@@ -224,8 +223,7 @@ static bool open_entry(struct entry *entry, const struct gm_scene *scene, char *
     }
     /* half a list would be taken for a whole one */
     if (gm_memory_was_short()) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
+        return gm_refuse(message, "not enough memory");
     }
     return entry->render != NULL;
 }
@@ -243,7 +241,7 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
     gm_print_wrapped(scene->title, 0, 0);
     gm_print_wrapped(scene->blurb, 0, 0);
     gm_print_wrapped(scene->watch, 0, 0);
-    char unit[GM_SENTENCE];
+    char unit[GM_MESSAGE];
     snprintf(unit, sizeof unit, "The unit of time is %s.", scene->time);
     gm_print_wrapped(unit, 0, 0);
     printf("\n");
@@ -254,7 +252,7 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
     printf("\nobservables\n");
     for (size_t i = 0; i < scene->observable_count; i++) {
         const struct gm_observable *observable = &scene->observables[i];
-        char title[GM_SENTENCE];
+        char title[GM_MESSAGE];
         gm_print_wrapped(gm_observable_title(observable, title, sizeof title),
                          printf("  %s ", observable->key), KEY + 11);
     }

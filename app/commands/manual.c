@@ -134,8 +134,9 @@ static void put_words(void)
     printf(
         ".SH PARAMETERS\n"
         "Every parameter is a word key=value, and every key takes a list: lanes are the product of the lists, the "
-        "first of them gives the panels, the second the colours. Numbers are typed as 1e\\-3, pi/60, 2*pi. An "
-        "unknown key or a value out of range is refused with the nearest valid one.\n");
+        "first of them gives the panels, the second the colours. Numbers are typed as 1e\\-3, pi/60, 2*pi. A "
+        "list may hold ranges: 0..0.9:10 is ten values evenly, both ends among them, 1e\\-4..1e\\-1:log7 seven by "
+        "equal factors. An unknown key or a value out of range is refused with the nearest valid one.\n");
     for (size_t i = 0; i < gm_common_key_count; i++) {
         char name[40];
         snprintf(name, sizeof name, "%s=", gm_common_keys[i].name);
@@ -153,7 +154,8 @@ static void put_surroundings(void)
         {"0", "done"},
         {"1", "wrong usage"},
         {"2",
-         "a lane of run (of render with --strict) ended in a numerical failure; its numbers are printed"},
+         "a lane of run (of render with --strict) ended in a numerical failure; its numbers are printed; "
+         "with --strict also a lane of run that ended with a warning"},
         {"3", "a file could not be read or written"},
         {"4", "a claim of certify is broken"},
         {"5", "not enough memory; the status of such a lane is out-of-memory"},

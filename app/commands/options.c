@@ -22,7 +22,7 @@ struct row {
 };
 
 #define AT(member) offsetof(struct gm_options, member)
-#define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_TOUR)
+#define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP | GM_TOUR)
 #define PRINTS (GM_RENDER | GM_WORK_PRECISION | GM_STABILITY | GM_AGAIN)
 #define EXPLORES (GM_TUI | GM_TERMINAL | GM_TOUR)
 
@@ -65,10 +65,19 @@ static const struct row rows[] = {
     {"--theme", TEXT, EXPLORES, AT(shade), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
+    {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv", "keep the rows in FILE.csv; given again, it goes on"},
+    {"--jobs", WHOLE, GM_SWEEP, AT(jobs), "N", "N runs at once (one a core)"},
+    {"--retry", TEXT, GM_SWEEP, AT(retry), "STATUS", "rows of the table with this status are made anew"},
+    {"--yes", FLAG, GM_SWEEP, AT(yes), "", "even where these are more than a million runs"},
+    {"--join", TEXT, GM_SWEEP, AT(join), "FILE.csv",
+     "join the shares' tables, and name the rows that are missing"},
     {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},
+    {"--shard", SHARD, GM_SWEEP, AT(shard), "I/N",
+     "only the I-th of N shares of the runs, in a table of its own"},
     {"--strict", FLAG, GM_RUN | GM_RENDER, AT(strict), "",
      "exit 2 if a lane ends in a numerical failure (run: or with a warning)"},
     {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
+    {"--measure", TEXT, GM_SWEEP, AT(measure), "KEY,...", "the observables of the table (all)"},
     {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
      "the linear stability region of a scheme, no scene"},
     {"--list", FLAG, GM_TOUR, AT(listing), "", "what there is; with a tour, its steps"},
@@ -78,8 +87,7 @@ enum { ROWS = sizeof rows / sizeof rows[0] };
 
 static bool refuse(char *message, const char *name, const char *value, const char *what)
 {
-    snprintf(message, GM_MESSAGE, "%s %.60s%s%s", name, value, *value ? " " : "", what);
-    return false;
+    return gm_refuse(message, "%s %.60s%s%s", name, value, *value ? " " : "", what);
 }
 
 static bool store_between(char *place, const struct row *row, const char *value, double low, double high,
@@ -324,12 +332,15 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
         {"--json", "--markdown", "they are two formats"},
         {"--list", "--movie", "the first only tells of the tour"},
         {"--list", "--out", "the first only tells of the tour"},
+        {"--join", "--table", "the first makes no run"},
+        {"--join", "--shard", "the first makes no run"},
+        {"--join", "--retry", "the first makes no run"},
+        {"--join", "--measure", "the tables have the columns that they have"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (is_given(given, pairs[i].one) && is_given(given, pairs[i].other)) {
-            snprintf(message, GM_MESSAGE, "%s and %s contradict each other: %s", pairs[i].one, pairs[i].other,
-                     pairs[i].why);
-            return false;
+            return gm_refuse(message, "%s and %s contradict each other: %s", pairs[i].one, pairs[i].other,
+                             pairs[i].why);
         }
     }
     const struct {
@@ -344,9 +355,8 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
         for (size_t k = i + 1; k < FILES; k++) {
             if (files[i].path && files[k].path && strcmp(files[i].path, "-") != 0 &&
                 strcmp(files[i].path, files[k].path) == 0) {
-                snprintf(message, GM_MESSAGE, "%s and %s are to write to one file, %.300s", files[i].name,
-                         files[k].name, files[i].path);
-                return false;
+                return gm_refuse(message, "%s and %s are to write to one file, %.300s", files[i].name,
+                                 files[k].name, files[i].path);
             }
         }
     }
@@ -367,8 +377,7 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
         const char *word = gm_option_name(argv[i]);
         if (strncmp(word, "--", 2) != 0) {
             if (!gm_arguments_add(&options->arguments, word)) {
-                snprintf(message, GM_MESSAGE, "not enough memory");
-                return false;
+                return gm_refuse(message, "not enough memory");
             }
             continue;
         }
@@ -380,19 +389,16 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
         }
         const char *value = "";
         if (row->kind == FLAG && equals) {
-            snprintf(message, GM_MESSAGE, "%s takes no value", row->name);
-            return false;
+            return gm_refuse(message, "%s takes no value", row->name);
         }
         if (row->kind != FLAG) {
             value = equals ? equals + 1 : i + 1 < argc ? argv[++i] : NULL;
             if (!value) {
-                snprintf(message, GM_MESSAGE, "%s needs a value: %s", row->name, row->value);
-                return false;
+                return gm_refuse(message, "%s needs a value: %s", row->name, row->value);
             }
         }
         if (given[row - rows]) {
-            snprintf(message, GM_MESSAGE, "%s is given twice", row->name);
-            return false;
+            return gm_refuse(message, "%s is given twice", row->name);
         }
         given[row - rows] = true;
         if (!store(options, row, value, message)) {

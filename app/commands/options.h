@@ -20,20 +20,22 @@ enum gm_command {
     GM_WORK_PRECISION = 1 << 8,
     GM_STABILITY = 1 << 9,
     GM_TOUR = 1 << 10,
+    GM_SWEEP = 1 << 11,
     GM_MANUAL = 1 << 29,
     GM_COMPLETE = 1 << 30,
 };
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
-    int json, state, maximum, strict, longer, quick, markdown, listing;
+    int json, state, maximum, strict, longer, quick, markdown, listing, yes;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
     const char *csv, *profile, *out, *movie, *measure, *region, *changes;
     const char *output; /* one picture's file; NULL: not given */
     const char *format_name;
     enum gm_format format; /* of pictures: png, unless the two before say otherwise */
     const char *name;      /* of a chart's files, by `again` alone; NULL: the command's own */
-    long every, frames;
+    const char *table, *retry, *join; /* of sweep */
+    long every, frames, jobs;
     long shard, shards;                     /* 0, 0: not given */
     double fps, rate;                       /* NAN: not given */
     double from, at, interval;              /* NAN: not given */

@@ -116,16 +116,14 @@ static bool paint_frame(struct work *work, long frame, char *message)
     gm_picture_clear(work->picture);
     work->request->scene->draw(lanes_of(work), work->request->count, work->picture);
     if (!gm_canvas_paint(work->canvas, work->picture, rgb) || gm_memory_was_short()) {
-        snprintf(message, GM_MESSAGE, "not enough memory to paint");
-        return false;
+        return gm_refuse(message, "not enough memory to paint");
     }
     if (copy) {
         memcpy(copy, rgb, 3 * (size_t)work->options->look.width * (size_t)work->options->look.height);
         gm_sink_put(work->movie, copy, frame, NULL, 0);
     }
     if (!put_picture(work, rgb, frame)) {
-        snprintf(message, GM_MESSAGE, "not enough memory for a frame's texts");
-        return false;
+        return gm_refuse(message, "not enough memory for a frame's texts");
     }
     return true;
 }
@@ -304,7 +302,7 @@ static void tell_warnings(const struct work *work)
     const long last = gm_schedule_last(&work->schedule);
     const bool painted = work->schedule.still || last < 0 || !work->frames.there[last];
     for (size_t i = 0; painted && i < work->request->count; i++) {
-        char sentence[GM_SENTENCE];
+        char sentence[GM_MESSAGE];
         gm_lane_warning(work->lanes[i], sentence, sizeof sentence);
         if (sentence[0]) {
             gm_complain("%s: warning: %s", work->lanes[i]->scheme->name, sentence);
@@ -357,8 +355,7 @@ static int paint_all(struct work *work, const char *name)
     bool good = work->canvas != NULL;
     if (good && !gm_provenance_make(&work->provenance, work->request, &options->look,
                                     gm_canvas_backend(work->canvas))) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        good = false;
+        good = gm_refuse(message, "not enough memory");
     }
     good = good && open_sinks(work, name, message);
     if (good && work->frames.found > 0) {
@@ -488,14 +485,12 @@ static bool take_changes(struct gm_request *request, const char *list, char *mes
     bool good = !list || (text && gm_changes_parse(request, text));
     free(text);
     if (!good) {
-        snprintf(message, GM_MESSAGE,
-                 "--changes %.60s is not LANE:STEP:KEY=VALUE,... of lanes that there are", list);
+        gm_refuse(message, "--changes %.60s is not LANE:STEP:KEY=VALUE,... of lanes that there are", list);
     }
     for (size_t i = 0; good && i < request->change_count; i++) {
         char sentence[GM_MESSAGE];
         if (!gm_change_check(request, &request->changes[i], sentence)) {
-            snprintf(message, GM_MESSAGE, "--changes %.60s: %.400s", list, sentence);
-            good = false;
+            good = gm_refuse(message, "--changes %.60s: %.400s", list, sentence);
         }
     }
     if (!good) {

@@ -13,6 +13,7 @@
 #include "app/data/save.h"
 #include "app/data/tracks.h"
 #include "app/output/checkpoint.h"
+#include "app/output/csv.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
 #include "app/output/pause.h"
@@ -32,13 +33,13 @@ struct outputs {
 
 struct outcome {
     struct gm_drive drive;
-    double *values;            /* one per observable, at the end */
-    double *maxima;            /* one per observable, of largest magnitude; NULL without --max */
-    char *front;               /* "scene,lane,scheme" and the keys that differ: how a row of CSV begins */
-    bool interrupted;          /* before it came to its end */
-    struct outputs *outputs;   /* of all lanes */
-    struct gm_paused paused;   /* numbers: the maxima */
-    char warning[GM_SENTENCE]; /* what is wrong with an end that is called well; "" for nothing */
+    double *values;           /* one per observable, at the end */
+    double *maxima;           /* one per observable, of largest magnitude; NULL without --max */
+    char *front;              /* "scene,lane,scheme" and the keys that differ: how a row of CSV begins */
+    bool interrupted;         /* before it came to its end */
+    struct outputs *outputs;  /* of all lanes */
+    struct gm_paused paused;  /* numbers: the maxima */
+    char warning[GM_MESSAGE]; /* what is wrong with an end that is called well; "" for nothing */
 };
 
 /* Looks at the lane's end. Where there is no memory for that the lane says so, and the number is not one. */
@@ -89,7 +90,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
 {
     const struct gm_lane *lane = outcome->drive.lane;
     const struct gm_run *run = lane->run;
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
     printf("{\"scene\":\"%s\",\"scheme\":\"%s\",\"parameters\":", lane->scene->name, lane->scheme->name);
     gm_meta_parameters(stdout, lane);
@@ -135,7 +136,7 @@ static void print_text(const struct outcome *outcome)
         width = length > width ? length : width;
     }
     width = width > 20 ? width : 20;
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     printf("  %-*s %s%s\n", width, "status", tell_end(outcome, sentence, sizeof sentence),
            outcome->warning[0] ? " (with a warning)" : "");
     if (outcome->warning[0]) {
@@ -187,13 +188,8 @@ static void put_cell(FILE *stream, const struct gm_parameter *row, const void *o
         return;
     }
     gm_parameter_format(row, owner, text, sizeof text);
-    const bool quoted = strpbrk(text, ",\"") != NULL;
-    fputs(quoted ? ",\"" : ",", stream);
-    for (const char *at = text; *at; at++) {
-        fputs(*at == '"' ? "\"" : "", stream);
-        fputc(*at, stream);
-    }
-    fputs(quoted ? "\"" : "", stream);
+    fputc(',', stream);
+    gm_csv_put_text(stream, text);
 }
 
 /* How every row of CSV of a lane begins, or, without a lane, the names of these columns; malloc'ed, NULL when
@@ -234,7 +230,7 @@ static char *front_of(const struct gm_request *request, const struct gm_lane *la
 static void write_row(FILE *csv, const struct outcome *outcome)
 {
     const struct gm_lane *lane = outcome->drive.lane;
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     fprintf(csv, "%s,%.17g,%s", outcome->front, lane->run->t, tell_end(outcome, sentence, sizeof sentence));
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         fprintf(csv, ",%.17g", gm_lane_observe(lane, i));
@@ -274,8 +270,7 @@ static bool keep_state(struct outcome *outcome, char *message)
         return false;
     }
     if (!gm_pause_note(outputs->pause, drive->index, drive->lane, &outcome->paused)) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
+        return gm_refuse(message, "not enough memory");
     }
     return gm_pause_write(outputs->pause, outputs->options->checkpoint, message);
 }
@@ -310,7 +305,7 @@ static bool drive_lane(struct outcome *outcome, long steps, char *message)
     const struct gm_run *run = drive->lane->run;
     const bool has_rows = outputs->csv || outputs->save;
     struct pace pace = {.steps = 1, .looked = gm_clock_seconds(), .kept = gm_clock_seconds()};
-    while (run->steps < steps && run->status == GM_OK && !gm_interrupted && !gm_drive_is_over(drive)) {
+    while (gm_drive_goes_on(drive, steps) && !gm_interrupted) {
         long next = outcome->maxima ? run->steps + 1 : steps;
         if (has_rows) {
             const long row = gm_rows_next(&outputs->rows, run);
@@ -373,11 +368,10 @@ static bool end_rows(struct outcome *outcome, char *message)
     if (missing && !gm_save_row(outputs->save, lane->run, message)) {
         return false;
     }
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     char *meta = gm_meta_text(lane, tell_end(outcome, sentence, sizeof sentence), sentence);
     if (!meta) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
+        return gm_refuse(message, "not enough memory");
     }
     const bool good = gm_save_end(outputs->save, meta, message);
     free(meta);
@@ -387,7 +381,6 @@ static bool end_rows(struct outcome *outcome, char *message)
 /* Runs one lane; how it ended, if not well, is the last row of its history. */
 static bool run_lane(struct outcome *outcome, long steps, char *message)
 {
-    const struct gm_run *run = outcome->drive.lane->run;
     outcome->paused = (struct gm_paused){.last_row = -1, .numbers = outcome->maxima};
     if (outcome->outputs->pause && !gm_pause_restore(outcome->outputs->pause, outcome->drive.index,
                                                      outcome->drive.lane, &outcome->paused, message)) {
@@ -398,8 +391,7 @@ static bool run_lane(struct outcome *outcome, long steps, char *message)
     if (!begin_rows(outcome, message) || !drive_lane(outcome, steps, message)) {
         return false;
     }
-    outcome->interrupted =
-        gm_interrupted && run->status == GM_OK && run->steps < steps && !gm_drive_is_over(&outcome->drive);
+    outcome->interrupted = gm_interrupted && gm_drive_goes_on(&outcome->drive, steps);
     return (!outcome->outputs->options->checkpoint || keep_state(outcome, message)) &&
            end_rows(outcome, message);
 }
@@ -420,7 +412,7 @@ static FILE *open_stream(const char *path, const char *mode, char *message)
     }
     FILE *stream = fopen(path, mode);
     if (!stream) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", path, strerror(errno));
+        gm_refuse(message, "%.360s could not be written: %s", path, strerror(errno));
     }
     return stream;
 }
@@ -442,7 +434,7 @@ static FILE *open_csv(const char *path, const struct gm_request *request, char *
     }
     char *names = front_of(request, NULL, 0);
     if (!names) { /* rows without a head tell nothing */
-        snprintf(message, GM_MESSAGE, "not enough memory");
+        gm_refuse(message, "not enough memory");
         close_csv(csv);
         return NULL;
     }
@@ -484,9 +476,8 @@ static bool write_profile(const char *path, const struct outcome *outcome, char 
     free(front);
     free(names);
     if (!close_csv(stream) || !told) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", path,
-                 told ? strerror(errno) : "not enough memory");
-        return false;
+        return gm_refuse(message, "%.360s could not be written: %s", path,
+                         told ? strerror(errno) : "not enough memory");
     }
     return true;
 }
@@ -495,7 +486,7 @@ static bool write_profile(const char *path, const struct outcome *outcome, char 
  * written. */
 static bool tell(const struct outcome *outcome, const struct gm_options *options, char *message)
 {
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
     if (options->json) {
         print_json(outcome, options);
@@ -544,14 +535,14 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
     const struct gm_options *options = outputs->options;
     const size_t numbers = options->maximum ? request->scene->observable_count : 0;
     if (options->profile && !has_profile(request)) {
-        snprintf(message, GM_MESSAGE, "scene %s has no profiles", request->scene->name);
+        gm_refuse(message, "scene %s has no profiles", request->scene->name);
         return GM_EXIT_USAGE;
     }
     if (options->save && !gm_save_knows(options->save, message)) {
         return GM_EXIT_USAGE;
     }
     if ((options->checkpoint || options->from_checkpoint) && !gm_checkpoint_fits(request)) {
-        snprintf(message, GM_MESSAGE, "a run of these schemes cannot be gone on with from a checkpoint");
+        gm_refuse(message, "a run of these schemes cannot be gone on with from a checkpoint");
         return GM_EXIT_USAGE;
     }
     if (options->tracks && !gm_tracks_knows(options->tracks, request->scene, message)) {

@@ -27,7 +27,7 @@ static void empty(const struct gm_part *part)
 {
     DIR *entries = opendir(part->path);
     const struct dirent *entry = NULL;
-    while (entries && (entry = readdir(entries)) != NULL) {
+    while (entries && (entry = readdir(entries))) {
         if (strncmp(entry->d_name, "column-", strlen("column-")) == 0) {
             unlinkat(part->folder, entry->d_name, 0);
         }
@@ -60,7 +60,7 @@ struct gm_part *gm_part_open(const char *path, bool go_on, char *message)
     struct gm_part *part = calloc(1, sizeof *part);
     if (!part || asprintf(&part->path, "%s.part", path) < 0) {
         free(part);
-        snprintf(message, GM_MESSAGE, "not enough memory");
+        gm_refuse(message, "not enough memory");
         return NULL;
     }
     part->folder = -1;
@@ -73,12 +73,11 @@ struct gm_part *gm_part_open(const char *path, bool go_on, char *message)
         return part;
     }
     if (held) {
-        snprintf(message, GM_MESSAGE, "%.300s is being written by another process", path);
+        gm_refuse(message, "%.300s is being written by another process", path);
     } else if (go_on && errno == ENOENT) {
-        snprintf(message, GM_MESSAGE,
-                 "%.200s.part is not there: what was saved before cannot be gone on with", path);
+        gm_refuse(message, "%.200s.part is not there: what was saved before cannot be gone on with", path);
     } else if (there) {
-        snprintf(message, GM_MESSAGE, "%.300s.part could not be opened: %s", path, strerror(errno));
+        gm_refuse(message, "%.300s.part could not be opened: %s", path, strerror(errno));
     }
     gm_part_close(part, false);
     return NULL;

@@ -5,7 +5,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "app/data/format.h"
 #include "render/clock.h"
@@ -41,14 +40,12 @@ bool gm_save_knows(const char *path, char *message)
     if (format_of(path)) {
         return true;
     }
-    snprintf(message, GM_MESSAGE, "%.300s cannot be saved: no ending of .npz, .csv, .pvd", path);
-    return false;
+    return gm_refuse(message, "%.300s cannot be saved: no ending of .npz, .csv, .pvd", path);
 }
 
 static bool complain(const struct gm_save *save, char *message)
 {
-    snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", save->path, strerror(errno));
-    return false;
+    return gm_refuse(message, "%.360s could not be written: %s", save->path, strerror(errno));
 }
 
 struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, char *message)
@@ -57,9 +54,9 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, char *m
     struct gm_saved *saved = calloc(lanes, sizeof *saved);
     char *name = strdup(path);
     if (!save || !saved || !name || !gm_temporary_fits(path)) {
-        snprintf(message, GM_MESSAGE,
-                 save && saved && name ? "%.360s is no file that can be replaced" : "not enough memory",
-                 path);
+        gm_refuse(message,
+                  save && saved && name ? "%.360s is no file that can be replaced" : "not enough memory",
+                  path);
         free(save);
         free(saved);
         free(name);
@@ -94,35 +91,21 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
     lane->scratch = malloc(longest * sizeof *lane->scratch);
     const char *reason = save->format->refuse ? save->format->refuse(&save->saving) : NULL;
     if (reason) {
-        snprintf(message, GM_MESSAGE, "%.240s cannot be saved: %s", save->path, reason);
-        return false;
+        return gm_refuse(message, "%.240s cannot be saved: %s", save->path, reason);
     }
     errno = ENOMEM;
     return (lane->scratch && save->format->begin(&save->saving, lane, run)) || complain(save, message);
 }
 
-/* Makes the file beside its place, and puts it there. */
-static bool publish(struct gm_save *save)
+static bool join(FILE *file, const void *context)
 {
-    char *temporary = gm_temporary_name(save->path, ".tmp");
-    FILE *file = temporary ? fopen(temporary, "wbxe") : NULL;
-    bool good =
-        file && save->format->join(&save->saving, file) && fflush(file) == 0 && fsync(fileno(file)) == 0;
-    int why = errno;
-    if (file && fclose(file) != 0 && good) {
-        why = errno;
-        good = false;
-    }
-    if (good && rename(temporary, save->path) != 0) {
-        why = errno;
-        good = false;
-    }
-    if (file && !good) {
-        unlink(temporary);
-    }
-    free(temporary);
-    errno = why;
-    return good;
+    const struct gm_save *save = context;
+    return save->format->join(&save->saving, file);
+}
+
+static bool publish(const struct gm_save *save)
+{
+    return gm_temporary_make(save->path, join, save);
 }
 
 static bool flush(struct gm_saved *lane, bool sync)

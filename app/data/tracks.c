@@ -24,20 +24,17 @@ bool gm_tracks_knows(const char *path, const struct gm_scene *scene, char *messa
 {
     const size_t length = strlen(path), ending = strlen(".npz");
     if (scene->track_count == 0) {
-        snprintf(message, GM_MESSAGE, "scene %s records no tracks", scene->name);
-        return false;
+        return gm_refuse(message, "scene %s records no tracks", scene->name);
     }
     if (length <= ending || strcmp(path + length - ending, ".npz") != 0) {
-        snprintf(message, GM_MESSAGE, "%.300s cannot be saved: tracks go to an .npz file", path);
-        return false;
+        return gm_refuse(message, "%.300s cannot be saved: tracks go to an .npz file", path);
     }
     return true;
 }
 
 static bool complain(const struct gm_tracks *tracks, char *message)
 {
-    snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", tracks->path, strerror(errno));
-    return false;
+    return gm_refuse(message, "%.360s could not be written: %s", tracks->path, strerror(errno));
 }
 
 struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
@@ -47,7 +44,7 @@ struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
     }
     struct gm_tracks *tracks = calloc(1, sizeof *tracks);
     if (!tracks) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
+        gm_refuse(message, "not enough memory");
         return NULL;
     }
     *tracks = (struct gm_tracks){.path = path, .lanes = lanes};

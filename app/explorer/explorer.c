@@ -201,7 +201,7 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     /* The lanes are opened before the terminal is taken over: a mistake is best read in the shell. */
     bool ok = explorer.wake >= 0;
     if (!ok) {
-        snprintf(explorer.message, GM_MESSAGE, "The system has no eventfd to spare.");
+        gm_refuse(explorer.message, "The system has no eventfd to spare.");
     } else if (tour) {
         explorer.open.guide = gm_guide_open(tour);
         explorer.face.guide = &explorer.open.guide;

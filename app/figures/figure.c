@@ -44,7 +44,7 @@ static bool parse(struct gm_request *request, const struct gm_figure_job *job, c
                       gm_request_parse(request, words.count, words.words, FEW_SCHEMES, sentence);
     gm_arguments_close(&words);
     if (!good) {
-        snprintf(message, GM_MESSAGE, "%s: %.400s", job->figure->name, sentence);
+        gm_refuse(message, "%s: %.400s", job->figure->name, sentence);
     }
     return good;
 }
@@ -126,20 +126,15 @@ static bool check_statement(const struct gm_request *request, const struct gm_st
     const size_t others = statement->against ? choose(request, statement->against, chosen, &known) : 1;
     const bool paired = others == 1 || others == count || (statement->over && others > 0);
     if (!known || count == 0 || !paired) {
-        snprintf(message, GM_MESSAGE, "\"%s\" does not name its lanes: %s", statement->says,
-                 statement->lanes);
-        return false;
+        return gm_refuse(message, "\"%s\" does not name its lanes: %s", statement->says, statement->lanes);
     }
     if (statement->measure != GM_LASTS && gm_scene_observable(request->scene, statement->observable) < 0) {
-        snprintf(message, GM_MESSAGE, "\"%s\" names no observable: %s", statement->says,
-                 statement->observable);
-        return false;
+        return gm_refuse(message, "\"%s\" names no observable: %s", statement->says, statement->observable);
     }
     if (statement->over && gm_scene_observable(request->scene, statement->over) < 0 &&
         !gm_scene_parameter(request->scene, statement->over)) {
-        snprintf(message, GM_MESSAGE, "\"%s\" is an order over nothing known: %s", statement->says,
-                 statement->over);
-        return false;
+        return gm_refuse(message, "\"%s\" is an order over nothing known: %s", statement->says,
+                         statement->over);
     }
     return true;
 }
@@ -152,15 +147,14 @@ bool gm_figure_check(const struct gm_figure_job *job, char *message)
     }
     if (job->published->count > GM_FIGURE_STATEMENTS ||
         job->scene->observable_count > GM_FIGURE_OBSERVABLES) {
-        snprintf(message, GM_MESSAGE, "%s has too many statements or observables", job->figure->name);
-        return false;
+        return gm_refuse(message, "%s has too many statements or observables", job->figure->name);
     }
     if (!parse(&request, job, message)) {
         return false;
     }
     bool good = request.count <= GM_FIGURE_LANES;
     if (!good) {
-        snprintf(message, GM_MESSAGE, "%s has more than %d lanes", job->figure->name, GM_FIGURE_LANES);
+        gm_refuse(message, "%s has more than %d lanes", job->figure->name, GM_FIGURE_LANES);
     }
     for (size_t i = 0; i < job->published->count && good; i++) {
         good = check_statement(&request, &job->published->statements[i], message);

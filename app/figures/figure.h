@@ -21,7 +21,7 @@ struct gm_outcome {
     size_t lane_count;
     struct {
         char label[GM_FIGURE_LABEL]; /* the scheme and what else sets the lane apart */
-        char failure[GM_SENTENCE];   /* "" where it came to its end */
+        char failure[GM_MESSAGE];    /* "" where it came to its end */
         double t;
         double observables[GM_FIGURE_OBSERVABLES];
     } lanes[GM_FIGURE_LANES];

@@ -382,8 +382,7 @@ bool gm_figures_page_write(const struct gm_figure_output *output, const struct g
     const char *out = output->folder;
     if (asprintf(&path, "%s/figures.html", out) < 0 || asprintf(&partial, "%s/.figures.html", out) < 0) {
         free(path);
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
+        return gm_refuse(message, "not enough memory");
     }
     errno = 0;
     FILE *page = fopen(partial, "w");
@@ -403,8 +402,8 @@ bool gm_figures_page_write(const struct gm_figure_output *output, const struct g
         good = good && rename(partial, path) == 0;
     }
     if (!good) {
-        snprintf(message, GM_MESSAGE, "%.200s could not be written: %s", path,
-                 gm_memory_was_short() ? "not enough memory" : strerror(errno));
+        gm_refuse(message, "%.200s could not be written: %s", path,
+                  gm_memory_was_short() ? "not enough memory" : strerror(errno));
         remove(partial);
     }
     free(path);

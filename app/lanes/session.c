@@ -12,15 +12,9 @@
 #include "scenes/frame/lane_pack.h"
 
 /* Says a sentence; false. */
-static bool refuse(char *message, const char *sentence)
-{
-    snprintf(message, GM_MESSAGE, "%s", sentence);
-    return false;
-}
-
 static bool short_of_memory(char *message)
 {
-    return refuse(message, "There is not enough memory.");
+    return gm_refuse(message, "There is not enough memory.");
 }
 
 /* ---- the parameters of a lane, as last set ---- */
@@ -210,7 +204,7 @@ static struct fresh open_lane(const struct gm_scene *scene, const void *paramete
                               const struct gm_settings *settings, const struct gm_scheme *scheme,
                               char *message)
 {
-    char sentence[GM_SENTENCE] = "There is not enough memory.";
+    char sentence[GM_MESSAGE] = "There is not enough memory.";
     struct fresh fresh = {.start = gm_parameters_copy(scene, parameters)};
     if (fresh.start) {
         struct gm_timing *timing = fresh.start;
@@ -220,7 +214,7 @@ static struct fresh open_lane(const struct gm_scene *scene, const void *paramete
     if (!fresh.lane) {
         free(fresh.start);
         fresh.start = NULL;
-        refuse(message, sentence);
+        gm_refuse(message, "%s", sentence);
     }
     return fresh;
 }
@@ -301,9 +295,8 @@ bool gm_session_open(struct gm_session *session, const struct gm_request *reques
 {
     *session = (struct gm_session){.scene = request->scene, .overlaid = request->overlay};
     if (request->count == 0 || request->count > GM_MOST_LANES) {
-        snprintf(message, GM_MESSAGE, "The explorer shows 1 to %d lanes, not %zu.", GM_MOST_LANES,
-                 request->count);
-        return false;
+        return gm_refuse(message, "The explorer shows 1 to %d lanes, not %zu.", GM_MOST_LANES,
+                         request->count);
     }
     if (!log_open(session, request)) {
         log_close(session);
@@ -388,14 +381,13 @@ static bool want(struct gm_session *session, size_t i, const struct gm_parameter
     }
     void *owner = of_scheme ? (void *)&wanted->settings : wanted->parameters;
     if (gm_parameter_set(row, owner, text) == GM_PARSED) {
-        char sentence[GM_SENTENCE];
+        char sentence[GM_MESSAGE];
         if (of_scheme || !session->scene->settle ||
             session->scene->settle(wanted->parameters, &row->key, 1, sentence)) {
             return true;
         }
     }
-    snprintf(message, GM_MESSAGE, "%s cannot be %s.", row->key, text);
-    return false;
+    return gm_refuse(message, "%s cannot be %s.", row->key, text);
 }
 
 /* Makes a change on a lane now, and keeps its course right where that turns its time. */
@@ -508,8 +500,9 @@ bool gm_session_advance(struct gm_session *session, double t)
     }
     settle(session);
     struct gm_lane *lane = session->lanes[chosen];
-    double steps = (t - lane->run->t) / lane->run->dt;
-    gm_lane_advance(lane, steps > 2 * RECORDS ? (long)fmin(steps / RECORDS, 1e6) : 1);
+    const double steps = (t - lane->run->t) / lane->run->dt;
+    gm_lane_to(lane, lane->run->steps + (steps > 2 * RECORDS ? (long)fmin(steps / RECORDS, 1e6) : 1),
+               INFINITY);
     gm_lane_record(lane);
     if (goes(lane)) {
         note_lane(session, chosen, false);
@@ -564,7 +557,7 @@ bool gm_session_back(struct gm_session *session, char *message)
         }
         const struct gm_moment *moment = gm_past_return(&session->pasts[i], lane, steps - 1);
         if (!moment) {
-            return refuse(message, too_large);
+            return gm_refuse(message, "%s", too_large);
         }
         follow(session, i, moment);
         cut_log(session, i, steps - 1);
@@ -572,7 +565,7 @@ bool gm_session_back(struct gm_session *session, char *message)
         replay(session, i, steps - 1);
         moved = true;
     }
-    return moved || refuse(message, "This is the start.");
+    return moved || gm_refuse(message, "This is the start.");
 }
 
 /* ---- the other way ---- */
@@ -582,9 +575,7 @@ bool gm_session_turn(struct gm_session *session, char *message)
     for (size_t i = 0; i < session->count; i++) {
         const struct gm_scheme *scheme = session->lanes[i]->scheme;
         if (scheme->family->own_time || scheme->family->not_resumable) {
-            snprintf(message, GM_MESSAGE, "%s chooses its own steps, and they only go forwards.",
-                     scheme->title);
-            return false;
+            return gm_refuse(message, "%s chooses its own steps, and they only go forwards.", scheme->title);
         }
     }
     settle(session);
@@ -611,7 +602,7 @@ bool gm_session_visit(struct gm_session *session, double gone, char *message)
         const struct gm_moment *moment =
             gm_past_visit(&session->pasts[i], session->lanes[i], gone + 1e-9 * fabs(gone));
         if (!moment) {
-            return refuse(message, too_large);
+            return gm_refuse(message, "%s", too_large);
         }
         follow(session, i, moment);
     }
@@ -624,7 +615,8 @@ bool gm_session_visit(struct gm_session *session, double gone, char *message)
 static bool has_room(const struct gm_session *session, char *message)
 {
     return session->count < GM_LANE_COLOURS ||
-           refuse(message, "Six lanes have a colour of their own; remove one with x before adding another.");
+           gm_refuse(message,
+                     "Six lanes have a colour of their own; remove one with x before adding another.");
 }
 
 /* Lane number `count` was put in its place. */
@@ -640,7 +632,7 @@ bool gm_session_add(struct gm_session *session, size_t like, const struct gm_sch
         return false;
     }
     if (gm_session_direction(session) < 0) {
-        return refuse(message, "A new lane starts forwards: turn time with B first, or fork with f.");
+        return gm_refuse(message, "A new lane starts forwards: turn time with B first, or fork with f.");
     }
     const struct gm_lane *model = session->lanes[like];
     struct fresh fresh = open_lane(session->scene, model->parameters, &model->settings, scheme, message);
@@ -699,7 +691,7 @@ bool gm_session_fork(struct gm_session *session, size_t like, const struct gm_sc
 bool gm_session_overlay(struct gm_session *session, char *message)
 {
     if (session->count == 1) {
-        return refuse(message, "One lane has a panel of its own; c adds another.");
+        return gm_refuse(message, "One lane has a panel of its own; c adds another.");
     }
     session->overlaid = !session->overlaid;
     show_in_order(session);
@@ -709,7 +701,7 @@ bool gm_session_overlay(struct gm_session *session, char *message)
 bool gm_session_remove(struct gm_session *session, size_t lane, char *message)
 {
     if (session->count == 1) {
-        return refuse(message, "The last lane stays.");
+        return gm_refuse(message, "The last lane stays.");
     }
     forget_wanted(session, lane);
     clear_lane(session, lane);

@@ -61,7 +61,7 @@ bool gm_chart_write(struct gm_chart *chart, const void *data,
     if (!gm_folder_make_for(chart->picture, message) || !paint(chart, data, draw, message)) {
         return false;
     }
-    if (chart->csv[0] && !write(data, chart->csv)) {
+    if (write && chart->csv[0] && !write(data, chart->csv)) {
         snprintf(message, GM_MESSAGE, "%.400s could not be written: %s", chart->csv, strerror(errno));
         return false;
     }

@@ -14,8 +14,9 @@ struct gm_chart {
     char picture[4096], csv[4096]; /* where they are, when they are written; the second is "" for none */
 };
 
-/* Lets `draw` fill a picture from `data`, and `write` a file, which returns false with errno; makes the
-   folders that they lie in. False with a sentence (GM_MESSAGE bytes). */
+/* Lets `draw` fill a picture from `data`, and `write` a file, which returns false with errno (NULL: the
+   numbers are somewhere already); makes the folders that they lie in. False with a sentence (GM_MESSAGE
+   bytes). */
 bool gm_chart_write(struct gm_chart *chart, const void *data,
                     void (*draw)(const void *data, struct gm_picture *picture),
                     bool (*write)(const void *data, const char *path), char *message);

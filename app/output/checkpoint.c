@@ -51,8 +51,7 @@ bool gm_checkpoint_write(const char *path, const struct gm_frames *frames, long 
     struct gm_snapshot snapshot = {.identity = frames->identity, .position = frame, .lanes = (uint32_t)count};
     snapshot.body = pack(lanes, count, &snapshot.size);
     if (!snapshot.body) {
-        snprintf(message, GM_MESSAGE, "cannot write %.360s: not enough memory", path);
-        return false;
+        return gm_refuse(message, "cannot write %.360s: not enough memory", path);
     }
     const bool good = gm_snapshot_write(path, &snapshot, message);
     free(snapshot.body);

@@ -37,7 +37,7 @@ bool gm_folder_make(const char *path, char *message)
     char *copy = path ? strdup(path) : NULL;
     const bool good = !path || (copy && make_all(copy));
     if (!good) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be made: %s", path, strerror(errno));
+        gm_refuse(message, "%.360s could not be made: %s", path, strerror(errno));
     }
     free(copy);
     return good;
@@ -52,7 +52,7 @@ bool gm_folder_make_for(const char *file, char *message)
     char *folder = strndup(file, (size_t)(slash - file));
     const bool good = folder && gm_folder_make(folder, message);
     if (!folder) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
+        gm_refuse(message, "not enough memory");
     }
     free(folder);
     return good;

@@ -85,7 +85,7 @@ static bool look(struct gm_frames *frames)
     DIR *folder = frames->there ? opendir(frames->folder) : NULL;
     bool good = frames->there != NULL;
     const struct dirent *entry = NULL;
-    while (good && folder && (entry = readdir(folder)) != NULL) {
+    while (good && folder && (entry = readdir(folder))) {
         good = look_at(frames, dirfd(folder), entry->d_name);
     }
     if (folder) {
@@ -100,8 +100,7 @@ bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule
     unsigned program = 0;
     *frames = (struct gm_frames){0};
     if (!gm_program_checksum(&program)) {
-        snprintf(message, GM_MESSAGE, "the program itself could not be read: %s", strerror(errno));
-        return false;
+        return gm_refuse(message, "the program itself could not be read: %s", strerror(errno));
     }
     *frames = (struct gm_frames){
         .schedule = schedule,
@@ -115,7 +114,7 @@ bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule
         return false;
     }
     if (!frames->folder || !frames->name || !frames->pattern || !frames->identity || !look(frames)) {
-        snprintf(message, GM_MESSAGE, "not enough memory for %ld frames", schedule->count);
+        gm_refuse(message, "not enough memory for %ld frames", schedule->count);
         gm_frames_close(frames);
         return false;
     }

@@ -108,7 +108,7 @@ static bool read_records(struct gm_pause *pause, char *message)
     const bool good = snapshot.lanes == pause->request->count && take_apart(pause, &snapshot);
     free(snapshot.body);
     if (!good) {
-        snprintf(message, GM_MESSAGE, "%.360s is no checkpoint of these lanes", pause->from);
+        gm_refuse(message, "%.360s is no checkpoint of these lanes", pause->from);
     }
     return good;
 }
@@ -125,7 +125,7 @@ struct gm_pause *gm_pause_open(const struct gm_request *request, size_t numbers,
                                    .records = calloc(request->count, sizeof *pause->records)};
     }
     if (!pause || !pause->identity || !pause->records) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
+        gm_refuse(message, "not enough memory");
         gm_pause_close(pause);
         return NULL;
     }
@@ -178,14 +178,11 @@ bool gm_pause_restore(struct gm_pause *pause, size_t index, struct gm_lane *lane
     pass_head(pause, record->bytes, paused, false);
     const double any_time = lane->t0 + 1e300 * lane->run->dt;
     if (!gm_snapshot_unpack(lane, any_time, record->bytes + head, &size) || size != record->size - head) {
-        snprintf(message, GM_MESSAGE, "%.360s is no checkpoint of these lanes", pause->from);
-        return false;
+        return gm_refuse(message, "%.360s is no checkpoint of these lanes", pause->from);
     }
     if (lane->run->steps > pause->request->lanes[index].steps) {
-        snprintf(message, GM_MESSAGE,
-                 "%.300s has come to t = %.10g already, which is beyond the end asked for", pause->from,
-                 lane->run->t);
-        return false;
+        return gm_refuse(message, "%.300s has come to t = %.10g already, which is beyond the end asked for",
+                         pause->from, lane->run->t);
     }
     return true;
 }
@@ -227,8 +224,7 @@ bool gm_pause_write(const struct gm_pause *pause, const char *path, char *messag
     }
     snapshot.body = malloc(snapshot.size);
     if (!snapshot.body) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
+        return gm_refuse(message, "not enough memory");
     }
     unsigned char *at = snapshot.body;
     for (size_t i = 0; i < pause->request->count; i++) {

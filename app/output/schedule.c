@@ -3,7 +3,6 @@
 #include "app/output/schedule.h"
 
 #include <math.h>
-#include <stdio.h>
 
 static double end_of(const struct gm_request *request)
 {
@@ -23,15 +22,13 @@ static bool take_shard(struct gm_schedule *schedule, const struct gm_pace *pace,
     schedule->shard = pace->shards > 0 ? pace->shard : 1;
     schedule->shards = pace->shards > 0 ? pace->shards : 1;
     if (pace->shards > 0 && pace->movie) {
-        snprintf(message, GM_MESSAGE,
-                 "--shard makes frames: leave --movie to one more run of the same command without --shard, "
-                 "when all shards are done");
-        return false;
+        return gm_refuse(
+            message,
+            "--shard makes frames: leave --movie to one more run of the same command without --shard, "
+            "when all shards are done");
     }
     if (pace->shards > 0 && schedule->still) {
-        snprintf(message, GM_MESSAGE,
-                 "--shard divides frames, and there is one picture; how many? --frames N");
-        return false;
+        return gm_refuse(message, "--shard divides frames, and there is one picture; how many? --frames N");
     }
     for (long frame = 0; frame < schedule->count; frame++) {
         schedule->ours += gm_schedule_is_ours(schedule, frame);
@@ -52,10 +49,9 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
     } times[] = {{"--at", pace->at}, {"--from", pace->from}};
     for (size_t i = 0; i < sizeof times / sizeof times[0]; i++) {
         if (times[i].value < start || times[i].value > fmax(end, timing->until)) {
-            snprintf(message, GM_MESSAGE, "%s %g lies %s, t = %g", times[i].name, times[i].value,
-                     times[i].value < start ? "before the start" : "after the end",
-                     times[i].value < start ? start : end);
-            return false;
+            return gm_refuse(message, "%s %g lies %s, t = %g", times[i].name, times[i].value,
+                             times[i].value < start ? "before the start" : "after the end",
+                             times[i].value < start ? start : end);
         }
     }
     if (!isnan(pace->at)) {
@@ -65,9 +61,7 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
     }
     const bool paced = pace->movie || !isnan(pace->rate) || !isnan(pace->fps);
     if (end >= GM_NEVER && (paced || pace->frames || pace->every)) {
-        snprintf(message, GM_MESSAGE,
-                 "where a scheme chooses its steps, frames need until= instead of steps=");
-        return false;
+        return gm_refuse(message, "where a scheme chooses its steps, frames need until= instead of steps=");
     }
     double count = 1;
     *schedule = (struct gm_schedule){.first = first, .last = end};
@@ -86,8 +80,7 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
         schedule->still = true;
     }
     if (!(count <= 1e7)) {
-        snprintf(message, GM_MESSAGE, "that makes %.3g frames; 1e7 is the most", count);
-        return false;
+        return gm_refuse(message, "that makes %.3g frames; 1e7 is the most", count);
     }
     schedule->count = (long)count;
     if (schedule->count == 1) {

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "app/request/drive.h"
 #include "render/files/regular_file.h"
@@ -43,18 +42,18 @@ bool gm_program_checksum(unsigned *checksum)
     return good;
 }
 
-static bool write_file(const char *path, const struct head *head, const struct gm_snapshot *snapshot)
+struct writing {
+    const struct head *head;
+    const struct gm_snapshot *snapshot;
+};
+
+static bool write_body(FILE *file, const void *context)
 {
-    FILE *file = fopen(path, "wbxe");
-    if (!file) {
-        return false;
-    }
-    bool good = fwrite(head, sizeof *head, 1, file) == 1 &&
-                fwrite(snapshot->identity, 1, head->identity_size, file) == head->identity_size &&
-                fwrite(snapshot->body, 1, head->body_size, file) == head->body_size && fflush(file) == 0 &&
-                fsync(fileno(file)) == 0;
-    good = fclose(file) == 0 && good;
-    return good;
+    const struct writing *writing = context;
+    const struct head *head = writing->head;
+    return fwrite(head, sizeof *head, 1, file) == 1 &&
+           fwrite(writing->snapshot->identity, 1, head->identity_size, file) == head->identity_size &&
+           fwrite(writing->snapshot->body, 1, head->body_size, file) == head->body_size;
 }
 
 bool gm_snapshot_write(const char *path, const struct gm_snapshot *snapshot, char *message)
@@ -66,16 +65,9 @@ bool gm_snapshot_write(const char *path, const struct gm_snapshot *snapshot, cha
     memcpy(head.magic, magic, sizeof magic);
     head.checksum = libdeflate_crc32(libdeflate_crc32(0, snapshot->identity, head.identity_size),
                                      snapshot->body, snapshot->size);
-    char *temporary = gm_temporary_name(path, ".tmp");
-    const bool good = temporary && write_file(temporary, &head, snapshot) && rename(temporary, path) == 0;
-    if (!good) {
-        snprintf(message, GM_MESSAGE, "cannot write %.360s: %s", path, strerror(errno));
-        if (temporary) {
-            unlink(temporary);
-        }
-    }
-    free(temporary);
-    return good;
+    const struct writing writing = {&head, snapshot};
+    return gm_temporary_make(path, write_body, &writing) ||
+           gm_refuse(message, "cannot write %.360s: %s", path, strerror(errno));
 }
 
 /* Why the file is not the one that is meant; NULL: it is, and the body is read. */
@@ -120,13 +112,12 @@ bool gm_snapshot_read(const char *path, struct gm_snapshot *snapshot, char *mess
     gm_temporary_sweep(path);
     FILE *file = gm_regular_open(path, SIZE_MAX, &size, reason);
     if (!file) {
-        snprintf(message, GM_MESSAGE, "%.300s could not be read: %s", path, reason);
-        return false;
+        return gm_refuse(message, "%.300s could not be read: %s", path, reason);
     }
     const char *fault = read_file(file, size, snapshot);
     fclose(file);
     if (fault) {
-        snprintf(message, GM_MESSAGE, "%.360s %s", path, fault);
+        gm_refuse(message, "%.360s %s", path, fault);
     }
     return !fault;
 }

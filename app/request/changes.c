@@ -178,8 +178,7 @@ static bool understand(const struct gm_scene *scene, void *parameters, const cha
 {
     const char *equals = strchr(text, '=');
     if (!equals) {
-        snprintf(message, GM_MESSAGE, "\"%.60s\" is not of the form key=value", text);
-        return false;
+        return gm_refuse(message, "\"%.60s\" is not of the form key=value", text);
     }
     char key[96];
     snprintf(key, sizeof key, "%.*s", (int)(equals - text), text);
@@ -188,23 +187,20 @@ static bool understand(const struct gm_scene *scene, void *parameters, const cha
     if (strcmp(key, "scheme") == 0) {
         meaning->scheme = value;
         if (!gm_scheme_find(value)) {
-            snprintf(message, GM_MESSAGE, "there is no scheme \"%.40s\"", value);
-            return false;
+            return gm_refuse(message, "there is no scheme \"%.40s\"", value);
         }
         return true;
     }
     if (strcmp(key, "dt") == 0) {
         /* its sign may turn, which no range in the table allows */
         if (!gm_number_parse(value, &meaning->dt) || !isfinite(meaning->dt) || meaning->dt == 0) {
-            snprintf(message, GM_MESSAGE, "dt=%.60s is not a step", value);
-            return false;
+            return gm_refuse(message, "dt=%.60s is not a step", value);
         }
         return true;
     }
     const struct gm_parameter *row = gm_scene_parameter(scene, key);
     if (!row || !row->live || gm_parameter_set(row, parameters, value) != GM_PARSED) {
-        snprintf(message, GM_MESSAGE, "%.60s cannot be changed in flight", text);
-        return false;
+        return gm_refuse(message, "%.60s cannot be changed in flight", text);
     }
     return true;
 }
@@ -213,14 +209,12 @@ bool gm_change_check(const struct gm_request *request, const struct gm_change *c
 {
     const struct gm_lane_spec *spec = &request->lanes[change->lane];
     if (change->step > spec->steps) {
-        snprintf(message, GM_MESSAGE, "a change after %ld steps comes too late: lane %zu makes %ld",
-                 change->step, change->lane, spec->steps);
-        return false;
+        return gm_refuse(message, "a change after %ld steps comes too late: lane %zu makes %ld", change->step,
+                         change->lane, spec->steps);
     }
     void *parameters = gm_parameters_copy(request->scene, spec->parameters);
     if (!parameters) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
-        return false;
+        return gm_refuse(message, "not enough memory");
     }
     struct meaning meaning;
     const bool good = understand(request->scene, parameters, change->text, &meaning, message);

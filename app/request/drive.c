@@ -3,6 +3,7 @@
 #include "app/request/drive.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -63,33 +64,35 @@ static long next_stop(const struct gm_drive *drive, long step)
     return step;
 }
 
-bool gm_drive_is_over(const struct gm_drive *drive)
+static double until_of(const struct gm_lane *lane)
 {
-    const struct gm_lane *lane = drive->lane;
-    const struct gm_timing *timing = lane->parameters;
-    /* a step that misses the end by round-off has reached it */
-    return lane->scheme->family->own_time && lane->run->t >= timing->until - 1e-12 * fabs(timing->until);
+    return ((const struct gm_timing *)lane->parameters)->until;
+}
+
+bool gm_drive_goes_on(const struct gm_drive *drive, long step)
+{
+    return gm_run_goes_on(drive->lane->run, step, until_of(drive->lane));
 }
 
 bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
 {
     struct gm_lane *lane = drive->lane;
-    const long burst = record || lane->scheme->family->own_time ? 1 : burst_of(lane);
-    while (lane->run->status == GM_OK && !gm_interrupted && !gm_drive_is_over(drive)) {
+    const long burst = record ? 1 : burst_of(lane);
+    while (gm_drive_goes_on(drive, LONG_MAX) && !gm_interrupted) {
         if (!make_changes(drive, message)) {
             return false;
         }
-        const long left = next_stop(drive, step) - lane->run->steps;
+        const long before = lane->run->steps, left = next_stop(drive, step) - before;
         if (left <= 0) {
             break;
         }
-        const long before = lane->run->steps, steps = left < burst ? left : burst;
+        const long stop = before + (left < burst ? left : burst);
         const double start = gm_clock_processor_seconds();
         if (record) {
-            gm_run_advance(lane->run, steps);
+            gm_run_to(lane->run, stop, until_of(lane));
         } else {
-            gm_lane_advance(lane,
-                            steps); /* what it follows on the way costs less than looking at the clock */
+            /* what it follows on the way costs less than looking at the clock */
+            gm_lane_to(lane, stop, until_of(lane));
         }
         drive->seconds += gm_clock_processor_seconds() - start;
         if (record && lane->run->steps > before) {

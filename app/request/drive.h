@@ -21,11 +21,12 @@ struct gm_drive {
 };
 
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.
-   Stops early on a numerical failure or an interruption. False with a sentence if a change cannot be made. */
+   Stops early on a numerical failure, an interruption, or where a scheme that chooses its steps has come to
+   the lane's end. False with a sentence if a change cannot be made. */
 bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message);
 
-/* Whether a scheme that chooses its own step has come to its end, the first t >= until. */
-bool gm_drive_is_over(const struct gm_drive *drive);
+/* Whether the lane is still on its way to `step` steps in all, or its end (gm_run_goes_on). */
+bool gm_drive_goes_on(const struct gm_drive *drive, long step);
 
 /* The last step not after the time t: how many steps in all the lane has made then. Where the
    scheme chooses its step: one step more, as long as t is not reached. */

@@ -9,7 +9,7 @@
 size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme **schemes)
 {
     size_t count = 0;
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     struct gm_problem problem = {0};
     void *parameters = calloc(1, scene->size);
     if (!parameters) {

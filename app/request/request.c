@@ -4,7 +4,6 @@
 #include "core/schemes.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,15 +13,6 @@
 #include "app/request/nearest.h"
 #include "app/request/words.h"
 #include "core/memory.h"
-
-__attribute__((format(printf, 2, 3))) static bool refuse(char *message, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, GM_MESSAGE, format, arguments);
-    va_end(arguments);
-    return false;
-}
 
 static const char *scene_name(size_t i, const void *data)
 {
@@ -47,12 +37,12 @@ static bool set_parameter(const struct gm_parameter *row, void *owner, const cha
                 used += (size_t)snprintf(choices + used, sizeof choices - used, "%s%s", i ? ", " : "",
                                          row->choices[i]);
             }
-            return refuse(message, "%s=%.60s is none of: %s", row->key, text, choices);
+            return gm_refuse(message, "%s=%.60s is none of: %s", row->key, text, choices);
         }
-        return refuse(message, "%s=%.60s is not %s", row->key, text,
-                      row->type == GM_TEXT      ? "a word of at most 255 bytes without blanks"
-                      : row->type == GM_INTEGER ? "a whole number"
-                                                : "a number");
+        return gm_refuse(message, "%s=%.60s is not %s", row->key, text,
+                         row->type == GM_TEXT      ? "a word of at most 255 bytes without blanks"
+                         : row->type == GM_INTEGER ? "a whole number"
+                                                   : "a number");
     case GM_OUT_OF_RANGE:
         break;
     }
@@ -64,8 +54,8 @@ static bool set_parameter(const struct gm_parameter *row, void *owner, const cha
     if (!isnan(value)) {
         snprintf(nearest, sizeof nearest, "; the nearest is %s", value < row->lowest ? low : high);
     }
-    return refuse(message, "%s=%.60s is out of range: it lies between %s and %s%s", row->key, text, low, high,
-                  nearest);
+    return gm_refuse(message, "%s=%.60s is out of range: it lies between %s and %s%s", row->key, text, low,
+                     high, nearest);
 }
 
 static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, const char *name,
@@ -75,8 +65,8 @@ static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, 
     if (!spec->scheme) {
         const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
         const char *near = gm_nearest(name, gm_fitting_schemes(scene, fitting), scheme_name, fitting);
-        return refuse(message, "there is no scheme \"%.40s\"%s%s", name,
-                      near ? "; did you mean " : "; see geomint list ", near ? near : scene->name);
+        return gm_refuse(message, "there is no scheme \"%.40s\"%s%s", name,
+                         near ? "; did you mean " : "; see geomint list ", near ? near : scene->name);
     }
     return true;
 }
@@ -85,7 +75,8 @@ static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, 
 static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const struct gm_word *list,
                   size_t index, char *message)
 {
-    const char *text = list->values[index];
+    char formatted[GM_VALUE_TEXT];
+    const char *text = gm_word_value(list, index, formatted);
     if (strcmp(list->key, "scheme") == 0) {
         return set_scheme(scene, spec, text, message);
     }
@@ -93,7 +84,7 @@ static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const
         double steps = 0;
         if (!gm_number_parse(text, &steps) || !(steps >= 0 && steps <= (double)GM_MOST_STEPS) ||
             steps != floor(steps)) {
-            return refuse(message, "steps=%.60s is not a whole number from 0 to 1e15", text);
+            return gm_refuse(message, "steps=%.60s is not a whole number from 0 to 1e15", text);
         }
         spec->steps = (long)steps;
         return true;
@@ -105,7 +96,8 @@ static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const
         return true;
     }
     char number[48];
-    if (row->type == GM_REAL && gm_words_decimal_comma(list, index, number, sizeof number)) {
+    if (row->type == GM_REAL && list->piece_count == list->count &&
+        gm_words_decimal_comma(list, index, number, sizeof number)) {
         const size_t used = strlen(message);
         snprintf(message + used, GM_MESSAGE - used, "; " GM_DECIMAL_POINT, number);
     }
@@ -117,12 +109,13 @@ static void add_name(const struct gm_word *list, size_t index, const struct gm_s
                      size_t size)
 {
     const size_t length = strlen(name);
+    char value[GM_VALUE_TEXT];
     const char *comma = length ? ", " : "";
     if (strcmp(list->key, "scheme") == 0) {
         snprintf(name + length, size - length, "%s%s", comma, scheme->title);
     } else {
         snprintf(name + length, size - length, "%s%s = %s", comma,
-                 strcmp(list->key, "dt") == 0 ? "Δt" : list->key, list->values[index]);
+                 strcmp(list->key, "dt") == 0 ? "Δt" : list->key, gm_word_name(list, index, value));
     }
 }
 
@@ -193,10 +186,10 @@ static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec,
     }
     const double steps = round((timing->until - t0) / timing->dt);
     if (steps < 0) {
-        return refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
+        return gm_refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
     }
     if (!(steps <= (double)GM_MOST_STEPS)) {
-        return refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
+        return gm_refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
     }
     spec->steps = (long)steps;
     return true;
@@ -228,7 +221,7 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
             }
         }
         return used ? false
-                    : refuse(message, "no scheme that fits scene %s takes %s=", scene->name, row->key);
+                    : gm_refuse(message, "no scheme that fits scene %s takes %s=", scene->name, row->key);
     }
     return true;
 }
@@ -245,7 +238,7 @@ static bool check_effects(const struct gm_request *request, const struct gm_word
             }
         }
         if (why) {
-            return refuse(message, "%s= has no effect here: %s", key, why);
+            return gm_refuse(message, "%s= has no effect here: %s", key, why);
         }
     }
     return true;
@@ -293,7 +286,7 @@ static bool find_schemes(struct gm_request *request, char *message)
             continue;
         }
         if (!scene->setup(request->lanes[i].parameters, &problem, message)) {
-            char sentence[GM_SENTENCE];
+            char sentence[GM_MESSAGE];
             request->unreadable = scene->readable && !scene->readable(request->lanes[i].parameters, sentence);
             return false;
         }
@@ -308,8 +301,9 @@ static bool find_schemes(struct gm_request *request, char *message)
             scene->close(&problem);
         }
     }
-    return !unfit || refuse(message, "scheme %s does not fit scene %s; geomint list %s names those that do",
-                            unfit->name, scene->name, scene->name);
+    return !unfit ||
+           gm_refuse(message, "scheme %s does not fit scene %s; geomint list %s names those that do",
+                     unfit->name, scene->name, scene->name);
 }
 
 /* Evaluations per model time over the first steps; NAN with a sentence if there are none. */
@@ -327,9 +321,8 @@ static double rate_of(const struct gm_request *request, size_t index, char *mess
     gm_run_advance(lane->run, STEPS);
     const double rate = (double)(lane->run->evaluations - before) / fabs(lane->run->t - t);
     if (!(rate > 0) || !isfinite(rate)) {
-        snprintf(message, GM_MESSAGE,
-                 "equal=cost compares evaluations, and %s counts none over its first %d steps",
-                 lane->scheme->name, STEPS);
+        gm_refuse(message, "equal=cost compares evaluations, and %s counts none over its first %d steps",
+                  lane->scheme->name, STEPS);
     }
     gm_lane_close(lane);
     return rate > 0 && isfinite(rate) ? rate : NAN;
@@ -353,9 +346,8 @@ static bool equal_cost(struct gm_request *request, size_t index, size_t like, ch
         }
         timing->dt *= rate / wanted;
         if (!(timing->dt >= row->lowest && timing->dt <= row->highest)) {
-            snprintf(message, GM_MESSAGE, "equal=cost asks for dt = %.3g of %s, which lies beyond %g to %g",
-                     timing->dt, spec->scheme->name, row->lowest, row->highest);
-            return false;
+            return gm_refuse(message, "equal=cost asks for dt = %.3g of %s, which lies beyond %g to %g",
+                             timing->dt, spec->scheme->name, row->lowest, row->highest);
         }
     }
     struct gm_shown *shown = &spec->shown;
@@ -370,24 +362,24 @@ static bool equal_cost(struct gm_request *request, size_t index, size_t like, ch
     return !isnan(wanted);
 }
 
-static bool make_lanes(struct gm_request *request, struct gm_words *words, char *message)
+static bool make_lanes(struct gm_request *request, struct gm_words *words, bool recalled, char *message)
 {
     const struct gm_scene *scene = request->scene;
     size_t count = 0;
-    if (!gm_words_lanes(words, &count, message)) {
+    if (!gm_words_count(words, GM_MOST_REQUESTED, &count, message)) {
         return false;
     }
     if (request->overlay && count > GM_LANE_COLOURS) {
-        return refuse(message, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
-                      GM_LANE_COLOURS, count);
+        return gm_refuse(message, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
+                         GM_LANE_COLOURS, count);
     }
     request->lanes = calloc(count, sizeof *request->lanes);
     if (!request->lanes) {
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     const bool steps_given = gm_words_find(words, "steps") != NULL;
     if (steps_given && gm_words_find(words, "until")) {
-        return refuse(message, "steps= and until= are both given; one of them follows from the other");
+        return gm_refuse(message, "steps= and until= are both given; one of them follows from the other");
     }
     const char *keys[GM_MOST_WORDS] = {NULL};
     for (size_t i = 0; i < words->count && i < GM_MOST_WORDS; i++) {
@@ -398,7 +390,7 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
         spec->parameters = calloc(1, scene->size);
         request->count++;
         if (!spec->parameters) {
-            return refuse(message, "not enough memory");
+            return gm_refuse(message, "not enough memory");
         }
         gm_parameters_reset(scene->parameters, scene->parameter_count, spec->parameters);
         gm_parameters_reset(gm_settings_parameters, gm_settings_parameter_count, &spec->settings);
@@ -414,7 +406,7 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
             return false;
         }
     }
-    if (!check_effects(request, words, message) || !find_schemes(request, message)) {
+    if (!(recalled || check_effects(request, words, message)) || !find_schemes(request, message)) {
         return false;
     }
     for (size_t k = 0; k < count; k++) {
@@ -426,8 +418,8 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
     }
     if (gm_words_chosen(words, "equal")) {
         if (steps_given) {
-            return refuse(message,
-                          "equal=cost scales the steps up to until=; steps= cannot be given with it");
+            return gm_refuse(message,
+                             "equal=cost scales the steps up to until=; steps= cannot be given with it");
         }
         for (size_t k = 0; k < count; k++) {
             if (!equal_cost(request, k, first_scheme(words, k), message) ||
@@ -439,25 +431,25 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, char 
     return check_settings(request, words, message);
 }
 
-bool gm_request_parse(struct gm_request *request, int count, char *const typed[], size_t schemes,
-                      char *message)
+static bool parse(struct gm_request *request, int count, char *const typed[], size_t schemes, bool recalled,
+                  char *message)
 {
     *request = (struct gm_request){0};
     if (count == 0) {
-        return refuse(message, "which scene? geomint list names them");
+        return gm_refuse(message, "which scene? geomint list names them");
     }
     request->scene = gm_scene_find(typed[0]);
     if (!request->scene) {
         const char *near = gm_nearest(typed[0], gm_scene_count(), scene_name, NULL);
-        return refuse(message, "there is no scene \"%.40s\"%s%s", typed[0],
-                      near ? "; did you mean " : "; see geomint list", near ? near : "");
+        return gm_refuse(message, "there is no scene \"%.40s\"%s%s", typed[0],
+                         near ? "; did you mean " : "; see geomint list", near ? near : "");
     }
     /* without a word a scene is shown by its own lanes */
     struct gm_arguments own = {0};
     const bool shown = count == 1 && schemes > 1 && request->scene->lanes;
     if (shown && !gm_arguments_split(&own, request->scene->lanes)) {
         gm_arguments_close(&own);
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     char *const *given = shown ? own.words : typed + 1;
     const int given_count = shown ? own.count : count - 1;
@@ -465,13 +457,13 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
     const unsigned long refusals = gm_memory_refusals();
     bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
     request->overlay = good && gm_words_chosen(&words, "overlay");
-    good = good && make_lanes(request, &words, message);
+    good = good && make_lanes(request, &words, recalled, message);
     if (good) {
         request->arguments = gm_words_join(request->scene, &words);
-        good = request->arguments || refuse(message, "not enough memory");
+        good = request->arguments || gm_refuse(message, "not enough memory");
     }
     if (gm_memory_refusals() != refusals) { /* whatever was made of it: a fault of a mesh or of its file */
-        good = request->unreadable = refuse(message, "not enough memory");
+        good = request->unreadable = gm_refuse(message, "not enough memory");
     }
     gm_words_close(&words);
     gm_arguments_close(&own);
@@ -480,6 +472,23 @@ bool gm_request_parse(struct gm_request *request, int count, char *const typed[]
         gm_request_close(request);
         request->unreadable = unreadable;
     }
+    return good;
+}
+
+bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
+                      char *message)
+{
+    return parse(request, count, words, schemes, false, message);
+}
+
+bool gm_request_recall(struct gm_request *request, const char *arguments, char *message)
+{
+    struct gm_arguments words = {0};
+    *request = (struct gm_request){0};
+    const bool good = gm_arguments_split(&words, arguments)
+                          ? parse(request, words.count, words.words, 1, true, message)
+                          : gm_refuse(message, "not enough memory");
+    gm_arguments_close(&words);
     return good;
 }
 

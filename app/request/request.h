@@ -58,6 +58,8 @@ enum {
    sentence in message (GM_MESSAGE bytes); the request is then empty, but for `unreadable`. */
 bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
                       char *message);
+/* The same of the arguments of a request that was made once, as text: a key may have no effect any more. */
+bool gm_request_recall(struct gm_request *request, const char *arguments, char *message);
 void gm_request_close(struct gm_request *request);
 
 /* The exit status for a request that gm_request_parse refused. */

@@ -58,8 +58,8 @@ void gm_words_close(struct gm_words *words)
 {
     for (size_t i = 0; i < words->count; i++) {
         free(words->list[i].key);
-        for (size_t k = 0; k < words->list[i].count; k++) {
-            free(words->list[i].values[k]);
+        for (size_t k = 0; k < words->list[i].piece_count; k++) {
+            free(words->list[i].pieces[k].text);
         }
     }
     words->count = 0;
@@ -70,15 +70,79 @@ static bool add_value(struct gm_word *list, const char *text, size_t length, cha
     if (length == 0) {
         return refuse(message, "%s= has an empty value", list->key);
     }
-    if (list->count == GM_MOST_VALUES) {
-        return refuse(message, "%s= has more than %d values", list->key, GM_MOST_VALUES);
+    if (list->piece_count == GM_MOST_PIECES) {
+        return refuse(message, "%s= has more than %d values; a range, 0..1:%d, has any number", list->key,
+                      GM_MOST_PIECES, 2 * GM_MOST_PIECES);
     }
-    list->values[list->count] = strndup(text, length);
-    if (!list->values[list->count]) {
+    struct gm_piece *piece = &list->pieces[list->piece_count];
+    *piece = (struct gm_piece){.text = strndup(text, length)};
+    if (!piece->text) {
         return refuse(message, "not enough memory");
     }
+    list->piece_count++;
     list->count++;
     return true;
+}
+
+/* Where the last piece of a number's list is a range, it stands for its values. */
+static bool read_range(struct gm_word *list, const struct gm_scene *scene, char *message)
+{
+    struct gm_piece *piece = &list->pieces[list->piece_count - 1];
+    const struct gm_parameter *own = gm_scene_parameter(scene, list->key);
+    const struct gm_parameter *row = own ? own : gm_setting_find(list->key);
+    const bool steps = strcmp(list->key, "steps") == 0;
+    if (!gm_range_is(piece->text) || !(steps || (row && (row->type == GM_REAL || row->type == GM_INTEGER)))) {
+        return true;
+    }
+    const bool whole = steps || row->type == GM_INTEGER;
+    if (!gm_range_read(&piece->range, list->key, piece->text, whole, message)) {
+        return false;
+    }
+    list->count += piece->range.count - 1;
+    return true;
+}
+
+/* The piece that value `index` belongs to, and the index within it. */
+static const struct gm_piece *piece_of(const struct gm_word *list, size_t *index)
+{
+    const struct gm_piece *piece = list->pieces;
+    for (;; piece++) {
+        const size_t count = piece->range.count ? piece->range.count : 1;
+        if (*index < count) {
+            return piece;
+        }
+        *index -= count;
+    }
+}
+
+const char *gm_word_value(const struct gm_word *list, size_t index, char *text)
+{
+    const struct gm_piece *piece = piece_of(list, &index);
+    if (piece->range.count == 0) {
+        return piece->text;
+    }
+    const double value = gm_range_at(&piece->range, index);
+    for (int digits = 15; digits <= 17; digits++) { /* most have 15 */
+        snprintf(text, GM_VALUE_TEXT, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) {
+            break;
+        }
+    }
+    return text;
+}
+
+const char *gm_word_name(const struct gm_word *list, size_t index, char *text)
+{
+    enum { SHORT = 8 };
+    const struct gm_piece *piece = piece_of(list, &index);
+    if (piece->range.count == 0) {
+        return piece->text;
+    }
+    const double value = gm_range_at(&piece->range, index);
+    if (strlen(gm_number_format(value, text, GM_VALUE_TEXT)) > SHORT) {
+        snprintf(text, GM_VALUE_TEXT, "%.6g", value);
+    }
+    return text;
 }
 
 static bool has_digits_alone(const char *text)
@@ -95,16 +159,17 @@ static bool begins_with_zero(const char *text)
 bool gm_words_decimal_comma(const struct gm_word *list, size_t index, char *number, size_t size)
 {
     const size_t first = index > 0 ? index - 1 : 0;
-    if (first + 1 >= list->count) {
+    if (first + 1 >= list->piece_count) {
         return false;
     }
-    const char *before = list->values[first] + (list->values[first][0] == '-');
-    const char *behind = list->values[first + 1];
+    const char *typed = list->pieces[first].text;
+    const char *before = typed + (typed[0] == '-');
+    const char *behind = list->pieces[first + 1].text;
     if (!has_digits_alone(before) || !has_digits_alone(behind) ||
         (strcmp(before, "0") != 0 && !begins_with_zero(behind))) {
         return false;
     }
-    snprintf(number, size, "%.20s.%.20s", list->values[first], behind);
+    snprintf(number, size, "%.20s.%.20s", typed, behind);
     return true;
 }
 
@@ -161,9 +226,13 @@ static bool read_word(struct gm_words *words, const struct gm_scene *scene, cons
             return false;
         }
         char number[48];
-        if (begins_with_zero(list->values[list->count - 1]) &&
-            gm_words_decimal_comma(list, list->count - 1, number, sizeof number)) {
+        const size_t last = list->piece_count - 1;
+        if (begins_with_zero(list->pieces[last].text) &&
+            gm_words_decimal_comma(list, last, number, sizeof number)) {
             return refuse(message, "%s=%.60s: " GM_DECIMAL_POINT, list->key, equals + 1, number);
+        }
+        if (!read_range(list, scene, message)) {
+            return false;
         }
         if (!comma) {
             return true;
@@ -196,22 +265,24 @@ size_t gm_words_choice(const struct gm_words *words, size_t i, size_t lane)
     return lane % words->list[i].count;
 }
 
-bool gm_words_lanes(const struct gm_words *words, size_t *lanes, char *message)
+bool gm_words_count(const struct gm_words *words, size_t most, size_t *runs, char *message)
 {
-    *lanes = 1;
+    *runs = 1;
     for (size_t i = 0; i < words->count; i++) {
         const size_t count = words->list[i].count;
         if (count == 1) {
             continue;
         }
-        if (words->zip && *lanes > 1 && *lanes != count) {
+        if (words->zip && *runs > 1 && *runs != count) {
             return refuse(message, "zip=yes pairs lists of equal length; %s= has %zu values, not %zu",
-                          words->list[i].key, count, *lanes);
+                          words->list[i].key, count, *runs);
         }
-        *lanes = words->zip ? count : *lanes * count;
-        if (*lanes > GM_MOST_REQUESTED) {
-            return refuse(message, "that makes more than %d lanes", GM_MOST_REQUESTED);
+        const bool many = count > most || (!words->zip && *runs > most / count);
+        if (many) {
+            return refuse(message, "that makes more than %zu %s", most,
+                          most == GM_MOST_REQUESTED ? "lanes; geomint sweep takes any number" : "runs");
         }
+        *runs = words->zip ? count : *runs * count;
     }
     return true;
 }
@@ -242,8 +313,8 @@ static bool check_choices(const struct gm_words *words, char *message)
     for (size_t i = 0; i < gm_common_key_count; i++) {
         const struct gm_common_key *key = &gm_common_keys[i];
         const struct gm_word *word = key->choices[0] ? gm_words_find(words, key->name) : NULL;
-        if (word && (word->count > 1 || (strcmp(word->values[0], key->choices[0]) != 0 &&
-                                         strcmp(word->values[0], key->choices[1]) != 0))) {
+        if (word && (word->count > 1 || (strcmp(word->pieces[0].text, key->choices[0]) != 0 &&
+                                         strcmp(word->pieces[0].text, key->choices[1]) != 0))) {
             return refuse(message, "%s= is one of: %s, %s", key->name, key->choices[0], key->choices[1]);
         }
     }
@@ -253,7 +324,7 @@ static bool check_choices(const struct gm_words *words, char *message)
 bool gm_words_chosen(const struct gm_words *words, const char *key)
 {
     const struct gm_word *word = gm_words_find(words, key);
-    return word && strcmp(word->values[0], gm_common_key_find(key)->choices[1]) == 0;
+    return word && strcmp(word->pieces[0].text, gm_common_key_find(key)->choices[1]) == 0;
 }
 
 bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int count, char *const typed[],
@@ -283,9 +354,9 @@ char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)
     fputs(scene->name, stream);
     for (size_t i = 0; i < words->count; i++) {
         fprintf(stream, " %s=", words->list[i].key);
-        for (size_t k = 0; k < words->list[i].count; k++) {
+        for (size_t k = 0; k < words->list[i].piece_count; k++) {
             fputs(k ? "," : "", stream);
-            gm_arguments_put(stream, words->list[i].values[k]);
+            gm_arguments_put(stream, words->list[i].pieces[k].text);
         }
     }
     fclose(stream);

@@ -2,16 +2,24 @@
 #ifndef GM_APP_REQUEST_WORDS_H
 #define GM_APP_REQUEST_WORDS_H
 
+#include "app/request/range.h"
 #include "scenes/frame/scene.h"
 
 /* What was typed behind a scene's name: keys with lists of values, and which of the values lane k has. */
 
-enum { GM_MOST_WORDS = 32, GM_MOST_VALUES = 64, GM_MOST_REQUESTED = 64 };
+enum { GM_MOST_WORDS = 32, GM_MOST_PIECES = 64, GM_MOST_REQUESTED = 64, GM_VALUE_TEXT = 64 };
+
+/* What stands between two commas: a value, or a range of them. */
+struct gm_piece {
+    char *text;
+    struct gm_range range; /* count 0: none */
+};
 
 struct gm_word {
     char *key;
-    char *values[GM_MOST_VALUES];
-    size_t count;
+    struct gm_piece pieces[GM_MOST_PIECES];
+    size_t piece_count;
+    size_t count; /* of values */
 };
 
 struct gm_words {
@@ -39,19 +47,24 @@ void gm_words_close(struct gm_words *words);
 /* NULL if the key was not typed. */
 const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);
 
+/* Value `index` of a list: as typed, or, of a range, in `text` (GM_VALUE_TEXT bytes) as it would be. */
+const char *gm_word_value(const struct gm_word *list, size_t index, char *text);
+/* The same as a name of it: a value of a range with 6 digits. */
+const char *gm_word_name(const struct gm_word *list, size_t index, char *text);
+
 /* Whether a common key that has choices was given its second one: yes, cost. */
 bool gm_words_chosen(const struct gm_words *words, const char *key);
 
-/* Whether value `index` of a list and the one before it (of the first: behind it) are probably one number
+/* Whether piece `index` of a list and the one before it (of the first: behind it) are probably one number
    with a comma as its decimal mark: 0,5 or 1,05. Writes it with a point. */
 bool gm_words_decimal_comma(const struct gm_word *list, size_t index, char *number, size_t size);
 #define GM_DECIMAL_POINT "the decimal mark is a point (%s), a comma separates the values of a list"
 
-/* How many lanes they make: the product of the lists' lengths, or, zipped, their length. False with a
-   sentence. */
-bool gm_words_lanes(const struct gm_words *words, size_t *lanes, char *message);
+/* How many runs they make: the product of the lists' lengths, or, zipped, their length. False with a
+   sentence, which more than `most` make too. */
+bool gm_words_count(const struct gm_words *words, size_t most, size_t *count, char *message);
 
-/* Which value of list i lane number `lane` takes. The first list changes slowest. */
+/* Which value of list i run number `lane` takes. The first list changes slowest. */
 size_t gm_words_choice(const struct gm_words *words, size_t i, size_t lane);
 
 /* "SCENE key=value ..."; malloc'ed, NULL when memory is short. */

@@ -3,21 +3,15 @@
 #include "app/studies/stability.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/cores/pool.h"
 #include "render/clock.h"
 
 /* A run that takes longer than this is judged where it is. */
 static const double most_seconds = 10;
-
-static bool refuse(char *message, const char *text)
-{
-    snprintf(message, GM_MESSAGE, "%s", text);
-    return false;
-}
 
 /* Whether what the user typed leaves a word of the plan without effect, as a mesh file does its rows. */
 static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typed, const char *word)
@@ -68,13 +62,12 @@ static bool parse(struct gm_stability_table *table, const struct gm_arguments *t
 {
     const struct gm_scene *scene = gm_scene_find(typed->words[0]);
     if (scene && !scene->stability) {
-        snprintf(message, GM_MESSAGE, "scene %s has no stability map", scene->name);
-        return false;
+        return gm_refuse(message, "scene %s has no stability map", scene->name);
     }
     struct gm_arguments words = {0};
     char *usual = scene ? usual_words(scene, typed) : strdup("");
     const bool good =
-        (usual && gm_arguments_complete(&words, typed, usual)) || refuse(message, "not enough memory");
+        (usual && gm_arguments_complete(&words, typed, usual)) || gm_refuse(message, "not enough memory");
     const bool parsed = good && gm_request_parse(&table->request, words.count, words.words, 6, message);
     gm_arguments_close(&words);
     free(usual);
@@ -85,7 +78,7 @@ bool gm_stability_open(struct gm_stability_table *table, const struct gm_argumen
 {
     *table = (struct gm_stability_table){0};
     if (arguments->count == 0) {
-        return refuse(message, "stability of which scene? Or --region SCHEME");
+        return gm_refuse(message, "stability of which scene? Or --region SCHEME");
     }
     if (!parse(table, arguments, message)) {
         return false;
@@ -103,8 +96,8 @@ bool gm_stability_open(struct gm_stability_table *table, const struct gm_argumen
         good = table->maps[i].cells != NULL;
         for (size_t k = 0; k < i; k++) {
             if (request->lanes[k].scheme == request->lanes[i].scheme) {
-                snprintf(message, GM_MESSAGE, "stability varies dt and %s itself: only scheme takes a list",
-                         table->plan->parameter);
+                gm_refuse(message, "stability varies dt and %s itself: only scheme takes a list",
+                          table->plan->parameter);
                 gm_stability_close(table);
                 return false;
             }
@@ -112,7 +105,7 @@ bool gm_stability_open(struct gm_stability_table *table, const struct gm_argumen
     }
     if (!good) {
         gm_stability_close(table);
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     return true;
 }
@@ -144,16 +137,12 @@ static double evaluate(const struct gm_lane *lane, const struct gm_observable *o
 static void run_to(struct gm_lane *lane, long steps, const struct gm_observable *observable, double *largest,
                    const struct gm_listener *listener)
 {
-    const struct gm_timing *timing = lane->parameters;
-    const bool own_time = lane->scheme->family->own_time;
+    const double until = ((const struct gm_timing *)lane->parameters)->until;
     const double started = gm_clock_processor_seconds();
-    while (lane->run->status == GM_OK && gm_clock_processor_seconds() - started < most_seconds &&
+    while (gm_run_goes_on(lane->run, steps, until) && gm_clock_processor_seconds() - started < most_seconds &&
            !gm_listener_stops(listener)) {
-        const long left = steps - lane->run->steps;
-        if (left <= 0 || (own_time && lane->run->t >= timing->until)) {
-            return;
-        }
-        gm_lane_advance(lane, own_time || largest ? 1 : left < 1000 ? left : 1000);
+        const long left = steps - lane->run->steps, burst = largest ? 1 : 1000;
+        gm_lane_to(lane, lane->run->steps + (left < burst ? left : burst), until);
         if (largest) {
             *largest = fmax(*largest, evaluate(lane, observable));
         }
@@ -165,10 +154,9 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, const s
 {
     const struct gm_observable *kept = find(lane->scene, plan->kept), *error = find(lane->scene, plan->error);
     const struct gm_timing *timing = lane->parameters;
-    const long all =
-        lane->scheme->family->own_time ? INT64_MAX : (long)fmax(1, round(timing->until / timing->dt));
+    const long some = gm_run_steps_at(lane->run, timing->until), all = some > 1 ? some : 1;
     double before = evaluate(lane, kept), after = -INFINITY;
-    if (plan->settle > 0 && all > 2 * plan->settle && all < INT64_MAX) {
+    if (plan->settle > 0 && all > 2 * plan->settle && !lane->scheme->family->own_time) {
         run_to(lane, plan->settle, kept, &before, listener);
         run_to(lane, all - plan->settle, NULL, NULL, listener);
         run_to(lane, all, kept, &after, listener);
@@ -191,31 +179,95 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, const s
     }
 }
 
+/* Cells that may wait for an earlier one. */
+enum { WINDOW = 64 };
+
+struct measuring {
+    struct gm_stability_table *table;
+    const struct gm_listener *listener;
+    bool failed;
+    char *message;
+    struct {
+        struct gm_map_cell cell;
+        bool opened;
+        char message[GM_MESSAGE];
+    } slots[WINDOW];
+};
+
+static size_t cells_of(const struct gm_stability_table *table)
+{
+    return table->plan->step_count * table->plan->value_count;
+}
+
+/* Tries a cell, in parameters of its own: stopped on the way, it stays untried. */
+static void try_cell(void *self, size_t index, size_t slot)
+{
+    struct measuring *measuring = self;
+    const struct gm_stability_table *table = measuring->table;
+    const struct gm_stability *plan = table->plan;
+    const struct gm_lane_spec *spec = &table->request.lanes[index / cells_of(table)];
+    const size_t k = index % cells_of(table);
+    struct gm_map_cell cell = {.verdict = GM_UNTRIED};
+    char *message = measuring->slots[slot].message;
+    struct gm_timing *timing = gm_parameters_copy(table->request.scene, spec->parameters);
+    struct gm_lane *lane = NULL;
+    if (timing) {
+        gm_parameter_put(table->parameter, timing, plan->values[k % plan->value_count]);
+        timing->dt = cell.dt = plan->steps[k / plan->value_count] * plan->unit(timing);
+        lane = gm_lane_open(table->request.scene, timing, &spec->settings, spec->scheme, message);
+    } else {
+        refuse(message, "not enough memory");
+    }
+    if (lane) {
+        judge(lane, plan, measuring->listener, &cell);
+    }
+    if (gm_listener_stops(measuring->listener)) {
+        cell.verdict = GM_UNTRIED;
+    }
+    measuring->slots[slot].opened = lane != NULL;
+    measuring->slots[slot].cell = cell;
+    gm_lane_close(lane);
+    free(timing);
+}
+
+static bool take_cell(void *self, size_t index, size_t slot)
+{
+    struct measuring *measuring = self;
+    struct gm_stability_table *table = measuring->table;
+    const size_t each = cells_of(table), all = table->count * each;
+    if (!measuring->slots[slot].opened) {
+        measuring->failed = true;
+        return refuse(measuring->message, measuring->slots[slot].message);
+    }
+    table->maps[index / each].cells[index % each] = measuring->slots[slot].cell;
+    const size_t next = index + 1 < all ? index + 1 : index;
+    gm_listener_hears(measuring->listener, table->maps[next / each].scheme->name, next, all);
+    return true;
+}
+
+static bool stops(void *self)
+{
+    return gm_listener_stops(((const struct measuring *)self)->listener);
+}
+
 bool gm_stability_measure(struct gm_stability_table *table, const struct gm_listener *listener, char *message)
 {
-    const struct gm_stability *plan = table->plan;
-    const size_t each = plan->step_count * plan->value_count;
-    for (size_t i = 0; i < table->count; i++) {
-        const struct gm_lane_spec *spec = &table->request.lanes[i];
-        struct gm_timing *timing = spec->parameters;
-        for (size_t k = 0; k < each; k++) {
-            struct gm_map_cell *cell = &table->maps[i].cells[k];
-            gm_listener_hears(listener, spec->scheme->name, i * each + k, table->count * each);
-            gm_parameter_put(table->parameter, spec->parameters, plan->values[k % plan->value_count]);
-            timing->dt = cell->dt = plan->steps[k / plan->value_count] * plan->unit(spec->parameters);
-            struct gm_lane *lane = gm_request_open_lane(&table->request, i, message);
-            if (!lane) {
-                return false;
-            }
-            judge(lane, plan, listener, cell);
-            gm_lane_close(lane);
-            if (gm_listener_stops(listener)) {
-                cell->verdict = GM_UNTRIED;
-                return true;
-            }
-        }
+    struct measuring *measuring = calloc(1, sizeof *measuring);
+    if (!measuring) {
+        return refuse(message, "not enough memory");
     }
-    return true;
+    *measuring = (struct measuring){.table = table, .listener = listener, .message = message};
+    const struct gm_pool pool = {.count = table->count * cells_of(table),
+                                 .window = WINDOW,
+                                 .work = try_cell,
+                                 .take = take_cell,
+                                 .stopped = stops,
+                                 .self = measuring};
+    gm_listener_hears(listener, table->maps[0].scheme->name, 0, pool.count);
+    gm_pool_run(&pool);
+    const bool good = !measuring->failed;
+    free(measuring);
+    return good;
 }
 
 const char *gm_cell_word(const struct gm_map_cell *cell)

@@ -3,28 +3,11 @@
  * needed. */
 #include <math.h>
 
+#include "app/studies/edges.h"
 #include "app/studies/stability.h"
 #include "scenes/frame/graph.h"
 
 enum { MOST_EDGES = 64 };
-
-/* Edges of cells around `count` rising values: halfway, on the axis' scale. */
-static void edges_of(const double *values, size_t count, bool logarithmic, double *edges)
-{
-    double at[MOST_EDGES] = {0};
-    for (size_t i = 0; i < count; i++) {
-        at[i] = logarithmic ? log(values[i]) : values[i];
-    }
-    /* a single value has no neighbour to tell the width of its cell */
-    const double first = count > 1 ? at[1] - at[0] : 1;
-    const double last = count > 1 ? at[count - 1] - at[count - 2] : 1;
-    for (size_t i = 0; i <= count; i++) {
-        const double before = i > 0 ? at[i - 1] : at[0] - first;
-        const double after = i < count ? at[i] : at[count - 1] + last;
-        const double edge = (before + after) / 2;
-        edges[i] = logarithmic ? exp(edge) : edge;
-    }
-}
 
 static struct gm_style style_of(const struct gm_map_cell *cell)
 {
@@ -48,8 +31,8 @@ static void draw_map(const struct gm_stability_table *table, const struct gm_sta
     const struct gm_stability *plan = table->plan;
     const bool logarithmic = table->parameter->logarithmic;
     double x[MOST_EDGES + 1], y[MOST_EDGES + 1];
-    edges_of(plan->values, plan->value_count, logarithmic, x);
-    edges_of(plan->steps, plan->step_count, true, y);
+    gm_edges_of(plan->values, plan->value_count, logarithmic, x);
+    gm_edges_of(plan->steps, plan->step_count, true, y);
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, map->scheme->title);
     panel->axes = true;
     panel->title_role = GM_INK;

@@ -3,7 +3,6 @@
 #include "app/studies/work.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,12 +14,6 @@ enum { REPEATS = 5 };
 
 /* A measurement is repeated until it has taken so long, and given up when one run takes longer. */
 static const double enough_seconds = 0.1, most_seconds = 4;
-
-static bool refuse(char *message, const char *text)
-{
-    snprintf(message, GM_MESSAGE, "%s", text);
-    return false;
-}
 
 static struct gm_timing *timing_of(const struct gm_work_table *table)
 {
@@ -40,46 +33,26 @@ static struct gm_lane *open_lane(const struct gm_work_table *table, const struct
     return lane;
 }
 
-/* How much time the runs of the table are to cover. */
-static double whole_time(const struct gm_work_table *table)
-{
-    return timing_of(table)->until - gm_scene_t0(table->request.scene, timing_of(table));
-}
-
 static bool stopped(const struct gm_work_table *table)
 {
     return gm_listener_stops(table->listener);
 }
 
-static bool ended(const struct gm_lane *lane, long steps)
-{
-    const struct gm_run *run = lane->run;
-    const double until = ((const struct gm_timing *)lane->parameters)->until;
-    return run->status != GM_OK ||
-           (lane->scheme->family->own_time ? run->t >= until * (1 - 1e-12) : run->steps >= steps);
-}
-
 /* To the end, in bursts that answer an interruption; gives up after `most` seconds. Returns the processor
- * time. */
+   time. */
 static double run_through(const struct gm_work_table *table, struct gm_lane *lane, long steps, bool follow,
                           double most)
 {
-    const double size = (double)(lane->problem.n * lane->problem.m);
-    const bool own_time = lane->scheme->family->own_time;
-    const long burst = own_time && follow ? 1 : (long)fmax(1, fmin(1e5, 1e6 / size));
+    const double size = (double)(lane->problem.n * lane->problem.m), until = timing_of(table)->until;
+    const long burst = (long)fmax(1, fmin(1e5, 1e6 / size));
     double spent = 0;
-    while (!ended(lane, steps) && spent < most && !stopped(table)) {
-        const long left = steps - lane->run->steps, some = left < burst ? left : burst;
+    while (gm_run_goes_on(lane->run, steps, until) && spent < most && !stopped(table)) {
+        const long left = steps - lane->run->steps, stop = lane->run->steps + (left < burst ? left : burst);
         const double started = gm_clock_processor_seconds();
         if (follow) {
-            gm_lane_advance(lane, some);
-        } else if (own_time) {
-            /* it may come to its end after any step */
-            for (long i = 0; i < some && !ended(lane, steps); i++) {
-                gm_run_advance(lane->run, 1);
-            }
+            gm_lane_to(lane, stop, until);
         } else {
-            gm_run_advance(lane->run, some);
+            gm_run_to(lane->run, stop, until);
         }
         spent += gm_clock_processor_seconds() - started;
     }
@@ -118,15 +91,14 @@ static double *reference_state(struct gm_work_table *table, char *message)
                  dt);
         gm_lane_close(lane);
         lane = open_lane(table, trusted, dt, message);
-        const long steps = (long)round(whole_time(table) / dt);
         if (lane) {
             /* the carried rounding errors are worth their price here */
-            run_through(table, lane, steps, false, INFINITY);
+            run_through(table, lane, gm_run_steps_at(lane->run, timing_of(table)->until), false, INFINITY);
         }
         if (!lane || lane->run->status != GM_OK || stopped(table)) {
             if (lane) {
-                snprintf(message, GM_MESSAGE, "the reference, %s, failed: %s", table->reference,
-                         gm_status_name(lane->run->status));
+                gm_refuse(message, "the reference, %s, failed: %s", table->reference,
+                          gm_status_name(lane->run->status));
             }
             free(state);
             state = NULL;
@@ -136,7 +108,7 @@ static double *reference_state(struct gm_work_table *table, char *message)
     } else {
         free(state);
         state = NULL;
-        refuse(
+        gm_refuse(
             message,
             "there is nothing to compare with: neither an exact solution nor a scheme of order 4 or more to "
             "make a reference with; --measure KEY compares an observable of the scene instead");
@@ -166,7 +138,7 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
                           const double *reference, struct gm_work_point *point, char *message)
 {
     const bool own_time = scheme->family->own_time;
-    const long steps = own_time ? INT64_MAX : (long)round(whole_time(table) / dt);
+    const double until = timing_of(table)->until;
     const bool follow = table->request.scene->follow > 0 && !reference;
     *point = (struct gm_work_point){.dt = dt, .error = NAN, .seconds = INFINITY};
     double spent = 0;
@@ -175,9 +147,10 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
         if (!lane) {
             return false;
         }
-        const double seconds = run_through(table, lane, steps, false, most_seconds);
         const struct gm_run *run = lane->run;
-        const bool whole = run->status != GM_OK || ended(lane, steps);
+        const long steps = gm_run_steps_at(run, until);
+        const double seconds = run_through(table, lane, steps, false, most_seconds);
+        const bool whole = !gm_run_goes_on(run, steps, until);
         point->seconds = whole ? fmin(point->seconds, seconds) : point->seconds;
         spent += whole ? seconds : enough_seconds;
         if (repeat == 0) {
@@ -198,7 +171,7 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
         if (!lane) {
             return false;
         }
-        run_through(table, lane, steps, true, INFINITY);
+        run_through(table, lane, gm_run_steps_at(lane->run, until), true, INFINITY);
         point->error = error_of(table, lane, reference);
         gm_lane_close(lane);
     }
@@ -227,7 +200,7 @@ static double step_of(const struct gm_work_table *table, size_t rung)
     if (!table->ratio) {
         return table->steps[rung];
     }
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     gm_parameter_put(table->ratio, timing, table->steps[rung]);
     table->request.scene->settle(timing, &table->ratio->key, 1, sentence);
     return timing->dt;
@@ -286,7 +259,7 @@ static bool choose_best(const struct gm_work_table *table, struct gm_work_line *
         }
     }
     free(earned);
-    return good || refuse(message, "not enough memory");
+    return good || gm_refuse(message, "not enough memory");
 }
 
 bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *listener, char *message)
@@ -307,7 +280,7 @@ bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *list
         *line = (struct gm_work_line){.scheme = table->schemes[i]};
         line->points = calloc(table->step_count * table->resolution_count, sizeof *line->points);
         if (!line->points) {
-            good = refuse(message, "not enough memory");
+            good = gm_refuse(message, "not enough memory");
             break;
         }
         table->line_count++;

@@ -13,12 +13,6 @@ static const double usual_errors[3] = {1e-3, 1e-6, 1e-9};
 
 static const char solution_error[] = "solution_error";
 
-static bool refuse(char *message, const char *text)
-{
-    snprintf(message, GM_MESSAGE, "%s", text);
-    return false;
-}
-
 static struct gm_timing *timing_of(const struct gm_work_table *table)
 {
     return table->request.lanes[0].parameters;
@@ -29,7 +23,7 @@ static bool complete(struct gm_arguments *words, const struct gm_arguments *type
 {
     const struct gm_scene *scene = gm_scene_find(typed->words[0]);
     return gm_arguments_complete(words, typed, scene && scene->work ? scene->work->arguments : "") ||
-           refuse(message, "not enough memory");
+           gm_refuse(message, "not enough memory");
 }
 
 /* Lanes may differ in scheme, dt, resolution and ratio alone, and in what was not typed but follows from
@@ -104,7 +98,7 @@ static bool choose_schemes(struct gm_work_table *table, const struct gm_lane *la
     table->schemes = calloc(gm_scheme_count() + request->count, sizeof *table->schemes);
     table->lines = calloc(gm_scheme_count() + request->count, sizeof *table->lines);
     if (!table->schemes || !table->lines) {
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     for (size_t i = 0; named && i < request->count; i++) {
         add_scheme(table, request->lanes[i].scheme);
@@ -139,7 +133,7 @@ static bool choose_steps(struct gm_work_table *table, bool given, char *message)
     const size_t most = given ? request->count : 64;
     table->steps = calloc(most, sizeof *table->steps);
     if (!table->steps) {
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     if (given) {
         for (size_t i = 0; i < request->count; i++) {
@@ -178,7 +172,7 @@ static bool choose_resolutions(struct gm_work_table *table, const struct gm_argu
     table->smaller_is_finer = row && work->resolutions[0] > work->resolutions[work->resolution_count - 1];
     table->resolutions = calloc(most + 1, sizeof *table->resolutions);
     if (!table->resolutions) {
-        return refuse(message, "not enough memory");
+        return gm_refuse(message, "not enough memory");
     }
     for (size_t i = 0; i < most; i++) {
         const double value =
@@ -232,13 +226,11 @@ static bool choose_measure(struct gm_work_table *table, const struct gm_lane *la
             table->observed = false;
             return true;
         }
-        snprintf(message, GM_MESSAGE, "%s says nothing with these parameters", asked);
-        return false;
+        return gm_refuse(message, "%s says nothing with these parameters", asked);
     }
     const char *near = gm_nearest(table->measure, scene->observable_count, observable_name, scene);
-    snprintf(message, GM_MESSAGE, "scene %s has no observable %.60s%s%s", scene->name, table->measure,
-             near ? "; did you mean " : "", near ? near : "");
-    return false;
+    return gm_refuse(message, "scene %s has no observable %.60s%s%s", scene->name, table->measure,
+                     near ? "; did you mean " : "", near ? near : "");
 }
 
 /* One lane is set up, and tells which measure says something and which schemes fit. */
@@ -267,17 +259,15 @@ static bool plan(struct gm_work_table *table, const struct gm_arguments *words,
             gm_arguments_have(typed, word) ? gm_scene_parameter(table->request.scene, work->ratio) : NULL;
     }
     if (!alike(table, typed)) {
-        snprintf(message, GM_MESSAGE,
-                 "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
-                 table->resolution ? ", " : "", table->resolution ? table->resolution->key : "",
-                 work && work->ratio ? ", " : "", work && work->ratio ? work->ratio : "");
-        return false;
+        return gm_refuse(message,
+                         "work-precision compares on one problem: only scheme%s%s%s%s and dt take a list",
+                         table->resolution ? ", " : "", table->resolution ? table->resolution->key : "",
+                         work && work->ratio ? ", " : "", work && work->ratio ? work->ratio : "");
     }
     tell_settings(table, words);
     if (!(timing_of(table)->until > gm_scene_t0(table->request.scene, timing_of(table)))) {
-        snprintf(message, GM_MESSAGE, "until=%g is the start: there is nothing to measure",
-                 timing_of(table)->until);
-        return false;
+        return gm_refuse(message, "until=%g is the start: there is nothing to measure",
+                         timing_of(table)->until);
     }
     return choose_steps(table, gm_arguments_have(typed, "dt=") || table->ratio, message) &&
            choose_resolutions(table, typed, message) && choose(table, typed, measure, message);
@@ -288,7 +278,7 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_arguments *argume
 {
     *table = (struct gm_work_table){0};
     if (arguments->count == 0) {
-        return refuse(message, "work-precision of which scene? See geomint list scenes");
+        return gm_refuse(message, "work-precision of which scene? See geomint list scenes");
     }
     struct gm_arguments words = {0};
     bool good = complete(&words, arguments, message) &&

@@ -63,10 +63,9 @@ struct gm_tour *gm_tours_read(size_t *count, char *message)
     message[0] = '\0';
     DIR *directory = opendir(gm_tour_folder(folder, sizeof folder));
     if (!tours) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
+        gm_refuse(message, "not enough memory");
     } else if (!directory) {
-        snprintf(message, GM_MESSAGE, "there is no folder %.300s with tours; GEOMINT_TOURS can name another",
-                 folder);
+        gm_refuse(message, "there is no folder %.300s with tours; GEOMINT_TOURS can name another", folder);
     }
     for (struct dirent *entry; tours && directory && (entry = readdir(directory));) {
         if (!has_ending(entry->d_name)) {
@@ -81,7 +80,7 @@ struct gm_tour *gm_tours_read(size_t *count, char *message)
         if (gm_tour_read(&tours[*count], path, sentence)) {
             (*count)++;
         } else if (!message[0]) {
-            snprintf(message, GM_MESSAGE, "%s", sentence);
+            gm_refuse(message, "%s", sentence);
         }
     }
     if (directory) {
@@ -130,9 +129,9 @@ bool gm_tour_find(const char *word, char *path, size_t size, bool *file, char *m
     *file = !found && count == 0 && message[0] != '\0';
     if (!found && !*file) {
         const char *near = gm_nearest(word, count, name_at, tours);
-        snprintf(message, GM_MESSAGE, "there is no tour \"%.60s\"%s%s", word,
-                 near ? "; did you mean " : "; geomint tour lists them, and a file has the ending .tour",
-                 near ? near : "");
+        gm_refuse(message, "there is no tour \"%.60s\"%s%s", word,
+                  near ? "; did you mean " : "; geomint tour lists them, and a file has the ending .tour",
+                  near ? near : "");
     }
     gm_tours_close(tours, count);
     return found;

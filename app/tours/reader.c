@@ -46,14 +46,12 @@ __attribute__((format(printf, 3, 4))) static bool refuse(struct reader *reader, 
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    snprintf(reader->message, GM_MESSAGE, "%.100s, line %ld: %.380s", reader->name, line, sentence);
-    return false;
+    return gm_refuse(reader->message, "%.100s, line %ld: %.380s", reader->name, line, sentence);
 }
 
 static bool short_of_memory(struct reader *reader)
 {
-    snprintf(reader->message, GM_MESSAGE, "not enough memory");
-    return false;
+    return gm_refuse(reader->message, "not enough memory");
 }
 
 static const char *word_name(size_t i, const void *data)
@@ -196,7 +194,7 @@ static bool parse_show(struct gm_tour_step *step, char *message)
     gm_request_close(&step->request);
     bool good = gm_arguments_split(&words, step->show);
     if (!good) {
-        snprintf(message, GM_MESSAGE, "not enough memory");
+        gm_refuse(message, "not enough memory");
     }
     good = good && gm_request_parse(&step->request, words.count, words.words, MOST_SCHEMES, message);
     gm_arguments_close(&words);
@@ -502,7 +500,7 @@ bool gm_tour_read(struct gm_tour *tour, const char *path, char *message)
     char reason[GM_REGULAR_REASON];
     char *text = gm_regular_read(path, MOST_BYTES, &size, reason);
     if (!text) {
-        snprintf(message, GM_MESSAGE, "%.300s could not be read: %s", path, reason);
+        gm_refuse(message, "%.300s could not be read: %s", path, reason);
     }
     const bool good = text && gm_tour_parse(tour, path, text, size, message);
     free(text);

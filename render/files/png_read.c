@@ -194,7 +194,7 @@ bool gm_png_read_texts(const char *path, const char *const *keys, char **texts, 
             free(texts[i]);
             texts[i] = NULL;
         }
-        snprintf(message, GM_MESSAGE, "cannot read %.360s: %s", path, reason);
+        gm_refuse(message, "cannot read %.360s: %s", path, reason);
     }
     return good;
 }
@@ -203,7 +203,7 @@ char *gm_png_read_text(const char *path, const char *key, char *message)
 {
     char *text = NULL;
     if (gm_png_read_texts(path, &key, &text, 1, message) && !text) {
-        snprintf(message, GM_MESSAGE, "%.360s holds no text \"%.64s\"", path, key);
+        gm_refuse(message, "%.360s holds no text \"%.64s\"", path, key);
     }
     return text;
 }
@@ -303,7 +303,7 @@ bool gm_png_read(const char *path, int width, int height, unsigned char *rgb, ch
         fclose(file);
     }
     if (!good) {
-        snprintf(message, GM_MESSAGE, "cannot read %.360s: %s", path, error ? strerror(error) : reason);
+        gm_refuse(message, "cannot read %.360s: %s", path, error ? strerror(error) : reason);
     }
     return good;
 }

@@ -164,7 +164,7 @@ struct gm_sink *gm_sink_start(const struct gm_sink_kind *kind, void *self, int w
         release(sink);
     }
     kind->close(self, false, message);
-    snprintf(message, GM_MESSAGE, "not enough memory or threads to write frames");
+    gm_refuse(message, "not enough memory or threads to write frames");
     return NULL;
 }
 
@@ -248,7 +248,7 @@ bool gm_sink_close(struct gm_sink *sink, bool keep, char *message)
     }
     bool good = !sink->failed;
     if (!good) {
-        snprintf(message, GM_MESSAGE, "%s", sink->message);
+        gm_refuse(message, "%s", sink->message);
     }
     release(sink);
     return good;

@@ -238,8 +238,8 @@ static bool tell(struct movie_sink *self, int status, char *message)
     }
     char reason[LOG_SHOWN];
     read_reason(self, reason, sizeof reason);
-    snprintf(message, GM_MESSAGE, "ffmpeg %s and %.*s was not made%s%s", how, PATH_SHOWN, self->path,
-             reason[0] ? "; its last message: " : "; it left no message", reason);
+    gm_refuse(message, "ffmpeg %s and %.*s was not made%s%s", how, PATH_SHOWN, self->path,
+              reason[0] ? "; its last message: " : "; it left no message", reason);
     self->failed = true;
     return false;
 }
@@ -281,7 +281,7 @@ static bool make_gif(struct movie_sink *self, char *message)
     int error = start_ffmpeg(self, &command, nothing);
     close(nothing);
     if (error) {
-        snprintf(message, GM_MESSAGE, "ffmpeg could not be started: %s", strerror(error));
+        gm_refuse(message, "ffmpeg could not be started: %s", strerror(error));
         self->failed = true;
         return false;
     }
@@ -312,21 +312,19 @@ static bool complete(struct movie_sink *self, char *message)
         return tell(self, status, message);
     }
     if (self->count == 0) {
-        snprintf(message, GM_MESSAGE, "there was no frame and %.*s was not made", PATH_SHOWN, self->path);
-        return false;
+        return gm_refuse(message, "there was no frame and %.*s was not made", PATH_SHOWN, self->path);
     }
     if (self->format == GIF && !make_gif(self, message)) {
         return false;
     }
     if (!is_movie(self)) {
-        snprintf(message, GM_MESSAGE, "ffmpeg says that it is done, but what it left is not %.*s", PATH_SHOWN,
-                 self->path);
+        gm_refuse(message, "ffmpeg says that it is done, but what it left is not %.*s", PATH_SHOWN,
+                  self->path);
         self->failed = true;
         return false;
     }
     if (rename(self->temporary, self->path) != 0) {
-        snprintf(message, GM_MESSAGE, "cannot write %.*s: %s", PATH_SHOWN, self->path, strerror(errno));
-        return false;
+        return gm_refuse(message, "cannot write %.*s: %s", PATH_SHOWN, self->path, strerror(errno));
     }
     return true;
 }
@@ -416,8 +414,7 @@ static bool start_first_pass(struct movie_sink *self, char *message)
 {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) {
-        snprintf(message, GM_MESSAGE, "ffmpeg could not be started: %s", strerror(errno));
-        return false;
+        return gm_refuse(message, "ffmpeg could not be started: %s", strerror(errno));
     }
     self->input = ends[1];
     fcntl(self->input, F_SETFL, O_NONBLOCK);
@@ -425,10 +422,9 @@ static bool start_first_pass(struct movie_sink *self, char *message)
     int error = first_pass(self, ends[0]);
     close(ends[0]);
     if (error == ENOENT) {
-        snprintf(message, GM_MESSAGE,
-                 "ffmpeg was not found; install it, or leave out --movie to get PNG frames");
+        gm_refuse(message, "ffmpeg was not found; install it, or leave out --movie to get PNG frames");
     } else if (error) {
-        snprintf(message, GM_MESSAGE, "ffmpeg could not be started: %s", strerror(error));
+        gm_refuse(message, "ffmpeg could not be started: %s", strerror(error));
     }
     return error == 0;
 }
@@ -457,9 +453,7 @@ static bool open_files(struct movie_sink *self, const char *path, char *message)
 {
     struct stat status;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        snprintf(message, GM_MESSAGE, "cannot write %.*s: it is there and is no ordinary file", PATH_SHOWN,
-                 path);
-        return false;
+        return gm_refuse(message, "cannot write %.*s: it is there and is no ordinary file", PATH_SHOWN, path);
     }
     gm_temporary_sweep(path);
     self->path = strdup(path);
@@ -471,13 +465,11 @@ static bool open_files(struct movie_sink *self, const char *path, char *message)
     if (!self->path || !self->temporary || (self->format == GIF && (!self->frames || !self->palette)) ||
         asprintf(&self->log, "%s.log", path) < 0) {
         self->log = NULL;
-        snprintf(message, GM_MESSAGE, "not enough memory for a movie");
-        return false;
+        return gm_refuse(message, "not enough memory for a movie");
     }
     self->log_descriptor = open(self->log, O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
     if (self->log_descriptor < 0) {
-        snprintf(message, GM_MESSAGE, "cannot write %.*s: %s", PATH_SHOWN, self->log, strerror(errno));
-        return false;
+        return gm_refuse(message, "cannot write %.*s: %s", PATH_SHOWN, self->log, strerror(errno));
     }
     return true;
 }
@@ -487,13 +479,12 @@ struct gm_sink *gm_sink_open_movie(const char *path, const struct gm_sink_settin
     static const struct gm_sink_kind kind = {.frame = write_frame, .close = close_movie};
     enum format format = MP4;
     if (!find_format(path, &format)) {
-        snprintf(message, GM_MESSAGE, "a movie is an .mp4, .webm or .gif file, which %.*s is not", PATH_SHOWN,
-                 path);
+        gm_refuse(message, "a movie is an .mp4, .webm or .gif file, which %.*s is not", PATH_SHOWN, path);
         return NULL;
     }
     struct movie_sink *self = calloc(1, sizeof *self);
     if (!self) {
-        snprintf(message, GM_MESSAGE, "not enough memory for a movie");
+        gm_refuse(message, "not enough memory for a movie");
         return NULL;
     }
     *self = (struct movie_sink){

@@ -69,7 +69,7 @@ static bool write_frame(void *argument, const unsigned char *rgb, long number,
         }
         written = gm_png_write(path, self->width, self->height, rgb, all, total, message);
     } else {
-        snprintf(message, GM_MESSAGE, "not enough memory for a frame");
+        gm_refuse(message, "not enough memory for a frame");
     }
     free(all);
     free(path);
@@ -98,7 +98,7 @@ struct gm_sink *gm_sink_open_png(const char *pattern, const struct gm_sink_setti
     static const struct gm_sink_kind kind = {.frame = write_frame, .close = close_png};
     struct png_sink *self = calloc(1, sizeof *self);
     if (!self) {
-        snprintf(message, GM_MESSAGE, "not enough memory to write frames");
+        gm_refuse(message, "not enough memory to write frames");
         return NULL;
     }
     *self = (struct png_sink){
@@ -110,7 +110,7 @@ struct gm_sink *gm_sink_open_png(const char *pattern, const struct gm_sink_setti
     };
     if (!self->pattern || !self->texts) {
         close_png(self, false, message);
-        snprintf(message, GM_MESSAGE, "not enough memory to write frames");
+        gm_refuse(message, "not enough memory to write frames");
         return NULL;
     }
     find_conversion(self);

@@ -107,3 +107,25 @@ void gm_temporary_sweep(const char *path)
     }
     free(folder);
 }
+
+bool gm_temporary_make(const char *path, bool (*write)(FILE *file, const void *context), const void *context)
+{
+    char *temporary = gm_temporary_name(path, ".tmp");
+    FILE *file = temporary ? fopen(temporary, "wbxe") : NULL;
+    bool good = file && write(file, context) && fflush(file) == 0 && fsync(fileno(file)) == 0;
+    int why = errno;
+    if (file && fclose(file) != 0 && good) {
+        why = errno;
+        good = false;
+    }
+    if (good && rename(temporary, path) != 0) {
+        why = errno;
+        good = false;
+    }
+    if (file && !good) {
+        unlink(temporary);
+    }
+    free(temporary);
+    errno = why;
+    return good;
+}

@@ -45,7 +45,7 @@ bool gm_batch_open(struct gm_batch *batch, const struct gm_gl *gl, char *message
 void gm_batch_close(struct gm_batch *batch)
 {
     const struct gm_gl *gl = batch->gl;
-    if (gl != NULL) {
+    if (gl) {
         gm_shaders_close(gl, batch->programs);
         gl->DeleteBuffers(1, &batch->buffer);
         gl->DeleteBuffers(1, &batch->index_buffer);
@@ -100,7 +100,7 @@ static bool grow(struct gm_batch *batch, void **block, size_t *capacity, size_t 
         wanted *= 2;
     }
     void *bigger = wanted - count < more ? NULL : realloc(*block, wanted * size);
-    if (bigger == NULL) {
+    if (!bigger) {
         batch->short_of_memory = true;
         return false;
     }
@@ -144,7 +144,7 @@ struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count)
         return NULL;
     }
     struct gm_command *command = command_for(batch, false);
-    if (command == NULL) {
+    if (!command) {
         return NULL;
     }
     batch->join = 0;
@@ -178,7 +178,7 @@ struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t ind
         return NULL;
     }
     struct gm_command *command = command_for(batch, true);
-    if (command == NULL) {
+    if (!command) {
         return NULL;
     }
     command->count = index_count;

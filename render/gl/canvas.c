@@ -105,8 +105,7 @@ static bool gl_open(struct gm_canvas *canvas, char *message)
     }
     const char *missing = gm_gl_load(&canvas->gl, canvas->context);
     if (missing != NULL) {
-        snprintf(message, GM_MESSAGE, "This OpenGL lacks the function %s.", missing);
-        return false;
+        return gm_refuse(message, "This OpenGL lacks the function %s.", missing);
     }
     const char *version = (const char *)canvas->gl.GetString(GL_VERSION);
     const char *renderer = (const char *)canvas->gl.GetString(GL_RENDERER);
@@ -146,7 +145,7 @@ static struct gm_canvas *open_alone(const struct gm_appearance *look, char *mess
 {
     struct gm_canvas *canvas = calloc(1, sizeof *canvas);
     if (canvas == NULL) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture.");
+        gm_refuse(message, "There is not enough memory for a picture.");
         return NULL;
     }
     canvas->painter.look = *look;
@@ -259,7 +258,7 @@ struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message
     take_turn();
     struct gm_canvas *canvas = open_alone(look, message);
     if (canvas == NULL && !gm_address_space_has(TAKEN)) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory to paint pictures.");
+        gm_refuse(message, "There is not enough memory to paint pictures.");
     }
     end_turn();
     return canvas;

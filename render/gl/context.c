@@ -31,12 +31,12 @@ struct gm_context {
 static struct gm_context *open_with(const struct gm_backend *backend, char *message, size_t size)
 {
     struct gm_context *context = malloc(sizeof *context);
-    if (context == NULL) {
+    if (!context) {
         snprintf(message, size, "There is not enough memory for an OpenGL context.");
         return NULL;
     }
     *context = (struct gm_context){.backend = backend, .self = backend->open(message, size)};
-    if (context->self == NULL) {
+    if (!context->self) {
         free(context);
         return NULL;
     }
@@ -46,7 +46,7 @@ static struct gm_context *open_with(const struct gm_backend *backend, char *mess
 static void unknown_backend(const char *wanted, char *message, size_t size)
 {
     char known[64] = "";
-    for (size_t i = 0; backends[i] != NULL; i++) {
+    for (size_t i = 0; backends[i]; i++) {
         snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i > 0 ? " and " : "",
                  backends[i]->key);
     }
@@ -59,17 +59,17 @@ struct gm_context *gm_context_open(char *message, size_t size)
     const char *wanted = getenv("GEOMINT_GL");
     char reasons[2][192] = {"", ""};
     size_t tried = 0;
-    for (size_t i = 0; backends[i] != NULL; i++) {
-        if (wanted != NULL && wanted[0] != '\0' && strcmp(wanted, backends[i]->key) != 0) {
+    for (size_t i = 0; backends[i]; i++) {
+        if (wanted && wanted[0] != '\0' && strcmp(wanted, backends[i]->key) != 0) {
             continue;
         }
         struct gm_context *context = open_with(backends[i], reasons[tried], sizeof reasons[tried]);
-        if (context != NULL) {
+        if (context) {
             return context;
         }
         tried++;
     }
-    if (tried == 0 && wanted != NULL && wanted[0] != '\0') {
+    if (tried == 0 && wanted && wanted[0] != '\0') {
         unknown_backend(wanted, message, size);
     } else if (tried == 0) {
         snprintf(message, size,
@@ -83,7 +83,7 @@ struct gm_context *gm_context_open(char *message, size_t size)
 
 void gm_context_close(struct gm_context *context)
 {
-    if (context == NULL) {
+    if (!context) {
         return;
     }
     context->backend->close(context->self);
@@ -127,8 +127,8 @@ static void make_sentence(void)
     const int length =
         snprintf(sentence, sizeof sentence, "geomint: Mesa, which paints the pictures, crashed");
     const size_t used = (size_t)length;
-    exit_status = driver == NULL && limited ? 5 : 3; /* not enough memory; no file was written */
-    if (driver != NULL) {
+    exit_status = !driver && limited ? 5 : 3; /* not enough memory; no file was written */
+    if (driver) {
         snprintf(sentence + used, sizeof sentence - used,
                  "; the environment variable GALLIUM_DRIVER asks for its driver \"%.60s\".\n", driver);
     } else if (limited) {

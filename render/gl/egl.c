@@ -59,7 +59,7 @@ static void egl_close(void *self)
         egl->destroy_context(egl->display, egl->context);
     }
     /* The display is not terminated: EGL shares it between all contexts of the process. */
-    if (egl->release_thread != NULL) {
+    if (egl->release_thread) {
         egl->release_thread();
     }
     free(egl);
@@ -69,12 +69,12 @@ static void egl_close(void *self)
 static const char *context_create(struct egl *egl)
 {
     const char *extensions = egl->query_string(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (extensions == NULL || strstr(extensions, "EGL_MESA_platform_surfaceless") == NULL) {
+    if (!extensions || !strstr(extensions, "EGL_MESA_platform_surfaceless")) {
         return "has no surfaceless platform";
     }
     const PFNEGLGETPLATFORMDISPLAYEXTPROC get_platform_display =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)egl->get_proc_address("eglGetPlatformDisplayEXT");
-    if (get_platform_display == NULL) {
+    if (!get_platform_display) {
         return "has no eglGetPlatformDisplayEXT";
     }
     egl->display = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
@@ -106,16 +106,16 @@ static void *egl_open(char *message, size_t size)
 {
     static const char *const names[] = {"libEGL.so.1", NULL};
     void *library = gm_library_open(names, message, size);
-    if (library == NULL) {
+    if (!library) {
         return NULL;
     }
     struct egl *egl = calloc(1, sizeof *egl);
-    if (egl == NULL) {
+    if (!egl) {
         snprintf(message, size, "there is not enough memory for EGL");
         return NULL;
     }
     const char *reason = find_functions(egl, library) ? context_create(egl) : "is too old";
-    if (reason != NULL) {
+    if (reason) {
         snprintf(message, size, "EGL %s", reason);
         egl_close(egl);
         return NULL;

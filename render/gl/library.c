@@ -10,9 +10,9 @@
 void *gm_library_open(const char *const *names, char *message, size_t size)
 {
     snprintf(message, size, "%s is not installed", names[0]);
-    for (size_t i = 0; names[i] != NULL; i++) {
+    for (size_t i = 0; names[i]; i++) {
         void *library = dlopen(names[i], RTLD_NOW | RTLD_LOCAL);
-        if (library != NULL) {
+        if (library) {
             return library;
         }
         /* "NAME: cannot open shared object file: No such file or directory"; of a library that it needs, or
@@ -34,7 +34,7 @@ bool gm_library_find(void *library, const struct gm_library_symbol *symbols, siz
         /* dlsym returns functions as data pointers; POSIX lets their representation be copied */
         void **function = symbols[i].function;
         *function = dlsym(library, symbols[i].name);
-        if (*function == NULL) {
+        if (!*function) {
             return false;
         }
     }

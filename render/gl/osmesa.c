@@ -29,7 +29,7 @@ static bool osmesa_use(void *self)
 static void osmesa_close(void *self)
 {
     struct osmesa *osmesa = self;
-    if (osmesa->context != NULL) {
+    if (osmesa->context) {
         osmesa->make_current(NULL, NULL, 0, 0, 0);
         osmesa->destroy(osmesa->context);
     }
@@ -40,11 +40,11 @@ static void *osmesa_open(char *message, size_t size)
 {
     static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL};
     void *library = gm_library_open(names, message, size);
-    if (library == NULL) {
+    if (!library) {
         return NULL;
     }
     struct osmesa *osmesa = calloc(1, sizeof *osmesa);
-    if (osmesa == NULL) {
+    if (!osmesa) {
         snprintf(message, size, "there is not enough memory for OSMesa");
         return NULL;
     }
@@ -69,7 +69,7 @@ static void *osmesa_open(char *message, size_t size)
                                      3,
                                      0};
     osmesa->context = osmesa->create(attributes, NULL);
-    if (osmesa->context == NULL || !osmesa_use(osmesa)) {
+    if (!osmesa->context || !osmesa_use(osmesa)) {
         snprintf(message, size, "OSMesa gives no OpenGL 3.3 context");
         osmesa_close(osmesa);
         return NULL;

@@ -17,12 +17,8 @@ static struct gm_axis bar_axis(const struct gm_mark *field)
 
 void gm_axis_range(const struct gm_axis *axis, double *low, double *high)
 {
-    const bool log = axis->scale == GM_LOG;
-    const bool good = isfinite(axis->low) && isfinite(axis->high) && axis->high > axis->low &&
-                      isfinite(axis->high - axis->low) && (!log || axis->low > 0.0);
-    *low = good ? axis->low : log ? 0.1 : 0.0;
-    *high = good ? axis->high : 1.0;
-    if (log) {
+    gm_axis_shown(axis, low, high);
+    if (axis->scale == GM_LOG) {
         *low = log10(*low);
         *high = log10(*high);
     }

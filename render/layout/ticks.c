@@ -17,12 +17,12 @@ static const double slack = 1e-6;
 /* Beyond this many decades a log axis shows powers of ten alone. */
 static const double few_decades = 1.5;
 
-/* The range as the axis shows it: never empty, positive on a log axis. */
-static void range_of(const struct gm_axis *axis, double *low, double *high)
+void gm_axis_shown(const struct gm_axis *axis, double *low, double *high)
 {
+    const bool log = axis->scale == GM_LOG;
     const bool good = isfinite(axis->low) && isfinite(axis->high) && axis->high > axis->low &&
-                      (axis->scale != GM_LOG || axis->low > 0.0);
-    *low = good ? axis->low : axis->scale == GM_LOG ? 0.1 : 0.0;
+                      isfinite(axis->high - axis->low) && (!log || axis->low > 0.0);
+    *low = good ? axis->low : log ? 0.1 : 0.0;
     *high = good ? axis->high : 1.0;
 }
 
@@ -209,7 +209,7 @@ static size_t ticks_log(double low, double high, size_t max, double *values)
 size_t gm_ticks(const struct gm_axis *axis, size_t max, double *values)
 {
     double low, high;
-    range_of(axis, &low, &high);
+    gm_axis_shown(axis, &low, &high);
     max = max < GM_TICK_MAX ? max : GM_TICK_MAX;
     if (max == 0) {
         return 0;

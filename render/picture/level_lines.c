@@ -192,7 +192,7 @@ void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, str
     struct crossing *table = gm_picture_memory(picture, table_size * sizeof *table);
     struct segment *segments = gm_picture_memory(picture, most * sizeof *segments);
     double *line = gm_picture_memory(picture, (most + 1) * 2 * sizeof *line);
-    if (table == NULL || segments == NULL || line == NULL) {
+    if (!table || !segments || !line) {
         return;
     }
 

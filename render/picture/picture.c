@@ -37,11 +37,11 @@ enum gm_dash gm_lane_dash(size_t lane)
 static struct chunk *chunk_open(size_t size, struct chunk *next)
 {
     struct chunk *chunk = malloc(sizeof *chunk);
-    if (chunk == NULL) {
+    if (!chunk) {
         return NULL;
     }
     *chunk = (struct chunk){.next = next, .size = size, .bytes = aligned_alloc(ALIGNMENT, size)};
-    if (chunk->bytes == NULL) {
+    if (!chunk->bytes) {
         free(chunk);
         return NULL;
     }
@@ -50,7 +50,7 @@ static struct chunk *chunk_open(size_t size, struct chunk *next)
 
 static void chunks_close(struct chunk *chunk)
 {
-    while (chunk != NULL) {
+    while (chunk) {
         struct chunk *next = chunk->next;
         free(chunk->bytes);
         free(chunk);
@@ -68,7 +68,7 @@ struct gm_picture *gm_picture_open(void)
 {
     struct gm_picture *picture = malloc(sizeof *picture);
     struct gm_arena *arena = calloc(1, sizeof *arena);
-    if (picture == NULL || arena == NULL) {
+    if (!picture || !arena) {
         free(picture);
         free(arena);
         return NULL;
@@ -80,7 +80,7 @@ struct gm_picture *gm_picture_open(void)
 
 void gm_picture_close(struct gm_picture *picture)
 {
-    if (picture == NULL) {
+    if (!picture) {
         return;
     }
     chunks_close(picture->arena->chunk);
@@ -92,14 +92,14 @@ void gm_picture_clear(struct gm_picture *picture)
 {
     struct gm_arena *arena = picture->arena;
     /* Several chunks become one, so that frames of one kind soon need no allocation at all. */
-    if (arena->chunk != NULL && arena->chunk->next != NULL) {
+    if (arena->chunk && arena->chunk->next) {
         chunks_close(arena->chunk);
         arena->chunk = chunk_open(arena->total, NULL);
-        if (arena->chunk == NULL) {
+        if (!arena->chunk) {
             arena->total = 0;
         }
     }
-    if (arena->chunk != NULL) {
+    if (arena->chunk) {
         arena->chunk->used = 0;
     }
     picture_reset(picture);
@@ -113,10 +113,10 @@ void *gm_picture_memory(struct gm_picture *picture, size_t size)
     }
     size = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     struct chunk *chunk = arena->chunk;
-    if (chunk == NULL || chunk->size - chunk->used < size) {
+    if (!chunk || chunk->size - chunk->used < size) {
         size_t wanted = arena->total > FIRST_CHUNK ? arena->total : FIRST_CHUNK;
         chunk = chunk_open(wanted > size ? wanted : size, arena->chunk);
-        if (chunk == NULL) {
+        if (!chunk) {
             return NULL;
         }
         arena->chunk = chunk;
@@ -139,22 +139,22 @@ const char *gm_picture_text(struct gm_picture *picture, const char *format, ...)
     va_copy(again, arguments);
     const int length = vsnprintf(NULL, 0, format, arguments);
     char *text = length < 0 ? NULL : gm_picture_memory(picture, (size_t)length + 1);
-    if (text != NULL) {
+    if (text) {
         vsnprintf(text, (size_t)length + 1, format, again);
     }
     va_end(again);
     va_end(arguments);
-    return text != NULL ? text : "";
+    return text ? text : "";
 }
 
 static const char *text_copy(struct gm_picture *picture, const char *text)
 {
-    if (text == NULL) {
+    if (!text) {
         return "";
     }
     const size_t size = strlen(text) + 1;
     char *copy = gm_picture_memory(picture, size);
-    return copy != NULL ? memcpy(copy, text, size) : "";
+    return copy ? memcpy(copy, text, size) : "";
 }
 
 struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, const char *title)
@@ -177,7 +177,7 @@ struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, c
     if (short_of_memory) {
         return panel;
     }
-    if (picture->last != NULL) {
+    if (picture->last) {
         picture->last->next = panel;
     } else {
         picture->first = panel;
@@ -196,11 +196,11 @@ static struct gm_mark *mark_add(struct gm_picture *picture, struct gm_panel *pan
                                 struct gm_style style)
 {
     struct gm_mark *mark = gm_picture_memory(picture, sizeof *mark);
-    if (mark == NULL) {
+    if (!mark) {
         return spare(picture);
     }
     *mark = (struct gm_mark){.kind = kind, .style = style, .text = ""};
-    if (panel->last != NULL) {
+    if (panel->last) {
         panel->last->next = mark;
     } else {
         panel->first = mark;
@@ -237,11 +237,11 @@ static size_t points_copy(const struct gm_panel *panel, double *to, const double
 void gm_panel_key(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style, const char *name)
 {
     struct gm_key *key = gm_picture_memory(picture, sizeof *key);
-    if (key == NULL) {
+    if (!key) {
         return;
     }
     *key = (struct gm_key){.name = gm_picture_text(picture, "%s", name), .style = style};
-    if (panel->last_key != NULL) {
+    if (panel->last_key) {
         panel->last_key->next = key;
     } else {
         panel->first_key = key;
@@ -253,7 +253,7 @@ struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel,
                              const double *points, size_t count, bool closed)
 {
     double *copy = memory_of(picture, count, 2 * sizeof *copy);
-    if (copy == NULL || count == 0) {
+    if (!copy || count == 0) {
         return spare(picture);
     }
 
@@ -279,11 +279,11 @@ struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel,
             mark->points = copy + 2 * piece;
             mark->count = kept - piece;
             mark->closed = closed;
-            first = first != NULL ? first : mark;
+            first = first ? first : mark;
             piece = kept;
         }
     }
-    return first != NULL ? first : spare(picture);
+    return first ? first : spare(picture);
 }
 
 static struct gm_mark *mark_of_points(struct gm_picture *picture, struct gm_panel *panel,
@@ -291,7 +291,7 @@ static struct gm_mark *mark_of_points(struct gm_picture *picture, struct gm_pane
                                       size_t count)
 {
     double *copy = memory_of(picture, count, 2 * sizeof *copy);
-    const size_t kept = copy != NULL ? points_copy(panel, copy, points, count) : 0;
+    const size_t kept = copy ? points_copy(panel, copy, points, count) : 0;
     if (kept == 0) {
         return spare(picture);
     }
@@ -348,7 +348,7 @@ struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel,
     double *places = memory_of(picture, count, 2 * sizeof *places);
     double *heights = memory_of(picture, count, sizeof *heights);
     int *corners = memory_of(picture, triangle_count, 3 * sizeof *corners);
-    if (places == NULL || heights == NULL || corners == NULL) {
+    if (!places || !heights || !corners) {
         return spare(picture);
     }
     struct gm_mark *mark = mark_add(picture, panel, GM_MARK_MESH, opaque);
@@ -389,7 +389,7 @@ struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel
     const size_t count = columns > 0 && rows > SIZE_MAX / columns ? SIZE_MAX : rows * columns;
     double *copy = memory_of(picture, count, sizeof *copy);
     double *places = gm_picture_memory(picture, 4 * sizeof *places);
-    if (copy == NULL || places == NULL || count == 0 || points_copy(panel, places, corners, 2) != 2) {
+    if (!copy || !places || count == 0 || points_copy(panel, places, corners, 2) != 2) {
         return spare(picture);
     }
     struct gm_mark *mark = mark_add(picture, panel, GM_MARK_IMAGE, opaque);

@@ -26,7 +26,7 @@ static void write_numbers(FILE *stream, const double *values, size_t count)
 static void write_text(FILE *stream, const char *text)
 {
     fputs(" \"", stream);
-    for (; text != NULL && *text != '\0'; text++) {
+    for (; text && *text != '\0'; text++) {
         if (*text == '\n') {
             fputs("\\n", stream);
         } else if (*text == '"' || *text == '\\') {
@@ -129,7 +129,7 @@ static void write_panel(FILE *stream, const struct gm_panel *panel)
     write_role(stream, panel->title_role);
     write_text(stream, panel->title);
     write_text(stream, panel->note);
-    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+    for (const struct gm_key *key = panel->first_key; key; key = key->next) {
         fputs(" key", stream);
         write_style(stream, &key->style);
         write_text(stream, key->name);
@@ -142,7 +142,7 @@ static void write_panel(FILE *stream, const struct gm_panel *panel)
     fputc('\n', stream);
     write_axis(stream, "x", &panel->x);
     write_axis(stream, "y", &panel->y);
-    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
         write_mark(stream, mark);
     }
 }
@@ -161,7 +161,7 @@ void gm_picture_write(const struct gm_picture *picture, FILE *stream)
         write_text(stream, picture->told[i].text);
         fputc('\n', stream);
     }
-    for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next) {
+    for (const struct gm_panel *panel = picture->first; panel; panel = panel->next) {
         write_panel(stream, panel);
     }
 }

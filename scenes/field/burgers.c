@@ -11,7 +11,6 @@
        figure 24   the standard schemes        figure 25   the invariantised ones
        figure 26   a self-similar viscous shock */
 #include <math.h>
-#include <stdio.h>
 
 #include "scenes/field/burgers_draw.h"
 #include "scenes/field/field.h"
@@ -71,9 +70,9 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
     const double more = round(fabs(travel) / scene->dx);
     const double pieces = round(2 * half_length(scene) / scene->dx) + more;
     if (!(pieces < most)) {
-        snprintf(sentence, GM_SENTENCE,
-                 "the grid would need %.3g nodes to hold the front until the end; 1e7 is the most", pieces);
-        return false;
+        return gm_refuse(sentence,
+                         "the grid would need %.3g nodes to hold the front until the end; 1e7 is the most",
+                         pieces);
     }
     problem->line = (struct gm_line){
         .points = (size_t)pieces + 1,

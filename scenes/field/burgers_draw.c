@@ -81,21 +81,27 @@ static void note_failure(struct gm_picture *picture, struct gm_panel *panel, con
     }
 }
 
-static void draw_panel(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
-                       size_t number, double *points)
+static size_t count_in_panel(const struct gm_lane *const *lanes, size_t count, size_t panel)
+{
+    size_t sharing = 0;
+    for (size_t i = 0; i < count; i++) {
+        sharing += lanes[i]->shown.panel == panel;
+    }
+    return sharing;
+}
+
+static void draw_panels(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        double *points)
 {
     struct gm_panel *panel = NULL;
     size_t sharing = 0, named = 0;
-    for (size_t i = 0; i < count; i++) {
-        sharing += lanes[i]->shown.panel == number;
-    }
-    for (size_t i = 0; i < count; i++) {
-        if (lanes[i]->shown.panel != number) {
-            continue;
-        }
-        const struct gm_view view = gm_lane_view(lanes[i]);
-        if (!panel) {
-            panel = add_panel(picture, lanes[i], sharing == 1);
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        const struct gm_lane *lane = walk.lane;
+        const struct gm_view view = gm_lane_view(lane);
+        if (walk.first) {
+            sharing = count_in_panel(lanes, count, walk.panel);
+            named = 0;
+            panel = add_panel(picture, lane, sharing == 1);
             struct gm_view before = view;
             before.t = view.t0;
             before.state = view.start;
@@ -103,7 +109,7 @@ static void draw_panel(struct gm_picture *picture, const struct gm_lane *const *
             draw_exact(picture, panel, &view, (struct gm_style){GM_EXACT, 0.8, 4, GM_SOLID}, points);
         }
         const size_t made = profile(panel, &view, points);
-        struct gm_style style = gm_lane_style(lanes[i], lanes[i]->run->status != GM_OK ? 0.55 : 1, 2.2);
+        struct gm_style style = gm_lane_style(lane, lane->run->status != GM_OK ? 0.55 : 1, 2.2);
         gm_mark_line(picture, panel, style, points, made, false);
         if (sharing == 1 && made < TOLD) {
             style.width = 5;
@@ -112,14 +118,13 @@ static void draw_panel(struct gm_picture *picture, const struct gm_lane *const *
         if (sharing == 1) {
             continue;
         }
-        note_failure(picture, panel, lanes[i]);
-        const char *name = name_of(picture, lanes[i], number == 0);
+        note_failure(picture, panel, lane);
+        const char *name = name_of(picture, lane, walk.panel == 0);
         if (name[0]) {
             /* in the empty corner above the front, one below the other */
-            gm_mark_text(
-                picture, panel,
-                (struct gm_style){.role = gm_lane_role(lanes[i]->shown.colour), .alpha = 1, .width = 1},
-                panel->x.high, 1.36 - 0.42 * (double)named++, GM_ANCHOR_RIGHT, name);
+            style = (struct gm_style){.role = gm_lane_role(lane->shown.colour), .alpha = 1, .width = 1};
+            gm_mark_text(picture, panel, style, panel->x.high, 1.36 - 0.42 * (double)named++, GM_ANCHOR_RIGHT,
+                         name);
         }
     }
 }
@@ -332,8 +337,6 @@ void gm_burgers_draw(const struct gm_lane *const *lanes, size_t count, struct gm
     picture->state_columns = scene->burgers.test == GM_BURGERS_FRONT && panels > 4 ? 3 : 0;
     picture->graphs_below = panels <= 3;
     gm_draw_clock(picture, lanes, count);
-    for (size_t p = 0; p < panels; p++) {
-        draw_panel(picture, lanes, count, p, points);
-    }
+    draw_panels(picture, lanes, count, points);
     draw_graphs(picture, lanes, count, boosted);
 }

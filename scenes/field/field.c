@@ -4,7 +4,6 @@
 #include "scenes/field/field.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "core/field/multisymplectic.h"
 
@@ -22,9 +21,7 @@ bool gm_settle_courant(const char *const *keys, size_t count, double dx, struct 
     const double follows = *courant * dx;
     const bool dt = gm_is_given("dt", keys, count);
     if (dt && gm_is_given("courant", keys, count) && fabs(follows - timing->dt) > 1e-9 * follows) {
-        snprintf(sentence, GM_SENTENCE,
-                 "dt= and courant= are both given; one of them follows from the other");
-        return false;
+        return gm_refuse(sentence, "dt= and courant= are both given; one of them follows from the other");
     }
     if (dt) {
         *courant = timing->dt / dx;

@@ -60,8 +60,7 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
         return false;
     }
     if (strcmp(group, "outlet") != 0) {
-        snprintf(sentence, GM_SENTENCE, "outlet=%.60s is none of: soft, dirichlet, free", own->outlet);
-        return false;
+        return gm_refuse(sentence, "outlet=%.60s is none of: soft, dirichlet, free", own->outlet);
     }
     struct gm_rectangle rectangle = {.width = length,
                                      .height = 1,

@@ -13,12 +13,6 @@
 const char *const gm_flows_shows[] = {"scalar",   "vorticity",   "speed",      "pressure", "none",
                                       "profiles", "convergence", "divergence", NULL};
 
-static bool refuse(char *sentence, const char *text)
-{
-    snprintf(sentence, GM_SENTENCE, "%s", text);
-    return false;
-}
-
 /* The sentence for a mesh that was refused; `what` is "the mesh" or the file's name. */
 static void explain(const char *what, const struct gm_triangulation_fault *fault, char *sentence)
 {
@@ -30,77 +24,77 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
     switch (fault->kind) {
     case GM_TRIANGULATION_OK:
     case GM_TRIANGULATION_MEMORY:
-        snprintf(sentence, GM_SENTENCE, "not enough memory");
+        snprintf(sentence, GM_MESSAGE, "not enough memory");
         return;
     case GM_TRIANGULATION_NOT_GMSH:
-        snprintf(sentence, GM_SENTENCE, "%.100s is no Gmsh file: it does not begin with $MeshFormat", what);
+        snprintf(sentence, GM_MESSAGE, "%.100s is no Gmsh file: it does not begin with $MeshFormat", what);
         return;
     case GM_TRIANGULATION_VERSION:
         snprintf(
-            sentence, GM_SENTENCE,
+            sentence, GM_MESSAGE,
             "%.100s is of version %.12s; Gmsh files of version 4.1 are read (save with Mesh.MshFileVersion = 4.1)",
             what, fault->text);
         return;
     case GM_TRIANGULATION_BINARY:
-        snprintf(sentence, GM_SENTENCE, "%.100s is binary; save it as ASCII (Mesh.Binary = 0)", what);
+        snprintf(sentence, GM_MESSAGE, "%.100s is binary; save it as ASCII (Mesh.Binary = 0)", what);
         return;
     case GM_TRIANGULATION_SYNTAX:
-        snprintf(sentence, GM_SENTENCE, "%.100s%s: expected %s", what, where, fault->text);
+        snprintf(sentence, GM_MESSAGE, "%.100s%s: expected %s", what, where, fault->text);
         return;
     case GM_TRIANGULATION_TRUNCATED:
-        snprintf(sentence, GM_SENTENCE, "%.100s%s: the file ends within its section %s", what, where,
+        snprintf(sentence, GM_MESSAGE, "%.100s%s: the file ends within its section %s", what, where,
                  fault->text);
         return;
     case GM_TRIANGULATION_HUGE:
-        snprintf(sentence, GM_SENTENCE, "%.100s%s: %s is more than 5000000", what, where, fault->text);
+        snprintf(sentence, GM_MESSAGE, "%.100s%s: %s is more than 5000000", what, where, fault->text);
         return;
     case GM_TRIANGULATION_REPEATED_NODE:
-        snprintf(sentence, GM_SENTENCE, "%.100s%s: node %ld is there twice", what, where, n[0]);
+        snprintf(sentence, GM_MESSAGE, "%.100s%s: node %ld is there twice", what, where, n[0]);
         return;
     case GM_TRIANGULATION_UNKNOWN_NODE:
-        snprintf(sentence, GM_SENTENCE, "%.100s%s: there is no node %ld", what, where, n[0]);
+        snprintf(sentence, GM_MESSAGE, "%.100s%s: there is no node %ld", what, where, n[0]);
         return;
     case GM_TRIANGULATION_ELEMENT:
         snprintf(
-            sentence, GM_SENTENCE,
+            sentence, GM_MESSAGE,
             "%.100s%s: elements of type %ld; only triangles with three nodes (type 2) and their sides are read",
             what, where, n[0]);
         return;
     case GM_TRIANGULATION_THREE_D:
-        snprintf(sentence, GM_SENTENCE,
+        snprintf(sentence, GM_MESSAGE,
                  "%.100s%s: node %ld lies off the plane of the others; the mesh must be flat", what, where,
                  n[0]);
         return;
     case GM_TRIANGULATION_EMPTY:
-        snprintf(sentence, GM_SENTENCE, "%.100s has no triangle", what);
+        snprintf(sentence, GM_MESSAGE, "%.100s has no triangle", what);
         return;
     case GM_TRIANGULATION_DEGENERATE:
-        snprintf(sentence, GM_SENTENCE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) has no area", what, where,
+        snprintf(sentence, GM_MESSAGE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) has no area", what, where,
                  fault->triangle, n[0], n[1], n[2]);
         return;
     case GM_TRIANGULATION_OVERLAP:
-        snprintf(sentence, GM_SENTENCE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) lies over its neighbour",
+        snprintf(sentence, GM_MESSAGE, "%.100s%s: triangle %ld (nodes %ld %ld %ld) lies over its neighbour",
                  what, where, fault->triangle, n[0], n[1], n[2]);
         return;
     case GM_TRIANGULATION_EDGE_OF_THREE:
-        snprintf(sentence, GM_SENTENCE,
+        snprintf(sentence, GM_MESSAGE,
                  "%.100s: the edge between nodes %ld and %ld belongs to three triangles", what, n[0], n[1]);
         return;
     case GM_TRIANGULATION_PINCHED:
-        snprintf(sentence, GM_SENTENCE, "%.100s: at node %ld the mesh hangs together by a point", what, n[0]);
+        snprintf(sentence, GM_MESSAGE, "%.100s: at node %ld the mesh hangs together by a point", what, n[0]);
         return;
     case GM_TRIANGULATION_PIECES:
-        snprintf(sentence, GM_SENTENCE, "%.100s is in several pieces", what);
+        snprintf(sentence, GM_MESSAGE, "%.100s is in several pieces", what);
         return;
     case GM_TRIANGULATION_NOT_DELAUNAY:
         snprintf(
-            sentence, GM_SENTENCE,
+            sentence, GM_MESSAGE,
             "%.80s%s: triangle %ld (nodes %ld %ld %ld) has an angle of %.1f degrees and a dual edge that is not "
             "positive; the mesh must be Delaunay",
             what, where, fault->triangle, n[0], n[1], n[2], fault->value);
         return;
     case GM_TRIANGULATION_DUAL_CELL:
-        snprintf(sentence, GM_SENTENCE, "%.100s: the dual cell of node %ld has no positive area", what, n[0]);
+        snprintf(sentence, GM_MESSAGE, "%.100s: the dual cell of node %ld has no positive area", what, n[0]);
         return;
     }
 }
@@ -111,13 +105,12 @@ struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentenc
         gm_rectangle_strips(rectangle->width, rectangle->height, rectangle->edges, rectangle->transposed);
     rectangle->strips = rectangle->strips == 0 ? best : rectangle->strips;
     if (rectangle->strips % 2 != 0) {
-        snprintf(sentence, GM_SENTENCE, "the number of strips of triangles must be even; %ld is a good one",
-                 best);
+        gm_refuse(sentence, "the number of strips of triangles must be even; %ld is a good one", best);
         return NULL;
     }
     if (!gm_rectangle_is_acute(rectangle)) {
-        snprintf(
-            sentence, GM_SENTENCE,
+        gm_refuse(
+            sentence,
             "%ld edges and %ld strips do not make acute triangles: the height of a strip must lie between half an "
             "edge and an edge; %ld strips are best",
             rectangle->edges, rectangle->strips, best);
@@ -131,7 +124,7 @@ struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentenc
     }
     struct gm_flow *flow = gm_flow_open(complex);
     if (!flow) {
-        refuse(sentence, "not enough memory");
+        gm_refuse(sentence, "not enough memory");
     }
     return flow;
 }
@@ -143,8 +136,7 @@ bool gm_flows_file(const char *path, struct gm_triangulation *mesh, char *senten
     char reason[GM_REGULAR_REASON];
     char *text = gm_regular_read(path, LARGEST, &size, reason);
     if (!text) {
-        snprintf(sentence, GM_SENTENCE, "%.130s could not be read: %s", path, reason);
-        return false;
+        return gm_refuse(sentence, "%.130s could not be read: %s", path, reason);
     }
     struct gm_triangulation_fault fault;
     const bool good = gm_triangulation_read(text, size, mesh, &fault);
@@ -181,9 +173,9 @@ long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const 
         used +=
             (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", mesh->group[i].name);
     }
-    snprintf(sentence, GM_SENTENCE,
-             "the mesh has no physical group \"%.40s\" of curves; name one with %s= (there are: %s)", name,
-             key, names);
+    gm_refuse(sentence,
+              "the mesh has no physical group \"%.40s\" of curves; name one with %s= (there are: %s)", name,
+              key, names);
     return 0;
 }
 
@@ -206,9 +198,8 @@ bool gm_flows_outlet(const char *text, enum gm_vertex_kind standard, enum gm_ver
         }
     }
     if (colon) {
-        snprintf(sentence, GM_SENTENCE,
-                 "outlet=%.60s: what follows the colon is none of: soft, dirichlet, free", text);
-        return false;
+        return gm_refuse(sentence, "outlet=%.60s: what follows the colon is none of: soft, dirichlet, free",
+                         text);
     }
     snprintf(group, GM_TEXT_SIZE, "%s", text);
     return true;
@@ -220,19 +211,19 @@ bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
     case GM_BOUNDARY_OK:
         return true;
     case GM_BOUNDARY_MEMORY:
-        return refuse(sentence, "not enough memory");
+        return gm_refuse(sentence, "not enough memory");
     case GM_BOUNDARY_LOOPS:
-        return refuse(sentence, "the mesh has a hole: the flow around it is not determined by its walls");
+        return gm_refuse(sentence, "the mesh has a hole: the flow around it is not determined by its walls");
     case GM_BOUNDARY_NO_INLET:
-        return refuse(sentence, "the mesh has an outlet but no inlet");
+        return gm_refuse(sentence, "the mesh has an outlet but no inlet");
     case GM_BOUNDARY_NO_OUTLET:
-        return refuse(sentence, "the mesh has an inlet but no outlet");
+        return gm_refuse(sentence, "the mesh has an inlet but no outlet");
     case GM_BOUNDARY_SEVERAL:
-        return refuse(sentence, "the inlet or the outlet is in several pieces; each must be one");
+        return gm_refuse(sentence, "the inlet or the outlet is in several pieces; each must be one");
     case GM_BOUNDARY_SHORT:
-        return refuse(sentence, "the inlet or the outlet is a single edge; it needs two at least");
+        return gm_refuse(sentence, "the inlet or the outlet is a single edge; it needs two at least");
     case GM_BOUNDARY_WHOLE:
-        return refuse(sentence, "the whole boundary is inlet or outlet");
+        return gm_refuse(sentence, "the whole boundary is inlet or outlet");
     }
     return false;
 }
@@ -252,7 +243,7 @@ void gm_flows_close(struct gm_problem *problem)
 double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters)
 {
     struct gm_problem problem = {0};
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     if (!setup(parameters, &problem, sentence)) {
         return NAN;
     }
@@ -293,7 +284,7 @@ unsigned char *gm_flows_sides(const struct gm_flow *flow, unsigned char (*side)(
         sides[b] = side(middle);
     }
     if (!sides) {
-        refuse(sentence, "not enough memory");
+        gm_refuse(sentence, "not enough memory");
     }
     return sides;
 }

@@ -52,8 +52,8 @@ static unsigned char side_at(const double middle[2])
 static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **sides, char *sentence)
 {
     if (own->rows % 5 != 0) {
-        snprintf(
-            sentence, GM_SENTENCE,
+        gm_refuse(
+            sentence,
             "rows=%ld: the lips of inlet and outlet are vertices only if rows is a multiple of 5; the nearest is %ld",
             own->rows, 5 * ((own->rows + 2) / 5));
         return NULL;
@@ -82,7 +82,7 @@ static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet,
     const long in = gm_flows_group(&mesh, "inlet", own->inlet, sentence);
     long out = in ? gm_flows_group(&mesh, "outlet", outlet, sentence) : 0;
     if (in && in == out) {
-        snprintf(sentence, GM_SENTENCE, "inlet and outlet are one group, \"%.60s\"", outlet);
+        gm_refuse(sentence, "inlet and outlet are one group, \"%.60s\"", outlet);
         out = 0;
     }
     struct gm_flow *flow = NULL;
@@ -111,9 +111,9 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
         return false;
     }
     if (!from_file && (strcmp(group, "outlet") != 0 || strcmp(own->inlet, "inlet") != 0)) {
-        snprintf(sentence, GM_SENTENCE,
-                 "inlet= and the outlet's name are for a mesh=FILE; here outlet is soft, dirichlet or free");
-        return false;
+        return gm_refuse(
+            sentence,
+            "inlet= and the outlet's name are for a mesh=FILE; here outlet is soft, dirichlet or free");
     }
     struct gm_flow *flow =
         from_file ? open_file(own, group, &sides, sentence) : open_square(own, &sides, sentence);

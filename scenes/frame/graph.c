@@ -100,7 +100,7 @@ const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *con
     const double divisor = gm_lane_divisor(lanes[0], series);
     for (size_t i = 1; i < count; i++) {
         if (gm_lane_divisor(lanes[i], series) != divisor) {
-            char text[GM_SENTENCE];
+            char text[GM_MESSAGE];
             return gm_picture_text(picture, "%s", gm_observable_title(observable, text, sizeof text));
         }
     }

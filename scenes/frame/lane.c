@@ -157,16 +157,17 @@ void gm_lane_follow(struct gm_lane *lane)
     settle(lane, refusals);
 }
 
-enum gm_status gm_lane_advance(struct gm_lane *lane, long steps)
+enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until)
 {
-    const long follow = lane->scene->follow;
-    while (steps > 0 && lane->run->status == GM_OK) {
-        const long burst = follow > 0 && follow < steps ? follow : steps;
-        gm_run_advance(lane->run, burst);
-        steps -= burst;
-        if (follow > 0) {
-            gm_lane_follow(lane);
-        }
+    if (lane->scene->follow == 0) {
+        return gm_run_to(lane->run, steps, until);
+    }
+    /* steps that the scheme chooses may each be as long as many */
+    const long follow = lane->scheme->family->own_time ? 1 : lane->scene->follow;
+    while (gm_run_goes_on(lane->run, steps, until)) {
+        const long left = steps - lane->run->steps;
+        gm_run_to(lane->run, lane->run->steps + (follow < left ? follow : left), until);
+        gm_lane_follow(lane);
     }
     return lane->run->status;
 }
@@ -347,12 +348,6 @@ static bool open_tracks(struct gm_lane *lane)
     return true;
 }
 
-static bool refuse(char *sentence, const char *text)
-{
-    snprintf(sentence, GM_SENTENCE, "%s", text);
-    return false;
-}
-
 static bool check_fit(const struct gm_scene *scene, const struct gm_problem *problem,
                       const struct gm_scheme *scheme, char *sentence)
 {
@@ -360,9 +355,8 @@ static bool check_fit(const struct gm_scene *scene, const struct gm_problem *pro
         return true;
     }
     const char *lacks = gm_scheme_lacks(scheme, problem);
-    snprintf(sentence, GM_SENTENCE, "scheme %s does not fit scene %s: it needs %s, which %s lacks",
-             scheme->name, scene->name, lacks ? lacks : "a structure", problem->name);
-    return false;
+    return gm_refuse(sentence, "scheme %s does not fit scene %s: it needs %s, which %s lacks", scheme->name,
+                     scene->name, lacks ? lacks : "a structure", problem->name);
 }
 
 static void *copy_of(const void *source, size_t size)
@@ -379,7 +373,7 @@ static bool prepare(struct gm_lane *lane, char *sentence)
 {
     const struct gm_scene *scene = lane->scene;
     if (!lane->parameters) {
-        return refuse(sentence, "not enough memory");
+        return gm_refuse(sentence, "not enough memory");
     }
     if (scene->resolve) {
         scene->resolve(lane->parameters);
@@ -391,7 +385,7 @@ static bool prepare(struct gm_lane *lane, char *sentence)
     lane->t0 = gm_scene_t0(scene, lane->parameters);
     lane->start = malloc(lane->problem.n * lane->problem.m * sizeof *lane->start);
     if (!lane->start) {
-        return refuse(sentence, "not enough memory");
+        return gm_refuse(sentence, "not enough memory");
     }
     if (!scene->start_with) {
         scene->start(lane->parameters, &lane->problem, lane->start);
@@ -401,7 +395,7 @@ static bool prepare(struct gm_lane *lane, char *sentence)
     lane->run =
         gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
     if (!lane->run || !gm_history_open(&lane->history, scene->observable_count) || !open_tracks(lane)) {
-        return refuse(sentence, "not enough memory");
+        return gm_refuse(sentence, "not enough memory");
     }
     return true;
 }
@@ -413,7 +407,7 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
     const unsigned long refusals = gm_memory_refusals();
     struct gm_lane *lane = calloc(1, sizeof *lane);
     if (!lane) {
-        refuse(sentence, "not enough memory");
+        gm_refuse(sentence, "not enough memory");
         return NULL;
     }
     lane->scene = scene;
@@ -427,7 +421,7 @@ struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameter
     }
     if (gm_memory_refusals() != refusals) {
         /* whatever was made of it: a start or an observable cannot say so, a search for a mesh found none */
-        good = refuse(sentence, "not enough memory");
+        good = gm_refuse(sentence, "not enough memory");
     }
     if (!good) {
         gm_lane_close(lane);
@@ -443,11 +437,11 @@ bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *
     }
     struct gm_run *run = gm_run_switch(lane->run, scheme);
     if (!run) {
-        return refuse(sentence, "not enough memory");
+        return gm_refuse(sentence, "not enough memory");
     }
     if (!note_switch(lane, scheme)) {
         gm_run_close(run);
-        return refuse(sentence, "not enough memory");
+        return gm_refuse(sentence, "not enough memory");
     }
     gm_run_close(lane->run);
     lane->run = run;
@@ -457,7 +451,7 @@ bool gm_lane_switch(struct gm_lane *lane, const struct gm_scheme *scheme, char *
 
 struct gm_lane *gm_lane_reopen(const struct gm_lane *lane)
 {
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     struct gm_timing *forwards = copy_of(lane->parameters, lane->scene->size);
     if (!forwards) {
         return NULL;

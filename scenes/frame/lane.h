@@ -44,7 +44,7 @@ struct gm_lane {
     struct gm_behind behind;    /* of sections */
 };
 
-/* Opens a lane at its start, with the start recorded. NULL with a sentence (GM_SENTENCE bytes) if the
+/* Opens a lane at its start, with the start recorded. NULL with a sentence (GM_MESSAGE bytes) if the
    parameters contradict, the scheme does not fit or memory is short. */
 struct gm_lane *gm_lane_open(const struct gm_scene *scene, const void *parameters,
                              const struct gm_settings *settings, const struct gm_scheme *scheme,
@@ -75,8 +75,8 @@ void gm_lane_record(struct gm_lane *lane);
 /* Takes it into tracks only, and follows angles: after every scene->follow steps that are not recorded. */
 void gm_lane_follow(struct gm_lane *lane);
 
-/* Advances by `steps`, following on the way as the scene asks; records nothing. */
-enum gm_status gm_lane_advance(struct gm_lane *lane, long steps);
+/* Advances to an end (gm_run_to), following on the way as the scene asks; records nothing. */
+enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until);
 
 /* How the lane is called, and its panel and colour. */
 void gm_lane_show(struct gm_lane *lane, const struct gm_shown *named);

@@ -5,6 +5,7 @@
 #define GM_SCENES_FRAME_SCENE_H
 
 #include "core/run.h"
+#include "render/message.h"
 #include "render/picture/picture.h"
 #include "scenes/frame/rows.h"
 
@@ -118,9 +119,6 @@ struct gm_choice {
     char value[40];
 };
 enum { GM_CHOICES = 4 };
-
-/* Bytes of a sentence that a scene writes. */
-enum { GM_SENTENCE = 256 };
 
 struct gm_scene {
     const char *name, *title, *blurb, *watch;

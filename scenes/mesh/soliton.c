@@ -16,7 +16,6 @@
 #include "scenes/mesh/soliton_draw.h"
 
 #include <math.h>
-#include <stdio.h>
 
 enum { PATHS = 255 /* most nodes whose paths are recorded */, RECORDS = 400 };
 
@@ -77,17 +76,17 @@ static bool start_with(const void *own, const struct gm_problem *problem, const 
     gm_soliton_profile(&soliton->own, 0, &wall, &slope, &rate);
     if (fabs(wall - mesh.left) > 0.01) {
         /* a jump at the wall, which no cell can be small enough for */
-        snprintf(
-            sentence, GM_SENTENCE,
+        gm_refuse(
+            sentence,
             "no mesh was found: a box of length %g cuts the soliton off, which at velocity = %g is wider",
             soliton->own.length, soliton->own.velocity);
         return false;
     }
-    snprintf(sentence, GM_SENTENCE,
-             "no mesh of %ld nodes was found for alpha = %g and velocity = %g: the homotopy from the uniform "
-             "mesh fails; a smaller alpha helps",
-             soliton->own.points, gm_soliton_alpha(&soliton->own), soliton->own.velocity);
-    return false;
+    return gm_refuse(
+        sentence,
+        "no mesh of %ld nodes was found for alpha = %g and velocity = %g: the homotopy from the uniform "
+        "mesh fails; a smaller alpha helps",
+        soliton->own.points, gm_soliton_alpha(&soliton->own), soliton->own.velocity);
 }
 
 static bool moves(const struct gm_view *view)

@@ -6,7 +6,6 @@
    fill an area if it is chaotic, as more and more are from the energy 1/12 over 1/8 to 1/6; a scheme that is
    not symplectic thickens curves. It reproduces no figure of the documents; it is the classic. */
 #include <math.h>
-#include <stdio.h>
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
@@ -39,9 +38,8 @@ static bool setup(const void *own, struct gm_problem *problem, char *sentence)
 {
     const struct henon_heiles *orbit = own;
     if (!(orbit->energy - potential(0, orbit->q2) - orbit->p2 * orbit->p2 / 2 >= 0)) {
-        snprintf(sentence, GM_SENTENCE, "with the energy %.4g there is no orbit through q2=%.4g, p2=%.4g",
-                 orbit->energy, orbit->q2, orbit->p2);
-        return false;
+        return gm_refuse(sentence, "with the energy %.4g there is no orbit through q2=%.4g, p2=%.4g",
+                         orbit->energy, orbit->q2, orbit->p2);
     }
     *problem = gm_problem_henon_heiles;
     return true;

@@ -13,7 +13,6 @@
 #include "scenes/ode/vortices_draw.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "core/ode/problems/problems.h"
@@ -92,19 +91,15 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
     const bool any_count = own->configuration == GM_SQUARE || own->configuration == GM_RANDOM;
     const size_t carried = gm_vortices_carried(own), tracers = (size_t)own->tracers;
     if (own->strength == 0) {
-        snprintf(sentence, GM_SENTENCE, "strength=0: vortices without strength do not move");
-        return false;
+        return gm_refuse(sentence, "strength=0: vortices without strength do not move");
     }
     if (!any_count && own->count != 4) {
-        snprintf(sentence, GM_SENTENCE,
-                 "configuration=%s has four vortices; count goes with square and random",
-                 configurations[own->configuration]);
-        return false;
+        return gm_refuse(sentence, "configuration=%s has four vortices; count goes with square and random",
+                         configurations[own->configuration]);
     }
     if (gm_vortices_coincide(own)) {
-        snprintf(sentence, GM_SENTENCE, "two vortices coincide at the start: another %s is needed",
-                 own->configuration == GM_COLLISION ? "distance" : "angle");
-        return false;
+        return gm_refuse(sentence, "two vortices coincide at the start: another %s is needed",
+                         own->configuration == GM_COLLISION ? "distance" : "angle");
     }
     if (own->configuration == GM_REDUCED) {
         *problem = tracers == 0 ? gm_problem_vortices_reduced : gm_problem_vortices_reduced_carrying;

@@ -37,7 +37,7 @@ int folder_count(const char *path)
 {
     DIR *folder = opendir(path);
     int count = 0;
-    for (struct dirent *entry; folder && (entry = readdir(folder)) != NULL;) {
+    for (struct dirent *entry; folder && (entry = readdir(folder));) {
         count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
     }
     if (folder) {

@@ -65,7 +65,7 @@ void gm_trial_run(struct gm_trial *trial, const char *words, bool maximum)
         return;
     }
     take(trial);
-    while (run->steps < steps && run->status == GM_OK && !gm_drive_is_over(&trial->drive)) {
+    while (gm_drive_goes_on(&trial->drive, steps)) {
         assert_true(gm_drive_to(&trial->drive, run->steps + 1, false, message));
         take(trial);
     }

@@ -19,7 +19,7 @@ static struct gm_lane *open_lane(const char *scene_name, const char *scheme, con
 {
     const struct gm_scene *scene = gm_scene_find(scene_name);
     const struct gm_settings settings = {0};
-    char sentence[GM_SENTENCE];
+    char sentence[GM_MESSAGE];
     void *parameters = calloc(1, scene->size);
     gm_parameters_reset(scene->parameters, scene->parameter_count, parameters);
     for (size_t i = 0; words[i][0]; i++) {

@@ -430,6 +430,28 @@ status 0 again pictures/disc-render.png --out new/three
 cmp -s pictures/disc-render.png new/three/disc-render-again.png || fail 'again makes no folder'
 status 0 again pictures/disc-render.png --out pictures
 cmp -s pictures/disc-render.png pictures/disc-render-again.png || fail 'again is another picture'
+# a picture of an earlier version may tell a key that has no effect any more
+status 0 render room "mesh=$meshes/room-small.msh" steps=1 --size 320x200 --out pictures
+python3 - pictures/room-render.png pictures/older.png <<'END' || fail 'the arguments of a picture'
+import struct, sys, zlib
+old = open(sys.argv[1], "rb").read()
+new, at, found = old[:8], 8, 0
+while at < len(old):
+    size, kind = struct.unpack(">I4s", old[at:at + 8])
+    data, at = old[at + 8:at + 8 + size], at + 12 + size
+    if data.startswith(b"geomint:arguments"):
+        data, found = data + b" rows=20", found + 1
+    new += struct.pack(">I4s", len(data), kind) + data + struct.pack(">I", zlib.crc32(kind + data))
+open(sys.argv[2], "wb").write(new)
+sys.exit(found != 1)
+END
+status 0 again pictures/older.png --out pictures
+status 0 again pictures/room-render.png --out pictures
+python3 - pictures/room-render-again.png pictures/older-again.png <<'END' || fail 'a key without effect has one'
+import sys
+pixels = [data[data.index(b"IDAT"):] for data in (open(name, "rb").read() for name in sys.argv[1:])]
+sys.exit(pixels[0] != pixels[1])
+END
 status 0 render disc --frames 3 --size 320x200 --out sequence
 [ "$(ls sequence | wc -l)" = 3 ] || fail '--frames 3 makes three files'
 [ "$(cat err)" = 'geomint: wrote 3 frames, sequence/disc-render-*.png' ] || fail "frames are not told: $(cat err)"
@@ -444,6 +466,9 @@ status 0 render disc --every 6 --size 320x200 --out every
 [ "$(ls every | wc -l)" = 4 ] || fail "--every 6 of 18 steps makes four files, not $(ls every | wc -l)"
 status 2 render disc scheme=explicit-euler dt=2 until=1000 --strict --size 320x200
 status 0 render disc scheme=explicit-euler dt=2 until=1000 --size 320x200
+# of render --strict looks at failures alone, which frames remember when a render goes on
+status 0 render kepler scheme=verlet eccentricity=0.9999 steps=30 --strict --size 320x200
+grep -q 'verlet: warning: energy_error is' err || fail "a picture's warning: $(cat err)"
 
 [ $failures = 0 ] && echo 'all as it should be'
 exit $failures

@@ -44,6 +44,9 @@ offers 'binding=' run disc bin
 offers '' run channel bin
 offers 'dt=pi/12' run disc dt=
 offers 'area area_error area_tangent' work-precision disc --measure area
+offers 'dt=2*pi/100 dt=1e-7..1000:log11' sweep kepler dt=
+offers 'energy_error,position_error' sweep kepler --measure energy_error,pos
+offers 'mesh-crossing' sweep kepler --retry mesh
 offers '' again pic
 offers '' run room mesh=
 offers '' run room mesh=a

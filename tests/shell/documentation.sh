@@ -23,7 +23,7 @@ cat >"$folder/bin/geomint" <<'SCRIPT'
 #!/bin/sh
 case " $* " in
 *' --size '*) ;;
-' render '* | ' figures '* | ' work-precision '* | ' stability '*) set -- "$@" --size 160x90 ;;
+' render '* | ' figures '* | ' work-precision '* | ' stability '* | ' sweep '*' --out '*) set -- "$@" --size 160x90 ;;
 esac
 exec "$GEOMINT_TESTED" "$@"
 SCRIPT

@@ -366,6 +366,14 @@ for size in 80x24 160x45; do
     cmp -s "$folder/screen-truecolor" "$folder/screen-256" || fail "$size: 256 colours show other letters"
 done
 
+# where a title is longer than its column, what tells it from others stays
+start 80x24
+open_disc scheme=symplectic-euler-adjoint dt=0.1,0.2
+wait_for 'symplect… \(adjoint\), 0\.1'
+wait_for 'symplect… \(adjoint\), 0\.2'
+keys q
+clean 0
+
 # ---- the list of scenes ----
 
 start 80x24

@@ -14,7 +14,8 @@ import sys
 source, build = os.path.realpath(sys.argv[1]), os.path.realpath(sys.argv[2])
 long = "--long" in sys.argv
 LAYERS = ("core", "render", "scenes", "app")
-WINGS = ("core/ode", "core/field", "core/mesh", "core/flow")
+KINDS = open(os.path.join(source, "core/kinds.def"), encoding="utf-8").read()
+WINGS = tuple("core/" + kind for kind in re.findall(r"^GM_KIND\((\w+)\)", KINDS, re.M))
 failures = []
 
 

@@ -13,58 +13,60 @@
 #include "core/field/families/burgers.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "tests/reference/burgers.h"
+#include "tests/common/reference.h"
 
-enum { CASES = sizeof reference_burgers / sizeof reference_burgers[0], MOST = 102, STEPS = 10 };
+enum { MOST = 102, STEPS = 10 };
 
 static const struct gm_settings no_settings;
 
 static void values_agree(void **unused)
 {
     (void)unused;
-    for (size_t c = 0; c < CASES; c++) {
-        const struct reference_burgers *reference = &reference_burgers[c];
-        const size_t points = reference->points;
-        const bool fixed = strcmp(reference->frame, "fixed") == 0;
-        const bool shock = strcmp(reference->test, "shock") == 0;
+    for (size_t c = 0; c < reference_cases(); c++) {
+        const char *test = reference_word(c, 0), *scheme = reference_word(c, 1);
+        const char *form = reference_word(c, 2), *frame = reference_word(c, 3);
+        const size_t points = (size_t)reference_number(c, "points");
+        const double lambda = reference_number(c, "lambda");
+        const double *start = reference(reference_word(c, 4), points), *end = reference_of(c, "u", points);
+        const bool fixed = strcmp(frame, "fixed") == 0, shock = strcmp(test, "shock") == 0;
         const struct gm_burgers burgers = {
             .test = shock ? GM_BURGERS_SHOCK : GM_BURGERS_FRONT,
             .frame = fixed ? GM_FRAME_FIXED : GM_FRAME_MOVING,
-            .printed = strcmp(reference->form, "printed") == 0,
+            .printed = strcmp(form, "printed") == 0,
             .viscosity = 0.05,
-            .lambda = reference->lambda,
+            .lambda = lambda,
         };
         struct gm_problem problem = gm_problem_burgers;
         problem.parameters = &burgers;
         problem.line = (struct gm_line){.points = points, .dx = 0.04, .first = shock ? -1 : -2};
         problem.n = gm_burgers_size(&burgers, points);
         double y[2 * MOST + 1];
-        memcpy(y, reference->start, points * sizeof *y);
+        memcpy(y, start, points * sizeof *y);
         for (size_t j = 0; j < points; j++) {
-            y[points + j] = reference->start[j] - reference->lambda;
+            y[points + j] = start[j] - lambda;
         }
         y[2 * points] = 1;
         const double t0 = gm_burgers_t0(&burgers);
-        struct gm_run *run = gm_run_open(&problem, gm_scheme_find_for(reference->scheme, &problem),
-                                         &no_settings, t0, 0.008, y);
+        struct gm_run *run =
+            gm_run_open(&problem, gm_scheme_find_for(scheme, &problem), &no_settings, t0, 0.008, y);
         assert_non_null(run);
         assert_int_equal(gm_run_advance(run, STEPS), GM_OK);
         const double *u = gm_run_state(run);
         double largest = 0, error = 0, sup = 0, sum = 0;
         for (size_t j = 0; j < points; j++) {
-            largest = fmax(largest, fabs(reference->u[j]));
-            error = fmax(error, fabs(u[j] - reference->u[j]));
+            largest = fmax(largest, fabs(end[j]));
+            error = fmax(error, fabs(u[j] - end[j]));
             const double exact = gm_burgers_exact(&burgers, fixed, gm_line_node(&problem.line, j), run->t);
             sup = fmax(sup, fabs(u[j] - exact));
             sum += 0.04 * fabs(u[j] - exact);
         }
-        const double tolerance = 1e-12 + 100 * (reference->conditioning + reference->agreement);
+        const double tolerance =
+            1e-12 + 100 * (reference_number(c, "conditioning") + reference_number(c, "agreement"));
         if (!(error <= tolerance * largest)) {
-            fail_msg("%s, %s, %s, %s, lambda %g: error %.2e", reference->test, reference->scheme,
-                     reference->form, reference->frame, reference->lambda, error);
+            fail_msg("%s, %s, %s, %s, lambda %g: error %.2e", test, scheme, form, frame, lambda, error);
         }
-        assert_true(fabs(sup - reference->sup_error) < 1e-9);
-        assert_true(fabs(sum - reference->l1_error) < 1e-9);
+        assert_true(fabs(sup - reference_number(c, "sup_error")) < 1e-9);
+        assert_true(fabs(sum - reference_number(c, "l1_error")) < 1e-9);
         gm_run_close(run);
     }
 }
@@ -141,5 +143,8 @@ int main(void)
         cmocka_unit_test(bits_do_not_depend_on_bursts),
         cmocka_unit_test(exact_solutions_survive_extremes),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    reference_open("burgers.txt");
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    reference_close();
+    return failed;
 }

@@ -82,7 +82,7 @@ static bool is_finite(const struct gm_lane *lane)
 static void advance(struct gm_lane *lane)
 {
     for (int i = 0; i < STEPS; i++) {
-        gm_lane_advance(lane, 1);
+        gm_lane_to(lane, lane->run->steps + 1, INFINITY);
         gm_lane_record(lane);
     }
     if (lane->run->status != GM_OK) {

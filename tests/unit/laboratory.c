@@ -77,9 +77,9 @@ static void sections_survive_stepping_back(void **unused)
     struct gm_lane *lane = bent.drive.lane;
     void *snapshot = malloc(gm_lane_snapshot_size(lane));
     gm_lane_save(lane, snapshot);
-    gm_lane_advance(lane, 500);
+    gm_lane_to(lane, lane->run->steps + 500, INFINITY);
     gm_lane_load(lane, snapshot);
-    gm_lane_advance(lane, 1000);
+    gm_lane_to(lane, lane->run->steps + 1000, INFINITY);
     free(snapshot);
     const struct gm_entries *first = track(&straight, "section"), *second = track(&bent, "section");
     assert_memory_equal(gm_run_state(straight.drive.lane->run), gm_run_state(lane->run), 4 * sizeof(double));

@@ -232,7 +232,7 @@ static void losses_are_told(void **unused)
         {"disc points=8 dt=0.5 scheme=explicit-euler", "is lost", (int)ceil(log(11) / log(factor))},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        char text[GM_SENTENCE];
+        char text[GM_MESSAGE];
         struct gm_lane *lane = open_lane(wanted[i].arguments, NULL);
         assert_non_null(lane);
         advance(lane, wanted[i].steps - 1);
@@ -254,8 +254,7 @@ static bool find_no_mesh(const void *own, const struct gm_problem *problem, cons
     (void)scheme;
     (void)y;
     gm_memory_refused();
-    snprintf(sentence, GM_SENTENCE, "no mesh was found");
-    return false;
+    return gm_refuse(sentence, "no mesh was found");
 }
 
 static void refused_memory_is_no_fault_of_a_mesh(void **unused)
@@ -266,7 +265,7 @@ static void refused_memory_is_no_fault_of_a_mesh(void **unused)
     void *parameters = calloc(1, scene.size);
     assert_non_null(parameters);
     gm_parameters_reset(scene.parameters, scene.parameter_count, parameters);
-    char sentence[GM_SENTENCE] = "";
+    char sentence[GM_MESSAGE] = "";
     const struct gm_settings settings = {0};
     assert_null(gm_lane_open(&scene, parameters, &settings, gm_scheme_find("multiplier-lobatto4"), sentence));
     assert_string_equal(sentence, "not enough memory");

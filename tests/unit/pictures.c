@@ -47,7 +47,7 @@ static bool draw(const char *arguments, long steps, struct drawn *drawn, char *m
             return false;
         }
         for (long k = 0; k < steps; k++) {
-            gm_lane_advance(drawn->lanes[i], 1);
+            gm_lane_to(drawn->lanes[i], drawn->lanes[i]->run->steps + 1, INFINITY);
             gm_lane_record(drawn->lanes[i]);
         }
     }

@@ -12,11 +12,9 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
-#include "tests/reference/ode.h"
+#include "tests/common/reference.h"
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
-
-enum { MOST = 12 };
 
 static struct gm_problem problem_of(const char *name)
 {
@@ -73,16 +71,36 @@ static struct gm_run *open_run(const struct gm_problem *problem, const char *sch
     return run;
 }
 
+/* Whether a case is of this kind: a state of a scheme, or a control, or of the schemes that choose their step. */
+static bool is_kind(size_t index, const char *kind)
+{
+    return strcmp(reference_word(index, 0), kind) == 0;
+}
+
+static const char *problem_name(size_t index)
+{
+    return reference_word(index, 1);
+}
+
+static const char *scheme_name(size_t index)
+{
+    return reference_word(index, 2);
+}
+
+static bool is_same(const char *(*name)(size_t index), size_t i, size_t k)
+{
+    return strcmp(name(i), name(k)) == 0;
+}
+
 /* Whether a control's end is a different state at all: schemes of order 8 may come too close to each other.
  */
 static bool is_telling(size_t control)
 {
-    for (size_t i = 0; i < COUNT(reference_ode); i++) {
-        if (!reference_ode[i].control &&
-            strcmp(reference_ode[i].scheme, reference_ode[control].scheme) == 0 &&
-            strcmp(reference_ode[i].problem, reference_ode[control].problem) == 0) {
-            return distance(reference_ode[i].end, reference_ode[control].end, reference_ode[i].n) >
-                   4 * reference_ode[control].tolerance;
+    const size_t n = problem_of(problem_name(control)).n;
+    for (size_t i = 0; i < reference_cases(); i++) {
+        if (is_kind(i, "ode") && is_same(scheme_name, i, control) && is_same(problem_name, i, control)) {
+            return distance(reference_of(i, "end", n), reference_of(control, "end", n), (int)n) >
+                   4 * reference_number(control, "tolerance");
         }
     }
     return false;
@@ -92,28 +110,30 @@ static bool is_telling(size_t control)
 static void states_agree(void **unused)
 {
     (void)unused;
-    for (size_t i = 0; i < COUNT(reference_ode); i++) {
-        if (reference_ode[i].control && !is_telling(i)) {
+    for (size_t i = 0; i < reference_cases(); i++) {
+        const bool control = is_kind(i, "control");
+        if (control ? !is_telling(i) : !is_kind(i, "ode")) {
             continue;
         }
-        const struct gm_problem problem = problem_of(reference_ode[i].problem);
-        const int n = reference_ode[i].n;
-        assert_int_equal(n, problem.n);
+        const struct gm_problem problem = problem_of(problem_name(i));
+        const double *start = reference_of(i, "start", problem.n), *end = reference_of(i, "end", problem.n);
+        const double *after_one_step = reference_of(i, "after_one_step", problem.n);
+        const double dt = reference_number(i, "dt"), tolerance = reference_number(i, "tolerance");
+        const long steps = (long)reference_number(i, "steps");
+        const int n = (int)problem.n;
         for (int compensated = 0; compensated < 2; compensated++) {
             const struct gm_settings settings = {.compensated = compensated, .binding = 20};
-            struct gm_run *run = open_run(&problem, reference_ode[i].scheme, &settings, reference_ode[i].dt,
-                                          reference_ode[i].start);
+            struct gm_run *run = open_run(&problem, scheme_name(i), &settings, dt, start);
             assert_int_equal(gm_run_advance(run, 1), GM_OK);
-            const double at_once = distance(gm_run_state(run), reference_ode[i].after_one_step, n);
-            assert_int_equal(gm_run_advance(run, reference_ode[i].steps - 1), GM_OK);
-            const double at_end = distance(gm_run_state(run), reference_ode[i].end, n);
-            const double tolerance = reference_ode[i].tolerance;
+            const double at_once = distance(gm_run_state(run), after_one_step, n);
+            assert_int_equal(gm_run_advance(run, steps - 1), GM_OK);
+            const double at_end = distance(gm_run_state(run), end, n);
             const bool same = at_once <= fmin(1e-13, tolerance) && at_end <= tolerance;
             const bool far = at_end > 2 * tolerance;
-            if (reference_ode[i].control ? !far : !same) {
+            if (control ? !far : !same) {
                 fail_msg("%s%s on %s: error %.2e after one step, %.2e at the end, tolerance %.2e",
-                         reference_ode[i].control ? "the control of " : "", reference_ode[i].scheme,
-                         reference_ode[i].problem, at_once, at_end, tolerance);
+                         control ? "the control of " : "", scheme_name(i), problem_name(i), at_once, at_end,
+                         tolerance);
             }
             gm_run_close(run);
         }
@@ -123,14 +143,13 @@ static void states_agree(void **unused)
 static void every_control_tells_somewhere(void **unused)
 {
     (void)unused;
-    for (size_t i = 0; i < COUNT(reference_ode); i++) {
-        bool told = !reference_ode[i].control;
-        for (size_t j = 0; j < COUNT(reference_ode) && !told; j++) {
-            told = reference_ode[j].control &&
-                   strcmp(reference_ode[i].scheme, reference_ode[j].scheme) == 0 && is_telling(j);
+    for (size_t i = 0; i < reference_cases(); i++) {
+        bool told = !is_kind(i, "control");
+        for (size_t j = 0; j < reference_cases() && !told; j++) {
+            told = is_kind(j, "control") && is_same(scheme_name, i, j) && is_telling(j);
         }
         if (!told) {
-            fail_msg("no control of %s tells it apart", reference_ode[i].scheme);
+            fail_msg("no control of %s tells it apart", scheme_name(i));
         }
     }
 }
@@ -138,20 +157,27 @@ static void every_control_tells_somewhere(void **unused)
 static void logarithmic_hamiltonian_agrees(void **unused)
 {
     (void)unused;
-    for (size_t i = 0; i < COUNT(reference_logh2); i++) {
-        const struct gm_problem problem = problem_of(reference_logh2[i].problem);
+    size_t found = 0;
+    for (size_t i = 0; i < reference_cases(); i++) {
+        if (!is_kind(i, "logh2")) {
+            continue;
+        }
+        const struct gm_problem problem = problem_of(problem_name(i));
         const struct gm_settings settings = {0};
-        struct gm_run *run =
-            open_run(&problem, "logh2", &settings, reference_logh2[i].dt, reference_logh2[i].start);
+        const double *once = reference_of(i, "after_one_step", 5), *end = reference_of(i, "end", 5);
+        const double tolerance = reference_number(i, "tolerance");
+        struct gm_run *run = open_run(&problem, scheme_name(i), &settings, reference_number(i, "dt"),
+                                      reference_of(i, "start", 4));
         assert_int_equal(gm_run_advance(run, 1), GM_OK);
-        assert_true(fabs(run->t - reference_logh2[i].after_one_step[0]) < 1e-15);
-        assert_true(distance(gm_run_state(run), reference_logh2[i].after_one_step + 1, 4) < 1e-13);
-        assert_int_equal(gm_run_advance(run, reference_logh2[i].steps - 1), GM_OK);
-        const double *end = reference_logh2[i].end;
-        assert_true(fabs(run->t - end[0]) <= reference_logh2[i].tolerance * fabs(end[0]));
-        assert_true(distance(gm_run_state(run), end + 1, 4) <= reference_logh2[i].tolerance);
+        assert_true(fabs(run->t - once[0]) < 1e-15);
+        assert_true(distance(gm_run_state(run), once + 1, 4) < 1e-13);
+        assert_int_equal(gm_run_advance(run, (long)reference_number(i, "steps") - 1), GM_OK);
+        assert_true(fabs(run->t - end[0]) <= tolerance * fabs(end[0]));
+        assert_true(distance(gm_run_state(run), end + 1, 4) <= tolerance);
         gm_run_close(run);
+        found++;
     }
+    assert_int_equal(found, 2);
 }
 
 /* Unperturbed, half a step turns the eccentric anomaly by 4 atan(ds sqrt(B/8)/2), B = 1/(2a); the time that
@@ -191,24 +217,29 @@ static void levi_civita_agrees(void **unused)
 static void variational_steps_agree(void **unused)
 {
     (void)unused;
-    for (size_t i = 0; i < COUNT(reference_variational); i++) {
-        const struct gm_problem problem = problem_of(reference_variational[i].problem);
-        const struct gm_settings settings = {.tau0 = reference_variational[i].tau0};
-        struct gm_run *run =
-            open_run(&problem, reference_variational[i].scheme, &settings, 1, reference_variational[i].start);
-        assert_int_equal(gm_run_advance(run, reference_variational[i].steps), GM_OK);
-        const double *y = gm_run_state(run), *entry = reference_variational[i].entry;
+    size_t count = 0;
+    for (size_t i = 0; i < reference_cases(); i++) {
+        if (!is_kind(i, "variational")) {
+            continue;
+        }
+        const struct gm_problem problem = problem_of(problem_name(i));
+        const struct gm_settings settings = {.tau0 = reference_number(i, "tau0")};
+        const double *entry = reference_of(i, "entry", 4), tolerance = reference_number(i, "tolerance");
+        const long steps = (long)reference_number(i, "steps");
+        struct gm_run *run = open_run(&problem, scheme_name(i), &settings, 1, reference_of(i, "start", 2));
+        assert_int_equal(gm_run_advance(run, steps), GM_OK);
+        const double *y = gm_run_state(run);
         const double found[4] = {run->t, y[0], y[1], gm_run_memory(run)[0]};
         for (int c = 0; c < 4; c++) {
-            if (!(fabs(found[c] - entry[c]) <= reference_variational[i].tolerance)) {
+            if (!(fabs(found[c] - entry[c]) <= tolerance)) {
                 fail_msg("%s, tau0 = %g, entry %ld, column %d: %.17g, expected %.17g, tolerance %.2e",
-                         reference_variational[i].scheme, reference_variational[i].tau0,
-                         reference_variational[i].steps, c, found[c], entry[c],
-                         reference_variational[i].tolerance);
+                         scheme_name(i), settings.tau0, steps, c, found[c], entry[c], tolerance);
             }
         }
         gm_run_close(run);
+        count++;
     }
+    assert_int_equal(count, 17);
 }
 
 /* As printed, it ends before the first turning point: from tau0 = .1 the 13th step, at t = 1.01, has no root.
@@ -270,8 +301,8 @@ static void every_scheme_has_a_reference(void **unused)
         }
         const char *name = gm_scheme_at(s)->name;
         size_t found = is_without_reference(name);
-        for (size_t i = 0; i < COUNT(reference_ode); i++) {
-            found += strcmp(reference_ode[i].scheme, name) == 0 && !reference_ode[i].control;
+        for (size_t i = 0; i < reference_cases(); i++) {
+            found += strcmp(scheme_name(i), name) == 0 && is_kind(i, "ode");
         }
         if (found == 0) {
             fail_msg("%s has no reference", name);
@@ -290,5 +321,8 @@ int main(void)
         cmocka_unit_test(the_printed_rectangle_rule_loses_its_root),
         cmocka_unit_test(every_scheme_has_a_reference),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    reference_open("ode.txt");
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    reference_close();
+    return failed;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs: the same bits however they are called, cut, copied or vectorised; how they fail; what they count. */
+#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -429,6 +430,39 @@ static void segments_continue_time(void **unused)
     gm_run_close(run);
 }
 
+/* A time is the whole number of steps that is nearest to it; a scheme that chooses its steps goes on to the
+   first that is not before it, or misses it by round-off alone. */
+static void runs_end_where_they_are_to(void **unused)
+{
+    (void)unused;
+    const struct gm_problem pendulum = gm_problem_pendulum, kepler = problem_at(5);
+    struct gm_run *run = open_run(&pendulum, gm_scheme_find("verlet"), &settings_of[0], 0.1);
+    assert_int_equal(gm_run_steps_at(run, 1.04), 10);
+    assert_int_equal(gm_run_until(run, 1.04), GM_OK);
+    assert_int_equal(run->steps, 10);
+    assert_int_equal(gm_run_until(run, 0.5), GM_OK);
+    assert_int_equal(run->steps, 10); /* behind it: nothing */
+    gm_run_set_step(run, -0.05);
+    assert_int_equal(gm_run_steps_at(run, 0), 30);
+    gm_run_to(run, 25, NAN);
+    assert_int_equal(run->steps, 25);
+    assert_true(!gm_run_goes_on(run, 25, NAN) && gm_run_goes_on(run, 26, NAN));
+    run->status = GM_BLOW_UP;
+    assert_false(gm_run_goes_on(run, 26, NAN));
+    gm_run_close(run);
+
+    struct gm_run *chooses = open_run(&kepler, gm_scheme_find("logh2"), &settings_of[0], 0.1);
+    struct gm_run *counts = open_run(&kepler, gm_scheme_find("logh2"), &settings_of[0], 0.1);
+    assert_int_equal(gm_run_until(chooses, 1), GM_OK);
+    assert_true(chooses->t >= 1 && chooses->steps > 1);
+    gm_run_to(counts, chooses->steps - 1, 1);
+    assert_true(counts->t < 1);
+    assert_true(gm_run_goes_on(counts, LONG_MAX, 1) && gm_run_goes_on(chooses, LONG_MAX, 1.1));
+    assert_false(gm_run_goes_on(chooses, LONG_MAX, chooses->t * (1 + 1e-15)));
+    gm_run_close(chooses);
+    gm_run_close(counts);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -438,6 +472,7 @@ int main(void)
         cmocka_unit_test(snapshots_resume_bit_for_bit),
         cmocka_unit_test(refused_memory_is_no_step),
         cmocka_unit_test(blow_up_is_found_to_the_step),
+        cmocka_unit_test(runs_end_where_they_are_to),
         cmocka_unit_test(failed_solves_are_told),
         cmocka_unit_test(newton_takes_over_at_large_steps),
         cmocka_unit_test(newton_agrees_with_fixed_point),

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,18 +19,24 @@
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/dispersive_solitons.h"
-#include "tests/reference/waves.h"
+#include "tests/common/reference.h"
 
-enum { CASES = sizeof reference_waves / sizeof reference_waves[0] };
+enum { REFERENCE_POINTS = 101 };
 
 static const struct gm_settings no_settings;
 
-static void expect_level(const double *u, const double *reference, double tolerance, const char *what)
+/* A level of the reference. */
+static const double *level(const char *name)
+{
+    return reference(name, REFERENCE_POINTS);
+}
+
+static void expect_level(const double *u, const double *expected, double tolerance, const char *what)
 {
     double error = 0, scale = 0;
     for (size_t i = 0; i < REFERENCE_POINTS; i++) {
-        error = fmax(error, fabs(u[i] - reference[i]));
-        scale = fmax(scale, fabs(reference[i]));
+        error = fmax(error, fabs(u[i] - expected[i]));
+        scale = fmax(scale, fabs(expected[i]));
     }
     if (!(error <= tolerance * scale)) {
         fail_msg("%s: error %.2e, tolerance %.2e", what, error / scale, tolerance);
@@ -44,42 +51,45 @@ static struct gm_problem wave_problem(size_t points, double half_length, double 
     return problem;
 }
 
-static void expect_number(double value, double reference, double tolerance)
+static void expect_number(double value, double expected, double tolerance)
 {
-    if (!(fabs(value - reference) <= tolerance * fmax(1, fabs(reference)))) {
-        fail_msg("%.17g is not %.17g", value, reference);
+    if (!(fabs(value - expected) <= tolerance * fmax(1, fabs(expected)))) {
+        fail_msg("%.17g is not %.17g", value, expected);
     }
 }
 
 static void levels_agree(void **unused)
 {
     (void)unused;
-    for (size_t c = 0; c < CASES; c++) {
-        const struct reference_wave *reference = &reference_waves[c];
-        const double jump = strcmp(reference->initial, "kink") == 0       ? 2 * M_PI
-                            : strcmp(reference->initial, "antikink") == 0 ? -2 * M_PI
-                                                                          : 0;
+    for (size_t c = 0; c < reference_cases(); c++) {
+        const char *initial = reference_word(c, 0), *scheme = reference_word(c, 1);
+        const double dt = reference_number(c, "dt"), *energy = reference_of(c, "energy", 3);
+        const double *cell_energy = reference_of(c, "cell_energy", 3);
+        const double jump = strcmp(initial, "kink") == 0       ? 2 * M_PI
+                            : strcmp(initial, "antikink") == 0 ? -2 * M_PI
+                                                               : 0;
         const struct gm_problem problem = wave_problem(REFERENCE_POINTS, 20, jump);
         double y[2 * REFERENCE_POINTS + 1];
-        memcpy(y, reference->start[0], REFERENCE_POINTS * sizeof *y);
-        memcpy(y + REFERENCE_POINTS, reference->start[1], REFERENCE_POINTS * sizeof *y);
-        y[2 * REFERENCE_POINTS] = reference->dt;
-        const double tolerance = 1e-12 + 100 * (reference->conditioning + reference->agreement);
-        expect_number(gm_wave_energy(&problem, y), reference->energy[0], 1e-13);
-        expect_number(gm_wave_cell_energy(&problem, y), reference->cell_energy[0], 1e-13);
-        struct gm_run *run =
-            gm_run_open(&problem, gm_scheme_find(reference->scheme), &no_settings, 0, reference->dt, y);
+        for (int k = 0; k < 2; k++) {
+            char name[64];
+            snprintf(name, sizeof name, "%s_level_%d", initial, k);
+            memcpy(y + k * REFERENCE_POINTS, level(name), REFERENCE_POINTS * sizeof *y);
+        }
+        y[2 * REFERENCE_POINTS] = dt;
+        const double tolerance =
+            1e-12 + 100 * (reference_number(c, "conditioning") + reference_number(c, "agreement"));
+        expect_number(gm_wave_energy(&problem, y), energy[0], 1e-13);
+        expect_number(gm_wave_cell_energy(&problem, y), cell_energy[0], 1e-13);
+        struct gm_run *run = gm_run_open(&problem, gm_scheme_find(scheme), &no_settings, 0, dt, y);
         assert_non_null(run);
         assert_int_equal(gm_run_advance(run, 20), GM_OK);
-        expect_level(gm_run_state(run), reference->level_20, tolerance, reference->scheme);
-        expect_number(gm_wave_energy(&problem, gm_run_state(run)), reference->energy[1], 10 * tolerance);
-        expect_number(gm_wave_cell_energy(&problem, gm_run_state(run)), reference->cell_energy[1],
-                      10 * tolerance);
+        expect_level(gm_run_state(run), reference_of(c, "level_20", REFERENCE_POINTS), tolerance, scheme);
+        expect_number(gm_wave_energy(&problem, gm_run_state(run)), energy[1], 10 * tolerance);
+        expect_number(gm_wave_cell_energy(&problem, gm_run_state(run)), cell_energy[1], 10 * tolerance);
         assert_int_equal(gm_run_advance(run, 80), GM_OK);
-        expect_level(gm_run_state(run), reference->level_100, tolerance, reference->scheme);
-        expect_number(gm_wave_energy(&problem, gm_run_state(run)), reference->energy[2], 10 * tolerance);
-        expect_number(gm_wave_cell_energy(&problem, gm_run_state(run)), reference->cell_energy[2],
-                      10 * tolerance);
+        expect_level(gm_run_state(run), reference_of(c, "level_100", REFERENCE_POINTS), tolerance, scheme);
+        expect_number(gm_wave_energy(&problem, gm_run_state(run)), energy[2], 10 * tolerance);
+        expect_number(gm_wave_cell_energy(&problem, gm_run_state(run)), cell_energy[2], 10 * tolerance);
         gm_run_close(run);
     }
 }
@@ -390,15 +400,18 @@ static void collocation_at_one_point_is_the_box(void **unused)
 static void dispersive_levels_agree(void **unused)
 {
     (void)unused;
+    const size_t bytes = REFERENCE_POINTS * sizeof(double);
+    const double *kdv_box_invariants = reference("kdv_box_invariants", 4);
+    const double *nls_box_invariants = reference("nls_box_invariants", 4);
     struct gm_problem problem = kdv_problem(REFERENCE_POINTS);
     double y[2 * REFERENCE_POINTS + 1] = {0};
-    memcpy(y, kdv_one_soliton_level_0, sizeof kdv_one_soliton_level_0);
+    memcpy(y, level("kdv_one_soliton_level_0"), bytes);
     y[2 * REFERENCE_POINTS] = 0.05;
     expect_number(gm_kdv_mass(&problem, y), kdv_box_invariants[0], 1e-13);
     expect_number(gm_kdv_square(&problem, y), kdv_box_invariants[1], 1e-13);
     struct gm_run *run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.05, y);
     assert_int_equal(gm_run_advance(run, 20), GM_OK);
-    expect_level(gm_run_state(run), kdv_box_level_20, 1e-12 + 100 * 4.6e-15, "kdv box");
+    expect_level(gm_run_state(run), level("kdv_box_level_20"), 1e-12 + 100 * 4.6e-15, "kdv box");
     expect_number(gm_kdv_mass(&problem, gm_run_state(run)), kdv_box_invariants[2], 1e-12);
     expect_number(gm_kdv_square(&problem, gm_run_state(run)), kdv_box_invariants[3], 1e-11);
     gm_run_close(run);
@@ -407,24 +420,26 @@ static void dispersive_levels_agree(void **unused)
     problem.parameters = &cosine;
     problem.line = (struct gm_line){REFERENCE_POINTS, 2.0 / REFERENCE_POINTS, 0, 0};
     gm_kdv_levels(&problem, 1e-3, y);
-    expect_level(y + REFERENCE_POINTS, kdv_cosine_level_1, 1e-15, "second level of the cosine");
-    memcpy(y, kdv_cosine_level_0, sizeof kdv_cosine_level_0);
-    memcpy(y + REFERENCE_POINTS, kdv_cosine_level_1, sizeof kdv_cosine_level_1);
+    expect_level(y + REFERENCE_POINTS, level("kdv_cosine_level_1"), 1e-15, "second level of the cosine");
+    memcpy(y, level("kdv_cosine_level_0"), bytes);
+    memcpy(y + REFERENCE_POINTS, level("kdv_cosine_level_1"), bytes);
     run = gm_run_open(&problem, gm_scheme_find("zabusky-kruskal"), &no_settings, 0, 1e-3, y);
     assert_int_equal(gm_run_advance(run, 20), GM_OK);
-    expect_level(gm_run_state(run), kdv_zabusky_kruskal_level_20, 1e-12 + 100 * 2.5e-15, "zabusky-kruskal");
+    expect_level(gm_run_state(run), level("kdv_zabusky_kruskal_level_20"), 1e-12 + 100 * 2.5e-15,
+                 "zabusky-kruskal");
     assert_true(fabs(gm_kdv_mass(&problem, gm_run_state(run))) < 1e-13);
     gm_run_close(run);
 
     problem = nls_problem(REFERENCE_POINTS);
-    memcpy(y, nls_one_soliton_level_0_re, sizeof nls_one_soliton_level_0_re);
-    memcpy(y + REFERENCE_POINTS, nls_one_soliton_level_0_im, sizeof nls_one_soliton_level_0_im);
+    memcpy(y, level("nls_one_soliton_level_0_re"), bytes);
+    memcpy(y + REFERENCE_POINTS, level("nls_one_soliton_level_0_im"), bytes);
     expect_number(gm_nls_charge(&problem, y), nls_box_invariants[0], 1e-13);
     expect_number(gm_nls_energy(&problem, y), nls_box_invariants[1], 1e-13);
     run = gm_run_open(&problem, gm_scheme_find("box"), &no_settings, 0, 0.05, y);
     assert_int_equal(gm_run_advance(run, 20), GM_OK);
-    expect_level(gm_run_state(run), nls_box_level_20_re, 1e-12 + 100 * 1.1e-14, "nls box");
-    expect_level(gm_run_state(run) + REFERENCE_POINTS, nls_box_level_20_im, 1e-12 + 100 * 1.1e-14, "nls box");
+    expect_level(gm_run_state(run), level("nls_box_level_20_re"), 1e-12 + 100 * 1.1e-14, "nls box");
+    expect_level(gm_run_state(run) + REFERENCE_POINTS, level("nls_box_level_20_im"), 1e-12 + 100 * 1.1e-14,
+                 "nls box");
     expect_number(gm_nls_charge(&problem, gm_run_state(run)), nls_box_invariants[2], 1e-12);
     expect_number(gm_nls_energy(&problem, gm_run_state(run)), nls_box_invariants[3], 1e-11);
     gm_run_close(run);
@@ -580,5 +595,8 @@ int main(void)
         cmocka_unit_test(dispersive_levels_agree),
         cmocka_unit_test(matrices_are_skew),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    reference_open("waves.txt");
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    reference_close();
+    return failed;
 }

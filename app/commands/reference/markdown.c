@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/commands/reference/catalogue.h"
+#include "app/commands/reference/theory.h"
 #include "app/request/fitting.h"
 #include "core/schemes.h"
 
@@ -33,6 +34,18 @@ static void put_claims(const struct gm_scheme *scheme)
     }
 }
 
+static void put_theory(const struct gm_scheme *scheme)
+{
+    struct gm_coefficients coefficients;
+    if (scheme->family->coefficients_open && scheme->family->coefficients_open(scheme, &coefficients)) {
+        const struct gm_theory theory = gm_theory_of(&coefficients);
+        gm_coefficients_close(&coefficients);
+        printf("By theory of ");
+        gm_theory_print(&theory, "");
+        printf(".\n\n");
+    }
+}
+
 /* fits[scene * scheme_count + scheme] */
 static void put_scheme(size_t index, const bool *fits)
 {
@@ -47,6 +60,7 @@ static void put_scheme(size_t index, const bool *fits)
     printf("Claims: ");
     put_claims(scheme);
     printf(".\n\n```text\n%s\n```\n\n%s.\n\n", scheme->formula, scheme->reference);
+    put_theory(scheme);
     const char *comma = "Fits ";
     for (size_t s = 0; s < gm_scene_count(); s++) {
         if (fits[s * gm_scheme_count() + index]) {
@@ -120,7 +134,7 @@ static void put_scene(const struct gm_scene *scene)
     printf("\n| observable | meaning |\n|---|---|\n");
     for (size_t i = 0; i < scene->observable_count; i++) {
         printf("| `%s` | ", scene->observables[i].key);
-        char title[GM_SENTENCE];
+        char title[GM_MESSAGE];
         put_cell(gm_observable_title(&scene->observables[i], title, sizeof title));
         if (scene->observables[i].unit[0]) {
             printf(", in ");

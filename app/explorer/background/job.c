@@ -3,7 +3,6 @@
 #include "app/explorer/background/job.h"
 
 #include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -43,7 +42,7 @@ bool gm_job_open(struct gm_job *job, void (*work)(void *self), void (*end)(void 
     pthread_cond_init(&job->news, NULL);
     const int error = gm_thread_start(&job->thread, go_on, job);
     if (error != 0) {
-        snprintf(message, GM_MESSAGE, "No thread could be started: %s.", strerror(error));
+        gm_refuse(message, "No thread could be started: %s.", strerror(error));
         pthread_mutex_destroy(&job->lock);
         pthread_cond_destroy(&job->news);
     }

@@ -185,8 +185,7 @@ static void close_table(void *self)
 static bool open_table(struct gm_study *study, char *message)
 {
     if (!gm_arguments_split(&study->arguments, study->words)) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory.");
-        return false;
+        return gm_refuse(message, "There is not enough memory.");
     }
     return gm_study_rows[study->kind].open(&study->table, &study->arguments, message);
 }
@@ -204,7 +203,7 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
 {
     struct gm_study *study = calloc(1, sizeof *study);
     if (!study) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory.");
+        gm_refuse(message, "There is not enough memory.");
         return NULL;
     }
     study->kind = kind;
@@ -214,7 +213,7 @@ struct gm_study *gm_study_open(enum gm_study_kind kind, const char *words, int w
     study->looks[1].picture = gm_picture_open();
     study->looked = -INFINITY;
     if (!study->words || !study->looks[0].picture || !study->looks[1].picture) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory.");
+        gm_refuse(message, "There is not enough memory.");
         free_study(study);
         return NULL;
     }

@@ -294,21 +294,18 @@ static bool open_screen(int wake, struct gm_terminal *terminal, char *message)
     answers = &terminal->answers;
     leaving = resized = stopping = 0;
     if (tcgetattr(STDIN_FILENO, &before) != 0) {
-        snprintf(message, GM_MESSAGE, "The terminal does not say how it is set: %s.", strerror(errno));
-        return false;
+        return gm_refuse(message, "The terminal does not say how it is set: %s.", strerror(errno));
     }
     if (!open_input(terminal)) {
         close_input();
-        snprintf(message, GM_MESSAGE, "There is no room for the keys: %s.", strerror(errno));
-        return false;
+        return gm_refuse(message, "There is no room for the keys: %s.", strerror(errno));
     }
     handle_all();
     screen = newterm(NULL, stdout, input);
     if (!screen) {
         unhandle_all();
         close_input();
-        snprintf(message, GM_MESSAGE, "ncurses cannot use the terminal \"%.40s\".", getenv("TERM"));
-        return false;
+        return gm_refuse(message, "ncurses cannot use the terminal \"%.40s\".", getenv("TERM"));
     }
     active = 1;
     set_escdelay(25);
@@ -321,8 +318,7 @@ static bool open_screen(int wake, struct gm_terminal *terminal, char *message)
     if (!keys) {
         gm_console_close();
         gm_console_release();
-        snprintf(message, GM_MESSAGE, "There is not enough memory.");
-        return false;
+        return gm_refuse(message, "There is not enough memory.");
     }
     keypad(keys, TRUE);
     define_ordinary_arrows();

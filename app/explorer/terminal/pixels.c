@@ -83,7 +83,7 @@ struct gm_pixels *gm_pixels_open(int wake, char *message)
 {
     struct gm_pixels *pixels = calloc(1, sizeof *pixels);
     if (!pixels) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory.");
+        gm_refuse(message, "There is not enough memory.");
         return NULL;
     }
     /* the context of GL is the thread's: it is closed there */

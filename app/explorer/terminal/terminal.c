@@ -353,20 +353,20 @@ bool gm_terminal_detect(struct gm_terminal *terminal, const struct gm_overrides 
 bool gm_terminal_serves(const struct gm_terminal *terminal, char *message)
 {
     if (!terminal->input || !terminal->output) {
-        snprintf(
-            message, GM_MESSAGE,
+        gm_refuse(
+            message,
             "The explorer needs a terminal, but standard %s is none; `geomint render` makes pictures without.",
             terminal->input ? "output" : "input");
     } else if (!*terminal->name) {
-        snprintf(message, GM_MESSAGE,
-                 "The explorer cannot start because TERM is not set; try TERM=xterm-256color geomint.");
+        gm_refuse(message,
+                  "The explorer cannot start because TERM is not set; try TERM=xterm-256color geomint.");
     } else if (!terminal->known) {
-        snprintf(message, GM_MESSAGE,
-                 "The explorer cannot start because TERM is \"%.40s\", %s; try TERM=xterm-256color geomint.",
-                 terminal->name,
-                 strcmp(terminal->name, "dumb") == 0 || terminal->terminfo_colours != -1
-                     ? "which cannot place the cursor"
-                     : "which terminfo does not know or which cannot place the cursor");
+        gm_refuse(message,
+                  "The explorer cannot start because TERM is \"%.40s\", %s; try TERM=xterm-256color geomint.",
+                  terminal->name,
+                  strcmp(terminal->name, "dumb") == 0 || terminal->terminfo_colours != -1
+                      ? "which cannot place the cursor"
+                      : "which terminfo does not know or which cannot place the cursor");
     } else {
         return true;
     }

@@ -130,28 +130,32 @@ static void lane_difference(const struct gm_shot_lane *lane, bool overlaid, char
 }
 
 /* Up to a column: where room is short the difference keeps its values alone, and then the scheme's title is
-   cut before they are. */
+   cut before they are, and before a bracket at its end, which tells it from a scheme of a like title. */
 static void lane_title(const struct gm_sheet *sheet, int row, const struct gm_shot_lane *lane,
                        const char *difference, int end, bool bold)
 {
     enum { LEAST_TITLE = 5 };
-    char text[320], values[256];
+    char front[320], values[256], tail[320];
     const int column = title_column(sheet), room = end - column;
-    const int title = gm_sheet_width(sheet, lane->scheme->title);
-    if (title + gm_sheet_width(sheet, difference) > room) {
+    const char *title = lane->scheme->title, *bracket = strstr(title, " (");
+    if (gm_sheet_width(sheet, title) + gm_sheet_width(sheet, difference) > room) {
         gm_name_without_keys(difference, values, sizeof values);
         difference = values;
     }
-    const int tail = gm_sheet_width(sheet, difference);
-    if (title + tail <= room || room - tail < LEAST_TITLE) {
-        const struct gm_sheet left = gm_sheet_part(sheet, 0, 0, end, sheet->height);
-        snprintf(text, sizeof text, "%s%s", lane->scheme->title, difference);
-        gm_sheet_cut(&left, column, row, text, gm_schemes_role(lane), bold);
-        return;
+    snprintf(tail, sizeof tail, "%s%s", bracket ? bracket : "", difference);
+    if (!bracket || room - gm_sheet_width(sheet, tail) < LEAST_TITLE) {
+        bracket = title + strlen(title);
+        snprintf(tail, sizeof tail, "%s", difference);
     }
-    const struct gm_sheet front = gm_sheet_part(sheet, 0, 0, end - tail, sheet->height);
-    gm_sheet_cut(&front, column, row, lane->scheme->title, gm_schemes_role(lane), bold);
-    gm_sheet_text(sheet, front.width, row, difference, gm_schemes_role(lane), bold);
+    snprintf(front, sizeof front, "%.*s", (int)(bracket - title), title);
+    if (room - gm_sheet_width(sheet, tail) < LEAST_TITLE) {
+        snprintf(front, sizeof front, "%s%s", title, difference);
+        tail[0] = '\0';
+    }
+    const int most = end - gm_sheet_width(sheet, tail), whole = column + gm_sheet_width(sheet, front);
+    const struct gm_sheet left = gm_sheet_part(sheet, 0, 0, most, sheet->height);
+    gm_sheet_cut(&left, column, row, front, gm_schemes_role(lane), bold);
+    gm_sheet_text(sheet, whole < most ? whole : most, row, tail, gm_schemes_role(lane), bold);
 }
 
 /* What went wrong with a lane, in as many words as its name leaves room for; the last is the shortest. */

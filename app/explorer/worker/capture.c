@@ -49,7 +49,7 @@ bool gm_capture_stop_recording(struct gm_capture *capture, char *sentence)
     if (gm_recorder_close(capture->recorder, message)) {
         snprintf(sentence, GM_MESSAGE, "Saved %.100s, a movie of %.1f s.", path, length);
     } else {
-        snprintf(sentence, GM_MESSAGE, "No movie: %.400s", message);
+        gm_refuse(sentence, "No movie: %.400s", message);
     }
     capture->recorder = NULL;
     return true;

@@ -46,12 +46,10 @@ static bool run_ahead(struct gm_play *play, const char *text, char *message)
 {
     double to;
     if (!gm_number_parse(text, &to) || !isfinite(to)) {
-        snprintf(message, GM_MESSAGE, "\"%s\" is not a time.", text);
-        return false;
+        return gm_refuse(message, "\"%s\" is not a time.", text);
     }
     if (gm_play_left_until(play, to) <= 0) {
-        snprintf(message, GM_MESSAGE, "t = %g lies behind already.", to);
-        return false;
+        return gm_refuse(message, "t = %g lies behind already.", to);
     }
     gm_play_run_ahead(play, to);
     return true;

@@ -76,7 +76,7 @@ struct gm_recorder *gm_recorder_open(const char *path, enum gm_theme theme, char
 {
     struct gm_recorder *recorder = calloc(1, sizeof *recorder);
     if (!recorder) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory.");
+        gm_refuse(message, "There is not enough memory.");
         return NULL;
     }
     recorder->theme = theme;
@@ -86,7 +86,7 @@ struct gm_recorder *gm_recorder_open(const char *path, enum gm_theme theme, char
     const struct gm_sink_settings settings = {
         .width = WIDTH, .height = HEIGHT, .fps = RATE, .interruptions = &gm_interrupted};
     if (!recorder->path || !recorder->picture) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory.");
+        gm_refuse(message, "There is not enough memory.");
         release(recorder);
         return NULL;
     }
@@ -109,7 +109,7 @@ bool gm_recorder_close(struct gm_recorder *recorder, char *message)
     gm_job_close(&recorder->painting);
     bool good = gm_sink_close(recorder->sink, true, message);
     if (recorder->message[0]) { /* there was no GL to paint with */
-        snprintf(message, GM_MESSAGE, "%s", recorder->message);
+        gm_refuse(message, "%s", recorder->message);
         good = false;
     }
     release(recorder);

@@ -182,7 +182,7 @@ static struct gm_worker *make(int wake, char *message)
 {
     struct gm_worker *worker = calloc(1, sizeof *worker);
     if (!worker || !gm_shot_open(&worker->shots[0]) || !gm_shot_open(&worker->shots[1])) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory.");
+        gm_refuse(message, "There is not enough memory.");
         if (worker) {
             gm_shot_close(&worker->shots[0]);
         }
@@ -207,7 +207,7 @@ static struct gm_worker *start(struct gm_worker *worker, char *message)
     if (error == 0) {
         return worker;
     }
-    snprintf(message, GM_MESSAGE, "No thread could be started: %s.", strerror(error));
+    gm_refuse(message, "No thread could be started: %s.", strerror(error));
     release(worker);
     return NULL;
 }

@@ -66,7 +66,7 @@ static double error_at(struct subject *subject, double t,
                        double (*exact)(const struct gm_problem *problem, size_t i, double t))
 {
     double largest = INFINITY;
-    if (gm_run_advance(subject->run, lround(t / subject->dt)) == GM_OK) {
+    if (gm_run_until(subject->run, t) == GM_OK) {
         largest = 0;
         for (size_t i = 0; i < subject->problem.line.points; i++) {
             largest = fmax(largest, fabs(gm_run_state(subject->run)[i] - exact(&subject->problem, i, t)));
@@ -249,7 +249,7 @@ static double order_in_time(struct subject *subject, const double *y)
         struct subject part = {subject->problem, subject->scheme, ldexp(subject->dt, -(int)k), NULL};
         good = open_run(&part, 0, y);
         if (good) {
-            good = gm_run_advance(part.run, lround(1 / part.dt)) == GM_OK;
+            good = gm_run_until(part.run, 1) == GM_OK;
             memcpy(end + k * points, gm_run_state(part.run), points * sizeof *end);
             gm_run_close(part.run);
         }
@@ -319,7 +319,7 @@ static bool front_after(const struct gm_scheme *scheme, double lambda, double dt
     if (!run) {
         return false;
     }
-    const bool good = gm_run_advance(run, lround(until / dt)) == GM_OK;
+    const bool good = gm_run_until(run, until) == GM_OK;
     for (size_t j = 0; j < FRONT; j++) {
         u[j] = gm_run_state(run)[j] - lambda;
     }

@@ -17,8 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/mesh/families/advance.h"
 #include "core/mesh/families/families.h"
-#include "core/mesh/families/mesh.h"
 #include "core/mesh/nodes.h"
 
 /* The scratch. Unknowns at a node, stage by stage: dy/dt, and where the mesh moves X and dX/dt. */

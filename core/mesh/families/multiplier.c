@@ -19,8 +19,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/mesh/families/advance.h"
 #include "core/mesh/families/families.h"
-#include "core/mesh/families/mesh.h"
 #include "core/mesh/families/multiplier.h"
 #include "core/mesh/nodes.h"
 

@@ -15,8 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/mesh/families/advance.h"
 #include "core/mesh/families/families.h"
-#include "core/mesh/families/mesh.h"
 #include "core/mesh/nodes.h"
 
 enum { PER_NODE = 3, BAND = 2 * PER_NODE - 1 };

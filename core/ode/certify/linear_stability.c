@@ -156,13 +156,8 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
 {
     const double complex z = re + im * I;
     if (scheme->family == &gm_family_explicit_runge_kutta) {
-        static const struct gm_explicit_tableau *const tableaus[GM_EXPLICIT_COUNT] = {
-#define GM_EXPLICIT(identifier, ...) &gm_explicit_##identifier,
-#include "core/ode/families/explicit_runge_kutta.def"
-#undef GM_EXPLICIT
-        };
         const struct gm_explicit_tableau *tableau =
-            tableaus[*(const enum gm_explicit_row *)scheme->coefficients];
+            gm_explicit_tableau_of(*(const enum gm_explicit_row *)scheme->coefficients);
         return cabs(stability_function(tableau->stages, tableau->a[0], GM_EXPLICIT_STAGES, tableau->b, z));
     }
     if (scheme->family == &gm_family_implicit_runge_kutta) {

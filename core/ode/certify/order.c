@@ -70,12 +70,9 @@ static double error_at_own_time(const struct gm_subject *subject, const struct g
     if (!run) {
         return NAN;
     }
-    while (run->status == GM_OK && run->t < until) {
-        gm_run_advance(run, 1);
-    }
     double exact[GM_SUBJECT_COMPONENTS], error = NAN;
     memcpy(exact, subject->start, sizeof exact);
-    if (run->status == GM_OK && solve_by_gsl(&subject->problem, run->t, exact)) {
+    if (gm_run_until(run, until) == GM_OK && solve_by_gsl(&subject->problem, run->t, exact)) {
         error = gm_distance(gm_run_state(run), exact, subject->problem.n);
     }
     gm_run_close(run);

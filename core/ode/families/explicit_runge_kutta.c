@@ -11,16 +11,21 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/runge_kutta_any.h"
 #include "core/ode/kernel/loops.h"
+#include "core/theory/coefficients.h"
 
 /* The loop where n is chosen at run time, through the problem's field. */
 
 enum { STAGES = GM_EXPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK };
 
-static const struct gm_explicit_tableau *const tableaus[GM_EXPLICIT_COUNT] = {
+const struct gm_explicit_tableau *gm_explicit_tableau_of(enum gm_explicit_row row)
+{
+    static const struct gm_explicit_tableau *const tableaus[GM_EXPLICIT_COUNT] = {
 #define GM_EXPLICIT(identifier, ...) &gm_explicit_##identifier,
 #include "core/ode/families/explicit_runge_kutta.def"
 #undef GM_EXPLICIT
-};
+    };
+    return tableaus[row];
+}
 
 struct workspace {
     double *stages, *slopes; /* of the active components, STAGES * active each */
@@ -103,7 +108,7 @@ static struct gm_progress advance(const struct gm_task *task)
 {
     const struct gm_problem *problem = task->problem;
     const enum gm_explicit_row *row = task->scheme->coefficients;
-    const struct gm_explicit_tableau *tableau = tableaus[*row];
+    const struct gm_explicit_tableau *tableau = gm_explicit_tableau_of(*row);
     const struct gm_loops *loops = gm_ode_of(problem)->loops[gm_isa_best()];
     struct workspace *workspace = task->workspace;
     const size_t active = gm_active_count(problem);
@@ -127,6 +132,23 @@ static struct gm_progress advance(const struct gm_task *task)
         carry = task->carry_out;
     }
     return progress;
+}
+
+static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+{
+    const enum gm_explicit_row *row = scheme->coefficients;
+    const struct gm_explicit_tableau *tableau = gm_explicit_tableau_of(*row);
+    const int stages = tableau->stages;
+    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, stages)) {
+        return false;
+    }
+    for (int i = 0; i < stages; i++) {
+        for (int j = 0; j < i; j++) {
+            coefficients->a[0][i * stages + j] = gm_ball_written(tableau->a[i][j]);
+        }
+        coefficients->b[0][i] = gm_ball_written(tableau->b[i]);
+    }
+    return true;
 }
 
 static const enum gm_explicit_row rows[GM_EXPLICIT_COUNT] = {
@@ -154,6 +176,7 @@ static const struct gm_scheme schemes[] = {
 const struct gm_family gm_family_explicit_runge_kutta = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_EXPLICIT,
+    .coefficients_open = coefficients_open,
     .title = "explicit Runge-Kutta",
     .schemes = schemes,
     .count = GM_EXPLICIT_COUNT,

@@ -29,4 +29,7 @@ enum gm_explicit_row {
     GM_EXPLICIT_COUNT
 };
 
+/* The row's tableau. */
+const struct gm_explicit_tableau *gm_explicit_tableau_of(enum gm_explicit_row row);
+
 #endif

@@ -15,6 +15,7 @@
 #include "core/ode/families/members.h"
 #include "core/ode/families/runge_kutta_any.h"
 #include "core/ode/kernel/loops.h"
+#include "core/theory/coefficients.h"
 
 #define SQRT2 1.4142135623730950488016887242097
 #define SQRT3 1.7320508075688772935274463415058724
@@ -479,9 +480,34 @@ static const struct gm_scheme schemes[] = {
     },
 };
 
+/* A composition of steps g_k h is a method too, whose stages are those of all steps: a_ij of a step is g_k a_ij,
+   and g_l b_j of each earlier one. */
+static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+{
+    const struct gm_implicit_row *row = scheme->coefficients;
+    const int steps = row->composition->steps, stages = steps * row->stages;
+    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PLAIN, stages)) {
+        return false;
+    }
+    for (int j = 0; j < stages; j++) {
+        const int step = j / row->stages, own = j % row->stages;
+        const struct gm_ball fraction = gm_ball_written(gm_composition_fraction(row->composition, step));
+        const struct gm_ball b = gm_ball_multiply(fraction, gm_ball_written(row->b[own]));
+        coefficients->b[0][j] = b;
+        for (int i = step * row->stages; i < stages; i++) {
+            coefficients->a[0][i * stages + j] =
+                i / row->stages == step
+                    ? gm_ball_multiply(fraction, gm_ball_written(row->a[i % row->stages][own]))
+                    : b;
+        }
+    }
+    return true;
+}
+
 const struct gm_family gm_family_implicit_runge_kutta = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_IMPLICIT,
+    .coefficients_open = coefficients_open,
     .title = "implicit Runge-Kutta",
     .schemes = schemes,
     .count = sizeof schemes / sizeof schemes[0],

@@ -12,6 +12,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/members.h"
 #include "core/ode/kernel/loops.h"
+#include "core/theory/coefficients.h"
 
 enum { STAGES = 3, PICARD_ITERATIONS = 150, NEWTON_ITERATIONS = 50 };
 
@@ -240,9 +241,27 @@ static const struct gm_scheme schemes[] = {
     },
 };
 
+static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+{
+    const struct tableau *tableau = scheme->coefficients;
+    const size_t stages = tableau->stages;
+    if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PARTITIONED, (int)stages)) {
+        return false;
+    }
+    for (size_t i = 0; i < stages; i++) {
+        for (size_t j = 0; j < stages; j++) {
+            coefficients->a[GM_SIDE_Q][i * stages + j] = gm_ball_written(tableau->a[i][j]);
+            coefficients->a[GM_SIDE_P][i * stages + j] = gm_ball_written(tableau->c[i][j]);
+        }
+        coefficients->b[GM_SIDE_Q][i] = coefficients->b[GM_SIDE_P][i] = gm_ball_written(tableau->b[i]);
+    }
+    return true;
+}
+
 const struct gm_family gm_family_partitioned_runge_kutta = {
     .kind = &gm_kind_ode,
     .title = "partitioned Runge-Kutta",
+    .coefficients_open = coefficients_open,
     .schemes = schemes,
     .count = sizeof schemes / sizeof schemes[0],
     .loop = loop,

@@ -11,6 +11,7 @@
 
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
+#include "core/theory/coefficients.h"
 
 #define DRIFT(c)                                                                                             \
     {                                                                                                        \
@@ -280,9 +281,36 @@ static const struct gm_scheme schemes[] = {
     },
 };
 
+/* Each piece is a stage, which knows those before it. A first force is the last one of the step before. */
+static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+{
+    struct gm_splitting made;
+    const struct gm_splitting *splitting = gm_splitting_of(scheme->coefficients, &made);
+    const int stages = splitting->count;
+    if (!gm_coefficients_open(
+            coefficients, scheme->needs & GM_NEEDS_NYSTROM ? GM_EQUATIONS_NYSTROM : GM_EQUATIONS_SEPARABLE,
+            stages)) {
+        return false;
+    }
+    coefficients->evaluations = 0;
+    for (int j = 0; j < stages; j++) {
+        const bool kick = splitting->pieces[j].piece == GM_KICK;
+        const int side = kick ? GM_SIDE_P : GM_SIDE_Q;
+        const struct gm_ball fraction = gm_ball_written(splitting->pieces[j].fraction);
+        const bool reused = kick && j == stages - 1 && splitting->pieces[0].piece == GM_KICK;
+        coefficients->evaluations += kick && !reused ? 1 : 0;
+        coefficients->b[side][j] = fraction;
+        for (int i = j + 1; i < stages; i++) {
+            coefficients->a[side][i * stages + j] = fraction;
+        }
+    }
+    return true;
+}
+
 const struct gm_family gm_family_splitting = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_SPLITTING,
+    .coefficients_open = coefficients_open,
     .title = "splitting",
     .schemes = schemes,
     .count = sizeof schemes / sizeof schemes[0],

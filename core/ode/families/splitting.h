@@ -31,7 +31,7 @@ struct gm_splitting_row {
 static inline const struct gm_splitting *gm_splitting_of(const struct gm_splitting_row *row,
                                                          struct gm_splitting *made)
 {
-    if (row->of_verlet == NULL) {
+    if (!row->of_verlet) {
         return &row->splitting;
     }
     const int steps = row->of_verlet->steps;

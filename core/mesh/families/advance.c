@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loop of the families whose step is a system of equations on the nodes, and what they tell of a run. */
-#include "core/mesh/families/mesh.h"
+#include "core/mesh/families/advance.h"
 
 #include <math.h>
 #include <string.h>

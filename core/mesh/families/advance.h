@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_MESH_FAMILIES_MESH_H
-#define GM_CORE_MESH_FAMILIES_MESH_H
+#ifndef GM_CORE_MESH_FAMILIES_ADVANCE_H
+#define GM_CORE_MESH_FAMILIES_ADVANCE_H
 
 #include "core/mesh/moving_mesh.h"
 #include "core/mesh/solver.h"

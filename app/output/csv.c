@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Texts as cells of CSV (RFC 4180). */
+#include "app/output/csv.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+void gm_csv_put_text(FILE *stream, const char *text)
+{
+    const bool quoted = strpbrk(text, ",\"") != NULL;
+    fputs(quoted ? "\"" : "", stream);
+    for (; *text; text++) {
+        fputs(*text == '"' ? "\"" : "", stream);
+        fputc(*text, stream);
+    }
+    fputs(quoted ? "\"" : "", stream);
+}

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_STUDIES_SWEEP_H
+#define GM_APP_STUDIES_SWEEP_H
+
+#include "app/request/arguments.h"
+#include "app/request/request.h"
+#include "app/request/words.h"
+#include "app/studies/listener.h"
+
+/* A sweep: a run for every combination of the values of its keys, and a row of a table for every run. Runs are
+   numbered from 0, the first list changes slowest, and made from their number alone: nothing is stored of
+   them. In the table they stand in this order, so that a row's key is its place, and its cells up to
+   `status`, in full precision, have to be those of the run with this number. */
+
+struct gm_sweep {
+    const struct gm_scene *scene;
+    struct gm_words words;
+    char *arguments;      /* "SCENE key=value ...", which reads as the same sweep */
+    char *measure;        /* the observables as a list, where they were chosen; else NULL */
+    size_t count;         /* runs */
+    size_t shard, shards; /* of the share that is made: runs shard - 1, shard - 1 + shards, ...; 1, 1: all */
+    size_t *observables;  /* those that have a column, by their number in the scene */
+    size_t observable_count;
+};
+
+/* Reads a scene and its key=value, and a list of observables, or NULL for all. False with a sentence
+   (GM_MESSAGE bytes); `unreadable` says whether because of a file. To be closed in both cases. */
+bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
+                   bool *unreadable, char *message);
+void gm_sweep_close(struct gm_sweep *sweep);
+
+/* How many runs the share has, and the number of its k-th. */
+size_t gm_sweep_share(const struct gm_sweep *sweep);
+size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k);
+
+/* The names of the columns; how the row of a run begins, with its comma; how `geomint run` would be asked for
+   the run. malloc'ed, NULL when memory is short. */
+char *gm_sweep_head(const struct gm_sweep *sweep);
+char *gm_sweep_front(const struct gm_sweep *sweep, size_t run);
+char *gm_sweep_words(const struct gm_sweep *sweep, size_t run);
+
+/* Makes a run: its row, malloc'ed; NULL where it was interrupted or memory is short. A run that cannot be
+   asked for has the status `refused`, and a sentence (GM_MESSAGE bytes, else ""). In any thread. */
+char *gm_sweep_make(const struct gm_sweep *sweep, size_t run, char *sentence);
+
+/* What all runs of the share will take of a processor, in seconds, judged by the first steps of some of
+   them. */
+double gm_sweep_seconds(const struct gm_sweep *sweep);
+
+/* The words that a row's status may be, as a list. */
+extern const char gm_sweep_statuses[];
+
+/* ---- the table ---- */
+
+struct gm_sweep_table;
+
+/* Opens the table for rows at its end: FILE.csv, of a share FILE.I-of-N.csv, or where `path` is NULL standard
+   output. What a killed program left of a last row is cut off. With `retry`, rows of this status are made
+   anew. NULL with a sentence: it is of another sweep, or another process writes it; it is untouched then. */
+struct gm_sweep_table *gm_sweep_table_open(const struct gm_sweep *sweep, const char *path, const char *retry,
+                                           char *message);
+const char *gm_sweep_table_path(const struct gm_sweep_table *table);
+
+struct gm_sweep_sum {
+    size_t made, failed;      /* rows now, and those of them whose status is not ok */
+    bool unheard;             /* standard output is a pipe that nobody reads */
+    char refusal[GM_MESSAGE]; /* of the first run that was refused; "" */
+};
+
+/* Makes the runs that the table has no row of, `jobs` at once (0: one a core), and appends their rows. False
+   with a sentence if a row could not be written; those before it are there. */
+bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, const struct gm_listener *listener,
+                         struct gm_sweep_sum *sum, char *message);
+bool gm_sweep_table_close(struct gm_sweep_table *table, char *message);
+
+/* "FILE.csv" of a table; of a share "FILE.I-of-N.csv". malloc'ed, NULL when memory is short. */
+char *gm_sweep_share_path(const char *path, size_t shard, size_t shards);
+
+/* ---- shares ---- */
+
+/* Notes beside a table which sweep its shares belong to, FILE.csv.sweep, so that they can be joined. False with
+   a sentence if it says another one already. */
+bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message);
+/* Opens the sweep that FILE.csv.sweep tells of. */
+bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message);
+/* Joins the shares' rows in the order of the runs to FILE.csv; for each run without a row `missing` is told how
+   it is asked for. False with a sentence. */
+bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
+                   void (*missing)(size_t run, const char *words), size_t *missing_count, char *message);
+
+/* ---- the picture ---- */
+
+/* What a picture needs of a table: bounded, however many rows. */
+struct gm_sweep_chart;
+/* One key with several numbers makes a graph, two a map. NULL with a sentence where there is another number of
+   them, or the table cannot be read. */
+struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, const char *path, char *message);
+bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message);
+void gm_sweep_chart_close(struct gm_sweep_chart *chart);
+void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture);
+
+#endif

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_THEORY_COEFFICIENTS_H
+#define GM_CORE_THEORY_COEFFICIENTS_H
+
+#include "core/theory/ball.h"
+
+/* The coefficients of a Runge-Kutta method, plain or partitioned, for y' = f(y) or (q, p)' = (f_q, f_p):
+       Y_i = y0 + h sum_j a_ij f(Y_j)            Q_i = q0 + h sum_j a_ij f_q(Q_j, P_j),   P_i with c_ij
+       y1  = y0 + h sum_i b_i  f(Y_i)            q1  = q0 + h sum_i b_i  f_q(Q_i, P_i),   p1  with d_i
+   A splitting is one of the second form: each of its pieces is a stage. */
+
+/* What the method is for; its order is that for all such systems. */
+enum gm_equations {
+    GM_EQUATIONS_PLAIN,       /* y' = f(y) */
+    GM_EQUATIONS_PARTITIONED, /* (q, p)' = (f_q(q, p), f_p(q, p)) */
+    GM_EQUATIONS_SEPARABLE,   /* (f_q(p), f_p(q)) */
+    GM_EQUATIONS_NYSTROM,     /* (f_q(p), f_p(q)) with f_q linear */
+};
+
+/* The first side is that of q, or all there is. */
+enum { GM_SIDE_Q, GM_SIDE_P, GM_SIDES };
+
+struct gm_coefficients {
+    enum gm_equations equations;
+    int stages;
+    int evaluations;                           /* of f, or of the force, in a step */
+    struct gm_ball *a[GM_SIDES], *b[GM_SIDES]; /* stages * stages by rows, stages; a[GM_SIDE_P]: c, d */
+};
+
+/* All zeros. False: out of memory. */
+bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_equations equations, int stages);
+void gm_coefficients_close(struct gm_coefficients *coefficients);
+
+static inline int gm_coefficients_sides(const struct gm_coefficients *coefficients)
+{
+    return coefficients->equations == GM_EQUATIONS_PLAIN ? 1 : GM_SIDES;
+}
+
+#endif

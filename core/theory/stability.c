@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The stability function of y' = lambda y, z = h lambda, 1 = (1, ..., 1)':
+       R(z) = P(z) / Q(z),   P(z) = det(I - z A + z 1 b'),   Q(z) = det(I - z A)
+   whose coefficients are those of characteristic polynomials (Faddeev and Le Verrier). Bounded
+       on the negative axis    as long as  Q(-x)^2 - P(-x)^2 >= 0
+       on the imaginary axis   as long as  E(y) = |Q(iy)|^2 - |P(iy)|^2 >= 0
+   A-stable if E >= 0 everywhere and all zeros of Q lie to the right, L-stable if also deg P < deg Q. E. Hairer &
+   G. Wanner, Solving Ordinary Differential Equations II (1996), IV.3.
+
+   A splitting turns the oscillator by a matrix of determinant 1, bounded as long as its trace lies within
+   [-2, 2]; with x = (omega h)^2
+       drift d:  q := q + d p,   kick k:  p := p - k x q */
+#include "core/theory/stability.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/theory/polynomial.h"
+
+static const struct gm_polynomial zero = {.degree = -1};
+
+/* p := p det(I - z M) of a square block of the matrix M, with
+       det(I - z M) = 1 + c_1 z + ... + c_s z^s,   X_k = M X_(k-1) + c_(k-1) M,   c_k = -tr(X_k) / k
+   m is the block's first entry in rows of `stride`; x and next are scratch. */
+static bool multiply_determinant(int s, const struct gm_ball *m, int stride, struct gm_ball *x,
+                                 struct gm_ball *next, struct gm_polynomial *p)
+{
+    if (s > GM_POLYNOMIAL_DEGREE) {
+        return false;
+    }
+    struct gm_polynomial block = {.degree = s, .at = {gm_ball_of(1)}}, product = zero;
+    for (int i = 0; i < s * s; i++) {
+        x[i] = gm_ball_of(0);
+    }
+    for (int k = 1; k <= s; k++) {
+        struct gm_ball trace = gm_ball_of(0);
+        for (int i = 0; i < s; i++) {
+            for (int j = 0; j < s; j++) {
+                struct gm_ball sum = gm_ball_multiply(block.at[k - 1], m[i * stride + j]);
+                for (int l = 0; l < s; l++) {
+                    sum = gm_ball_add(sum, gm_ball_multiply(m[i * stride + l], x[l * s + j]));
+                }
+                next[i * s + j] = sum;
+            }
+            trace = gm_ball_add(trace, next[i * s + i]);
+        }
+        for (int i = 0; i < s * s; i++) {
+            x[i] = next[i];
+        }
+        block.at[k] = gm_ball_multiply(trace, gm_ball_ratio(-1, k));
+    }
+    const bool fits = gm_polynomial_add_product(&product, gm_ball_of(1), p, &block);
+    *p = product;
+    return fits;
+}
+
+/* Whether the stages up to this one know none of those behind. */
+static bool is_closed(const struct gm_coefficients *coefficients, int last)
+{
+    const int s = coefficients->stages;
+    bool closed = true;
+    for (int i = 0; i <= last; i++) {
+        for (int j = last + 1; j < s; j++) {
+            const struct gm_ball a = coefficients->a[0][i * s + j];
+            closed = closed && a.radius == 0 && gm_ball_may_vanish(a);
+        }
+    }
+    return closed;
+}
+
+/* Q, block by block where A is a block triangle: a composition's digits are not lost in the whole of it. */
+static bool denominator(const struct gm_coefficients *coefficients, struct gm_ball *x, struct gm_ball *next,
+                        struct gm_polynomial *q)
+{
+    const int s = coefficients->stages;
+    bool fits = true;
+    gm_polynomial_set(q, gm_ball_of(1));
+    for (int first = 0, last = 0; last < s && fits; last++) {
+        if (is_closed(coefficients, last)) {
+            fits =
+                multiply_determinant(last + 1 - first, coefficients->a[0] + first * s + first, s, x, next, q);
+            first = last + 1;
+        }
+    }
+    return fits;
+}
+
+/* q(x) = p(-x) */
+static void mirror(const struct gm_polynomial *p, struct gm_polynomial *q)
+{
+    *q = *p;
+    for (int k = 1; k <= q->degree; k += 2) {
+        q->at[k] = gm_ball_subtract(gm_ball_of(0), q->at[k]);
+    }
+}
+
+/* Adds factor |p(iy)|^2 to the polynomial in y^2: p(iy) = even(-y^2) + i y odd(-y^2). */
+static bool add_modulus(struct gm_polynomial *sum, double factor, const struct gm_polynomial *p)
+{
+    struct gm_polynomial parts[2] = {zero, zero}, one;
+    gm_polynomial_set(&one, gm_ball_of(1));
+    for (int k = 0; k <= p->degree; k++) {
+        const int half = k / 2;
+        gm_polynomial_add(&parts[k % 2],
+                          half % 2 == 0 ? p->at[k] : gm_ball_multiply(gm_ball_of(-1), p->at[k]), half, &one);
+    }
+    struct gm_polynomial odd = zero;
+    return gm_polynomial_add_product(sum, gm_ball_of(factor), &parts[0], &parts[0]) &&
+           gm_polynomial_add_product(&odd, gm_ball_of(factor), &parts[1], &parts[1]) &&
+           gm_polynomial_add(sum, gm_ball_of(1), 1, &odd);
+}
+
+/* R(z) R(-z) = 1 of a symmetric method, so P(z) = Q(-z). */
+static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
+                     struct gm_theory_stability *stability)
+{
+    const int s = coefficients->stages;
+    const size_t square = (size_t)s * (size_t)s;
+    struct gm_ball *room = malloc(3 * square * sizeof *room);
+    if (!room) {
+        return false;
+    }
+    struct gm_ball *m = room, *x = room + square, *next = room + 2 * square;
+    struct gm_polynomial p, q, left_p, left_q, on_real = zero, on_imaginary = zero;
+    bool fits = denominator(coefficients, x, next, &q);
+    if (fits && symmetric) {
+        mirror(&q, &p);
+    } else if (fits) {
+        for (int i = 0; i < s * s; i++) {
+            m[i] = gm_ball_subtract(coefficients->a[0][i], coefficients->b[0][i % s]);
+        }
+        gm_polynomial_set(&p, gm_ball_of(1));
+        fits = multiply_determinant(s, m, s, x, next, &p);
+    }
+    free(room);
+    if (!fits) {
+        return true;
+    }
+    gm_polynomial_settle(&p);
+    gm_polynomial_settle(&q);
+    mirror(&p, &left_p);
+    mirror(&q, &left_q);
+    stability->known = gm_polynomial_add_product(&on_real, gm_ball_of(1), &left_q, &left_q) &&
+                       gm_polynomial_add_product(&on_real, gm_ball_of(-1), &left_p, &left_p) &&
+                       add_modulus(&on_imaginary, 1, &q) && add_modulus(&on_imaginary, -1, &p);
+    gm_polynomial_settle(&on_real);
+    gm_polynomial_settle(&on_imaginary);
+    stability->real = gm_polynomial_first_negative(&on_real);
+    stability->imaginary = sqrt(gm_polynomial_first_negative(&on_imaginary));
+    stability->a_stable = isinf(stability->imaginary) && gm_polynomial_is_hurwitz(&left_q);
+    stability->l_stable = stability->a_stable && p.degree < q.degree;
+    return true;
+}
+
+static bool of_splitting(const struct gm_coefficients *coefficients, struct gm_theory_stability *stability)
+{
+    struct gm_polynomial step[2][2], square = zero;
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            step[i][j] = zero;
+        }
+        gm_polynomial_set(&step[i][i], gm_ball_of(1));
+    }
+    bool fits = true;
+    for (int i = 0; i < coefficients->stages; i++) {
+        const struct gm_ball drift = coefficients->b[GM_SIDE_Q][i], kick = coefficients->b[GM_SIDE_P][i];
+        for (int column = 0; column < 2; column++) {
+            fits = fits && gm_polynomial_add(&step[0][column], drift, 0, &step[1][column]) &&
+                   gm_polynomial_add(&step[1][column], gm_ball_multiply(gm_ball_of(-1), kick), 1,
+                                     &step[0][column]);
+        }
+    }
+    fits = fits && gm_polynomial_add(&step[0][0], gm_ball_of(1), 0, &step[1][1]);
+    struct gm_polynomial bound;
+    gm_polynomial_set(&bound, gm_ball_of(4));
+    fits = fits && gm_polynomial_add_product(&square, gm_ball_of(-1), &step[0][0], &step[0][0]) &&
+           gm_polynomial_add(&bound, gm_ball_of(1), 0, &square);
+    stability->known = fits;
+    stability->oscillator = true;
+    stability->real = NAN;
+    stability->imaginary = sqrt(gm_polynomial_first_negative(&bound));
+    return true;
+}
+
+bool gm_theory_stability_of(const struct gm_coefficients *coefficients, bool symmetric,
+                            struct gm_theory_stability *stability)
+{
+    *stability = (struct gm_theory_stability){.real = NAN, .imaginary = NAN};
+    switch (coefficients->equations) {
+    case GM_EQUATIONS_PLAIN:
+        return of_plain(coefficients, symmetric, stability);
+    case GM_EQUATIONS_SEPARABLE:
+    case GM_EQUATIONS_NYSTROM:
+        return of_splitting(coefficients, stability);
+    case GM_EQUATIONS_PARTITIONED:
+        break;
+    }
+    return true;
+}
