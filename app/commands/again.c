@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint again FILE.png: makes a picture once more from what it tells of itself. */
+/* geomint again FILE: makes a picture once more from what it tells of itself. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/commands/commands.h"
-#include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/output/still.h"
 #include "app/request/drive.h"
+#include "render/vector/svg.h"
 
 /* The texts that it reads. */
-enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, TEXTS };
+enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, NEEDED, SCALE = NEEDED, DPI, TITLE, TEXTS };
 static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY_CHANGES, GM_KEY_STEPS,
-                                        GM_KEY_PICTURE};
+                                        GM_KEY_PICTURE, GM_KEY_SCALE,     GM_KEY_DPI,     GM_KEY_TITLE};
 
 /* Opens every lane and drives it to the step that `steps` names for it. */
 static bool drive(const struct gm_request *request, struct gm_lane **lanes, const char *steps, char *message)
@@ -37,7 +37,7 @@ static bool drive(const struct gm_request *request, struct gm_lane **lanes, cons
 /* Whether the picture has all the texts of a picture of lanes; a sentence if not. */
 static bool is_complete(const char *path, char *const *texts, char *message)
 {
-    for (size_t i = ARGUMENTS; i < TEXTS; i++) {
+    for (size_t i = ARGUMENTS; i < NEEDED; i++) {
         if (!texts[i]) {
             return gm_refuse(message, "%.360s does not tell how it was made (it lacks %s)", path, keys[i]);
         }
@@ -87,6 +87,8 @@ static int chart_again(const struct gm_options *options, const char *command)
     int status = GM_EXIT_FILE;
     if (name && chart && gm_options_parse(&again, chart->bit, words.count, words.words, 1, message)) {
         again.out = options->out;
+        again.output = options->output;
+        again.format = options->format;
         again.name = name;
         status = chart->function(&again);
     } else {
@@ -98,6 +100,43 @@ static int chart_again(const struct gm_options *options, const char *command)
     return status;
 }
 
+/* A number of a text within bounds; 0 for no text. False where it is damaged. */
+static bool take_number(const char *text, double low, double high, double *number)
+{
+    *number = 0;
+    return !text || (gm_number_parse(text, number) && *number >= low && *number <= high);
+}
+
+/* The look that the texts tell of; its title is one of them. */
+static bool take_look(struct gm_appearance *look, char *const *texts)
+{
+    char theme[8] = "";
+    if (sscanf(texts[PICTURE], "%5dx%5d %7s", &look->width, &look->height, theme) != 3 || look->width < 64 ||
+        look->height < 64 || look->width > 16384 || look->height > 16384) {
+        return false;
+    }
+    look->theme = strcmp(theme, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
+    look->title = texts[TITLE];
+    return take_number(texts[SCALE], GM_LEAST_SCALE, GM_MOST_SCALE, &look->scale) &&
+           take_number(texts[DPI], GM_LEAST_DPI, GM_MOST_DPI, &look->dpi);
+}
+
+/* Where the picture goes; malloc'ed. */
+static char *print_path(const struct gm_options *options)
+{
+    char end[8], *name = NULL;
+    if (options->output) {
+        return strdup(options->output);
+    }
+    snprintf(end, sizeof end, ".%s", gm_format_name(options->format));
+    char *base = output_name(options->arguments.words[0], end);
+    if (!base || asprintf(&name, "%s/%s", options->out ? options->out : ".", base) < 0) {
+        name = NULL;
+    }
+    free(base);
+    return name;
+}
+
 /* Draws a picture of lanes once more. */
 static int picture_again(const struct gm_options *options, char *const *texts)
 {
@@ -105,34 +144,26 @@ static int picture_again(const struct gm_options *options, char *const *texts)
     char message[GM_MESSAGE] = "not enough memory";
     struct gm_request request = {0};
     struct gm_lane **lanes = NULL;
-    char *base = output_name(path, ".png"), *name = NULL;
-    if (!base || asprintf(&name, "%s/%s", options->out ? options->out : ".", base) < 0) {
-        name = NULL;
-    }
-    free(base);
-    int width = 0, height = 0, status = GM_EXIT_FILE;
-    char theme[8] = "";
+    char *name = print_path(options);
+    struct gm_print print = {.path = name, .format = options->format};
+    int status = GM_EXIT_FILE;
     if (!name || !is_complete(path, texts, message)) {
         gm_complain("%s", message);
-    } else if (sscanf(texts[PICTURE], "%5dx%5d %7s", &width, &height, theme) != 3 || width < 64 ||
-               height < 64 || width > 16384 || height > 16384) {
+    } else if (!take_look(&print.look, texts)) {
         gm_complain("%s cannot be made again: its size is damaged", path);
     } else if (!parse(&request, texts[ARGUMENTS], texts[CHANGES], message)) {
         gm_complain("%s cannot be made again: %s", path, message);
     } else {
         gm_catch_interrupts();
         lanes = calloc(request.count, sizeof *lanes);
-        const enum gm_theme shade = strcmp(theme, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
         if (!lanes || !drive(&request, lanes, texts[STEPS], message)) {
             gm_complain("%s cannot be made again: %s", path, message);
         } else if (gm_interrupted) {
             status = GM_EXIT_INTERRUPTED;
-        } else if (!gm_folder_make(options->out, message) ||
-                   !gm_still_write(name, width, height, shade, &request, (const struct gm_lane *const *)lanes,
-                                   message)) {
+        } else if (!gm_still_write(&print, &request, (const struct gm_lane *const *)lanes, message)) {
             gm_complain("%s", message);
         } else {
-            gm_complain("wrote %s", name);
+            gm_press_tell(&print, "");
             status = GM_EXIT_OK;
         }
     }
@@ -148,11 +179,14 @@ static int picture_again(const struct gm_options *options, char *const *texts)
 static int command_again(const struct gm_options *options)
 {
     if (options->arguments.count != 1) {
-        gm_complain("again which picture? A PNG file that geomint made");
+        gm_complain("again which picture? A PNG or SVG file that geomint made");
         return GM_EXIT_USAGE;
     }
     char message[GM_MESSAGE], *texts[TEXTS];
-    if (!gm_png_read_texts(options->arguments.words[0], keys, texts, TEXTS, message)) {
+    const char *path = options->arguments.words[0];
+    enum gm_format format = GM_FORMAT_PNG;
+    const bool drawn = gm_format_of(path, &format) && format == GM_FORMAT_SVG;
+    if (!(drawn ? gm_svg_read_texts : gm_png_read_texts)(path, keys, texts, TEXTS, message)) {
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
@@ -165,7 +199,7 @@ static int command_again(const struct gm_options *options)
 
 const struct gm_command_row gm_command_again = {
     .name = "again",
-    .synopsis = "FILE.png",
+    .synopsis = "FILE.png|FILE.svg",
     .help = "make a picture once more from what it tells of itself",
     .bit = GM_AGAIN,
     .function = command_again,

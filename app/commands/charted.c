@@ -27,18 +27,17 @@ int gm_command_chart(const struct gm_options *options, const char *command, cons
 {
     char message[GM_MESSAGE] = "not enough memory";
     char *words = command_line(command, options);
-    struct gm_chart chart = {.folder = options->out,
+    struct gm_chart chart = {.path = options->output,
+                             .folder = options->out,
                              .name = options->name ? options->name : name,
                              .command = words,
-                             .width = options->width,
-                             .height = options->height,
-                             .theme = options->theme};
+                             .print = {.format = options->format, .look = options->look}};
     const bool good = words && gm_chart_write(&chart, data, draw, write, message);
     free(words);
     if (!good) {
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
-    gm_complain("wrote %s%s%s", chart.png, write ? " and " : "", write ? chart.csv : "");
+    gm_press_tell(&chart.print, write ? chart.csv : "");
     return GM_EXIT_OK;
 }

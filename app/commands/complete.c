@@ -121,6 +121,10 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
         offer_named(stem, gm_sweep_statuses);
     } else if (strcmp(option->name, "--region") == 0) {
         offer_schemes(stem, NULL);
+    } else if (strcmp(option->name, "--format") == 0) {
+        for (int i = 0; i < GM_FORMAT_COUNT; i++) {
+            offer(stem, gm_format_name((enum gm_format)i), "");
+        }
     } else if (strcmp(option->name, "--theme") == 0) {
         offer(stem, "light", "for paper");
         offer(stem, "dark", "for a screen");
@@ -208,6 +212,7 @@ static void offer_assignment(const char *word, const struct gm_scene *scene, boo
 static const struct gm_option *option_of(const struct gm_command_row *command, const char *word,
                                          struct gm_option *option)
 {
+    word = gm_option_name(word);
     const size_t length = strcspn(word, "=");
     for (size_t i = 0; i < gm_option_count(); i++) {
         *option = gm_option_at(i);

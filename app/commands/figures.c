@@ -97,10 +97,14 @@ static bool open_series(struct series *series, const struct gm_options *options)
     const bool small = options->quick && !options->sized;
     *series = (struct series){.options = options,
                               .output = {.folder = options->out ? options->out : ".",
-                                         .width = small ? QUICK_WIDTH : options->width,
-                                         .height = small ? QUICK_HEIGHT : options->height,
+                                         .look = options->look,
+                                         .format = options->format,
                                          .quick = options->quick},
                               .jobs = calloc(most, sizeof *series->jobs)};
+    if (small) {
+        series->output.look.width = QUICK_WIDTH;
+        series->output.look.height = QUICK_HEIGHT;
+    }
     void *shared = mmap(NULL, most * sizeof *series->outcomes, PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     series->outcomes = shared == MAP_FAILED ? NULL : shared;

@@ -189,6 +189,7 @@ static void put_examples(void)
     static const char *const examples[][2] = {
         {"geomint run disc scheme=explicit-euler dt=0.02 until=5", "numbers of one run"},
         {"geomint render kepler scheme=rk4,verlet --movie kepler.mp4", "a movie of two schemes side by side"},
+        {"geomint render kepler --size 16x9cm -o kepler.pdf", "a figure for a paper"},
         {"geomint work-precision kepler --out diagrams", "error against cost, of every scheme that fits"},
         {"geomint figures tyranowski-11 --out published", "a published figure with its numbers"},
     };

@@ -8,9 +8,10 @@
 #include <string.h>
 
 #include "core/formula/nearest.h"
+#include "render/cells/text.h"
 #include "render/files/sink.h"
 
-enum kind { FLAG, TEXT, MOVIE, WHOLE, TIME, RATE, FPS, SIZE, THEME, SHARD };
+enum kind { FLAG, TEXT, TITLE, FORMAT, MOVIE, WHOLE, TIME, RATE, FPS, SCALE, DPI, SIZE, THEME, SHARD };
 
 struct row {
     const char *name;
@@ -22,6 +23,7 @@ struct row {
 
 #define AT(member) offsetof(struct gm_options, member)
 #define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP | GM_TOUR)
+#define PRINTS (GM_RENDER | GM_WORK_PRECISION | GM_STABILITY | GM_AGAIN)
 #define EXPLORES (GM_TUI | GM_TERMINAL | GM_TOUR)
 
 static const struct row rows[] = {
@@ -47,13 +49,21 @@ static const struct row rows[] = {
     {"--rate", RATE, GM_RENDER, AT(rate), "R", "model time a second of the movie"},
     {"--from", TIME, GM_RENDER, AT(from), "T", "first frame at model time T"},
     {"--at", TIME, GM_RENDER, AT(at), "T", "one picture at model time T"},
-    {"--size", SIZE, PAINTS, AT(width), "WxH", "pixels (1280x720)"},
-    {"--theme", THEME, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(theme), "light|dark",
+    {"--output", TEXT, PRINTS, AT(output), "FILE",
+     "one picture to FILE (-o): .png, .svg or .pdf; - is standard output"},
+    {"--format", FORMAT, PRINTS | GM_FIGURES, AT(format_name), "png|svg|pdf",
+     "format of pictures whose names do not tell it (png)"},
+    {"--title", TITLE, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.title), "TEXT",
+     "title of the picture instead of its own"},
+    {"--size", SIZE, PAINTS, AT(look.width), "WxH", "pixels (1280x720), or lengths: 16x9cm, 160x90mm"},
+    {"--dpi", DPI, PAINTS, AT(look.dpi), "N", "pixels an inch (of lengths 300, else 96)"},
+    {"--scale", SCALE, PAINTS, AT(look.scale), "S", "letters and lines S times as large (1)"},
+    {"--theme", THEME, PAINTS & ~(unsigned)(GM_FIGURES | GM_TOUR), AT(look.theme), "light|dark",
      "colours for paper or for a screen"},
     {"--changes", TEXT, GM_RENDER, AT(changes), "LIST", "LANE:STEP:KEY=VALUE,...: changes in flight (key y)"},
     {"--graphics", TEXT, EXPLORES, AT(graphics), "KIND", "kitty, sixel, braille, quadrants, half or ascii"},
     {"--colours", TEXT, EXPLORES, AT(colours), "HOWMANY", "truecolor, 256, 16 or none"},
-    {"--theme", TEXT, EXPLORES, AT(look), "THEME", "light, dark or, in a terminal, mono"},
+    {"--theme", TEXT, EXPLORES, AT(shade), "THEME", "light, dark or, in a terminal, mono"},
     {"--out", TEXT, PAINTS | GM_AGAIN, AT(out), "DIR", "folder of the output (here)"},
     {"--movie", MOVIE, GM_RENDER | GM_TOUR, AT(movie), "FILE", "write a movie: .mp4, .webm or .gif"},
     {"--table", TEXT, GM_SWEEP, AT(table), "FILE.csv", "keep the rows in FILE.csv; given again, it goes on"},
@@ -81,6 +91,91 @@ static bool refuse(char *message, const char *name, const char *value, const cha
     return gm_refuse(message, "%s %.60s%s%s", name, value, *value ? " " : "", what);
 }
 
+static bool store_between(char *place, const struct row *row, const char *value, double low, double high,
+                          char *message)
+{
+    double number = NAN;
+    char what[64];
+    if (!gm_number_parse(value, &number) || !(number >= low && number <= high)) {
+        snprintf(what, sizeof what, "is not a number from %g to %g", low, high);
+        return refuse(message, row->name, value, what);
+    }
+    memcpy(place, &number, sizeof number);
+    return true;
+}
+
+static bool is_painted(double width, double height)
+{
+    return width >= 64 && height >= 64 && width <= 16384 && height <= 16384;
+}
+
+/* "1280x720", or "16x9cm", of which the pixels follow when --dpi is known: page[] then is in mm. */
+static bool read_size(const char *value, double page[2], struct gm_appearance *look)
+{
+    int width = 0, height = 0, used = 0;
+    char unit[3] = "", more = '\0';
+    if (sscanf(value, "%5dx%5d%n", &width, &height, &used) == 2 && !value[used]) {
+        look->width = width;
+        look->height = height;
+        return is_painted(width, height);
+    }
+    if (strspn(value, "0123456789.xcm") != strlen(value) ||
+        sscanf(value, "%lfx%lf%2[cm]%c", &page[0], &page[1], unit, &more) != 3) {
+        return false;
+    }
+    const double mm = strcmp(unit, "cm") == 0 ? 10 : strcmp(unit, "mm") == 0 ? 1 : NAN;
+    page[0] *= mm;
+    page[1] *= mm;
+    return page[0] > 0 && page[1] > 0;
+}
+
+/* The pixels of a page in mm. */
+static bool settle_size(struct gm_options *options, char *message)
+{
+    const double mm_an_inch = 25.4, print_dpi = 300;
+    struct gm_appearance *look = &options->look;
+    if (!(options->page[0] > 0)) {
+        return true;
+    }
+    look->dpi = look->dpi > 0 ? look->dpi : print_dpi;
+    const double width = round(options->page[0] / mm_an_inch * look->dpi);
+    const double height = round(options->page[1] / mm_an_inch * look->dpi);
+    if (!is_painted(width, height)) {
+        snprintf(message, GM_MESSAGE,
+                 "--size %gx%gmm is %gx%g pixels at %g an inch; each is to be from 64 to 16384",
+                 options->page[0], options->page[1], width, height, look->dpi);
+        return false;
+    }
+    look->width = (int)width;
+    look->height = (int)height;
+    look->page_width = options->page[0];
+    look->page_height = options->page[1];
+    return true;
+}
+
+/* The format of pictures, by the name of --output's file or by --format. */
+static bool settle_format(struct gm_options *options, char *message)
+{
+    enum gm_format format;
+    if (gm_options_take_stdout(options) && options->json) {
+        snprintf(message, GM_MESSAGE, "--output - and --json are both to write to standard output");
+        return false;
+    }
+    if (!options->output || gm_options_take_stdout(options)) {
+        return true;
+    }
+    if (!gm_format_of(options->output, &format)) {
+        return refuse(message, "--output", options->output, "is no .png, .svg or .pdf file");
+    }
+    if (options->format_name && format != options->format) {
+        snprintf(message, GM_MESSAGE, "--output %.300s and --format %s name two formats", options->output,
+                 options->format_name);
+        return false;
+    }
+    options->format = format;
+    return true;
+}
+
 static bool store(struct gm_options *options, const struct row *row, const char *value, char *message)
 {
     char *place = (char *)options + row->offset;
@@ -92,6 +187,18 @@ static bool store(struct gm_options *options, const struct row *row, const char 
     case TEXT:
         if (!*value) {
             return refuse(message, row->name, value, "is empty");
+        }
+        memcpy(place, &value, sizeof value);
+        return true;
+    case TITLE:
+        if (!*value || !gm_text_is_plain(value)) {
+            return refuse(message, row->name, "", *value ? "has characters that are not shown" : "is empty");
+        }
+        memcpy(place, &value, sizeof value);
+        return true;
+    case FORMAT:
+        if (!gm_format_find(value, &options->format)) {
+            return refuse(message, row->name, value, "is none of: png, svg, pdf");
         }
         memcpy(place, &value, sizeof value);
         return true;
@@ -122,23 +229,16 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         memcpy(place, &number, sizeof number);
         return true;
     case FPS:
-        if (!gm_number_parse(value, &number) || !(number >= 0.01 && number <= 1000)) {
-            return refuse(message, row->name, value, "is not a number from 0.01 to 1000");
-        }
-        memcpy(place, &number, sizeof number);
-        return true;
-    case SIZE: {
-        int width = 0, height = 0, used = 0;
-        if (sscanf(value, "%5dx%5d%n", &width, &height, &used) != 2 || value[used] || width < 64 ||
-            height < 64 || width > 16384 || height > 16384) {
-            return refuse(message, row->name, value,
-                          "is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels");
-        }
-        options->width = width;
-        options->height = height;
+        return store_between(place, row, value, 0.01, 1000, message);
+    case SCALE:
+        return store_between(place, row, value, GM_LEAST_SCALE, GM_MOST_SCALE, message);
+    case DPI:
+        return store_between(place, row, value, GM_LEAST_DPI, GM_MOST_DPI, message);
+    case SIZE:
         options->sized = true;
-        return true;
-    }
+        return read_size(value, options->page, &options->look) ||
+               refuse(message, row->name, value,
+                      "is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels, or in cm or mm: 16x9cm");
     case SHARD: {
         long shard = 0, shards = 0;
         int used = 0;
@@ -151,7 +251,7 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         return true;
     }
     case THEME:
-        options->theme = strcmp(value, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
+        options->look.theme = strcmp(value, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
         return strcmp(value, "dark") == 0 || strcmp(value, "light") == 0 ||
                refuse(message, row->name, value, "is none of: light, dark");
     }
@@ -223,6 +323,13 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
         {"--frames", "--rate", "each says how many frames there are"},
         {"--every", "--rate", "each says how many frames there are"},
         {"--every", "--interval", "each says which steps have a row"},
+        {"--output", "--out", "the first names the file"},
+        {"--output", "--frames", "the first makes one picture"},
+        {"--output", "--every", "the first makes one picture"},
+        {"--output", "--rate", "the first makes one picture"},
+        {"--output", "--fps", "the first makes one picture"},
+        {"--output", "--from", "the first makes one picture"},
+        {"--output", "--movie", "the first makes one picture"},
         {"--json", "--markdown", "they are two formats"},
         {"--json", "--latex", "they are two formats"},
         {"--latex", "--markdown", "they are two formats"},
@@ -267,12 +374,10 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
                                    .from = NAN,
                                    .at = NAN,
                                    .interval = NAN,
-                                   .width = 1280,
-                                   .height = 720,
-                                   .theme = GM_THEME_LIGHT};
+                                   .look = {.width = 1280, .height = 720}};
     bool given[ROWS] = {false};
     for (int i = first; i < argc; i++) {
-        const char *word = argv[i];
+        const char *word = gm_option_name(argv[i]);
         if (strncmp(word, "--", 2) != 0) {
             if (!gm_arguments_add(&options->arguments, word)) {
                 return gm_refuse(message, "not enough memory");
@@ -303,12 +408,23 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
             return false;
         }
     }
-    return check_pairs(options, given, message);
+    return check_pairs(options, given, message) && settle_size(options, message) &&
+           settle_format(options, message);
+}
+
+bool gm_options_take_stdout(const struct gm_options *options)
+{
+    return options->output && strcmp(options->output, "-") == 0;
 }
 
 void gm_options_close(struct gm_options *options)
 {
     gm_arguments_close(&options->arguments);
+}
+
+const char *gm_option_name(const char *word)
+{
+    return strcmp(word, "-o") == 0 ? "--output" : word;
 }
 
 size_t gm_option_count(void)

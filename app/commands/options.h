@@ -3,9 +3,9 @@
 #ifndef GM_APP_COMMANDS_OPTIONS_H
 #define GM_APP_COMMANDS_OPTIONS_H
 
+#include "app/output/press.h"
 #include "app/request/arguments.h"
 #include "app/request/request.h"
-#include "render/layout/theme.h"
 
 /* The commands, as bits: an option says which of them take it. */
 enum gm_command {
@@ -30,24 +30,36 @@ struct gm_options {
     int json, state, maximum, strict, longer, quick, markdown, latex, listing, yes;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
     const char *csv, *profile, *out, *movie, *measure, *region, *changes;
-    const char *name;                 /* of a chart's files, by `again` alone; NULL: the command's own */
+    const char *output; /* one picture's file; NULL: not given */
+    const char *format_name;
+    enum gm_format format; /* of pictures: png, unless the two before say otherwise */
+    const char *name;      /* of a chart's files, by `again` alone; NULL: the command's own */
     const char *table, *retry, *join; /* of sweep */
     long every, frames, jobs;
-    long shard, shards;                    /* 0, 0: not given */
-    double fps, rate;                      /* NAN: not given */
-    double from, at, interval;             /* NAN: not given */
-    int width, height;                     /* 1280 x 720 */
-    bool sized;                            /* these were given */
-    enum gm_theme theme;                   /* light */
-    const char *graphics, *colours, *look; /* what to believe of the terminal */
-    struct gm_arguments arguments;         /* what is left: scene, key=value, names */
+    long shard, shards;                     /* 0, 0: not given */
+    double fps, rate;                       /* NAN: not given */
+    double from, at, interval;              /* NAN: not given */
+    struct gm_appearance look;              /* 1280 x 720, light */
+    double page[2];                         /* its size in mm, where that was given; else 0 */
+    bool sized;                             /* a size was given */
+    const char *graphics, *colours, *shade; /* what to believe of the terminal */
+    struct gm_arguments arguments;          /* what is left: scene, key=value, names */
 };
+
+/* Bounds of --scale and --dpi. */
+#define GM_LEAST_SCALE 0.25
+#define GM_MOST_SCALE 4.0
+#define GM_LEAST_DPI 24.0
+#define GM_MOST_DPI 2400.0
 
 /* Reads argv[first..]; the texts point into it. False with a sentence. To be closed in
    both cases. */
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
                       char *message);
 void gm_options_close(struct gm_options *options);
+
+/* Whether a picture goes to standard output, and nothing else may. */
+bool gm_options_take_stdout(const struct gm_options *options);
 
 /* What is known of an option. */
 struct gm_option {
@@ -56,6 +68,8 @@ struct gm_option {
     const char *help;
     unsigned commands; /* those that take it */
 };
+/* The name of the option that a short one stands for, "--output" for "-o"; other words are returned. */
+const char *gm_option_name(const char *word);
 size_t gm_option_count(void);
 struct gm_option gm_option_at(size_t index);
 

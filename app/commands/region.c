@@ -280,7 +280,9 @@ int gm_region(const struct gm_options *options)
         } else {
             measure_line(&region);
         }
-        print_numbers(&region, options->json);
+        if (!gm_options_take_stdout(options)) {
+            print_numbers(&region, options->json);
+        }
         status = gm_command_chart(options, "stability", name, &region, draw, write_csv);
     }
     free(region.measured);

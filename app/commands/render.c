@@ -9,6 +9,7 @@
 #include "app/commands/commands.h"
 #include "app/output/checkpoint.h"
 #include "app/output/folder.h"
+#include "app/output/still.h"
 #include "app/request/drive.h"
 #include "core/memory.h"
 #include "render/clock.h"
@@ -76,44 +77,21 @@ static bool drive_to(struct work *work, long frame, char *message)
     return true;
 }
 
-/* A line for each lane that has failed; malloc'ed, NULL when memory is short. */
-static char *failures_of(const struct work *work)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream) {
-        return NULL;
-    }
-    for (size_t i = 0; i < work->request->count; i++) {
-        char sentence[GM_MESSAGE];
-        gm_failure_sentence(work->lanes[i], sentence, sizeof sentence);
-        if (sentence[0]) {
-            fprintf(stream, "%s: %s: %s\n", work->lanes[i]->scheme->name,
-                    gm_status_name(work->lanes[i]->run->status), sentence);
-        }
-    }
-    fclose(stream);
-    return text;
-}
-
 /* Hands a painted frame to the pictures, with what it tells of itself. */
 static bool put_picture(struct work *work, unsigned char *rgb, long frame)
 {
     struct gm_png_text texts[3];
     char *steps = gm_provenance_steps(lanes_of(work), work->request->count);
-    char *failures = failures_of(work);
-    char *place = work->schedule.still ? NULL : gm_frames_text(&work->frames, frame);
-    const bool good = steps && failures && (place || work->schedule.still);
+    char *failures = gm_provenance_failures(lanes_of(work), work->request->count);
+    char *place = gm_frames_text(&work->frames, frame);
+    const bool good = steps && failures && place;
     size_t count = 0;
     if (good) {
         texts[count++] = (struct gm_png_text){GM_KEY_STEPS, steps};
         if (failures[0]) {
             texts[count++] = (struct gm_png_text){GM_KEY_FAILURES, failures};
         }
-        if (place) {
-            texts[count++] = (struct gm_png_text){GM_KEY_FRAME, place};
-        }
+        texts[count++] = (struct gm_png_text){GM_KEY_FRAME, place};
         gm_sink_put(work->pictures, rgb, frame, texts, count);
     }
     free(steps);
@@ -141,7 +119,7 @@ static bool paint_frame(struct work *work, long frame, char *message)
         return gm_refuse(message, "not enough memory to paint");
     }
     if (copy) {
-        memcpy(copy, rgb, 3 * (size_t)work->options->width * (size_t)work->options->height);
+        memcpy(copy, rgb, 3 * (size_t)work->options->look.width * (size_t)work->options->look.height);
         gm_sink_put(work->movie, copy, frame, NULL, 0);
     }
     if (!put_picture(work, rgb, frame)) {
@@ -161,7 +139,8 @@ static bool reuse_frame(struct work *work, long frame, char *message)
         return false; /* the sink tells why when it is closed */
     }
     char *path = gm_frames_path(&work->frames, frame);
-    const bool good = path && gm_png_read(path, work->options->width, work->options->height, rgb, message);
+    const bool good =
+        path && gm_png_read(path, work->options->look.width, work->options->look.height, rgb, message);
     if (good) {
         gm_sink_put(work->movie, rgb, frame, NULL, 0);
     }
@@ -279,8 +258,8 @@ static bool open_sinks(struct work *work, const char *name, char *message)
 {
     const struct gm_options *options = work->options;
     const struct gm_sink_settings settings = {
-        .width = options->width,
-        .height = options->height,
+        .width = options->look.width,
+        .height = options->look.height,
         .fps = isnan(options->fps) ? 30 : options->fps,
         .texts = work->provenance.texts,
         .text_count = work->provenance.count,
@@ -296,7 +275,7 @@ static bool open_sinks(struct work *work, const char *name, char *message)
         !gm_frames_open(&work->frames, &work->schedule, work->folder, name, &work->provenance, message)) {
         return false;
     }
-    if (!work->schedule.still && gm_checkpoint_fits(work->request)) {
+    if (gm_checkpoint_fits(work->request)) {
         work->checkpoint = gm_checkpoint_path(&work->frames);
     }
     work->pictures = gm_sink_open_png(work->frames.pattern, &settings, message);
@@ -307,8 +286,8 @@ static bool open_sinks(struct work *work, const char *name, char *message)
 static char *last_failures(const struct work *work)
 {
     const long last = gm_schedule_last(&work->schedule);
-    if (last < 0 || !work->frames.there[last]) {
-        return failures_of(work);
+    if (work->schedule.still || last < 0 || !work->frames.there[last]) {
+        return gm_provenance_failures(lanes_of(work), work->request->count);
     }
     char message[GM_MESSAGE];
     char *path = gm_frames_path(&work->frames, last);
@@ -321,7 +300,8 @@ static char *last_failures(const struct work *work)
 static void tell_warnings(const struct work *work)
 {
     const long last = gm_schedule_last(&work->schedule);
-    for (size_t i = 0; (last < 0 || !work->frames.there[last]) && i < work->request->count; i++) {
+    const bool painted = work->schedule.still || last < 0 || !work->frames.there[last];
+    for (size_t i = 0; painted && i < work->request->count; i++) {
         char sentence[GM_MESSAGE];
         gm_lane_warning(work->lanes[i], sentence, sizeof sentence);
         if (sentence[0]) {
@@ -353,9 +333,7 @@ static void tell_written(const struct work *work)
     if (options->movie) {
         gm_complain("wrote %s", options->movie);
     }
-    if (work->schedule.still) {
-        gm_complain("wrote %s/%s.png", frames->folder, frames->name);
-    } else if (made > 0 && (options->out || !options->movie)) {
+    if (made > 0 && (options->out || !options->movie)) {
         gm_complain("wrote %ld frames, %s/%s-*.png", made, frames->folder, frames->name);
     }
 }
@@ -373,10 +351,10 @@ static int paint_all(struct work *work, const char *name)
 {
     char message[GM_MESSAGE] = "";
     const struct gm_options *options = work->options;
-    work->canvas = gm_canvas_open(options->width, options->height, options->theme, message);
+    work->canvas = gm_canvas_open(&options->look, message);
     bool good = work->canvas != NULL;
-    if (good && !gm_provenance_make(&work->provenance, work->request, options->width, options->height,
-                                    options->theme, gm_canvas_backend(work->canvas))) {
+    if (good && !gm_provenance_make(&work->provenance, work->request, &options->look,
+                                    gm_canvas_backend(work->canvas))) {
         good = gm_refuse(message, "not enough memory");
     }
     good = good && open_sinks(work, name, message);
@@ -392,10 +370,8 @@ static int paint_all(struct work *work, const char *name)
         }
     }
     if (gm_interrupted) {
-        if (!work->schedule.still) {
-            gm_complain("stopped at %ld of %ld frames; the same command goes on from there", work->done,
-                        work->schedule.ours);
-        }
+        gm_complain("stopped at %ld of %ld frames; the same command goes on from there", work->done,
+                    work->schedule.ours);
         return GM_EXIT_INTERRUPTED;
     }
     const int status = tell_end(work);
@@ -406,6 +382,32 @@ static int paint_all(struct work *work, const char *name)
     if (options->movie && !options->out) {
         gm_frames_remove(&work->frames);
     }
+    return status;
+}
+
+/* One picture: of no sequence, so that nothing of it is kept to go on from. */
+static int paint_still(struct work *work, const char *name)
+{
+    char message[GM_MESSAGE] = "not enough memory", *path = NULL;
+    const struct gm_options *options = work->options;
+    if (options->output) {
+        path = strdup(options->output);
+    } else if (asprintf(&path, "%s/%s.%s", options->out ? options->out : ".", name,
+                        gm_format_name(options->format)) < 0) {
+        path = NULL;
+    }
+    struct gm_print print = {.path = path, .format = options->format, .look = options->look};
+    int status = GM_EXIT_FILE;
+    const bool driven = path && drive_to(work, 0, message);
+    if (gm_interrupted) {
+        status = GM_EXIT_INTERRUPTED;
+    } else if (!driven || !gm_still_write(&print, work->request, lanes_of(work), message)) {
+        gm_complain("%s", message);
+    } else {
+        status = tell_end(work);
+        gm_press_tell(&print, "");
+    }
+    free(path);
     return status;
 }
 
@@ -420,6 +422,17 @@ static void close_work(struct work *work)
     gm_provenance_close(&work->provenance);
     gm_picture_close(work->picture);
     gm_canvas_close(work->canvas);
+}
+
+/* Frames are pixels. */
+static bool takes_format(const struct work *work, char *message)
+{
+    const bool fits = work->schedule.still || work->options->format == GM_FORMAT_PNG;
+    if (!fits) {
+        snprintf(message, GM_MESSAGE, "--format %s is for one picture: frames are PNG",
+                 gm_format_name(work->options->format));
+    }
+    return fits;
 }
 
 /* Renders a request; output files below options->out begin with `name`. */
@@ -444,10 +457,11 @@ static int render(struct gm_request *request, const struct gm_options *options, 
                                  .shards = options->shards};
     int status = GM_EXIT_USAGE;
     if (!work.drives || !work.lanes || !work.picture ||
-        !gm_schedule_make(&work.schedule, request, &pace, message) || !open_lanes(&work, message)) {
+        !gm_schedule_make(&work.schedule, request, &pace, message) || !takes_format(&work, message) ||
+        !open_lanes(&work, message)) {
         gm_complain("%s", message);
     } else {
-        status = paint_all(&work, name);
+        status = work.schedule.still ? paint_still(&work, name) : paint_all(&work, name);
     }
     close_work(&work);
     return status;

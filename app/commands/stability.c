@@ -119,7 +119,7 @@ static int command_stability(const struct gm_options *options)
         char name[128];
         if (options->json) {
             print_json(&table);
-        } else {
+        } else if (!gm_options_take_stdout(options)) {
             print_table(&table);
         }
         snprintf(name, sizeof name, "%s-stability", table.request.scene->name);

@@ -56,17 +56,16 @@ static int list_steps(const struct gm_tour *tour)
 /* A movie has light or dark paper. */
 static int make_movie(const struct gm_tour *tour, const struct gm_options *options)
 {
-    const bool dark = options->look && strcmp(options->look, "dark") == 0;
-    if (options->look && !dark && strcmp(options->look, "light") != 0) {
-        gm_complain("--theme %.60s is none of: light, dark", options->look);
+    const bool dark = options->shade && strcmp(options->shade, "dark") == 0;
+    if (options->shade && !dark && strcmp(options->shade, "light") != 0) {
+        gm_complain("--theme %.60s is none of: light, dark", options->shade);
         return GM_EXIT_USAGE;
     }
-    const struct gm_tour_output output = {.movie = options->movie,
-                                          .folder = options->out,
-                                          .fps = isnan(options->fps) ? 30 : options->fps,
-                                          .width = options->width,
-                                          .height = options->height,
-                                          .theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT};
+    struct gm_tour_output output = {.movie = options->movie,
+                                    .folder = options->out,
+                                    .fps = isnan(options->fps) ? 30 : options->fps,
+                                    .look = options->look};
+    output.look.theme = dark ? GM_THEME_DARK : GM_THEME_LIGHT;
     gm_catch_interrupts();
     return gm_finish(gm_tour_render(tour, &output));
 }

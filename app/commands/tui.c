@@ -9,7 +9,7 @@
 struct gm_overrides gm_overrides_of(const struct gm_options *options)
 {
     return (struct gm_overrides){
-        .colours = options->colours, .graphics = options->graphics, .theme = options->look};
+        .colours = options->colours, .graphics = options->graphics, .theme = options->shade};
 }
 
 static int command_terminal(const struct gm_options *options)

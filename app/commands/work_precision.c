@@ -138,7 +138,7 @@ static int command_work_precision(const struct gm_options *options)
         char name[128];
         if (options->json) {
             print_json(&table);
-        } else {
+        } else if (!gm_options_take_stdout(options)) {
             print_table(&table);
         }
         snprintf(name, sizeof name, "%s-work-precision", table.request.scene->name);

@@ -337,12 +337,30 @@ static void take_numbers(const struct gm_figure_job *job, const struct gm_reques
     }
 }
 
-char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme)
+char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
+                     enum gm_format format)
 {
     char *path = NULL;
-    const int length =
-        asprintf(&path, "%s/%s%s.png", output->folder, name, theme == GM_THEME_DARK ? "-dark" : "");
+    const int length = asprintf(&path, "%s/%s%s.%s", output->folder, name,
+                                theme == GM_THEME_DARK ? "-dark" : "", gm_format_name(format));
     return length < 0 ? NULL : path;
+}
+
+/* One picture; those of the page are PNG. */
+static bool print_one(const struct gm_figure_job *job, const struct gm_request *request,
+                      const struct gm_lane *const *lanes, const struct gm_figure_output *output,
+                      enum gm_theme theme, enum gm_format format, char *message)
+{
+    char *path = gm_figure_path(output, job->figure->name, theme, format);
+    struct gm_print print = {.path = path, .format = format, .look = output->look};
+    print.look.theme = theme;
+    if (!path) {
+        snprintf(message, GM_MESSAGE, "not enough memory");
+        return false;
+    }
+    const bool good = gm_still_write(&print, request, lanes, message);
+    free(path);
+    return good;
 }
 
 static int paint(const struct gm_figure_job *job, const struct gm_request *request,
@@ -354,15 +372,9 @@ static int paint(const struct gm_figure_job *job, const struct gm_request *reque
         looked_at[i] = lanes[i];
     }
     for (size_t i = 0; i < 2; i++) {
-        char *path = gm_figure_path(output, job->figure->name, themes[i]);
-        if (!path) {
-            gm_refuse(message, "not enough memory");
-            return GM_EXIT_FILE;
-        }
-        const bool good =
-            gm_still_write(path, output->width, output->height, themes[i], request, looked_at, message);
-        free(path);
-        if (!good) {
+        if (!print_one(job, request, looked_at, output, themes[i], GM_FORMAT_PNG, message) ||
+            (output->format != GM_FORMAT_PNG &&
+             !print_one(job, request, looked_at, output, themes[i], output->format, message))) {
             return GM_EXIT_FILE;
         }
     }

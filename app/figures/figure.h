@@ -2,8 +2,8 @@
 #ifndef GM_APP_FIGURES_FIGURE_H
 #define GM_APP_FIGURES_FIGURE_H
 
+#include "app/output/press.h"
 #include "app/request/request.h"
-#include "render/layout/theme.h"
 #include "scenes/frame/published.h"
 
 /* One published figure: run, painted in both themes, and held against what its document says of it. */
@@ -34,9 +34,10 @@ struct gm_outcome {
 
 /* Where the figures go. */
 struct gm_figure_output {
-    const char *folder; /* that there is */
-    int width, height;  /* of their pictures */
-    bool quick;         /* long runs are coarser: nothing is judged of them, and the page says so */
+    const char *folder;        /* that there is */
+    struct gm_appearance look; /* of their pictures; each is made in both themes */
+    enum gm_format format;
+    bool quick; /* long runs are coarser: nothing is judged of them, and the page says so */
 };
 
 /* A figure as asked for. */
@@ -55,13 +56,14 @@ void gm_figure_plan(struct gm_figure_job *job, const struct gm_scene *scene, con
 /* Whether every statement names lanes and observables that there are; false with a sentence. */
 bool gm_figure_check(const struct gm_figure_job *job, char *message);
 
-/* Runs it, judges it and writes its pictures, as FOLDER/NAME.png and FOLDER/NAME-dark.png. An interruption
-   is GM_EXIT_INTERRUPTED. */
+/* Runs it, judges it and writes its pictures, as FOLDER/NAME.png and FOLDER/NAME-dark.png, and those of
+   another format beside them, which the page may not show. An interruption is GM_EXIT_INTERRUPTED. */
 void gm_figure_make(const struct gm_figure_job *job, const struct gm_figure_output *output,
                     struct gm_outcome *outcome);
 
 /* FOLDER/NAME.png or FOLDER/NAME-dark.png; malloc'ed. */
-char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme);
+char *gm_figure_path(const struct gm_figure_output *output, const char *name, enum gm_theme theme,
+                     enum gm_format format);
 
 /* Of statement `index`: "holds", "does not hold", or "not judged" of a run that was shortened. */
 const char *gm_verdict_word(const struct gm_figure_job *job, const struct gm_outcome *outcome, size_t index);

@@ -117,8 +117,8 @@ static bool put_base64(FILE *page, const char *path)
 
 static bool put_picture(FILE *page, const struct gm_figure_output *output, const struct gm_figure_job *job)
 {
-    char *dark = gm_figure_path(output, job->figure->name, GM_THEME_DARK);
-    char *light = gm_figure_path(output, job->figure->name, GM_THEME_LIGHT);
+    char *dark = gm_figure_path(output, job->figure->name, GM_THEME_DARK, GM_FORMAT_PNG);
+    char *light = gm_figure_path(output, job->figure->name, GM_THEME_LIGHT, GM_FORMAT_PNG);
     fputs("<figure><picture><source media=\"screen and (prefers-color-scheme:dark)\" "
           "srcset=\"data:image/png;base64,",
           page);
@@ -127,8 +127,8 @@ static bool put_picture(FILE *page, const struct gm_figure_output *output, const
     put_text(page, job->scene->title);
     fputs(": ", page);
     put_text(page, job->figure->statement);
-    fprintf(page, "\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", output->width,
-            output->height);
+    fprintf(page, "\" width=\"%d\" height=\"%d\" src=\"data:image/png;base64,", output->look.width,
+            output->look.height);
     good = good && put_base64(page, light);
     fputs("\"></picture></figure>\n", page);
     free(dark);

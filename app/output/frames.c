@@ -42,11 +42,11 @@ char *gm_frames_path(const struct gm_frames *frames, long frame)
     return asprintf(&path, "%s/%s-%06ld.png", frames->folder, frames->name, frame) < 0 ? NULL : path;
 }
 
-/* FOLDER/NAME-%06ld.png, or FOLDER/NAME.png. */
-static char *pattern_of(const char *folder, const char *name, bool still)
+/* FOLDER/NAME-%06ld.png */
+static char *pattern_of(const char *folder, const char *name)
 {
     char *text = NULL;
-    return asprintf(&text, "%s/%s%s.png", folder, name, still ? "" : "-%06ld") < 0 ? NULL : text;
+    return asprintf(&text, "%s/%s-%%06ld.png", folder, name) < 0 ? NULL : text;
 }
 
 /* Looks at one file of the folder: a frame, or what a killed run left of one. */
@@ -82,7 +82,7 @@ static bool look_at(struct gm_frames *frames, int folder, const char *file)
 static bool look(struct gm_frames *frames)
 {
     frames->there = calloc((size_t)frames->schedule->count, sizeof *frames->there);
-    DIR *folder = frames->there && !frames->schedule->still ? opendir(frames->folder) : NULL;
+    DIR *folder = frames->there ? opendir(frames->folder) : NULL;
     bool good = frames->there != NULL;
     const struct dirent *entry = NULL;
     while (good && folder && (entry = readdir(folder))) {
@@ -106,7 +106,7 @@ bool gm_frames_open(struct gm_frames *frames, const struct gm_schedule *schedule
         .schedule = schedule,
         .folder = strdup(folder),
         .name = strdup(name),
-        .pattern = pattern_of(folder, name, schedule->still),
+        .pattern = pattern_of(folder, name),
         .identity = identify(schedule, provenance, program),
     };
     if (!gm_folder_make(folder, message)) {

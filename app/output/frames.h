@@ -5,7 +5,7 @@
 #include "app/output/provenance.h"
 #include "app/output/schedule.h"
 
-/* The numbered pictures of a render, FOLDER/NAME-%06ld.png (a still has no number). Each tells which frame of
+/* The numbered pictures of a render, FOLDER/NAME-%06ld.png. Each tells which frame of
    which render it is, and of which build of the program; one that is whole and tells just that need not be
    made again. */
 struct gm_frames {

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a PNG tells of itself: the command, the changes in flight, the steps, the failures. */
+/* What a picture tells of itself: the command, the changes in flight, the steps, the failures. */
 #include "app/output/provenance.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "app/request/arguments.h"
+#include "app/request/drive.h"
 
 static bool take(struct gm_provenance *provenance, const char *key, char *text)
 {
@@ -71,35 +74,78 @@ static char *all_parameters(const struct gm_request *request)
     return text;
 }
 
-bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width,
-                        int height, enum gm_theme theme, const char *backend)
+static const char *theme_name(const struct gm_appearance *look)
+{
+    return look->theme == GM_THEME_DARK ? "dark" : "light";
+}
+
+/* Whether the look has another scale of letters and lines than that of most. */
+static bool is_scaled(const struct gm_appearance *look)
+{
+    return look->scale > 0 && look->scale != 1;
+}
+
+/* What of the look is not as it mostly is. */
+static bool take_look(struct gm_provenance *provenance, const struct gm_appearance *look)
+{
+    return (!is_scaled(look) || take(provenance, GM_KEY_SCALE, format("%.17g", look->scale))) &&
+           (!(look->dpi > 0) || take(provenance, GM_KEY_DPI, format("%.17g", look->dpi))) &&
+           (!look->title || take(provenance, GM_KEY_TITLE, format("%s", look->title)));
+}
+
+bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request,
+                        const struct gm_appearance *look, const char *backend)
 {
     *provenance = (struct gm_provenance){0};
-    const bool good = take(provenance, "Title", format("%s", request->scene->title)) &&
-                      take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
-                      take(provenance, "geomint:scene", format("%s", request->scene->name)) &&
-                      take(provenance, "geomint:schemes", scheme_names(request)) &&
-                      take(provenance, "geomint:parameters", all_parameters(request)) &&
-                      take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request)) &&
-                      take(provenance, GM_KEY_CHANGES, gm_changes_format(request)) &&
-                      take(provenance, GM_KEY_PICTURE,
-                           format("%dx%d %s", width, height, theme == GM_THEME_DARK ? "dark" : "light")) &&
-                      take(provenance, "geomint:context", format("%s", backend));
+    const bool good =
+        take(provenance, "Title", format("%s", request->scene->title)) &&
+        take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
+        take(provenance, "geomint:scene", format("%s", request->scene->name)) &&
+        take(provenance, "geomint:schemes", scheme_names(request)) &&
+        take(provenance, "geomint:parameters", all_parameters(request)) &&
+        take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request)) &&
+        take(provenance, GM_KEY_CHANGES, gm_changes_format(request)) &&
+        take(provenance, GM_KEY_PICTURE, format("%dx%d %s", look->width, look->height, theme_name(look))) &&
+        take_look(provenance, look) && take(provenance, "geomint:context", format("%s", backend));
     if (!good) {
         gm_provenance_close(provenance);
     }
     return good;
 }
 
-bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command, int width, int height,
-                              enum gm_theme theme, const char *backend)
+/* The options of a look, each with a blank before it. */
+static char *look_options(const struct gm_appearance *look)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    fprintf(stream, " --size %dx%d --theme %s", look->width, look->height, theme_name(look));
+    if (is_scaled(look)) {
+        fprintf(stream, " --scale %.17g", look->scale);
+    }
+    if (look->dpi > 0) {
+        fprintf(stream, " --dpi %.17g", look->dpi);
+    }
+    if (look->title) {
+        fputs(" --title ", stream);
+        gm_arguments_put(stream, look->title);
+    }
+    fclose(stream);
+    return text;
+}
+
+bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
+                              const struct gm_appearance *look, const char *backend)
 {
     *provenance = (struct gm_provenance){0};
-    const bool good = take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
-                      take(provenance, GM_KEY_COMMAND,
-                           format("%s --size %dx%d --theme %s", command, width, height,
-                                  theme == GM_THEME_DARK ? "dark" : "light")) &&
+    char *options = look_options(look);
+    const bool good = options && take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
+                      take(provenance, GM_KEY_COMMAND, format("%s%s", command, options)) &&
                       take(provenance, "geomint:context", format("%s", backend));
+    free(options);
     if (!good) {
         gm_provenance_close(provenance);
     }
@@ -124,6 +170,26 @@ char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count)
     }
     for (size_t i = 0; i < count; i++) {
         fprintf(stream, "%s%ld", i ? " " : "", lanes[i]->run->steps);
+    }
+    fclose(stream);
+    return text;
+}
+
+char *gm_provenance_failures(const struct gm_lane *const *lanes, size_t count)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    for (size_t i = 0; i < count; i++) {
+        char sentence[GM_MESSAGE];
+        gm_failure_sentence(lanes[i], sentence, sizeof sentence);
+        if (sentence[0]) {
+            fprintf(stream, "%s: %s: %s\n", lanes[i]->scheme->name, gm_status_name(lanes[i]->run->status),
+                    sentence);
+        }
     }
     fclose(stream);
     return text;

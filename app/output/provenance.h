@@ -4,11 +4,11 @@
 
 #include "app/request/request.h"
 #include "render/files/png.h"
-#include "render/layout/theme.h"
+#include "render/layout/appearance.h"
 
 /* What a PNG tells of how it was made: enough for `geomint again`. */
 
-enum { GM_PROVENANCE_TEXTS = 9 };
+enum { GM_PROVENANCE_TEXTS = 12 };
 
 struct gm_provenance {
     struct gm_png_text texts[GM_PROVENANCE_TEXTS];
@@ -21,6 +21,9 @@ struct gm_provenance {
 #define GM_KEY_CHANGES "geomint:changes"
 #define GM_KEY_STEPS "geomint:steps"     /* of each lane, separated by blanks */
 #define GM_KEY_PICTURE "geomint:picture" /* WIDTHxHEIGHT theme */
+#define GM_KEY_SCALE "geomint:scale"     /* of letters and lines; none: 1 */
+#define GM_KEY_DPI "geomint:dpi"         /* pixels an inch; none: 96 */
+#define GM_KEY_TITLE "geomint:title"     /* over the picture; none: the scene's */
 
 #define GM_KEY_COMMAND                                                                                       \
     "geomint:command" /* of a chart, instead of all these: the words of its command line                     \
@@ -30,14 +33,17 @@ struct gm_provenance {
 #define GM_KEY_FAILURES "geomint:failures" /* a line for each lane that has failed by then */
 
 /* Everything but the steps. False when memory is short. */
-bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request, int width,
-                        int height, enum gm_theme theme, const char *backend);
-/* The same for a chart: the words that `again` measures it with, to which size and theme are added. */
-bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command, int width, int height,
-                              enum gm_theme theme, const char *backend);
+bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request,
+                        const struct gm_appearance *look, const char *backend);
+/* The same for a chart: the words that `again` measures it with, to which the look is added. */
+bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
+                              const struct gm_appearance *look, const char *backend);
 void gm_provenance_close(struct gm_provenance *provenance);
 
 /* The steps of the lanes now, as the text of GM_KEY_STEPS; malloc'ed, NULL when memory is short. */
 char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count);
+
+/* A line for each lane that has failed; malloc'ed, NULL when memory is short. */
+char *gm_provenance_failures(const struct gm_lane *const *lanes, size_t count);
 
 #endif

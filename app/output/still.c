@@ -1,50 +1,53 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lanes as they are now, as one PNG. */
+/* Lanes as they are now, as one picture in a file. */
 #include "app/output/still.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/output/folder.h"
 #include "app/output/provenance.h"
-#include "core/memory.h"
-#include "render/gl/canvas.h"
 
-static bool write_texts(const char *path, int width, int height, const unsigned char *rgb,
-                        const struct gm_provenance *provenance, char *steps, char *message)
+static bool print_texts(struct gm_press *press, struct gm_print *print, struct gm_picture *picture,
+                        const struct gm_provenance *provenance, char *steps, char *failures, char *message)
 {
-    struct gm_png_text texts[GM_PROVENANCE_TEXTS + 1];
-    memcpy(texts, provenance->texts, provenance->count * sizeof texts[0]);
-    texts[provenance->count] = (struct gm_png_text){GM_KEY_STEPS, steps};
-    return gm_png_write(path, width, height, rgb, texts, provenance->count + 1, message);
+    struct gm_png_text texts[GM_PROVENANCE_TEXTS + 2];
+    size_t count = provenance->count;
+    memcpy(texts, provenance->texts, count * sizeof texts[0]);
+    texts[count++] = (struct gm_png_text){GM_KEY_STEPS, steps};
+    if (failures[0]) {
+        texts[count++] = (struct gm_png_text){GM_KEY_FAILURES, failures};
+    }
+    return gm_press_write(press, print, picture, texts, count, message);
 }
 
-bool gm_still_write(const char *path, int width, int height, enum gm_theme theme,
-                    const struct gm_request *request, const struct gm_lane *const *lanes, char *message)
+bool gm_still_write(struct gm_print *print, const struct gm_request *request,
+                    const struct gm_lane *const *lanes, char *message)
 {
-    struct gm_canvas *canvas = gm_canvas_open(width, height, theme, message);
-    if (!canvas) {
+    if (!gm_folder_make_for(print->path, message)) {
+        return false;
+    }
+    struct gm_press *press = gm_press_open(print, message);
+    if (!press) {
         return false;
     }
     struct gm_picture *picture = gm_picture_open();
-    unsigned char *rgb = malloc((size_t)width * (size_t)height * 3);
     char *steps = gm_provenance_steps(lanes, request->count);
+    char *failures = gm_provenance_failures(lanes, request->count);
     struct gm_provenance provenance = {0};
-    bool good = picture && rgb && steps &&
-                gm_provenance_make(&provenance, request, width, height, theme, gm_canvas_backend(canvas));
+    bool good = picture && steps && failures &&
+                gm_provenance_make(&provenance, request, &print->look, gm_press_backend(press));
     if (good) {
         request->scene->draw(lanes, request->count, picture);
-        good = gm_canvas_paint(canvas, picture, rgb) && !gm_memory_was_short();
-    }
-    if (good) {
-        good = write_texts(path, width, height, rgb, &provenance, steps, message);
+        good = print_texts(press, print, picture, &provenance, steps, failures, message);
     } else {
-        snprintf(message, GM_MESSAGE, "not enough memory for a picture of %dx%d", width, height);
+        snprintf(message, GM_MESSAGE, "not enough memory for a picture");
     }
     gm_provenance_close(&provenance);
     free(steps);
-    free(rgb);
+    free(failures);
     gm_picture_close(picture);
-    gm_canvas_close(canvas);
+    gm_press_close(press);
     return good;
 }

@@ -2,12 +2,13 @@
 #ifndef GM_APP_OUTPUT_STILL_H
 #define GM_APP_OUTPUT_STILL_H
 
+#include "app/output/press.h"
 #include "app/request/request.h"
-#include "render/layout/theme.h"
 
-/* Paints lanes as they are now into one PNG that `geomint again` can redo. `request` holds the lanes' start
-   and the changes since. False with a sentence (GM_MESSAGE bytes). */
-bool gm_still_write(const char *path, int width, int height, enum gm_theme theme,
-                    const struct gm_request *request, const struct gm_lane *const *lanes, char *message);
+/* Paints lanes as they are now into one file that `geomint again` can redo, and makes the folders that it
+   lies in. `request` holds the lanes' start and the changes since. False with a sentence (GM_MESSAGE bytes).
+ */
+bool gm_still_write(struct gm_print *print, const struct gm_request *request,
+                    const struct gm_lane *const *lanes, char *message);
 
 #endif

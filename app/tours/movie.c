@@ -127,15 +127,15 @@ static bool write_page(struct show *show, const char *suffix)
     struct gm_provenance provenance = {0};
     struct gm_png_text texts[GM_PROVENANCE_TEXTS + 1];
     char *steps = gm_provenance_steps((const struct gm_lane *const *)session->lanes, session->count);
-    bool good = steps && gm_provenance_make(&provenance, &session->log, output->width, output->height,
-                                            output->theme, gm_canvas_backend(show->canvas));
+    bool good = steps && gm_provenance_make(&provenance, &session->log, &output->look,
+                                            gm_canvas_backend(show->canvas));
     if (!good) {
         fail(show, "not enough memory");
     } else {
         memcpy(texts, provenance.texts, provenance.count * sizeof texts[0]);
         texts[provenance.count] = (struct gm_png_text){GM_KEY_STEPS, steps};
-        good = gm_png_write(path, output->width, output->height, show->rgb, texts, provenance.count + 1,
-                            show->message);
+        good = gm_png_write(path, output->look.width, output->look.height, show->rgb, texts,
+                            provenance.count + 1, show->message);
         show->failed = !good;
     }
     gm_provenance_close(&provenance);
@@ -251,9 +251,9 @@ static bool play(struct show *show, const struct gm_tour_step *step)
 static bool open_show(struct show *show)
 {
     const struct gm_tour_output *output = show->output;
-    show->canvas = gm_canvas_open(output->width, output->height, output->theme, show->message);
+    show->canvas = gm_canvas_open(&output->look, show->message);
     show->picture = gm_picture_open();
-    show->rgb = malloc(3 * (size_t)output->width * (size_t)output->height);
+    show->rgb = malloc(3 * (size_t)output->look.width * (size_t)output->look.height);
     if (!show->canvas) {
         return false;
     }
@@ -261,8 +261,8 @@ static bool open_show(struct show *show)
         return fail(show, "not enough memory");
     }
     if (output->movie) {
-        const struct gm_sink_settings settings = {.width = output->width,
-                                                  .height = output->height,
+        const struct gm_sink_settings settings = {.width = output->look.width,
+                                                  .height = output->look.height,
                                                   .fps = show->output->fps,
                                                   .interruptions = &gm_interrupted};
         if (gm_folder_make_for(output->movie, show->message)) {

@@ -3,7 +3,7 @@
 #define GM_APP_TOURS_MOVIE_H
 
 #include "app/tours/tour.h"
-#include "render/layout/theme.h"
+#include "render/layout/appearance.h"
 
 /* What is made of a tour without a screen, with its texts: a movie, or pictures, one for every question and
    one for the end of every step. */
@@ -11,8 +11,7 @@ struct gm_tour_output {
     const char *movie;  /* the file; NULL: pictures */
     const char *folder; /* of the pictures, made if it is missing; NULL: the present one */
     double fps;         /* of the movie */
-    int width, height;
-    enum gm_theme theme;
+    struct gm_appearance look;
 };
 
 /* Returns the exit status. */

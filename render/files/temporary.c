@@ -4,6 +4,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -33,6 +34,42 @@ char *gm_temporary_name(const char *path, const char *ending)
         return NULL;
     }
     return temporary;
+}
+
+static int write_all(const char *path, int flags, const void *bytes, size_t size)
+{
+    const int descriptor = open(path, O_WRONLY | O_CREAT | O_CLOEXEC | flags, 0666);
+    FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
+    if (!file) {
+        const int error = errno;
+        if (descriptor >= 0) {
+            close(descriptor);
+        }
+        return error;
+    }
+    errno = 0;
+    int error = fwrite(bytes, 1, size, file) == size ? 0 : errno ? errno : EIO;
+    if (fclose(file) != 0 && error == 0) {
+        error = errno;
+    }
+    return error;
+}
+
+int gm_temporary_write(const char *path, const void *bytes, size_t size)
+{
+    if (!gm_temporary_fits(path)) {
+        return write_all(path, O_TRUNC, bytes, size);
+    }
+    char *temporary = gm_temporary_name(path, ".tmp");
+    int error = temporary ? write_all(temporary, O_EXCL, bytes, size) : ENOMEM;
+    if (error == 0 && rename(temporary, path) != 0) {
+        error = errno;
+    }
+    if (error != 0 && temporary) {
+        unlink(temporary);
+    }
+    free(temporary);
+    return error;
 }
 
 bool gm_temporary_is_stale(const char *name)

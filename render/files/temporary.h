@@ -3,6 +3,7 @@
 #define GM_RENDER_FILES_TEMPORARY_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 
 /* Files are written beside their place and renamed when complete, so that a killed program leaves no half
@@ -11,6 +12,9 @@
 /* True if path is free or an ordinary file. Devices, pipes and symbolic links (of which /dev/stdout is one)
    are not: renaming would put a file in their place. */
 bool gm_temporary_fits(const char *path);
+
+/* Writes bytes to path: by way of a temporary name where that fits, else directly. 0, or an errno. */
+int gm_temporary_write(const char *path, const void *bytes, size_t size);
 
 /* A name in path's folder that no other thread or process uses, ending in `ending`; malloc'ed. */
 char *gm_temporary_name(const char *path, const char *ending);

@@ -8,13 +8,15 @@
 #include <string.h>
 
 #include "render/address_space.h"
-#include "render/gl/painter.h"
+#include "render/drawing/page.h"
+#include "render/gl/brush.h"
 
 enum { MAP_STEPS = 256, MAP_ROWS = 2 };
 
 struct gm_canvas {
     struct gm_context *context;
     struct gm_gl gl;
+    struct gm_brush brush;
     struct gm_painter painter;
     GLuint framebuffer, colour_buffer, stencil_buffer;
     GLuint atlas, maps;
@@ -30,16 +32,18 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
     gl->GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     most = most < viewport[0] ? most : viewport[0];
-    if (canvas->painter.width < 1 || canvas->painter.height < 1 || canvas->painter.width > most ||
-        canvas->painter.height > most) {
-        return gm_refuse(message, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
-                         canvas->painter.width, canvas->painter.height, most);
+    if (canvas->painter.look.width < 1 || canvas->painter.look.height < 1 ||
+        canvas->painter.look.width > most || canvas->painter.look.height > most) {
+        snprintf(message, GM_MESSAGE, "A picture of %d x %d pixels cannot be painted; each side is 1 to %d.",
+                 canvas->painter.look.width, canvas->painter.look.height, most);
+        return false;
     }
     gl->GenFramebuffers(1, &canvas->framebuffer);
     gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
     gl->GenRenderbuffers(1, &canvas->colour_buffer);
     gl->BindRenderbuffer(GL_RENDERBUFFER, canvas->colour_buffer);
-    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, canvas->painter.width, canvas->painter.height);
+    gl->RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, canvas->painter.look.width,
+                            canvas->painter.look.height);
     gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, canvas->colour_buffer);
     gl->GenRenderbuffers(1, &canvas->stencil_buffer);
     gl->BindRenderbuffer(GL_RENDERBUFFER, canvas->stencil_buffer);
@@ -48,8 +52,8 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
     } stencils[] = {{GL_STENCIL_INDEX8, GL_STENCIL_ATTACHMENT},
                     {GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT}};
     for (int i = 0; i < 2; i++) {
-        gl->RenderbufferStorage(GL_RENDERBUFFER, stencils[i].format, canvas->painter.width,
-                                canvas->painter.height);
+        gl->RenderbufferStorage(GL_RENDERBUFFER, stencils[i].format, canvas->painter.look.width,
+                                canvas->painter.look.height);
         gl->FramebufferRenderbuffer(GL_FRAMEBUFFER, stencils[i].attachment, GL_RENDERBUFFER,
                                     canvas->stencil_buffer);
         if (gl->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE &&
@@ -57,8 +61,9 @@ static bool framebuffer_open(struct gm_canvas *canvas, char *message)
             return true;
         }
     }
-    return gm_refuse(message, "This OpenGL gives no framebuffer of %d x %d pixels.", canvas->painter.width,
-                     canvas->painter.height);
+    snprintf(message, GM_MESSAGE, "This OpenGL gives no framebuffer of %d x %d pixels.",
+             canvas->painter.look.width, canvas->painter.look.height);
+    return false;
 }
 
 static void texture_parameters(const struct gm_gl *gl, GLint filter)
@@ -76,7 +81,7 @@ static void textures_open(struct gm_canvas *canvas)
     for (int map = 0; map < MAP_ROWS; map++) {
         for (int i = 0; i < MAP_STEPS; i++) {
             const struct gm_rgb rgb =
-                gm_map_colour((enum gm_map)map, canvas->painter.theme, (double)i / (MAP_STEPS - 1));
+                gm_map_colour((enum gm_map)map, canvas->painter.look.theme, (double)i / (MAP_STEPS - 1));
             memcpy(texels[map][i], (const unsigned char[]){rgb.r, rgb.g, rgb.b, 255}, 4);
         }
     }
@@ -90,19 +95,6 @@ static void textures_open(struct gm_canvas *canvas)
     gl->BindTexture(GL_TEXTURE_2D, canvas->maps);
     texture_parameters(gl, GL_LINEAR);
     gl->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, MAP_STEPS, MAP_ROWS, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
-}
-
-/* Letters and strokes follow the height, on narrow surfaces the width. */
-static void set_sizes(struct gm_painter *painter)
-{
-    static const double shares[GM_TEXT_SIZE_COUNT] = {0.036, 0.025, 0.022, 0.021};
-    const int smallest = 9;
-    const double by_width = painter->width / 960.0, by_height = painter->height / 720.0;
-    painter->scale = by_height < by_width ? by_height : by_width;
-    for (int i = 0; i < GM_TEXT_SIZE_COUNT; i++) {
-        const int letters = (int)(720.0 * painter->scale * shares[i] + 0.5);
-        painter->letters[i] = letters > smallest ? letters : smallest;
-    }
 }
 
 static bool gl_open(struct gm_canvas *canvas, char *message)
@@ -122,7 +114,7 @@ static bool gl_open(struct gm_canvas *canvas, char *message)
              gm_context_name(canvas->context), version, renderer, mesa != NULL ? ", " : "",
              mesa != NULL ? mesa : "");
     return framebuffer_open(canvas, message) &&
-           gm_batch_open(&canvas->painter.batch, &canvas->gl, message, GM_MESSAGE);
+           gm_batch_open(&canvas->brush.batch, &canvas->gl, message, GM_MESSAGE);
 }
 
 static void close_alone(struct gm_canvas *canvas)
@@ -132,46 +124,45 @@ static void close_alone(struct gm_canvas *canvas)
     }
     if (canvas->context != NULL && canvas->gl.Viewport != NULL && gm_context_use(canvas->context)) {
         const struct gm_gl *gl = &canvas->gl;
-        gm_batch_close(&canvas->painter.batch);
+        gm_batch_close(&canvas->brush.batch);
         gl->DeleteTextures(1, &canvas->atlas);
         gl->DeleteTextures(1, &canvas->maps);
-        gl->DeleteTextures((GLsizei)canvas->painter.image_count, canvas->painter.images);
+        gl->DeleteTextures((GLsizei)canvas->brush.image_count, canvas->brush.images);
         gl->DeleteFramebuffers(1, &canvas->framebuffer);
         gl->DeleteRenderbuffers(1, &canvas->colour_buffer);
         gl->DeleteRenderbuffers(1, &canvas->stencil_buffer);
     }
-    gm_glyphs_close(canvas->painter.glyphs);
-    gm_polyline_free(&canvas->painter.line);
-    gm_polyline_free(&canvas->painter.piece);
-    gm_polyline_free(&canvas->painter.dash);
-    free(canvas->painter.images);
-    free(canvas->painter.texels);
+    gm_page_close(&canvas->painter);
+    gm_polyline_free(&canvas->brush.dash);
+    free(canvas->brush.images);
+    free(canvas->brush.texels);
     free(canvas->pixels);
     gm_context_close(canvas->context);
     free(canvas);
 }
 
-static struct gm_canvas *open_alone(int width, int height, enum gm_theme theme, char *message)
+static struct gm_canvas *open_alone(const struct gm_appearance *look, char *message)
 {
     struct gm_canvas *canvas = calloc(1, sizeof *canvas);
     if (canvas == NULL) {
         gm_refuse(message, "There is not enough memory for a picture.");
         return NULL;
     }
-    canvas->painter =
-        (struct gm_painter){.gl = &canvas->gl, .width = width, .height = height, .theme = theme};
+    canvas->painter.look = *look;
     if (!gl_open(canvas, message)) {
         close_alone(canvas);
         return NULL;
     }
-    set_sizes(&canvas->painter);
     textures_open(canvas);
-    canvas->painter.glyphs = gm_glyphs_open(message, GM_MESSAGE);
-    canvas->pixels = malloc((size_t)width * (size_t)height * 4);
-    if (canvas->painter.glyphs != NULL && canvas->pixels == NULL) {
-        gm_refuse(message, "There is not enough memory for a picture of %d x %d pixels.", width, height);
+    canvas->brush.gl = &canvas->gl;
+    const bool page = gm_page_open(&canvas->painter, &gm_brush_pen, &canvas->brush, look, message);
+    canvas->brush.glyphs = canvas->painter.glyphs;
+    canvas->pixels = malloc((size_t)look->width * (size_t)look->height * 4);
+    if (page && canvas->pixels == NULL) {
+        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture of %d x %d pixels.",
+                 look->width, look->height);
     }
-    if (canvas->painter.glyphs == NULL || canvas->pixels == NULL) {
+    if (!page || canvas->pixels == NULL) {
         close_alone(canvas);
         return NULL;
     }
@@ -202,9 +193,9 @@ static void update_atlas(struct gm_canvas *canvas)
 static void clear(const struct gm_canvas *canvas)
 {
     const struct gm_gl *gl = &canvas->gl;
-    const struct gm_rgb paper = gm_theme_colour(canvas->painter.theme, GM_PAPER);
+    const struct gm_rgb paper = gm_theme_colour(canvas->painter.look.theme, GM_PAPER);
     gl->BindFramebuffer(GL_FRAMEBUFFER, canvas->framebuffer);
-    gl->Viewport(0, 0, canvas->painter.width, canvas->painter.height);
+    gl->Viewport(0, 0, canvas->painter.look.width, canvas->painter.look.height);
     gl->ClearColor(paper.r / 255.0f, paper.g / 255.0f, paper.b / 255.0f, 1.0f);
     gl->ClearStencil(0);
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
@@ -214,9 +205,9 @@ static void clear(const struct gm_canvas *canvas)
 static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
 {
     const struct gm_gl *gl = &canvas->gl;
-    const size_t count = (size_t)canvas->painter.width * (size_t)canvas->painter.height;
+    const size_t count = (size_t)canvas->painter.look.width * (size_t)canvas->painter.look.height;
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl->ReadPixels(0, 0, canvas->painter.width, canvas->painter.height, GL_RGBA, GL_UNSIGNED_BYTE,
+    gl->ReadPixels(0, 0, canvas->painter.look.width, canvas->painter.look.height, GL_RGBA, GL_UNSIGNED_BYTE,
                    canvas->pixels);
     const unsigned char *restrict from = canvas->pixels;
     for (size_t i = 0; i < count; i++, from += 4, rgb += 3) {
@@ -228,20 +219,18 @@ static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
 
 static bool paint_alone(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
 {
-    const struct gm_metrics metrics = gm_painter_metrics(&canvas->painter);
-    const struct gm_layout *layout = gm_layout_make(picture, &metrics);
-    if (layout == NULL || !gm_context_use(canvas->context)) {
+    if (!gm_context_use(canvas->context)) {
         return false;
     }
-    gm_batch_clear(&canvas->painter.batch);
-    canvas->painter.images_used = 0;
-    for (size_t i = 0; i < layout->frame_count; i++) {
-        gm_paint_frame(&canvas->painter, &layout->frames[i]);
+    gm_batch_clear(&canvas->brush.batch);
+    canvas->brush.images_used = 0;
+    if (!gm_page_draw(&canvas->painter, picture)) {
+        return false;
     }
-    gm_paint_labels(&canvas->painter, layout);
     update_atlas(canvas);
     clear(canvas);
-    const bool drawn = gm_batch_draw(&canvas->painter.batch, canvas->painter.width, canvas->painter.height);
+    const bool drawn =
+        gm_batch_draw(&canvas->brush.batch, canvas->painter.look.width, canvas->painter.look.height);
     read_back(canvas, rgb);
     return drawn;
 }
@@ -264,10 +253,10 @@ static void end_turn(void)
 
 enum { TAKEN = 512 << 20 /* bytes of the address space, by Mesa and what it loads */ };
 
-struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message)
+struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message)
 {
     take_turn();
-    struct gm_canvas *canvas = open_alone(width, height, theme, message);
+    struct gm_canvas *canvas = open_alone(look, message);
     if (canvas == NULL && !gm_address_space_has(TAKEN)) {
         gm_refuse(message, "There is not enough memory to paint pictures.");
     }

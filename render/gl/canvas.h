@@ -2,17 +2,18 @@
 #ifndef GM_RENDER_GL_CANVAS_H
 #define GM_RENDER_GL_CANVAS_H
 
-#include "render/layout/theme.h"
+#include "render/layout/appearance.h"
 #include "render/message.h"
+#include "render/picture/picture.h"
 
-/* The GL painter: pictures to pixels, without a screen. One canvas has one size and one theme and is used
-   by one thread at a time; canvases of several threads take turns. The context comes from OSMesa or from EGL
+/* The GL painter: pictures to pixels, without a screen. One canvas has one look, whose title outlives it, and is
+   used by one thread at a time; canvases of several threads take turns. The context comes from OSMesa or from EGL
    without a surface (render/gl/context.h). */
 
 struct gm_canvas;
 
 /* NULL on failure, with one sentence in message (GM_MESSAGE bytes). */
-struct gm_canvas *gm_canvas_open(int width, int height, enum gm_theme theme, char *message);
+struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message);
 void gm_canvas_close(struct gm_canvas *canvas);
 
 /* Paints the picture into rgb: height rows of width * 3 bytes, top row first. False when memory is short. */

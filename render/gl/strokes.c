@@ -11,11 +11,12 @@ static const float fringe = 0.75f;
 /* Sharper turns than this cosine are not mitred. */
 static const float sharpest = 0.35f;
 
-struct gm_ink gm_ink_of(enum gm_theme theme, enum gm_role role, double alpha)
+struct gm_rgba gm_rgba_of(struct gm_ink ink, double faint)
 {
-    const struct gm_rgb rgb = gm_theme_colour(theme, role);
+    const struct gm_rgb rgb = ink.colour;
+    const double alpha = ink.alpha * faint;
     const double clamped = alpha > 0.0 ? (alpha < 1.0 ? alpha : 1.0) : 0.0;
-    return (struct gm_ink){{rgb.r, rgb.g, rgb.b, (uint8_t)(255.0 * clamped + 0.5)}};
+    return (struct gm_rgba){{rgb.r, rgb.g, rgb.b, (uint8_t)(255.0 * clamped + 0.5)}};
 }
 
 static struct gm_point minus(struct gm_point a, struct gm_point b)
@@ -38,7 +39,7 @@ static struct gm_point direction(struct gm_point from, struct gm_point to, float
 }
 
 static struct gm_vertex vertex(struct gm_point place, float across, float along, float half,
-                               struct gm_ink ink)
+                               struct gm_rgba ink)
 {
     struct gm_vertex made = {place.x, place.y, across, along, half, {0}};
     memcpy(made.colour, ink.colour, sizeof made.colour);
@@ -77,7 +78,7 @@ size_t gm_stroke_breaks(const struct gm_polyline *line, float half)
 
 /* The two sides of the strip at a point; `slant` is along the normal of one direction or between two. */
 static void put_sides(struct gm_vertex *strip, struct gm_point p, struct gm_point slant, float reach,
-                      float along, float half, struct gm_ink ink)
+                      float along, float half, struct gm_rgba ink)
 {
     const struct gm_point left = {p.x + reach * slant.x, p.y + reach * slant.y};
     const struct gm_point right = {p.x - reach * slant.x, p.y - reach * slant.y};
@@ -105,7 +106,7 @@ static struct gm_point beyond(struct gm_point p, struct gm_point way, float dist
 
 /* A run of mitred segments from point `first` over `segments` segments, round at both ends. */
 static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size_t first, size_t segments,
-                    float half, struct gm_ink ink)
+                    float half, struct gm_rgba ink)
 {
     const float reach = half + fringe;
     const size_t n = line->count;
@@ -130,7 +131,7 @@ static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size
 }
 
 /* A closed line all of whose joints are mitred. */
-static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_ink ink)
+static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_rgba ink)
 {
     const float reach = half + fringe;
     struct gm_vertex *strip = gm_batch_strip(batch, 2 * (line->count + 1));
@@ -144,7 +145,7 @@ static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, flo
     gm_batch_end(batch, 0);
 }
 
-void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_ink ink)
+void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, float half, struct gm_rgba ink)
 {
     const float reach = half + fringe;
     const size_t n = line->count;
@@ -175,7 +176,7 @@ void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, floa
     }
 }
 
-void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_ink ink)
+void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_rgba ink)
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
     if (strip == NULL) {
@@ -190,7 +191,7 @@ void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius
 }
 
 void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, float bottom,
-                   struct gm_ink ink)
+                   struct gm_rgba ink)
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
     if (strip == NULL) {
@@ -261,7 +262,7 @@ static struct gm_point shifted(const struct gm_polyline *line, size_t i, float d
 }
 
 static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, float outwards,
-                        struct gm_ink ink)
+                        struct gm_rgba ink)
 {
     /* First the fading rim, a ring of corners half a pixel inside and outside; then the inside. */
     const size_t n = line->count;
@@ -286,7 +287,7 @@ static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, 
     gm_batch_end(batch, 0);
 }
 
-static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
+static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_rgba ink)
 {
     const size_t n = line->count;
     struct gm_vertex *strip = gm_batch_strip(batch, n);
@@ -299,7 +300,7 @@ static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, 
     gm_batch_end(batch, 0);
 }
 
-static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
+static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, struct gm_rgba ink)
 {
     struct gm_polyline rim = *line;
     struct gm_bounds bounds = {line->points[0].x, line->points[0].y, line->points[0].x, line->points[0].y};
@@ -320,7 +321,7 @@ static void fill_any(struct gm_batch *batch, const struct gm_polyline *line, str
     gm_batch_state(batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
 }
 
-void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_ink ink)
+void gm_fill_polygon(struct gm_batch *batch, const struct gm_polyline *line, struct gm_rgba ink)
 {
     if (line->count < 3) {
         return;

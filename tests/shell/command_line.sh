@@ -74,7 +74,7 @@ assert made <= set(square) and not named & set(square), square
 assert named <= set(drawn) and not made & set(drawn), drawn' || fail 'parameters without effect in JSON'
 status 0 stability room "mesh=$meshes/room-small.msh" reynolds=10 dt=0.01
 # sentences on numbers that options do not take say which they do
-refused 1 '^geomint: --size 0x0 is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels$' render disc --size 0x0
+refused 1 '^geomint: --size 0x0 is not WIDTHxHEIGHT, each of them from 64 to 16384 pixels, or in cm or mm: 16x9cm$' render disc --size 0x0
 refused 1 '^geomint: --fps 0 is not a number from 0.01 to 1000$' render disc --fps 0
 refused 1 '^geomint: --every 0 is not a whole number from 1 to 1e9$' run disc --every 0
 refused 1 '^geomint: --shard 3/2 is not I/N, the I-th of N shares, with I from 1 to N$' render disc --shard 3/2

@@ -36,6 +36,8 @@ offers '' run disc scheme=leap
 offers '--theme' render disc --th
 offers 'light dark' render disc --theme ''
 offers '--theme=dark' render disc --theme=d
+offers 'pdf png svg' render disc --format ''
+offers '' render disc -o ''
 offers 'zip=no zip=yes' run disc zip=
 offers '' run disc tau
 offers 'binding=' run disc bin

@@ -61,6 +61,9 @@ COMMANDS = [
     ("list schemes --markdown", {}),
     ("render disc until=1 points=20 --size 200x150 --out OUT", {}),
     ("render room until=.02 --size 200x150 --out OUT", {}),
+    ("render couette until=.05 --size 200x150 -o OUT/a.svg", {}),
+    # Cairo calls a font that it cannot open a lack of memory
+    ("render couette until=.05 --size 200x150 -o OUT/a.pdf", {"statuses": (3, 5)}),
     ("render disc until=1 points=20 --frames 3 --size 128x96 --out OUT", {}),
     ("render disc until=1 points=20 --frames 3 --size 128x96 --movie OUT/disc.mp4", {}),
     ("render disc until=1 points=20 --frames 3 --size 128x96 --out OUT", {"lost": "disc-render-000001.png"}),

@@ -20,7 +20,7 @@ forbid core '(curses|ncurses|png|GL|EGL)'
 forbid render '(core|scenes|app|tests)/'
 forbid render '(curses|ncurses)'
 forbid scenes '(app|tests)/'
-forbid scenes 'render/(gl|cells|layout|clock|files/[^r])'
+forbid scenes 'render/(gl|drawing|vector|cells|layout|clock|files/[^r])'
 forbid app 'tests/'
 
 # the floors of app: a room sees none above it, and the words of a command line stay with the commands

@@ -34,7 +34,8 @@ static unsigned char *paint(struct gm_picture *picture, const char *backend, int
 {
     char message[GM_MESSAGE] = "";
     setenv("GEOMINT_GL", backend, 1);
-    struct gm_canvas *canvas = gm_canvas_open(width, height, GM_THEME_DARK, message);
+    struct gm_canvas *canvas = gm_canvas_open(
+        &(struct gm_appearance){.width = width, .height = height, .theme = GM_THEME_DARK}, message);
     if (canvas == NULL) {
         fail_msg("%s", message);
     }
@@ -371,7 +372,8 @@ static void a_canvas_paints_the_same_twice(void **state)
     (void)state;
     unsetenv("GEOMINT_GL");
     char message[GM_MESSAGE];
-    struct gm_canvas *canvas = gm_canvas_open(WIDTH, HEIGHT, GM_THEME_LIGHT, message);
+    struct gm_canvas *canvas = gm_canvas_open(
+        &(struct gm_appearance){.width = WIDTH, .height = HEIGHT, .theme = GM_THEME_LIGHT}, message);
     assert_non_null(canvas);
     assert_non_null(strstr(gm_canvas_backend(canvas), "OpenGL"));
     const size_t size = (size_t)WIDTH * HEIGHT * 3;
@@ -403,13 +405,16 @@ static void what_cannot_be_is_said_in_a_sentence(void **state)
     (void)state;
     char message[GM_MESSAGE] = "";
     setenv("GEOMINT_GL", "vulkan", 1);
-    assert_null(gm_canvas_open(64, 64, GM_THEME_DARK, message));
+    assert_null(
+        gm_canvas_open(&(struct gm_appearance){.width = 64, .height = 64, .theme = GM_THEME_DARK}, message));
     assert_non_null(strstr(message, "vulkan"));
     assert_int_equal(message[strlen(message) - 1], '.');
     setenv("GEOMINT_GL", "osmesa", 1);
-    assert_null(gm_canvas_open(1 << 20, 64, GM_THEME_DARK, message));
+    assert_null(gm_canvas_open(
+        &(struct gm_appearance){.width = 1 << 20, .height = 64, .theme = GM_THEME_DARK}, message));
     assert_non_null(strstr(message, "1048576 x 64"));
-    assert_null(gm_canvas_open(0, 64, GM_THEME_DARK, message));
+    assert_null(
+        gm_canvas_open(&(struct gm_appearance){.width = 0, .height = 64, .theme = GM_THEME_DARK}, message));
 }
 
 static int without_screen(void **state)

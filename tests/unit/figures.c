@@ -154,7 +154,7 @@ static void make(const char *arguments, const struct gm_statement *statements, s
     folder_make(folder, sizeof folder);
     const struct gm_figure figure = {.name = "trial", .statement = "", .arguments = arguments};
     const struct gm_published published = {.figure = "trial", .statements = statements, .count = count};
-    const struct gm_figure_output output = {.folder = folder, .width = 160, .height = 90};
+    const struct gm_figure_output output = {.folder = folder, .look = {.width = 160, .height = 90}};
     struct gm_figure_job job;
     gm_figure_plan(&job, gm_scene_find("disc"), &figure, false);
     job.published = &published;

@@ -15,12 +15,14 @@
 #include "core/memory.h"
 #include "render/gl/canvas.h"
 #include "render/message.h"
+#include "render/vector/pdf.h"
 
 static void print_painter(void)
 {
     char message[GM_MESSAGE];
     enum { SMALL = 64 }; /* any size tells */
-    struct gm_canvas *canvas = gm_canvas_open(SMALL, SMALL, GM_THEME_LIGHT, message);
+    struct gm_canvas *canvas =
+        gm_canvas_open(&(struct gm_appearance){.width = SMALL, .height = SMALL}, message);
     if (canvas && !gm_memory_was_short()) {
         printf("%s\n", gm_canvas_backend(canvas));
     } else if (!canvas) {
@@ -43,6 +45,7 @@ static void print_libraries(void)
     int fonts = FcGetVersion();
     printf("libpng %s, libdeflate %s, FreeType %d.%d.%d, fontconfig %d.%d.%d\n", png_get_libpng_ver(NULL),
            LIBDEFLATE_VERSION_STRING, major, minor, patch, fonts / 10000, fonts / 100 % 100, fonts % 100);
+    printf("%s\n", gm_pdf_backend());
     printf("%s, GSL %s, CHOLMOD %d.%d.%d\n", curses_version(), gsl_version, sparse[0], sparse[1], sparse[2]);
 }
 

@@ -93,7 +93,8 @@ static void save(struct gm_study *study, enum gm_theme theme)
     char kind[96], name[128], message[GM_MESSAGE] = "not enough memory", sentence[GM_MESSAGE];
     const struct gm_study_row *row = &gm_study_rows[study->kind];
     char *command = gm_arguments_join(row->name, &study->arguments);
-    struct gm_chart chart = {.name = name, .command = command, .width = 1920, .height = 1080, .theme = theme};
+    struct gm_chart chart = {
+        .name = name, .command = command, .print.look = {.width = 1920, .height = 1080, .theme = theme}};
     snprintf(kind, sizeof kind, "%.60s-%s", study->arguments.words[0], row->name);
     gm_folder_free_file(kind, ".png", name, sizeof name);
     name[strlen(name) - strlen(".png")] = '\0';

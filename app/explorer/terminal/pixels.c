@@ -48,19 +48,19 @@ static bool same_place(const struct gm_pixels_job *a, const struct gm_pixels_job
 static bool prepare(struct gm_pixels *pixels)
 {
     const struct gm_pixels_job *job = &pixels->job;
-    int width, height;
+    struct gm_appearance look = {.theme = job->theme};
     if (pixels->canvas && same_place(job, &pixels->made_for)) {
         return true;
     }
     forget(pixels);
     pixels->made_for = *job;
-    gm_inline_size(&job->place, job->kind, &width, &height);
-    pixels->canvas = gm_canvas_open(width, height, job->theme, pixels->message);
+    gm_inline_size(&job->place, job->kind, &look.width, &look.height);
+    pixels->canvas = gm_canvas_open(&look, pixels->message);
     if (!pixels->canvas) {
         return false;
     }
     pixels->image = gm_inline_open(job->kind, &job->place, job->most_width, job->most_height);
-    pixels->rgb = malloc((size_t)width * (size_t)height * 3);
+    pixels->rgb = malloc((size_t)look.width * (size_t)look.height * 3);
     return pixels->image && pixels->rgb;
 }
 

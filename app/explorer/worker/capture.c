@@ -29,8 +29,9 @@ void gm_capture_save(struct gm_play *play, enum gm_theme theme)
     char path[128], message[GM_MESSAGE] = "", sentence[GM_MESSAGE];
     gm_folder_free_file(session->scene->name, ".png", path, sizeof path);
     note_steps(session);
-    bool ok = gm_still_write(path, PRINT_WIDTH, PRINT_HEIGHT, theme, &session->log,
-                             (const struct gm_lane *const *)session->lanes, message);
+    struct gm_print print = {.path = path,
+                             .look = {.width = PRINT_WIDTH, .height = PRINT_HEIGHT, .theme = theme}};
+    bool ok = gm_still_write(&print, &session->log, (const struct gm_lane *const *)session->lanes, message);
     snprintf(sentence, sizeof sentence, ok ? "Saved %.400s." : "Not saved: %.400s", ok ? path : message);
     gm_play_say(play, sentence);
 }

@@ -39,7 +39,8 @@ struct gm_recorder {
 static bool open_canvas(struct gm_recorder *recorder)
 {
     if (!recorder->canvas) {
-        recorder->canvas = gm_canvas_open(WIDTH, HEIGHT, recorder->theme, recorder->message);
+        const struct gm_appearance look = {.width = WIDTH, .height = HEIGHT, .theme = recorder->theme};
+        recorder->canvas = gm_canvas_open(&look, recorder->message);
     }
     if (!recorder->rgb) {
         recorder->rgb = malloc((size_t)WIDTH * HEIGHT * 3);

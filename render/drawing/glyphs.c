@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Letters by FreeType, kept in an atlas. */
-#include "render/gl/glyphs.h"
+#include "render/drawing/glyphs.h"
 
 #include <errno.h>
 #include <math.h>
@@ -35,6 +35,7 @@ struct glyph {
 struct gm_glyphs {
     FT_Library library;
     FT_Face faces[GM_FONT_COUNT];
+    char *files[GM_FONT_COUNT];
     int sizes[GM_FONT_COUNT]; /* set at present */
     struct glyph *table;      /* open addressing; its size is a power of two */
     size_t table_size, count;
@@ -139,7 +140,7 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
         const bool missing = file == NULL && errno != ENOMEM;
         const FT_Error error =
             file != NULL ? FT_New_Face(glyphs->library, file, 0, &glyphs->faces[i]) : FT_Err_Out_Of_Memory;
-        free(file);
+        glyphs->files[i] = file;
         if (missing) {
             snprintf(message, size, "No font was found for \"%s\"; install the package fonts-dejavu-core.",
                      wanted[i].family);
@@ -164,6 +165,7 @@ void gm_glyphs_close(struct gm_glyphs *glyphs)
     }
     for (int i = 0; i < GM_FONT_COUNT; i++) {
         FT_Done_Face(glyphs->faces[i]);
+        free(glyphs->files[i]);
     }
     FT_Done_Library(glyphs->library);
     free(glyphs->table);
@@ -313,6 +315,16 @@ double gm_glyphs_descent(struct gm_glyphs *glyphs, enum gm_font font, int height
 {
     const FT_Face face = glyphs->faces[font];
     return -(double)height * face->descender / face->units_per_EM;
+}
+
+const char *gm_glyphs_family(const struct gm_glyphs *glyphs, enum gm_font font)
+{
+    return glyphs->faces[font]->family_name;
+}
+
+const char *gm_glyphs_file(const struct gm_glyphs *glyphs, enum gm_font font)
+{
+    return glyphs->files[font];
 }
 
 bool gm_glyphs_next(struct gm_glyphs *glyphs, enum gm_font font, int height, const char **text, double *pen,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_RENDER_GL_GLYPHS_H
-#define GM_RENDER_GL_GLYPHS_H
+#ifndef GM_RENDER_DRAWING_GLYPHS_H
+#define GM_RENDER_DRAWING_GLYPHS_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,6 +21,10 @@ void gm_glyphs_close(struct gm_glyphs *glyphs);
 double gm_glyphs_width(struct gm_glyphs *glyphs, enum gm_font font, int height, const char *text);
 double gm_glyphs_ascent(struct gm_glyphs *glyphs, enum gm_font font, int height);
 double gm_glyphs_descent(struct gm_glyphs *glyphs, enum gm_font font, int height);
+
+/* The family's own name, such as "DejaVu Sans", and the file it was found in. */
+const char *gm_glyphs_family(const struct gm_glyphs *glyphs, enum gm_font font);
+const char *gm_glyphs_file(const struct gm_glyphs *glyphs, enum gm_font font);
 
 /* Letters of a text one by one, from `pen` (which moves on) on a baseline at 0. */
 struct gm_letter {

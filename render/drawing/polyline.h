@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_RENDER_GL_POLYLINE_H
-#define GM_RENDER_GL_POLYLINE_H
+#ifndef GM_RENDER_DRAWING_POLYLINE_H
+#define GM_RENDER_DRAWING_POLYLINE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,32 +2,32 @@
 /* What surrounds the marks of a panel. Rules are upright and sharp: they begin and end on whole pixels. */
 #include <math.h>
 
-#include "render/gl/painter.h"
+#include "render/drawing/painter.h"
 
 static double hairline(const struct gm_painter *painter)
 {
-    return fmax(1.0, floor(painter->scale + 0.5));
+    return floor(fmax(fmax(1.0, 0.5 * painter->density), painter->scale) + 0.5);
 }
 
 static void horizontal_rule(struct gm_painter *painter, double left, double right, double y,
                             struct gm_ink ink)
 {
     const double thickness = hairline(painter), top = floor(y - 0.5 * thickness + 0.5);
-    gm_stroke_box(&painter->batch, (float)floor(left + 0.5), (float)top, (float)floor(right + 0.5),
-                  (float)(top + thickness), ink);
+    painter->pen->box(painter->self, (float)floor(left + 0.5), (float)top, (float)floor(right + 0.5),
+                      (float)(top + thickness), ink);
 }
 
 static void vertical_rule(struct gm_painter *painter, double x, double top, double bottom, struct gm_ink ink)
 {
     const double thickness = hairline(painter), left = floor(x - 0.5 * thickness + 0.5);
-    gm_stroke_box(&painter->batch, (float)left, (float)floor(top + 0.5), (float)(left + thickness),
-                  (float)floor(bottom + 0.5), ink);
+    painter->pen->box(painter->self, (float)left, (float)floor(top + 0.5), (float)(left + thickness),
+                      (float)floor(bottom + 0.5), ink);
 }
 
 static void draw_grid(struct gm_painter *painter, const struct gm_frame *frame)
 {
     const struct gm_box box = frame->box;
-    const struct gm_ink ink = gm_ink_of(painter->theme, GM_GRID, 1.0);
+    const struct gm_ink ink = {gm_theme_colour(painter->look.theme, GM_GRID), 1.0};
     for (size_t i = 0; i < frame->x_tick_count; i++) {
         vertical_rule(painter, frame->x_ticks[i].position, box.y, box.y + box.height, ink);
     }
@@ -39,7 +39,7 @@ static void draw_grid(struct gm_painter *painter, const struct gm_frame *frame)
 static void draw_axes(struct gm_painter *painter, const struct gm_frame *frame)
 {
     const struct gm_box box = frame->box;
-    const struct gm_ink ink = gm_ink_of(painter->theme, GM_SECONDARY, 1.0);
+    const struct gm_ink ink = {gm_theme_colour(painter->look.theme, GM_SECONDARY), 1.0};
     const double tick = 4.0 * painter->scale, right = box.x + box.width, bottom = box.y + box.height;
     const double half = 0.5 * hairline(painter);
     vertical_rule(painter, box.x, box.y, bottom + half, ink);
@@ -59,14 +59,13 @@ static void draw_tips(struct gm_painter *painter, const struct gm_frame *frame, 
     for (int end = 0; end < 2; end++) {
         const double base = end == 0 ? bar.y + bar.height : bar.y;
         const double tip = end == 0 ? base + frame->bar_tip[0] : base - frame->bar_tip[1];
-        const struct gm_rgb colour = gm_map_colour(map, painter->theme, end);
+        const struct gm_rgb colour = gm_map_colour(map, painter->look.theme, end);
         struct gm_point corners[3] = {{(float)bar.x, (float)base},
                                       {(float)(bar.x + bar.width), (float)base},
                                       {(float)(bar.x + 0.5 * bar.width), (float)tip}};
         const struct gm_polyline line = {.points = corners, .count = 3, .closed = true};
         if (frame->bar_tip[end] > 0.0) {
-            gm_fill_polygon(&painter->batch, &line,
-                            (struct gm_ink){.colour = {colour.r, colour.g, colour.b, 255}});
+            painter->pen->fill(painter->self, &line, (struct gm_ink){colour, 1.0});
         }
     }
 }
@@ -74,11 +73,11 @@ static void draw_tips(struct gm_painter *painter, const struct gm_frame *frame, 
 static void draw_colour_bar(struct gm_painter *painter, const struct gm_frame *frame)
 {
     const struct gm_box bar = frame->colour_bar;
-    const struct gm_ink ink = gm_ink_of(painter->theme, GM_SECONDARY, 1.0);
+    const struct gm_ink ink = {gm_theme_colour(painter->look.theme, GM_SECONDARY), 1.0};
     const double tick = 4.0 * painter->scale, right = bar.x + bar.width;
     const struct gm_mark *field = gm_panel_field(frame->panel);
     if (field != NULL) {
-        gm_paint_colours(painter, bar, field->map);
+        painter->pen->ramp(painter->self, bar, field->map);
         draw_tips(painter, frame, field->map);
     }
     for (size_t i = 0; i < frame->bar_tick_count; i++) {
@@ -92,14 +91,13 @@ void gm_paint_frame(struct gm_painter *painter, const struct gm_frame *frame)
     if (!(box.width >= 1.0 && box.height >= 1.0)) {
         return;
     }
-    gm_batch_state(&painter->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
-    gm_batch_scissor(&painter->batch, 0, 0, painter->width, painter->height);
+    painter->pen->clip(painter->self, 0, 0, painter->look.width, painter->look.height);
     if (frame->panel->axes) {
         draw_grid(painter, frame);
         draw_axes(painter, frame);
     }
     gm_paint_marks(painter, frame);
-    gm_batch_scissor(&painter->batch, 0, 0, painter->width, painter->height);
+    painter->pen->clip(painter->self, 0, 0, painter->look.width, painter->look.height);
     if (frame->colour_bar.width > 0.0) {
         draw_colour_bar(painter, frame);
     }

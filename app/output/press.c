@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pictures to files: pixels by OpenGL to PNG, drawings to SVG and PDF. */
+#include "app/output/press.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "app/request/drive.h"
+#include "core/memory.h"
+#include "render/gl/canvas.h"
+#include "render/message.h"
+#include "render/vector/pdf.h"
+#include "render/vector/svg.h"
+
+struct gm_press {
+    struct gm_canvas *canvas; /* of PNG */
+    unsigned char *rgb;
+    const char *backend;
+};
+
+static const char *const names[GM_FORMAT_COUNT] = {"png", "svg", "pdf"};
+
+const char *gm_format_name(enum gm_format format)
+{
+    return names[format];
+}
+
+bool gm_format_find(const char *name, enum gm_format *format)
+{
+    for (int i = 0; i < GM_FORMAT_COUNT; i++) {
+        if (strcasecmp(name, names[i]) == 0) {
+            *format = (enum gm_format)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gm_format_of(const char *path, enum gm_format *format)
+{
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    return dot && gm_format_find(dot + 1, format);
+}
+
+static bool no_memory(const struct gm_appearance *look, char *message)
+{
+    snprintf(message, GM_MESSAGE, "not enough memory for a picture of %dx%d", look->width, look->height);
+    return false;
+}
+
+struct gm_press *gm_press_open(const struct gm_print *print, char *message)
+{
+    const struct gm_appearance *look = &print->look;
+    struct gm_press *press = calloc(1, sizeof *press);
+    if (!press) {
+        no_memory(look, message);
+        return NULL;
+    }
+    if (print->format != GM_FORMAT_PNG) {
+        press->backend = print->format == GM_FORMAT_SVG ? "SVG" : gm_pdf_backend();
+        return press;
+    }
+    press->canvas = gm_canvas_open(look, message);
+    press->rgb = malloc((size_t)look->width * (size_t)look->height * 3);
+    if (!press->canvas || !press->rgb) {
+        if (press->canvas) {
+            no_memory(look, message);
+        }
+        gm_press_close(press);
+        return NULL;
+    }
+    press->backend = gm_canvas_backend(press->canvas);
+    return press;
+}
+
+void gm_press_close(struct gm_press *press)
+{
+    if (press) {
+        gm_canvas_close(press->canvas);
+        free(press->rgb);
+        free(press);
+    }
+}
+
+const char *gm_press_backend(const struct gm_press *press)
+{
+    return press->backend;
+}
+
+bool gm_press_write(struct gm_press *press, struct gm_print *print, struct gm_picture *picture,
+                    const struct gm_png_text *texts, size_t count, char *message)
+{
+    const struct gm_appearance *look = &print->look;
+    const char *path = strcmp(print->path, "-") == 0 ? "/dev/stdout" : print->path;
+    if (gm_memory_was_short()) {
+        return no_memory(look, message);
+    }
+    if (print->format != GM_FORMAT_PNG) {
+        const bool drawn = (print->format == GM_FORMAT_SVG ? gm_svg_write : gm_pdf_write)(
+            path, look, picture, texts, count, &print->fields, message);
+        if (!drawn && errno == ENOMEM) {
+            gm_memory_refused(); /* Cairo, perhaps, which tells nobody else */
+        }
+        return drawn || (gm_memory_was_short() ? no_memory(look, message) : false);
+    }
+    if (!gm_canvas_paint(press->canvas, picture, press->rgb) || gm_memory_was_short()) {
+        return no_memory(look, message);
+    }
+    return gm_png_write(path, look->width, look->height, press->rgb, texts, count, message);
+}
+
+void gm_press_tell(const struct gm_print *print, const char *table)
+{
+    if (strcmp(print->path, "-") != 0) {
+        gm_complain("wrote %s%s%s", print->path, table[0] ? " and " : "", table);
+    }
+    if (print->fields > 0 && !gm_memory_was_short()) {
+        gm_complain("%s in it %s of pixels; all else is lines and letters",
+                    print->fields > 1 ? "the fields of colours" : "the field of colours",
+                    print->fields > 1 ? "are images" : "is an image");
+    }
+}

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OUTPUT_PRESS_H
+#define GM_APP_OUTPUT_PRESS_H
+
+#include "render/files/png.h"
+#include "render/layout/appearance.h"
+#include "render/picture/picture.h"
+
+/* One picture to a file, in the format of its ending. */
+
+enum gm_format { GM_FORMAT_PNG, GM_FORMAT_SVG, GM_FORMAT_PDF, GM_FORMAT_COUNT };
+
+/* What is printed where. */
+struct gm_print {
+    const char *path; /* "-": standard output */
+    enum gm_format format;
+    struct gm_appearance look;
+    size_t fields; /* set when it is printed: the fields of colours that a drawing holds as images */
+};
+
+/* "png", "svg", "pdf" */
+const char *gm_format_name(enum gm_format format);
+/* The format of that name, and that of a file by its ending; false if there is none. */
+bool gm_format_find(const char *name, enum gm_format *format);
+bool gm_format_of(const char *path, enum gm_format *format);
+
+/* A press for one format and look, which outlives it. NULL on failure, with a sentence (GM_MESSAGE bytes). */
+struct gm_press;
+struct gm_press *gm_press_open(const struct gm_print *print, char *message);
+void gm_press_close(struct gm_press *press);
+
+/* What paints, for the file to tell. */
+const char *gm_press_backend(const struct gm_press *press);
+
+/* Writes the picture with what it tells of itself. False with a sentence (GM_MESSAGE bytes). */
+bool gm_press_write(struct gm_press *press, struct gm_print *print, struct gm_picture *picture,
+                    const struct gm_png_text *texts, size_t count, char *message);
+
+/* Says on standard error what was written, of a file, with the table beside it ("": none); and once what of
+   it is an image. */
+void gm_press_tell(const struct gm_print *print, const char *table);
+
+#endif

@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a pen draws, as strokes and triangles of a batch. */
+#include "render/gl/brush.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void set_state(struct gm_brush *brush, enum gm_program program, enum gm_stencil stencil)
+{
+    gm_batch_state(&brush->batch, program, stencil);
+}
+
+static void clip(void *self, int left, int top, int width, int height)
+{
+    gm_batch_scissor(&((struct gm_brush *)self)->batch, left, top, width, height);
+}
+
+static void box(void *self, float left, float top, float right, float bottom, struct gm_ink ink)
+{
+    set_state(self, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    gm_stroke_box(&((struct gm_brush *)self)->batch, left, top, right, bottom, gm_rgba_of(ink, 1.0));
+}
+
+static void draw_line(struct gm_brush *brush, const struct gm_polyline *line, const struct gm_stroke *stroke,
+                      float half, struct gm_rgba ink)
+{
+    struct gm_dashing state = {0};
+    if (stroke->parts == 0) {
+        gm_stroke_line(&brush->batch, line, half, ink);
+        return;
+    }
+    while (gm_polyline_dash(line, stroke->pattern, stroke->parts, &state, &brush->dash)) {
+        gm_stroke_line(&brush->batch, &brush->dash, half, ink);
+    }
+}
+
+/* Strokes thinner than a pixel are a pixel wide and fainter. What is translucent and would overlap itself at
+   joints is painted in two passes, each pixel once: whole pixels first, then the fading edges where nothing
+   was painted. */
+static void line(void *self, const struct gm_polyline *line, const struct gm_stroke *stroke)
+{
+    struct gm_brush *brush = self;
+    const float half = 0.5f * fmaxf(stroke->width, 1.0f);
+    const struct gm_rgba ink = gm_rgba_of(stroke->ink, fminf(stroke->width, 1.0f));
+    if (ink.colour[3] < 255 && gm_stroke_breaks(line, half) > 0) {
+        gm_batch_once(&brush->batch);
+        set_state(brush, GM_PROGRAM_CORE, GM_STENCIL_ONCE);
+        draw_line(brush, line, stroke, half, ink);
+        set_state(brush, GM_PROGRAM_INK, GM_STENCIL_ONCE);
+        draw_line(brush, line, stroke, half, ink);
+    } else {
+        set_state(brush, GM_PROGRAM_INK, GM_STENCIL_NONE);
+        draw_line(brush, line, stroke, half, ink);
+    }
+}
+
+static void disc(void *self, struct gm_point centre, float width, struct gm_ink ink)
+{
+    set_state(self, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    gm_stroke_disc(&((struct gm_brush *)self)->batch, centre, 0.5f * fmaxf(width, 1.0f),
+                   gm_rgba_of(ink, fminf(width * width, 1.0f)));
+}
+
+static void fill(void *self, const struct gm_polyline *line, struct gm_ink ink)
+{
+    set_state(self, GM_PROGRAM_INK, GM_STENCIL_NONE);
+    gm_fill_polygon(&((struct gm_brush *)self)->batch, line, gm_rgba_of(ink, 1.0));
+}
+
+static void put_letter(struct gm_batch *batch, bool upwards, double x, double y,
+                       const struct gm_letter *letter, struct gm_rgba ink)
+{
+    struct gm_vertex *strip = gm_batch_strip(batch, 4);
+    if (strip == NULL) {
+        return;
+    }
+    for (int i = 0; i < 4; i++) {
+        const int u = i % 2 == 0 ? 0 : letter->width, v = i < 2 ? 0 : letter->height;
+        const double along = letter->x + u, down = letter->y + v;
+        strip[i] = (struct gm_vertex){
+            .x = (float)(upwards ? x + down : x + along),
+            .y = (float)(upwards ? y - along : y + down),
+            .across = (float)(letter->atlas_x + u),
+            .along = (float)(letter->atlas_y + v),
+        };
+        memcpy(strip[i].colour, ink.colour, sizeof strip[i].colour);
+    }
+    gm_batch_end(batch, 0);
+}
+
+/* Baselines stand on whole pixels; letters find their place along them to a quarter. */
+static void text(void *self, const struct gm_writing *writing, const char *text)
+{
+    struct gm_brush *brush = self;
+    const double x = writing->upwards ? floor(writing->x + 0.5) : floor(writing->x);
+    const double y = writing->upwards ? ceil(writing->y) : floor(writing->y + 0.5);
+    double pen = writing->upwards ? y - writing->y : writing->x - x;
+    struct gm_letter letter;
+    set_state(brush, GM_PROGRAM_TEXT, GM_STENCIL_NONE);
+    while (gm_glyphs_next(brush->glyphs, writing->font, writing->letters, &text, &pen, &letter)) {
+        if (letter.width > 0) {
+            put_letter(&brush->batch, writing->upwards, x, y, &letter, gm_rgba_of(writing->ink, 1.0));
+        }
+    }
+}
+
+/* ---- meshes, images and colour bars: values reach every pixel before they become colours ---- */
+
+static struct gm_vertex vertex(double x, double y, double across, double along, double alpha, enum gm_map map)
+{
+    const uint8_t row = map == GM_MAP_SEQUENTIAL ? 0 : 255;
+    return (struct gm_vertex){(float)x,     (float)y,     (float)across,
+                              (float)along, (float)alpha, {row, 0, 0, 255}};
+}
+
+static void paint_mesh(struct gm_brush *brush, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    uint32_t *indices;
+    gm_batch_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
+    struct gm_vertex *vertices =
+        gm_batch_mesh(&brush->batch, mark->count, 3 * mark->triangle_count, &indices);
+    if (vertices == NULL) {
+        return;
+    }
+    const size_t first = (size_t)(vertices - brush->batch.vertices);
+    const double factor = 1.0 / (mark->high - mark->low);
+    for (size_t i = 0; i < mark->count; i++) {
+        vertices[i] =
+            vertex(gm_frame_x(frame, mark->points[2 * i]), gm_frame_y(frame, mark->points[2 * i + 1]),
+                   factor * (mark->values[i] - mark->low), 0.0, mark->style.alpha, mark->map);
+    }
+    for (size_t i = 0; i < 3 * mark->triangle_count; i++) {
+        indices[i] = (uint32_t)(first + (size_t)mark->triangles[i]);
+    }
+}
+
+static void put_quad(struct gm_batch *batch, struct gm_vertex corners[4])
+{
+    struct gm_vertex *strip = gm_batch_strip(batch, 4);
+    if (strip == NULL) {
+        return;
+    }
+    for (int i = 0; i < 4; i++) {
+        strip[i] = corners[i];
+    }
+    gm_batch_end(batch, 0);
+}
+
+static void ramp(void *self, struct gm_box box, enum gm_map map)
+{
+    struct gm_brush *brush = self;
+    gm_batch_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
+    const double right = box.x + box.width, bottom = box.y + box.height;
+    put_quad(&brush->batch, (struct gm_vertex[4]){vertex(box.x, box.y, 1.0, 0.0, 1.0, map),
+                                                  vertex(right, box.y, 1.0, 0.0, 1.0, map),
+                                                  vertex(box.x, bottom, 0.0, 0.0, 1.0, map),
+                                                  vertex(right, bottom, 0.0, 0.0, 1.0, map)});
+    gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+}
+
+/* A texture that no image of this frame uses yet; 0 when memory is short. */
+static GLuint next_texture(struct gm_brush *brush)
+{
+    const struct gm_gl *gl = brush->gl;
+    gl->ActiveTexture(GL_TEXTURE2);
+    if (brush->images_used == brush->image_count) {
+        GLuint *images = realloc(brush->images, (brush->image_count + 1) * sizeof *images);
+        if (images == NULL) {
+            return 0;
+        }
+        brush->images = images;
+        gl->GenTextures(1, &images[brush->image_count]);
+        gl->BindTexture(GL_TEXTURE_2D, images[brush->image_count++]);
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    }
+    const GLuint texture = brush->images[brush->images_used++];
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    return texture;
+}
+
+static void paint_image(struct gm_brush *brush, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    const struct gm_gl *gl = brush->gl;
+    GLint most = 1;
+    gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    /* Every stride-th value of images that are larger than a texture may be. */
+    const size_t limit = (size_t)most, row_stride = (mark->rows - 1) / limit + 1,
+                 column_stride = (mark->columns - 1) / limit + 1;
+    const size_t rows = (mark->rows - 1) / row_stride + 1, columns = (mark->columns - 1) / column_stride + 1;
+    if (brush->texel_capacity < rows * columns) {
+        float *texels = realloc(brush->texels, rows * columns * sizeof *texels);
+        if (texels == NULL) {
+            return;
+        }
+        brush->texels = texels;
+        brush->texel_capacity = rows * columns;
+    }
+    const double factor = 1.0 / (mark->high - mark->low);
+    for (size_t row = 0; row < rows; row++) {
+        const double *values = mark->values + row * row_stride * mark->columns;
+        for (size_t column = 0; column < columns; column++) {
+            brush->texels[row * columns + column] =
+                (float)(factor * (values[column * column_stride] - mark->low));
+        }
+    }
+    const GLuint texture = next_texture(brush);
+    if (texture == 0) {
+        return;
+    }
+    gl->TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, (GLsizei)columns, (GLsizei)rows, 0, GL_RED, GL_FLOAT,
+                   brush->texels);
+    const double left = gm_frame_x(frame, mark->points[0]), right = gm_frame_x(frame, mark->points[2]);
+    const double bottom = gm_frame_y(frame, mark->points[1]), top = gm_frame_y(frame, mark->points[3]);
+    const double alpha = mark->style.alpha;
+    gm_batch_state(&brush->batch, GM_PROGRAM_IMAGE, GM_STENCIL_NONE);
+    gm_batch_texture(&brush->batch, texture);
+    put_quad(&brush->batch, (struct gm_vertex[4]){vertex(left, bottom, 0.0, 0.0, alpha, mark->map),
+                                                  vertex(right, bottom, 1.0, 0.0, alpha, mark->map),
+                                                  vertex(left, top, 0.0, 1.0, alpha, mark->map),
+                                                  vertex(right, top, 1.0, 1.0, alpha, mark->map)});
+    gm_batch_texture(&brush->batch, 0);
+    gm_batch_state(&brush->batch, GM_PROGRAM_INK, GM_STENCIL_NONE);
+}
+
+static void field(void *self, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    if (mark->kind == GM_MARK_MESH) {
+        paint_mesh(self, frame, mark);
+    } else {
+        paint_image(self, frame, mark);
+    }
+}
+
+const struct gm_pen gm_brush_pen = {.clip = clip,
+                                    .box = box,
+                                    .line = line,
+                                    .disc = disc,
+                                    .fill = fill,
+                                    .field = field,
+                                    .ramp = ramp,
+                                    .text = text};

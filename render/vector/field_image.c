@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fields of colours as pixels: values are interpolated as OpenGL does it, linearly in triangles, bilinearly
+   between the cells' middles in images. */
+#include "render/vector/field_image.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct gm_rgb gm_field_image_colour(enum gm_map map, enum gm_theme theme, int index)
+{
+    return gm_map_colour(map, theme, (double)index / (GM_FIELD_COLOURS - 1));
+}
+
+void gm_field_image_close(struct gm_field_image *field)
+{
+    free(field->pixels);
+    field->pixels = NULL;
+}
+
+/* Towards zero, and within the bounds; NaN is the lower one. */
+static int clamp(double value, int low, int high)
+{
+    return value > low ? (value < high ? (int)value : high) : low;
+}
+
+static void put(struct gm_field_image *field, int x, int y, const struct gm_mark *mark, double value)
+{
+    const double place = (value - mark->low) / (mark->high - mark->low);
+    field->pixels[(size_t)y * (size_t)field->columns + (size_t)x] =
+        (uint8_t)clamp(place * (GM_FIELD_COLOURS - 1) + 0.5, 0, GM_FIELD_COLOURS - 1);
+}
+
+struct corner {
+    double x, y, value; /* in pixels of the field */
+};
+
+/* Every pixel whose middle lies in the triangle, or on an edge of it. */
+static void paint_triangle(struct gm_field_image *field, const struct gm_mark *mark, const struct corner c[3])
+{
+    const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
+    const double rounding = 1e-9;
+    if (!(fabs(area) > 0.0) || !isfinite(area)) {
+        return;
+    }
+    const int left = clamp(fmin(c[0].x, fmin(c[1].x, c[2].x)), 0, field->columns);
+    const int right = clamp(fmax(c[0].x, fmax(c[1].x, c[2].x)) + 1.0, 0, field->columns);
+    const int top = clamp(fmin(c[0].y, fmin(c[1].y, c[2].y)), 0, field->rows);
+    const int bottom = clamp(fmax(c[0].y, fmax(c[1].y, c[2].y)) + 1.0, 0, field->rows);
+    for (int y = top; y < bottom; y++) {
+        for (int x = left; x < right; x++) {
+            const double px = x + 0.5 - c[0].x, py = y + 0.5 - c[0].y;
+            const double second = (px * (c[2].y - c[0].y) - (c[2].x - c[0].x) * py) / area;
+            const double third = ((c[1].x - c[0].x) * py - px * (c[1].y - c[0].y)) / area;
+            if (second >= -rounding && third >= -rounding && second + third <= 1.0 + rounding) {
+                put(field, x, y, mark,
+                    c[0].value + second * (c[1].value - c[0].value) + third * (c[2].value - c[0].value));
+            }
+        }
+    }
+}
+
+static void paint_mesh(struct gm_field_image *field, const struct gm_frame *frame, const struct gm_mark *mark,
+                       int fine)
+{
+    for (size_t i = 0; i < mark->triangle_count; i++) {
+        struct corner corners[3];
+        bool known = true;
+        for (size_t k = 0; k < 3; k++) {
+            const size_t vertex = (size_t)mark->triangles[3 * i + k];
+            corners[k] = (struct corner){
+                fine * (gm_frame_x(frame, mark->points[2 * vertex]) - field->left),
+                fine * (gm_frame_y(frame, mark->points[2 * vertex + 1]) - field->top), mark->values[vertex]};
+            known = known && isfinite(corners[k].value);
+        }
+        if (known) {
+            paint_triangle(field, mark, corners);
+        }
+    }
+}
+
+/* The value at a place of the image, from 0 to 1 in both directions. */
+static double value_at(const struct gm_mark *mark, double u, double v)
+{
+    const double across = u * (double)mark->columns - 0.5, up = v * (double)mark->rows - 0.5;
+    const int last_column = (int)mark->columns - 1, last_row = (int)mark->rows - 1;
+    const int left = clamp(across, 0, last_column), below = clamp(up, 0, last_row);
+    const int right = left < last_column ? left + 1 : left, above = below < last_row ? below + 1 : below;
+    const double s = fmin(fmax(across - left, 0.0), 1.0), t = fmin(fmax(up - below, 0.0), 1.0);
+    const double *low = mark->values + (size_t)below * mark->columns;
+    const double *high = mark->values + (size_t)above * mark->columns;
+    return (1.0 - t) * ((1.0 - s) * low[left] + s * low[right]) +
+           t * ((1.0 - s) * high[left] + s * high[right]);
+}
+
+static void paint_image(struct gm_field_image *field, const struct gm_frame *frame,
+                        const struct gm_mark *mark, int fine)
+{
+    const double left = gm_frame_x(frame, mark->points[0]), right = gm_frame_x(frame, mark->points[2]);
+    const double bottom = gm_frame_y(frame, mark->points[1]), top = gm_frame_y(frame, mark->points[3]);
+    for (int y = 0; y < field->rows; y++) {
+        const double v = (field->top + (y + 0.5) / fine - bottom) / (top - bottom);
+        for (int x = 0; x < field->columns; x++) {
+            const double u = (field->left + (x + 0.5) / fine - left) / (right - left);
+            const double value =
+                u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0 ? value_at(mark, u, v) : (double)NAN;
+            if (isfinite(value)) {
+                put(field, x, y, mark, value);
+            }
+        }
+    }
+}
+
+static bool paint(struct gm_field_image *field, const struct gm_frame *frame, const struct gm_mark *mark,
+                  int fine)
+{
+    field->columns = fine * field->width;
+    field->rows = fine * field->height;
+    const size_t size = (size_t)field->columns * (size_t)field->rows;
+    field->pixels = malloc(size);
+    if (field->pixels == NULL) {
+        return false;
+    }
+    memset(field->pixels, GM_FIELD_NONE, size);
+    if (mark->kind == GM_MARK_MESH) {
+        paint_mesh(field, frame, mark, fine);
+    } else {
+        paint_image(field, frame, mark, fine);
+    }
+    return true;
+}
+
+/* A pixel of the surface is painted as a whole or not at all, by its middle, as on a screen: nothing that lies
+   under the field's edge shines through half of it. */
+static void keep_whole_pixels(struct gm_field_image *field, const struct gm_field_image *whole, int fine)
+{
+    for (int y = 0; y < field->rows; y++) {
+        for (int x = 0; x < field->columns; x++) {
+            uint8_t *pixel = &field->pixels[(size_t)y * (size_t)field->columns + (size_t)x];
+            const uint8_t middle =
+                whole->pixels[(size_t)(y / fine) * (size_t)whole->columns + (size_t)(x / fine)];
+            if (middle == GM_FIELD_NONE || *pixel == GM_FIELD_NONE) {
+                *pixel = middle;
+            }
+        }
+    }
+}
+
+bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *frame,
+                          const struct gm_mark *mark, const int clip[4])
+{
+    const size_t count = mark->kind == GM_MARK_IMAGE ? 2 : mark->count;
+    double low_x = INFINITY, high_x = -INFINITY, low_y = INFINITY, high_y = -INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        const double x = gm_frame_x(frame, mark->points[2 * i]);
+        const double y = gm_frame_y(frame, mark->points[2 * i + 1]);
+        low_x = fmin(low_x, x);
+        high_x = fmax(high_x, x);
+        low_y = fmin(low_y, y);
+        high_y = fmax(high_y, y);
+    }
+    const int left = clamp(floor(low_x), clip[0], clip[0] + clip[2]);
+    const int right = clamp(ceil(high_x), clip[0], clip[0] + clip[2]);
+    const int top = clamp(floor(low_y), clip[1], clip[1] + clip[3]);
+    const int bottom = clamp(ceil(high_y), clip[1], clip[1] + clip[3]);
+    *field = (struct gm_field_image){.left = left, .top = top};
+    if (right <= left || bottom <= top || !(mark->high > mark->low)) {
+        return true;
+    }
+    field->width = right - left;
+    field->height = bottom - top;
+    const double large = 4e6; /* pixels */
+    const int fine = (double)field->width * field->height > large ? 1 : 2;
+    struct gm_field_image whole = *field;
+    const bool painted = paint(&whole, frame, mark, 1) && paint(field, frame, mark, fine);
+    if (painted) {
+        keep_whole_pixels(field, &whole, fine);
+    }
+    gm_field_image_close(&whole);
+    return painted;
+}

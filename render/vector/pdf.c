@@ -1,0 +1,342 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pen that writes PDF, by Cairo, which finds no font of its own: letters are those of the same file as
+   those of the PNG, and stand where its layout puts them. */
+#include "render/vector/pdf.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cairo-ft.h>
+#include <cairo-pdf.h>
+#include <fontconfig/fontconfig.h>
+
+#include "render/cells/text.h"
+#include "render/drawing/page.h"
+#include "render/files/temporary.h"
+#include "render/vector/field_image.h"
+
+enum { STOPS = 64 };
+
+struct gm_pdf {
+    cairo_t *cairo;
+    struct gm_painter painter;
+    cairo_font_face_t *fonts[GM_FONT_COUNT];
+    int clip[4];
+    size_t fields;
+    bool short_of_memory;
+};
+
+static void set_ink(struct gm_pdf *pdf, struct gm_ink ink)
+{
+    cairo_set_source_rgba(pdf->cairo, ink.colour.r / 255.0, ink.colour.g / 255.0, ink.colour.b / 255.0,
+                          ink.alpha);
+}
+
+static void clip(void *self, int left, int top, int width, int height)
+{
+    struct gm_pdf *pdf = self;
+    const int wanted[4] = {left, top, width, height};
+    if (memcmp(wanted, pdf->clip, sizeof wanted) != 0) {
+        memcpy(pdf->clip, wanted, sizeof wanted);
+        cairo_reset_clip(pdf->cairo);
+        cairo_rectangle(pdf->cairo, left, top, width, height);
+        cairo_clip(pdf->cairo);
+    }
+}
+
+static void put_path(struct gm_pdf *pdf, const struct gm_polyline *line, bool closed)
+{
+    cairo_new_path(pdf->cairo);
+    for (size_t i = 0; i < line->count; i++) {
+        cairo_line_to(pdf->cairo, line->points[i].x, line->points[i].y);
+    }
+    if (closed || line->count == 1) {
+        cairo_close_path(pdf->cairo);
+    }
+}
+
+static void line(void *self, const struct gm_polyline *line, const struct gm_stroke *stroke)
+{
+    struct gm_pdf *pdf = self;
+    double pattern[GM_DASH_PARTS];
+    for (size_t i = 0; i < stroke->parts; i++) {
+        pattern[i] = fmaxf(stroke->pattern[i], GM_SHORTEST_DASH * stroke->width);
+    }
+    put_path(pdf, line, line->closed);
+    set_ink(pdf, stroke->ink);
+    cairo_set_line_width(pdf->cairo, stroke->width);
+    cairo_set_dash(pdf->cairo, pattern, (int)stroke->parts, 0.0);
+    cairo_stroke(pdf->cairo);
+}
+
+static void disc(void *self, struct gm_point centre, float width, struct gm_ink ink)
+{
+    struct gm_pdf *pdf = self;
+    set_ink(pdf, ink);
+    cairo_set_line_width(pdf->cairo, width);
+    cairo_set_dash(pdf->cairo, NULL, 0, 0.0);
+    cairo_move_to(pdf->cairo, centre.x, centre.y);
+    cairo_close_path(pdf->cairo);
+    cairo_stroke(pdf->cairo);
+}
+
+static void fill(void *self, const struct gm_polyline *line, struct gm_ink ink)
+{
+    struct gm_pdf *pdf = self;
+    if (ink.alpha > 0.0) {
+        put_path(pdf, line, true);
+        set_ink(pdf, ink);
+        cairo_fill(pdf->cairo);
+    }
+}
+
+static void box(void *self, float left, float top, float right, float bottom, struct gm_ink ink)
+{
+    struct gm_pdf *pdf = self;
+    set_ink(pdf, ink);
+    cairo_rectangle(pdf->cairo, left, top, right - left, bottom - top);
+    cairo_fill(pdf->cairo);
+}
+
+/* ---- fields ---- */
+
+static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_map map, enum gm_theme theme)
+{
+    uint32_t colours[GM_FIELD_COLOURS + 1] = {0};
+    for (int i = 0; i < GM_FIELD_COLOURS; i++) {
+        const struct gm_rgb rgb = gm_field_image_colour(map, theme, i);
+        colours[i] = 0xff000000u | (uint32_t)rgb.r << 16 | (uint32_t)rgb.g << 8 | rgb.b;
+    }
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image->columns, image->rows);
+    unsigned char *data = cairo_image_surface_get_data(surface);
+    const size_t stride = (size_t)cairo_image_surface_get_stride(surface);
+    for (size_t y = 0; data != NULL && y < (size_t)image->rows; y++) {
+        for (size_t x = 0; x < (size_t)image->columns; x++) {
+            memcpy(data + y * stride + 4 * x, &colours[image->pixels[y * (size_t)image->columns + x]],
+                   sizeof *colours);
+        }
+    }
+    cairo_surface_mark_dirty(surface);
+    return surface;
+}
+
+static void field(void *self, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    struct gm_pdf *pdf = self;
+    struct gm_field_image image;
+    if (!gm_field_image_paint(&image, frame, mark, pdf->clip)) {
+        pdf->short_of_memory = true;
+        return;
+    }
+    if (image.width > 0) {
+        cairo_surface_t *surface = image_of(&image, mark->map, pdf->painter.look.theme);
+        cairo_save(pdf->cairo);
+        cairo_translate(pdf->cairo, image.left, image.top);
+        cairo_scale(pdf->cairo, (double)image.width / image.columns, (double)image.height / image.rows);
+        cairo_set_source_surface(pdf->cairo, surface, 0.0, 0.0);
+        cairo_paint_with_alpha(pdf->cairo, mark->style.alpha);
+        cairo_restore(pdf->cairo);
+        cairo_surface_destroy(surface);
+        pdf->fields++;
+    }
+    gm_field_image_close(&image);
+}
+
+static void ramp(void *self, struct gm_box box, enum gm_map map)
+{
+    struct gm_pdf *pdf = self;
+    cairo_pattern_t *pattern = cairo_pattern_create_linear(0.0, box.y + box.height, 0.0, box.y);
+    for (int i = 0; i <= STOPS; i++) {
+        const struct gm_rgb rgb = gm_map_colour(map, pdf->painter.look.theme, (double)i / STOPS);
+        cairo_pattern_add_color_stop_rgb(pattern, (double)i / STOPS, rgb.r / 255.0, rgb.g / 255.0,
+                                         rgb.b / 255.0);
+    }
+    const double left = floor(box.x + 0.5), top = floor(box.y + 0.5);
+    cairo_set_source(pdf->cairo, pattern);
+    cairo_rectangle(pdf->cairo, left, top, floor(box.x + box.width + 0.5) - left,
+                    floor(box.y + box.height + 0.5) - top);
+    cairo_fill(pdf->cairo);
+    cairo_pattern_destroy(pattern);
+}
+
+/* ---- letters ---- */
+
+/* The font of a file; NULL when memory is short. */
+static cairo_font_face_t *font_of(const char *file)
+{
+    FcPattern *pattern = FcPatternCreate();
+    if (pattern == NULL) {
+        return NULL;
+    }
+    FcPatternAddString(pattern, FC_FILE, (const FcChar8 *)file);
+    FcPatternAddInteger(pattern, FC_INDEX, 0);
+    cairo_font_face_t *font = cairo_ft_font_face_create_for_pattern(pattern);
+    FcPatternDestroy(pattern);
+    return font;
+}
+
+/* Letter by letter, where the widths of the layout put them; as text, so that it can be found and copied. */
+static void text(void *self, const struct gm_writing *writing, const char *text)
+{
+    struct gm_pdf *pdf = self;
+    const int bytes = (int)strlen(text);
+    cairo_glyph_t *glyphs = NULL;
+    cairo_text_cluster_t *clusters = NULL;
+    cairo_text_cluster_flags_t flags;
+    int glyph_count = 0, cluster_count = 0;
+    cairo_save(pdf->cairo);
+    cairo_translate(pdf->cairo, writing->upwards ? floor(writing->x + 0.5) : writing->x,
+                    writing->upwards ? writing->y : floor(writing->y + 0.5));
+    if (writing->upwards) {
+        cairo_rotate(pdf->cairo, -0.5 * M_PI);
+    }
+    cairo_set_font_face(pdf->cairo, pdf->fonts[writing->font]);
+    cairo_set_font_size(pdf->cairo, writing->letters);
+    set_ink(pdf, writing->ink);
+    const cairo_status_t status =
+        cairo_scaled_font_text_to_glyphs(cairo_get_scaled_font(pdf->cairo), 0.0, 0.0, text, bytes, &glyphs,
+                                         &glyph_count, &clusters, &cluster_count, &flags);
+    if (status == CAIRO_STATUS_SUCCESS) {
+        cairo_show_text_glyphs(pdf->cairo, text, bytes, glyphs, glyph_count, clusters, cluster_count, flags);
+    } else if (status == CAIRO_STATUS_NO_MEMORY) {
+        pdf->short_of_memory = true;
+    }
+    cairo_glyph_free(glyphs);
+    cairo_text_cluster_free(clusters);
+    cairo_restore(pdf->cairo);
+}
+
+static const struct gm_pen pen = {.clip = clip,
+                                  .box = box,
+                                  .line = line,
+                                  .disc = disc,
+                                  .fill = fill,
+                                  .field = field,
+                                  .ramp = ramp,
+                                  .text = text};
+
+/* ---- the page ---- */
+
+/* A file as it grows in memory. */
+struct bytes {
+    char *at;
+    size_t size, capacity;
+};
+
+static cairo_status_t take_bytes(void *closure, const unsigned char *data, unsigned length)
+{
+    struct bytes *bytes = closure;
+    if (bytes->size + length > bytes->capacity) {
+        const size_t capacity = 2 * (bytes->size + length);
+        char *more = realloc(bytes->at, capacity);
+        if (more == NULL) {
+            return CAIRO_STATUS_NO_MEMORY;
+        }
+        bytes->at = more;
+        bytes->capacity = capacity;
+    }
+    memcpy(bytes->at + bytes->size, data, length);
+    bytes->size += length;
+    return CAIRO_STATUS_SUCCESS;
+}
+
+/* What the file tells of itself: how it was made, in its subject. */
+static void set_metadata(cairo_surface_t *surface, const char *title, const struct gm_png_text *texts,
+                         size_t count)
+{
+    char *subject = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&subject, &size);
+    for (size_t i = 0; stream != NULL && i < count; i++) {
+        fprintf(stream, "%s%s: %s", i > 0 ? "\n" : "", texts[i].key, texts[i].text);
+    }
+    if (stream != NULL) {
+        fclose(stream);
+    }
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, subject != NULL ? subject : "");
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, "geomint " GM_VERSION);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+    free(subject);
+}
+
+static void draw_page(struct gm_pdf *pdf, const struct gm_appearance *look, struct gm_picture *picture)
+{
+    for (int i = 0; i < GM_FONT_COUNT; i++) {
+        pdf->fonts[i] = font_of(gm_glyphs_file(pdf->painter.glyphs, (enum gm_font)i));
+    }
+    cairo_font_options_t *options = cairo_font_options_create();
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    cairo_set_font_options(pdf->cairo, options);
+    cairo_font_options_destroy(options);
+    cairo_set_line_cap(pdf->cairo, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join(pdf->cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_fill_rule(pdf->cairo, CAIRO_FILL_RULE_EVEN_ODD);
+    set_ink(pdf, (struct gm_ink){gm_theme_colour(look->theme, GM_PAPER), 1.0});
+    cairo_paint(pdf->cairo);
+    if (!gm_page_draw(&pdf->painter, picture)) {
+        pdf->short_of_memory = true;
+    }
+    for (int i = 0; i < GM_FONT_COUNT; i++) {
+        cairo_font_face_destroy(pdf->fonts[i]);
+    }
+}
+
+/* The whole file in memory, malloc'ed; NULL when that is short. */
+static char *make_file(struct gm_pdf *pdf, const struct gm_appearance *look, struct gm_picture *picture,
+                       const struct gm_png_text *texts, size_t count, size_t *size)
+{
+    const double points = 72.0, mm = 25.4, dpi = look->dpi > 0.0 ? look->dpi : 96.0;
+    const bool paged = look->page_width > 0.0 && look->page_height > 0.0;
+    const double width = points * (paged ? look->page_width / mm : look->width / dpi);
+    const double height = points * (paged ? look->page_height / mm : look->height / dpi);
+    struct bytes bytes = {0};
+    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(take_bytes, &bytes, width, height);
+    set_metadata(surface, look->title != NULL ? look->title : picture->title, texts, count);
+    pdf->cairo = cairo_create(surface);
+    cairo_scale(pdf->cairo, width / look->width, height / look->height);
+    draw_page(pdf, look, picture);
+    const bool drawn = cairo_status(pdf->cairo) == CAIRO_STATUS_SUCCESS;
+    cairo_destroy(pdf->cairo);
+    cairo_surface_finish(surface);
+    const bool finished = cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS;
+    cairo_surface_destroy(surface);
+    if (!drawn || !finished || pdf->short_of_memory) {
+        free(bytes.at);
+        return NULL;
+    }
+    *size = bytes.size;
+    return bytes.at;
+}
+
+bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
+                  const struct gm_png_text *texts, size_t count, size_t *fields, char *message)
+{
+    struct gm_pdf pdf = {.clip = {0, 0, look->width, look->height}};
+    char *bytes = NULL;
+    size_t size = 0;
+    const bool opened = gm_page_open(&pdf.painter, &pen, &pdf, look, message);
+    if (opened) {
+        bytes = make_file(&pdf, look, picture, texts, count, &size);
+    }
+    gm_page_close(&pdf.painter);
+    const int error = bytes != NULL ? gm_temporary_write(path, bytes, size) : ENOMEM;
+    free(bytes);
+    *fields = pdf.fields;
+    if (error != 0 && opened) {
+        snprintf(message, GM_MESSAGE, "cannot write %.360s: %s", path, strerror(error));
+    }
+    errno = error;
+    return error == 0;
+}
+
+const char *gm_pdf_backend(void)
+{
+    static char name[48];
+    snprintf(name, sizeof name, "Cairo %s", cairo_version_string());
+    return name;
+}

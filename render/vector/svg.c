@@ -1,0 +1,463 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pen that writes SVG. Places are written in hundredths of a pixel: lines as differences of the rounded
+   places, so that errors do not add up. Neighbours of one look share their attributes, and opaque lines one
+   path. */
+#include "render/vector/svg.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "render/cells/text.h"
+#include "render/drawing/page.h"
+#include "render/files/base64.h"
+#include "render/files/palette_png.h"
+#include "render/files/temporary.h"
+#include "render/vector/field_image.h"
+
+enum shape { NO_SHAPE, LINES, DISCS, FILLS, BOXES };
+
+enum { MOST_CLIPS = 64, STOPS = 64 };
+
+struct gm_svg {
+    FILE *out;
+    struct gm_painter painter;
+    int clip[4];
+    bool clipped; /* within a group that is cut to it */
+    int clips[MOST_CLIPS][4];
+    size_t clip_count;
+    /* what is open: shapes of one look */
+    enum shape shape;
+    struct gm_stroke stroke; /* of discs the width, of all the ink */
+    bool ramps[2];           /* gradients that are defined */
+    size_t fields;
+    bool short_of_memory;
+};
+
+/* ---- numbers and texts ---- */
+
+static long hundredths(double value)
+{
+    const double far = 1e9;
+    return lround(100.0 * fmin(fmax(value, -far), far));
+}
+
+/* A number without what is not needed: "12.5", "-.25". No locale has a say in it. */
+static void put_hundredths(FILE *out, long value)
+{
+    const long whole = labs(value) / 100, part = labs(value) % 100;
+    if (value < 0) {
+        putc('-', out);
+    }
+    if (whole > 0 || part == 0) {
+        fprintf(out, "%ld", whole);
+    }
+    if (part > 0) {
+        fprintf(out, part % 10 ? ".%02ld" : ".%ld", part % 10 ? part : part / 10);
+    }
+}
+
+/* The same behind another number, with a blank where it would run into that one. */
+static void put_next(FILE *out, long value)
+{
+    if (value >= 0) {
+        putc(' ', out);
+    }
+    put_hundredths(out, value);
+}
+
+static void put_attribute(FILE *out, const char *name, double value)
+{
+    fprintf(out, " %s=\"", name);
+    put_hundredths(out, hundredths(value));
+    putc('"', out);
+}
+
+static void put_ink(FILE *out, const char *name, struct gm_ink ink)
+{
+    fprintf(out, " %s=\"#%02x%02x%02x\"", name, ink.colour.r, ink.colour.g, ink.colour.b);
+    if (ink.alpha < 1.0) {
+        char opacity[32];
+        snprintf(opacity, sizeof opacity, "%s-opacity", name);
+        put_attribute(out, opacity, fmax(ink.alpha, 0.0));
+    }
+}
+
+/* XML has no way to write most control characters: what is not shown becomes the sign for that. */
+static void put_text(FILE *out, const char *text)
+{
+    static const char unknown[] = "\xef\xbf\xbd";
+    while (*text) {
+        const char *start = text;
+        const uint32_t code = gm_text_next(&text);
+        switch (code) {
+        case '&':
+            fputs("&amp;", out);
+            break;
+        case '<':
+            fputs("&lt;", out);
+            break;
+        case '>':
+            fputs("&gt;", out);
+            break;
+        default:
+            if (gm_text_is_shown(code) || code == '\n') {
+                fprintf(out, "%.*s", (int)(text - start), start);
+            } else {
+                fputs(unknown, out);
+            }
+        }
+    }
+}
+
+/* ---- groups ---- */
+
+static void end_shapes(struct gm_svg *svg)
+{
+    const bool path = svg->shape == BOXES || (svg->shape == LINES && svg->stroke.ink.alpha >= 1.0);
+    if (svg->shape != NO_SHAPE) {
+        fputs(path ? "\"/>\n" : "</g>\n", svg->out);
+    }
+    svg->shape = NO_SHAPE;
+}
+
+static bool same_stroke(const struct gm_stroke *a, const struct gm_stroke *b)
+{
+    return a->width == b->width && a->parts == b->parts && a->ink.alpha == b->ink.alpha &&
+           memcmp(&a->ink.colour, &b->ink.colour, sizeof a->ink.colour) == 0 &&
+           memcmp(a->pattern, b->pattern, a->parts * sizeof *a->pattern) == 0;
+}
+
+static void put_clip(struct gm_svg *svg)
+{
+    const int *clip = svg->clip;
+    const size_t known = svg->clip_count < MOST_CLIPS ? svg->clip_count : MOST_CLIPS;
+    size_t k = 0;
+    while (k < known && memcmp(svg->clips[k], clip, sizeof svg->clip) != 0) {
+        k++;
+    }
+    if (k == known) {
+        k = svg->clip_count++;
+        if (k < MOST_CLIPS) { /* the others are defined each time */
+            memcpy(svg->clips[k], clip, sizeof svg->clip);
+        }
+        fprintf(svg->out,
+                "<clipPath id=\"c%zu\"><rect x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"/></clipPath>\n", k,
+                clip[0], clip[1], clip[2], clip[3]);
+    }
+    fprintf(svg->out, "<g clip-path=\"url(#c%zu)\">\n", k);
+}
+
+static void clip(void *self, int left, int top, int width, int height)
+{
+    struct gm_svg *svg = self;
+    const int wanted[4] = {left, top, width, height};
+    if (memcmp(wanted, svg->clip, sizeof wanted) == 0) {
+        return;
+    }
+    end_shapes(svg);
+    if (svg->clipped) {
+        fputs("</g>\n", svg->out);
+    }
+    memcpy(svg->clip, wanted, sizeof wanted);
+    svg->clipped = left > 0 || top > 0 || left + width < svg->painter.look.width ||
+                   top + height < svg->painter.look.height;
+    if (svg->clipped) {
+        put_clip(svg);
+    }
+}
+
+/* Opens what shapes of that look stand in, unless it is open. */
+static void begin_shapes(struct gm_svg *svg, enum shape shape, const struct gm_stroke *stroke)
+{
+    if (svg->shape == shape && same_stroke(&svg->stroke, stroke)) {
+        return;
+    }
+    end_shapes(svg);
+    svg->shape = shape;
+    svg->stroke = *stroke;
+    const bool one = shape == BOXES || (shape == LINES && stroke->ink.alpha >= 1.0);
+    fputs(one ? "<path" : "<g", svg->out);
+    if (shape == LINES) {
+        fputs(" fill=\"none\"", svg->out);
+        put_ink(svg->out, "stroke", stroke->ink);
+        put_attribute(svg->out, "stroke-width", stroke->width);
+        for (size_t i = 0; i < stroke->parts; i++) {
+            fputs(i == 0 ? " stroke-dasharray=\"" : " ", svg->out);
+            put_hundredths(svg->out, hundredths(fmaxf(stroke->pattern[i], GM_SHORTEST_DASH * stroke->width)));
+        }
+        fputs(stroke->parts > 0 ? "\"" : "", svg->out);
+    } else {
+        put_ink(svg->out, "fill", stroke->ink);
+    }
+    fputs(one ? " d=\"" : ">\n", svg->out);
+}
+
+/* ---- shapes ---- */
+
+static void put_path(FILE *out, const struct gm_polyline *line, bool closed)
+{
+    long x = hundredths(line->points[0].x), y = hundredths(line->points[0].y);
+    putc('M', out);
+    put_hundredths(out, x);
+    put_next(out, y);
+    bool first = true;
+    for (size_t i = 1; i < line->count; i++) {
+        const long next_x = hundredths(line->points[i].x), next_y = hundredths(line->points[i].y);
+        if (next_x == x && next_y == y && line->count > 2) {
+            continue;
+        }
+        if (first) {
+            putc('l', out);
+            put_hundredths(out, next_x - x);
+        } else {
+            put_next(out, next_x - x);
+        }
+        put_next(out, next_y - y);
+        first = false;
+        x = next_x;
+        y = next_y;
+    }
+    fputs(closed ? "z" : first ? "h0" : "", out);
+}
+
+static void line(void *self, const struct gm_polyline *line, const struct gm_stroke *stroke)
+{
+    struct gm_svg *svg = self;
+    if (line->count == 0) {
+        return;
+    }
+    begin_shapes(svg, LINES, stroke);
+    const bool own = stroke->ink.alpha < 1.0;
+    fputs(own ? "<path d=\"" : "", svg->out);
+    put_path(svg->out, line, line->closed);
+    fputs(own ? "\"/>\n" : "\n", svg->out);
+}
+
+static void disc(void *self, struct gm_point centre, float width, struct gm_ink ink)
+{
+    struct gm_svg *svg = self;
+    begin_shapes(svg, DISCS, &(struct gm_stroke){.width = width, .ink = ink});
+    fputs("<circle", svg->out);
+    put_attribute(svg->out, "cx", centre.x);
+    put_attribute(svg->out, "cy", centre.y);
+    put_attribute(svg->out, "r", 0.5 * width);
+    fputs("/>\n", svg->out);
+}
+
+static void fill(void *self, const struct gm_polyline *line, struct gm_ink ink)
+{
+    struct gm_svg *svg = self;
+    if (line->count < 3 || !(ink.alpha > 0.0)) {
+        return;
+    }
+    begin_shapes(svg, FILLS, &(struct gm_stroke){.ink = ink});
+    fputs("<path fill-rule=\"evenodd\" d=\"", svg->out);
+    put_path(svg->out, line, true);
+    fputs("\"/>\n", svg->out);
+}
+
+static void box(void *self, float left, float top, float right, float bottom, struct gm_ink ink)
+{
+    struct gm_svg *svg = self;
+    begin_shapes(svg, BOXES, &(struct gm_stroke){.ink = ink});
+    fprintf(svg->out, "M%.0f %.0fH%.0fV%.0fH%.0fz\n", (double)left, (double)top, (double)right,
+            (double)bottom, (double)left);
+}
+
+/* ---- fields ---- */
+
+static void put_base64(struct gm_svg *svg, const unsigned char *bytes, size_t size)
+{
+    const size_t length = gm_base64_size(size);
+    char *text = malloc(length + 1);
+    if (text == NULL) {
+        svg->short_of_memory = true;
+        return;
+    }
+    gm_base64(bytes, size, text);
+    text[length] = '\0';
+    fputs(text, svg->out);
+    free(text);
+}
+
+static void put_image(struct gm_svg *svg, const struct gm_field_image *image, enum gm_map map, double alpha)
+{
+    uint8_t palette[GM_PALETTE][4] = {{0}};
+    for (int i = 0; i < GM_FIELD_COLOURS; i++) {
+        const struct gm_rgb rgb = gm_field_image_colour(map, svg->painter.look.theme, i);
+        memcpy(palette[i], (const uint8_t[]){rgb.r, rgb.g, rgb.b, 255}, 4);
+    }
+    size_t size = 0;
+    unsigned char *png =
+        gm_palette_png(image->pixels, image->columns, image->rows, (const uint8_t(*)[4])palette, &size);
+    if (png == NULL) {
+        svg->short_of_memory = true;
+        return;
+    }
+    fprintf(svg->out, "<image x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\" preserveAspectRatio=\"none\"",
+            image->left, image->top, image->width, image->height);
+    if (alpha < 1.0) {
+        put_attribute(svg->out, "opacity", alpha);
+    }
+    fputs(" xlink:href=\"data:image/png;base64,", svg->out);
+    put_base64(svg, png, size);
+    fputs("\"/>\n", svg->out);
+    free(png);
+}
+
+static void field(void *self, const struct gm_frame *frame, const struct gm_mark *mark)
+{
+    struct gm_svg *svg = self;
+    struct gm_field_image image;
+    end_shapes(svg);
+    if (!gm_field_image_paint(&image, frame, mark, svg->clip)) {
+        svg->short_of_memory = true;
+        return;
+    }
+    if (image.width > 0) {
+        put_image(svg, &image, mark->map, mark->style.alpha);
+        svg->fields++;
+    }
+    gm_field_image_close(&image);
+}
+
+static void ramp(void *self, struct gm_box box, enum gm_map map)
+{
+    struct gm_svg *svg = self;
+    end_shapes(svg);
+    if (!svg->ramps[map]) {
+        fprintf(svg->out, "<linearGradient id=\"m%d\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">\n", map);
+        for (int i = 0; i <= STOPS; i++) {
+            const struct gm_rgb rgb = gm_map_colour(map, svg->painter.look.theme, (double)i / STOPS);
+            fputs("<stop", svg->out);
+            fprintf(svg->out, " offset=\"%d.%04d\" stop-color=\"#%02x%02x%02x\"/>\n", i / STOPS,
+                    i % STOPS * 10000 / STOPS, rgb.r, rgb.g, rgb.b);
+        }
+        fputs("</linearGradient>\n", svg->out);
+        svg->ramps[map] = true;
+    }
+    fputs("<rect", svg->out);
+    put_attribute(svg->out, "x", floor(box.x + 0.5));
+    put_attribute(svg->out, "y", floor(box.y + 0.5));
+    put_attribute(svg->out, "width", floor(box.x + box.width + 0.5) - floor(box.x + 0.5));
+    put_attribute(svg->out, "height", floor(box.y + box.height + 0.5) - floor(box.y + 0.5));
+    fprintf(svg->out, " fill=\"url(#m%d)\"/>\n", map);
+}
+
+/* ---- letters ---- */
+
+/* Of other fonts, those that are about as wide. */
+static void put_family(struct gm_svg *svg, enum gm_font font)
+{
+    fprintf(svg->out, " font-family=\"'%s', %s\"", gm_glyphs_family(svg->painter.glyphs, font),
+            font == GM_FONT_MONO ? "'Bitstream Vera Sans Mono', monospace"
+                                 : "'Bitstream Vera Sans', Verdana, sans-serif");
+}
+
+static void text(void *self, const struct gm_writing *writing, const char *text)
+{
+    static const char *const anchors[] = {
+        [GM_ANCHOR_LEFT] = "start", [GM_ANCHOR_CENTRE] = "middle", [GM_ANCHOR_RIGHT] = "end"};
+    struct gm_svg *svg = self;
+    const double before = gm_anchor_share(writing->anchor) * writing->width;
+    const double x = writing->upwards ? floor(writing->x + 0.5) : writing->x + before;
+    const double y = writing->upwards ? writing->y - before : floor(writing->y + 0.5);
+    end_shapes(svg);
+    fputs("<text", svg->out);
+    if (writing->upwards) {
+        fputs(" transform=\"translate(", svg->out);
+        put_hundredths(svg->out, hundredths(x));
+        putc(',', svg->out);
+        put_hundredths(svg->out, hundredths(y));
+        fputs(") rotate(-90)\"", svg->out);
+    } else {
+        put_attribute(svg->out, "x", x);
+        put_attribute(svg->out, "y", y);
+    }
+    fprintf(svg->out, " font-size=\"%d\"", writing->letters);
+    fputs(writing->font == GM_FONT_BOLD ? " font-weight=\"bold\"" : "", svg->out);
+    if (writing->font == GM_FONT_MONO) {
+        put_family(svg, writing->font);
+    }
+    if (writing->anchor != GM_ANCHOR_LEFT) {
+        fprintf(svg->out, " text-anchor=\"%s\"", anchors[writing->anchor]);
+    }
+    put_ink(svg->out, "fill", writing->ink);
+    putc('>', svg->out);
+    put_text(svg->out, text);
+    fputs("</text>\n", svg->out);
+}
+
+static const struct gm_pen pen = {.clip = clip,
+                                  .box = box,
+                                  .line = line,
+                                  .disc = disc,
+                                  .fill = fill,
+                                  .field = field,
+                                  .ramp = ramp,
+                                  .text = text};
+
+/* ---- the document ---- */
+
+static void put_head(struct gm_svg *svg, const struct gm_picture *picture, const struct gm_png_text *texts,
+                     size_t count)
+{
+    const struct gm_appearance *look = &svg->painter.look;
+    const struct gm_rgb paper = gm_theme_colour(look->theme, GM_PAPER);
+    const bool paged = look->page_width > 0.0 && look->page_height > 0.0;
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\"",
+          svg->out);
+    const double unit = look->dpi > 0.0 && !paged ? 96.0 / look->dpi : 1.0;
+    fputs(" width=\"", svg->out);
+    put_hundredths(svg->out, hundredths(paged ? look->page_width : unit * look->width));
+    fputs(paged ? "mm\" height=\"" : "\" height=\"", svg->out);
+    put_hundredths(svg->out, hundredths(paged ? look->page_height : unit * look->height));
+    fprintf(svg->out, "%s\" viewBox=\"0 0 %d %d\"", paged ? "mm" : "", look->width, look->height);
+    put_family(svg, GM_FONT_SANS);
+    fputs(" stroke-linecap=\"round\" stroke-linejoin=\"round\" xml:space=\"preserve\">\n<title>", svg->out);
+    put_text(svg->out, look->title != NULL ? look->title : picture->title);
+    fputs("</title>\n<metadata xmlns:geomint=\"urn:geomint\">\n", svg->out);
+    for (size_t i = 0; i < count; i++) {
+        fputs("<geomint:text key=\"", svg->out);
+        put_text(svg->out, texts[i].key);
+        fputs("\">", svg->out);
+        put_text(svg->out, texts[i].text);
+        fputs("</geomint:text>\n", svg->out);
+    }
+    fputs("</metadata>\n<rect width=\"100%\" height=\"100%\"", svg->out);
+    put_ink(svg->out, "fill", (struct gm_ink){paper, 1.0});
+    fputs("/>\n", svg->out);
+}
+
+bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_picture *picture,
+                  const struct gm_png_text *texts, size_t count, size_t *fields, char *message)
+{
+    char *bytes = NULL;
+    size_t size = 0;
+    struct gm_svg svg = {.out = open_memstream(&bytes, &size), .clip = {0, 0, look->width, look->height}};
+    const bool opened = gm_page_open(&svg.painter, &pen, &svg, look, message);
+    bool drawn = false;
+    if (svg.out != NULL && opened) {
+        put_head(&svg, picture, texts, count);
+        drawn = gm_page_draw(&svg.painter, picture) && !svg.short_of_memory;
+        clip(&svg, 0, 0, look->width, look->height);
+        end_shapes(&svg);
+        fputs("</svg>\n", svg.out);
+    }
+    if (svg.out != NULL && fclose(svg.out) != 0) {
+        drawn = false;
+    }
+    gm_page_close(&svg.painter);
+    const int error = drawn && bytes != NULL ? gm_temporary_write(path, bytes, size) : ENOMEM;
+    free(bytes);
+    *fields = svg.fields;
+    if (error != 0 && opened) {
+        snprintf(message, GM_MESSAGE, "cannot write %.360s: %s", path, strerror(error));
+    }
+    errno = error;
+    return error == 0;
+}
