@@ -23,7 +23,7 @@ struct row {
 
 #define AT(member) offsetof(struct gm_options, member)
 #define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP | GM_TOUR)
-#define PRINTS (GM_RENDER | GM_WORK_PRECISION | GM_STABILITY | GM_AGAIN)
+#define PRINTS (GM_RENDER | GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP | GM_AGAIN)
 #define EXPLORES (GM_TUI | GM_TERMINAL | GM_TOUR)
 
 static const struct row rows[] = {

@@ -59,6 +59,12 @@ static bool is_status(const char *word)
     return false;
 }
 
+/* Whether a picture is asked for. */
+static bool is_drawn(const struct gm_options *options)
+{
+    return options->out || options->output;
+}
+
 /* Whether the options go together. */
 static bool check(const struct gm_options *options)
 {
@@ -66,19 +72,27 @@ static bool check(const struct gm_options *options)
         gm_complain("--retry %.60s is none of: %s", options->retry, gm_sweep_statuses);
         return false;
     }
-    if ((options->retry || options->shards) && !options->table && !options->out) {
-        gm_complain("%s needs a table: --table FILE.csv", options->retry ? "--retry" : "--shard");
+    const bool streamed = options->output && strcmp(options->output, "-") == 0;
+    const bool named = options->table || (is_drawn(options) && !streamed);
+    if ((options->retry || options->shards || streamed) && !named) {
+        gm_complain("%s needs a table: --table FILE.csv", options->retry    ? "--retry"
+                                                          : options->shards ? "--shard"
+                                                                            : "--output -");
         return false;
     }
     return true;
 }
 
-/* The name of the table without its ending: as given, or DIR/SCENE-sweep; NULL: standard output. malloc'ed. */
+/* The table: as given, or beside the picture. malloc'ed; NULL: out of memory. */
 static char *path_of(const struct gm_options *options, const struct gm_sweep *sweep)
 {
     char *text = NULL;
     if (options->table) {
         return strdup(options->table);
+    }
+    if (options->output) {
+        const int stem = (int)(strrchr(options->output, '.') - options->output);
+        return asprintf(&text, "%.*s.csv", stem, options->output) < 0 ? NULL : text;
     }
     if (asprintf(&text, "%s/%s%s.csv", options->out, options->name ? options->name : sweep->scene->name,
                  options->name ? "" : "-sweep") < 0) {
@@ -104,7 +118,7 @@ static void draw(const void *chart, struct gm_picture *picture)
     gm_sweep_chart_draw(chart, picture);
 }
 
-/* The picture of a table that is complete, where --out asks for one; its words are those of the sweep. */
+/* The picture of a table that is complete; its words are those of the sweep. */
 static int paint(const struct gm_sweep *sweep, const struct gm_options *options, const char *path)
 {
     char message[GM_MESSAGE] = "not enough memory", name[128];
@@ -155,7 +169,7 @@ static int make(const struct gm_sweep *sweep, const struct gm_options *options, 
     if (gm_interrupted || !good) {
         return gm_interrupted ? GM_EXIT_INTERRUPTED : status;
     }
-    return options->out && !options->shards ? paint(sweep, options, path) : GM_EXIT_OK;
+    return is_drawn(options) && !options->shards ? paint(sweep, options, path) : GM_EXIT_OK;
 }
 
 static void name_missing(size_t run, const char *words)
@@ -183,7 +197,7 @@ static int join(const struct gm_options *options)
         gm_complain("wrote %s", options->join);
     }
     int status = good && missing == 0 ? GM_EXIT_OK : GM_EXIT_FILE;
-    if (status == GM_EXIT_OK && options->out) {
+    if (status == GM_EXIT_OK && is_drawn(options)) {
         status = paint(&sweep, options, options->join);
     }
     gm_sweep_close(&sweep);
@@ -208,13 +222,13 @@ static int command_sweep(const struct gm_options *options)
     } else {
         sweep.shard = options->shards ? (size_t)options->shard : 1;
         sweep.shards = options->shards ? (size_t)options->shards : 1;
-        const bool named = options->table || options->out;
+        const bool named = options->table || is_drawn(options);
         char *path = named ? path_of(options, &sweep) : NULL;
         if (named && !path) {
             gm_complain("not enough memory");
             status = GM_EXIT_MEMORY;
-        } else if (options->out && !options->shards && !gm_sweep_is_drawable(&sweep, message)) {
-            gm_complain("%s; --table FILE.csv without --out makes none", message);
+        } else if (is_drawn(options) && !options->shards && !gm_sweep_is_drawable(&sweep, message)) {
+            gm_complain("%s; --table FILE.csv alone makes none", message);
         } else if (is_confirmed(&sweep, options)) {
             status = make(&sweep, options, path);
         }

@@ -236,6 +236,11 @@ def test_pictures(folder):
         done = subprocess.run([geomint, "again", name, "--out", folder], capture_output=True, text=True)
         check(done.returncode == 0 and content(name) == content(name.replace(".png", "-again.png")),
               f"{name} made again: {done.stderr}")
+    drawn = os.path.join(folder, "maps", "kepler.svg")
+    sweep("kepler", "dt=1e-2,2e-2", "eccentricity=0,0.1", "until=1", "--output", drawn)
+    with open(drawn, encoding="utf-8") as picture:
+        check("<svg" in picture.read() and len(rows(drawn.replace(".svg", ".csv"))) == 4, "-o FILE.svg")
+    says("--output - needs a table", "sweep", "kepler", "dt=1e-2,2e-2", "--output", "-", "--format", "pdf")
     says("of two, and not of 3", "sweep", "kepler", "dt=1,2", "eccentricity=0,0.1", "until=1,2", "--out", folder)
     says("up to 9 maps, and these are 20", "sweep", "kepler", "dt=1,2", "eccentricity=0,0.1", "--out", folder,
          "scheme=verlet,rk4,rk2,midpoint,gauss4", "--measure",
