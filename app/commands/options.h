@@ -32,8 +32,8 @@ struct gm_options {
     const char *csv, *profile, *out, *movie, *measure, *region, *changes;
     const char *output; /* one picture's file; NULL: not given */
     const char *format_name;
-    enum gm_format format; /* of pictures: png, unless the two before say otherwise */
-    const char *name;      /* of a chart's files, by `again` alone; NULL: the command's own */
+    enum gm_format format;            /* of pictures: png, unless the two before say otherwise */
+    const char *name;                 /* of a chart's files, by `again` alone; NULL: the command's own */
     const char *table, *retry, *join; /* of sweep */
     long every, frames, jobs;
     long shard, shards;                     /* 0, 0: not given */
