@@ -45,9 +45,6 @@ enum gm_parse {
 /* Reads text as a value of row and stores it in owner. owner is unchanged unless GM_PARSED is returned. */
 enum gm_parse gm_parameter_set(const struct gm_parameter *row, void *owner, const char *text);
 
-/* The same with a number. */
-enum gm_parse gm_parameter_set_number(const struct gm_parameter *row, void *owner, double value);
-
 /* The value of row in owner as a double (choices and booleans as their index; of a text a
    number that differs where texts differ). */
 double gm_parameter_get(const struct gm_parameter *row, const void *owner);

@@ -74,6 +74,35 @@ bool gm_drive_goes_on(const struct gm_drive *drive, long step)
     return gm_run_goes_on(drive->lane->run, step, until_of(drive->lane));
 }
 
+/* The system is asked for the time of every step that is long, of short ones after so many seconds of them:
+   asking takes longer than a short step. */
+static const double unasked = 20e-6;
+
+/* Makes steps up to `stop` in all, which are timed. */
+static void advance(struct gm_drive *drive, long stop, bool record)
+{
+    struct gm_lane *lane = drive->lane;
+    const long before = lane->run->steps;
+    const bool measured = stop - before > drive->unmeasured;
+    const double start = measured ? gm_clock_processor_seconds() : 0;
+    if (record) {
+        gm_run_to(lane->run, stop, until_of(lane));
+    } else {
+        /* what it follows on the way costs less than looking at the clock */
+        gm_lane_to(lane, stop, until_of(lane));
+    }
+    const long made = lane->run->steps - before;
+    if (measured) {
+        const double took = gm_clock_processor_seconds() - start;
+        drive->seconds += took;
+        drive->each = made > 0 ? took / (double)made : 0;
+        drive->unmeasured = drive->each > 0 ? (long)fmin(unasked / drive->each, 1e6) : 0;
+    } else {
+        drive->seconds += drive->each * (double)made;
+        drive->unmeasured -= made;
+    }
+}
+
 bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
 {
     struct gm_lane *lane = drive->lane;
@@ -87,14 +116,7 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
             break;
         }
         const long stop = before + (left < burst ? left : burst);
-        const double start = gm_clock_processor_seconds();
-        if (record) {
-            gm_run_to(lane->run, stop, until_of(lane));
-        } else {
-            /* what it follows on the way costs less than looking at the clock */
-            gm_lane_to(lane, stop, until_of(lane));
-        }
-        drive->seconds += gm_clock_processor_seconds() - start;
+        advance(drive, stop, record);
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);
         }

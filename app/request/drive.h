@@ -17,7 +17,9 @@ struct gm_drive {
     const struct gm_request *request; /* for its changes */
     size_t index;                     /* of the lane */
     size_t next_change;
-    double seconds; /* processor time of its steps */
+    double seconds;  /* processor time of its steps */
+    double each;     /* ... of one, when it was last measured */
+    long unmeasured; /* so many more steps are taken for as long */
 };
 
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.
