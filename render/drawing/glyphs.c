@@ -33,6 +33,8 @@ struct glyph {
 };
 
 struct gm_glyphs {
+    struct FT_MemoryRec_ memory; /* of the library */
+    bool refused;                /* some of it, ever */
     FT_Library library;
     FT_Face faces[GM_FONT_COUNT];
     char *files[GM_FONT_COUNT];
@@ -47,10 +49,17 @@ struct gm_glyphs {
 
 /* The library's memory is the program's, where a refusal is noted: a letter may be missing from a picture for
    want of it. */
+/* What FreeType reports of a refusal is not always that: a module that found no room is one that is missing. */
+static void *noted(FT_Memory memory, void *block)
+{
+    struct gm_glyphs *glyphs = memory->user;
+    glyphs->refused = glyphs->refused || block == NULL;
+    return block;
+}
+
 static void *take(FT_Memory memory, long size)
 {
-    (void)memory;
-    return malloc((size_t)size);
+    return noted(memory, malloc((size_t)size));
 }
 
 static void give_back(FT_Memory memory, void *block)
@@ -61,19 +70,22 @@ static void give_back(FT_Memory memory, void *block)
 
 static void *take_more(FT_Memory memory, long before, long size, void *block)
 {
-    (void)memory;
     (void)before;
-    return realloc(block, (size_t)size);
+    return noted(memory, realloc(block, (size_t)size));
 }
 
 static bool start_library(struct gm_glyphs *glyphs)
 {
-    static struct FT_MemoryRec_ memory = {.alloc = take, .free = give_back, .realloc = take_more};
-    if (FT_New_Library(&memory, &glyphs->library) != 0) {
+    glyphs->memory =
+        (struct FT_MemoryRec_){.user = glyphs, .alloc = take, .free = give_back, .realloc = take_more};
+    if (FT_New_Library(&glyphs->memory, &glyphs->library) != 0) {
         return false;
     }
     FT_Add_Default_Modules(glyphs->library);
-    return true;
+    if (glyphs->refused) {
+        FT_Done_Library(glyphs->library);
+    }
+    return !glyphs->refused;
 }
 
 static char *find_in(FcConfig *config, const char *family, bool bold)
@@ -144,7 +156,7 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
         if (missing) {
             snprintf(message, size, "No font was found for \"%s\"; install the package fonts-dejavu-core.",
                      wanted[i].family);
-        } else if (error == FT_Err_Out_Of_Memory) {
+        } else if (error == FT_Err_Out_Of_Memory || (error != 0 && glyphs->refused)) {
             snprintf(message, size, "There is not enough memory for text.");
         } else if (error != 0) {
             snprintf(message, size, "The font for \"%s\" could not be read (FreeType's error %d).",
