@@ -510,7 +510,7 @@ wait_for 'SCHEMES'
 becomes "suspended and continued" "$full"
 keys q
 wait_gone 'SCHEMES'
-keys 'stty -a >after; echo "left 0"' Enter
+keys 'stty -a >after; echo left "0"' Enter # what is typed is not what is waited for
 clean 0
 
 # a lane that blows up is shown, the others go on
