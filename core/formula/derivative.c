@@ -8,8 +8,6 @@
 
 #include "core/formula/reader.h"
 
-static const gm_node_id none = UINT32_MAX;
-
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
     const gm_node_id *operands = data;
@@ -34,7 +32,7 @@ static gm_node_id add_product(struct gm_formula *graph, gm_node_id sum, gm_node_
                               int i)
 {
     const gm_node_id slope = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, factor, partial(graph, node, i));
-    return sum == none ? slope : gm_formula_apply(graph, GM_OPERATION_ADD, sum, slope);
+    return sum == GM_NO_NODE ? slope : gm_formula_apply(graph, GM_OPERATION_ADD, sum, slope);
 }
 
 gm_node_id *gm_derivative_along(struct gm_formula *graph, gm_node_id count, const gm_node_id *direction,
@@ -50,14 +48,14 @@ gm_node_id *gm_derivative_along(struct gm_formula *graph, gm_node_id count, cons
         const struct gm_node node = graph->nodes[i];
         slopes[i] = node.operation == GM_VARIABLE && node.a < variables ? direction[node.a] : zero;
         if (node.operation > GM_VARIABLE) {
-            gm_node_id slope = none;
+            gm_node_id slope = GM_NO_NODE;
             if (slopes[node.a] != zero) {
                 slope = add_product(graph, slope, slopes[node.a], i, 0);
             }
             if (gm_operation_rows[node.operation].arity == 2 && slopes[node.b] != zero) {
                 slope = add_product(graph, slope, slopes[node.b], i, 1);
             }
-            slopes[i] = slope == none ? zero : slope;
+            slopes[i] = slope == GM_NO_NODE ? zero : slope;
         }
     }
     graph->simplifies = false;
@@ -80,12 +78,12 @@ bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, 
             gradient[i] = zero;
         }
         for (gm_node_id i = 0; i <= root; i++) {
-            adjoint[i] = none;
+            adjoint[i] = GM_NO_NODE;
         }
         adjoint[root] = gm_formula_constant(graph, 1);
         for (gm_node_id i = root + 1; i-- > 0 && !graph->failed;) {
             const struct gm_node node = graph->nodes[i];
-            if (adjoint[i] == none || adjoint[i] == zero || !active[i]) {
+            if (adjoint[i] == GM_NO_NODE || adjoint[i] == zero || !active[i]) {
                 continue;
             }
             if (node.operation == GM_VARIABLE) {

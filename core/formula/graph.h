@@ -37,6 +37,7 @@ double gm_modulo(double a, double b);
 /* A node's number. What it is made of has smaller numbers, so that a pass upwards evaluates, and one downwards
    gathers derivatives, without recursion. */
 typedef uint32_t gm_node_id;
+static const gm_node_id GM_NO_NODE = UINT32_MAX;
 
 struct gm_node {
     enum gm_operation operation;

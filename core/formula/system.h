@@ -23,7 +23,7 @@ enum gm_word {
     GM_WORDS
 };
 
-enum { GM_NO_NODE = UINT32_MAX, GM_LARGEST_SYSTEM = 100000000, GM_MOST_COMPONENTS = 100000 };
+enum { GM_LARGEST_SYSTEM = 100000000, GM_MOST_COMPONENTS = 100000 };
 
 /* A variable of the graph. Their numbers: the n components, t, the parameters, of a Lagrangian the n / 2
    velocities, and the n components at the start, of which `exact` speaks. */

@@ -39,8 +39,8 @@ static void read_options(enum gm_command command, int count, char *words[])
     char message[GM_MESSAGE] = "";
     struct gm_options options;
     if (gm_options_parse(&options, command, count, words, 0, message)) {
-        require(options.width >= 64 && options.width <= 16384 && options.height >= 64 &&
-                options.height <= 16384);
+        require(options.look.width >= 64 && options.look.width <= 16384 && options.look.height >= 64 &&
+                options.look.height <= 16384);
         require(options.every >= 0 && options.every <= 1000000000 && options.frames >= 0 &&
                 options.frames <= 1000000000);
         require(options.shard <= options.shards && options.shards < 1000000);
