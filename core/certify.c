@@ -58,17 +58,26 @@ bool gm_certify_solve(const gsl_odeiv2_system *equations, double tolerance, doub
     return gm_memory_guard_gsl(solve, &(struct solution){equations, tolerance, until, y});
 }
 
+struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme)
+{
+    struct gm_theory theory = {.known = false};
+    struct gm_coefficients coefficients;
+    if (scheme->family->coefficients_open && scheme->family->coefficients_open(scheme, &coefficients)) {
+        theory = gm_theory_of(&coefficients);
+        gm_coefficients_close(&coefficients);
+    }
+    return theory;
+}
+
 static void ask_theory(struct gm_certificate *certificate)
 {
     const struct gm_scheme *scheme = certificate->scheme;
-    struct gm_coefficients coefficients;
+    const struct gm_theory theory = gm_scheme_theory(scheme);
+    certificate->theory = theory;
     certificate->theory_holds = true;
-    if (!scheme->family->coefficients_open || !scheme->family->coefficients_open(scheme, &coefficients)) {
+    if (!theory.known) {
         return;
     }
-    const struct gm_theory theory = gm_theory_of(&coefficients);
-    gm_coefficients_close(&coefficients);
-    certificate->theory = theory;
     certificate->theory_holds = scheme->order <= theory.order &&
                                 (theory.symplectic || !(scheme->claims & GM_SYMPLECTIC)) &&
                                 (theory.symmetric || !(scheme->claims & GM_SYMMETRIC));

@@ -37,6 +37,9 @@ struct gm_certificate {
 
 struct gm_certificate gm_certify(const struct gm_scheme *scheme);
 
+/* What theory says of a scheme; not known where its rows are no coefficients, or memory is short. */
+struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme);
+
 /* For the wings, whose hook measures (struct gm_kind) and says whether the order holds. */
 
 /* Takes a defect in; of several the worst is kept. */

@@ -50,11 +50,6 @@ static unsigned facets_of(const struct report *report)
     }
     facets |= findings[GM_FACT_QUADRATIC].asked && findings[GM_FACT_QUADRATIC].holds ? GM_NEEDS_QUADRATIC : 0;
     facets |= findings[GM_FACT_VOLUME].asked && findings[GM_FACT_VOLUME].holds ? GM_NEEDS_VOLUME : 0;
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == GM_WORD_CONSTRAINT) {
-            return 0;
-        }
-    }
     return facets;
 }
 

@@ -55,15 +55,13 @@ bool gm_chart_write(struct gm_chart *chart, const void *data,
                     bool (*write)(const void *data, const char *path), char *message)
 {
     if (!name_files(chart)) {
-        snprintf(message, GM_MESSAGE, "the name of the folder is too long");
-        return false;
+        return gm_refuse(message, "the name of the folder is too long");
     }
     if (!gm_folder_make_for(chart->picture, message) || !paint(chart, data, draw, message)) {
         return false;
     }
     if (write && chart->csv[0] && !write(data, chart->csv)) {
-        snprintf(message, GM_MESSAGE, "%.400s could not be written: %s", chart->csv, strerror(errno));
-        return false;
+        return gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno));
     }
     return true;
 }

@@ -47,8 +47,7 @@ bool gm_format_of(const char *path, enum gm_format *format)
 
 static bool no_memory(const struct gm_appearance *look, char *message)
 {
-    snprintf(message, GM_MESSAGE, "not enough memory for a picture of %dx%d", look->width, look->height);
-    return false;
+    return gm_refuse(message, "not enough memory for a picture of %dx%d", look->width, look->height);
 }
 
 struct gm_press *gm_press_open(const struct gm_print *print, char *message)

@@ -3,15 +3,16 @@
 #include "app/request/system.h"
 
 #include <errno.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "app/request/drive.h"
 #include "app/request/share.h"
 #include "core/memory.h"
+#include "render/files/regular_file.h"
 
 static const char ending[] = ".system";
 
@@ -44,25 +45,22 @@ bool gm_system_path(const char *word, char *path, size_t size)
     return (known || home) && lies_in(folder, word, path, size);
 }
 
-/* The whole of a regular file; NULL with a complaint. */
+/* The whole of a regular file, or of one that is too large nothing but its length; NULL with a complaint. */
 static char *read_file(const char *path, size_t *length)
 {
-    FILE *file = fopen(path, "rb");
-    struct stat about;
-    if (!file || fstat(fileno(file), &about) != 0 || !S_ISREG(about.st_mode)) {
-        gm_complain("%.300s: %s", path, !file ? strerror(errno) : "this is no regular file");
-        if (file) {
-            fclose(file);
-        }
+    char reason[GM_REGULAR_REASON];
+    FILE *file = gm_regular_open(path, SIZE_MAX, length, reason);
+    if (!file) {
+        gm_complain("%.300s could not be read: %s", path, reason);
         return NULL;
     }
-    *length = about.st_size > GM_LARGEST_SYSTEM ? GM_LARGEST_SYSTEM + (size_t)1 : (size_t)about.st_size;
-    char *text = malloc(*length + 1);
-    if (text && *length <= GM_LARGEST_SYSTEM) {
+    const bool large = *length > GM_LARGEST_SYSTEM;
+    char *text = malloc(large ? 1 : *length + 1);
+    if (text && !large) {
         *length = fread(text, 1, *length, file);
     }
     if (!text || ferror(file)) {
-        gm_complain("%.300s: %s", path, text ? "it could not be read" : "not enough memory");
+        gm_complain("%.300s could not be read: %s", path, text ? strerror(errno) : "not enough memory");
         free(text);
         text = NULL;
     }
@@ -100,21 +98,21 @@ int gm_system_open(struct gm_own_system *system, const char *path, const struct 
     char *text = read_file(path, &length);
     *system = (struct gm_own_system){0};
     if (!text) {
-        return gm_memory_was_short() ? 5 : 3;
+        return gm_memory_was_short() ? GM_EXIT_MEMORY : GM_EXIT_FILE;
     }
     struct gm_fault fault;
-    int status = 0;
+    int status = GM_EXIT_OK;
     if (!gm_equations_open(system, text, length, values, count, &fault)) {
         size_t line, column;
-        status = fault.sentence[0] ? 1 : 5;
+        status = fault.sentence[0] ? GM_EXIT_USAGE : GM_EXIT_MEMORY;
         gm_text_place(text, fault.sentence[0] && length <= GM_LARGEST_SYSTEM ? fault.offset : 0, &line,
                       &column);
-        if (status == 5) {
+        if (status == GM_EXIT_MEMORY) {
             gm_complain("%.300s: not enough memory", path);
         } else {
             gm_complain("%.300s:%zu:%zu: %s", path, line, column, fault.sentence);
         }
-        if (status == 1 && fault.offset > 0 && fault.offset < length) {
+        if (status == GM_EXIT_USAGE && fault.offset > 0 && fault.offset < length) {
             show_place(text, length, fault.offset);
         }
     }

@@ -12,12 +12,6 @@
 #include "app/studies/sweep.h"
 #include "core/memory.h"
 
-static bool refuse(char *message, const char *path, const char *what)
-{
-    snprintf(message, GM_MESSAGE, "%.360s %s", path, what);
-    return false;
-}
-
 static char *note_path(const char *path)
 {
     char *text = NULL;
@@ -98,7 +92,7 @@ static bool put_note(const char *path, const char *text, char *message)
 {
     char *aside = NULL;
     if (asprintf(&aside, "%s.%ld", path, (long)getpid()) < 0) {
-        return refuse(message, path, "could not be written: not enough memory");
+        return gm_refuse(message, "%.360s could not be written: not enough memory", path);
     }
     FILE *stream = fopen(aside, "w");
     bool good = stream && fputs(text, stream) >= 0;
@@ -119,15 +113,15 @@ bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message
     char *note = note_path(path), *text = note_text(sweep);
     bool good = note && text;
     if (!good) {
-        refuse(message, path, "could not be opened: not enough memory");
+        gm_refuse(message, "%.360s could not be opened: not enough memory", path);
     } else if (!gm_folder_make_for(path, message)) {
         good = false;
     } else if (!holds(note, text)) {
         good = access(note, F_OK) != 0 && put_note(note, text, message);
         if (!good && access(note, F_OK) == 0) {
-            refuse(message, note, "tells of another sweep; its tables are left as they are");
+            gm_refuse(message, "%.360s tells of another sweep; its tables are left as they are", note);
         }
-        good = good && (holds(note, text) || refuse(message, note, "tells of another sweep"));
+        good = good && (holds(note, text) || gm_refuse(message, "%.360s tells of another sweep", note));
     }
     free(note);
     free(text);
@@ -147,7 +141,7 @@ bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message)
                  "%.300s.sweep, which tells what the shares are of, could not be read%s%s", path,
                  errno ? ": " : "", errno ? strerror(errno) : "");
     } else if (!gm_arguments_split(&arguments, note.sweep)) {
-        good = refuse(message, name, "could not be read: not enough memory");
+        good = gm_refuse(message, "%.360s could not be read: not enough memory", name);
     } else {
         good = gm_sweep_open(sweep, &arguments, note.measure[0] ? note.measure : NULL, &unreadable, message);
         sweep->shards = note.shares;
@@ -180,15 +174,15 @@ static bool open_share(const struct gm_sweep *sweep, const char *path, size_t sh
     bool good = name != NULL;
     *share = name ? fopen(name, "r") : NULL;
     if (!name) {
-        refuse(message, path, "could not be joined: not enough memory");
+        gm_refuse(message, "%.360s could not be joined: not enough memory", path);
     } else if (!*share && errno != ENOENT) {
         snprintf(message, GM_MESSAGE, "%.360s could not be read: %s", name, strerror(errno));
         good = false;
     } else if (*share && flock(fileno(*share), LOCK_SH | LOCK_NB) != 0) {
-        good = refuse(message, name, "is being written by another process");
+        good = gm_refuse(message, "%.360s is being written by another process", name);
     } else if (*share) {
         good = getline(&line, &room, *share) <= 0 || strcmp(line, head) == 0 ||
-               refuse(message, name, "is not a share of this sweep: its columns are others");
+               gm_refuse(message, "%.360s is not a share of this sweep: its columns are others", name);
     }
     free(line);
     free(name);
@@ -253,11 +247,10 @@ static bool replace(const char *part, const char *path, const char *head, char *
     }
     free(line);
     if (other) {
-        return refuse(message, path, "is the table of another sweep; it is left as it is");
+        return gm_refuse(message, "%.360s is the table of another sweep; it is left as it is", path);
     }
     if (rename(part, path) != 0) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", path, strerror(errno));
-        return false;
+        return gm_refuse(message, "%.360s could not be written: %s", path, strerror(errno));
     }
     return true;
 }
@@ -271,7 +264,7 @@ bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
     allow_files();
     bool good = head && shares && asprintf(&part, "%s.part", path) >= 0;
     if (!good) {
-        refuse(message, path, "could not be joined: not enough memory");
+        gm_refuse(message, "%.360s could not be joined: not enough memory", path);
     }
     for (size_t i = 0; good && i < sweep->shards; i++) {
         good = open_share(sweep, path, i + 1, head, &shares[i], message);

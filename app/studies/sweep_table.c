@@ -31,12 +31,6 @@ struct gm_sweep_table {
     unsigned char *again; /* a bit for each row that is there: whether it is made anew */
 };
 
-static bool refuse(char *message, const char *path, const char *what)
-{
-    snprintf(message, GM_MESSAGE, "%.360s %s", path, what);
-    return false;
-}
-
 static bool refuse_writing(char *message, const char *path)
 {
     snprintf(message, GM_MESSAGE, "%.360s could not be written: %s; the rows before are there", path,
@@ -99,8 +93,8 @@ static bool read_rows(struct gm_sweep_table *table, FILE *stream, const char *he
     bool good = length <= 0 || strcmp(line, head) == 0;
     const bool torn = length > 0 && line[length - 1] != '\n' && strncmp(line, head, (size_t)length) == 0;
     if (!good && !torn) {
-        refuse(message, table->path,
-               "is not a table of this sweep: its columns are others; it is left as it is");
+        gm_refuse(message, "%.360s is not a table of this sweep: its columns are others; it is left as it is",
+                  table->path);
     }
     table->size = good && length > 0 ? length : 0;
     while (good && (length = getline(&line, &room, stream)) > 0 && line[length - 1] == '\n') {
@@ -157,7 +151,7 @@ static bool begin_anew(struct gm_sweep_table *table, const char *head, char *mes
 {
     if (asprintf(&table->part, "%s.part", table->path) < 0) {
         table->part = NULL;
-        return refuse(message, table->path, "could not be opened: not enough memory");
+        return gm_refuse(message, "%.360s could not be opened: not enough memory", table->path);
     }
     const int part = open(table->part, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
     if (part < 0) {
@@ -183,14 +177,13 @@ static bool open_file(struct gm_sweep_table *table, const char *head, const char
     table->fd = open(table->path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     struct stat found = {0};
     if (table->fd < 0 || fstat(table->fd, &found) != 0) {
-        snprintf(message, GM_MESSAGE, "%.360s could not be written: %s", table->path, strerror(errno));
-        return false;
+        return gm_refuse(message, "%.360s could not be written: %s", table->path, strerror(errno));
     }
     if (!S_ISREG(found.st_mode)) {
-        return refuse(message, table->path, "is not a regular file");
+        return gm_refuse(message, "%.360s is not a regular file", table->path);
     }
     if (flock(table->fd, LOCK_EX | LOCK_NB) != 0) {
-        return refuse(message, table->path, "is being written by another process");
+        return gm_refuse(message, "%.360s is being written by another process", table->path);
     }
     const size_t rows = (size_t)found.st_size / (commas_of(head) + 1);
     table->again = retry ? calloc(rows / 8 + 1, 1) : NULL;
@@ -198,7 +191,7 @@ static bool open_file(struct gm_sweep_table *table, const char *head, const char
     FILE *stream = copy >= 0 ? fdopen(copy, "r") : NULL;
     const bool memory = stream && (table->again || !retry);
     if (!memory) {
-        refuse(message, table->path, "could not be read: not enough memory");
+        gm_refuse(message, "%.360s could not be read: not enough memory", table->path);
     }
     bool good = memory && read_rows(table, stream, head, retry, message);
     if (good && table->old) {
@@ -241,7 +234,7 @@ struct gm_sweep_table *gm_sweep_table_open(const struct gm_sweep *sweep, const c
         good = !path || table->path;
     }
     if (!good) {
-        refuse(message, path ? path : "standard output", "could not be opened: not enough memory");
+        gm_refuse(message, "%.360s could not be opened: not enough memory", path ? path : "standard output");
     } else {
         fflush(stdout);
         good = !path || open_file(table, head, retry, message);
@@ -310,7 +303,7 @@ static bool keep_old(struct filling *filling)
 {
     struct gm_sweep_table *table = filling->table;
     if (getline(&filling->kept, &filling->room, table->old) <= 0) {
-        refuse(filling->message, table->path, "could not be read again");
+        gm_refuse(filling->message, "%.360s could not be read again", table->path);
         return false;
     }
     return append(table, filling->kept, filling->message);
@@ -331,13 +324,13 @@ static bool take(void *self, size_t index, size_t slot)
     if (!row) {
         if (!gm_interrupted) {
             filling->failed = true;
-            refuse(filling->message, "a row", "could not be made: not enough memory");
+            gm_refuse(filling->message, "a row could not be made: not enough memory");
         }
         return false;
     }
     if (anew && getline(&filling->kept, &filling->room, table->old) <= 0) {
         filling->failed = true;
-        return refuse(filling->message, table->path, "could not be read again");
+        return gm_refuse(filling->message, "%.360s could not be read again", table->path);
     }
     const bool good = append(table, row, filling->message);
     if (good) {
@@ -362,8 +355,8 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, const struct
     if (!filling || !(head || table->path)) {
         free(filling);
         free(head);
-        return refuse(message, table->path ? table->path : "standard output",
-                      "is not filled: not enough memory");
+        return gm_refuse(message, "%.360s is not filled: not enough memory",
+                         table->path ? table->path : "standard output");
     }
     filling->table = table;
     filling->listener = listener;

@@ -63,39 +63,38 @@ struct gm_ball gm_ball_written(double value)
     return ball;
 }
 
+typedef int operation(mpfr_ptr result, mpfr_srcptr x, mpfr_srcptr y, mpfr_rnd_t rounding);
+
+/* The midpoints' result, whose bound without its rounding is known. */
+static struct gm_ball combine(operation *apply, const struct gm_ball *a, const struct gm_ball *b,
+                              double radius)
+{
+    struct gm_ball result;
+    mpfr_t x, y, number;
+    view(x, a);
+    view(y, b);
+    begin(number, &result);
+    finish(&result, number, apply(number, x, y, MPFR_RNDN) != 0, radius);
+    return result;
+}
+
 struct gm_ball gm_ball_add(struct gm_ball a, struct gm_ball b)
 {
-    struct gm_ball sum;
-    mpfr_t x, y, number;
-    view(x, &a);
-    view(y, &b);
-    begin(number, &sum);
-    finish(&sum, number, mpfr_add(number, x, y, MPFR_RNDN) != 0, a.radius + b.radius);
-    return sum;
+    return combine(mpfr_add, &a, &b, a.radius + b.radius);
 }
 
 struct gm_ball gm_ball_subtract(struct gm_ball a, struct gm_ball b)
 {
-    struct gm_ball difference;
-    mpfr_t x, y, number;
-    view(x, &a);
-    view(y, &b);
-    begin(number, &difference);
-    finish(&difference, number, mpfr_sub(number, x, y, MPFR_RNDN) != 0, a.radius + b.radius);
-    return difference;
+    return combine(mpfr_sub, &a, &b, a.radius + b.radius);
 }
 
 struct gm_ball gm_ball_multiply(struct gm_ball a, struct gm_ball b)
 {
-    struct gm_ball product;
-    mpfr_t x, y, number;
+    mpfr_t x, y;
     view(x, &a);
     view(y, &b);
-    begin(number, &product);
     const double size_a = fabs(mpfr_get_d(x, MPFR_RNDA)), size_b = fabs(mpfr_get_d(y, MPFR_RNDA));
-    finish(&product, number, mpfr_mul(number, x, y, MPFR_RNDN) != 0,
-           size_a * b.radius + size_b * a.radius + a.radius * b.radius);
-    return product;
+    return combine(mpfr_mul, &a, &b, size_a * b.radius + size_b * a.radius + a.radius * b.radius);
 }
 
 double gm_ball_midpoint(struct gm_ball a)

@@ -97,12 +97,11 @@ static void mirror(const struct gm_polynomial *p, struct gm_polynomial *q)
 /* Adds factor |p(iy)|^2 to the polynomial in y^2: p(iy) = even(-y^2) + i y odd(-y^2). */
 static bool add_modulus(struct gm_polynomial *sum, double factor, const struct gm_polynomial *p)
 {
-    struct gm_polynomial parts[2] = {zero, zero}, one;
-    gm_polynomial_set(&one, gm_ball_of(1));
+    struct gm_polynomial parts[2] = {zero, zero};
     for (int k = 0; k <= p->degree; k++) {
-        const int half = k / 2;
-        gm_polynomial_add(&parts[k % 2],
-                          half % 2 == 0 ? p->at[k] : gm_ball_multiply(gm_ball_of(-1), p->at[k]), half, &one);
+        struct gm_polynomial *part = &parts[k % 2];
+        part->degree = k / 2;
+        part->at[k / 2] = k / 2 % 2 == 0 ? p->at[k] : gm_ball_subtract(gm_ball_of(0), p->at[k]);
     }
     struct gm_polynomial odd = zero;
     return gm_polynomial_add_product(sum, gm_ball_of(factor), &parts[0], &parts[0]) &&

@@ -18,14 +18,7 @@ import tempfile
 import time
 import xml.etree.ElementTree
 
-SYSTEM = "/usr/bin/python3"  # another one may come first in PATH, which has no NumPy
-try:
-    import numpy
-except ImportError:
-    if os.path.exists(SYSTEM) and os.path.realpath(sys.executable) != os.path.realpath(SYSTEM):
-        os.execv(SYSTEM, [SYSTEM] + sys.argv)
-    print("data: NumPy is not installed")
-    sys.exit(77)
+from with_numpy import numpy
 
 _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
 resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30 if most < 0 else most, most))  # whatever goes wrong, disks stay usable

@@ -15,14 +15,7 @@ import tempfile
 import xml.etree.ElementTree
 import zlib
 
-SYSTEM = "/usr/bin/python3"  # another one may come first in PATH, which has no NumPy
-try:
-    import numpy
-except ImportError:
-    if os.path.exists(SYSTEM) and os.path.realpath(sys.executable) != os.path.realpath(SYSTEM):
-        os.execv(SYSTEM, [SYSTEM] + sys.argv)
-    print("drawings: NumPy is not installed")
-    sys.exit(77)
+from with_numpy import numpy
 for tool in ("rsvg-convert", "pdftoppm", "pdftotext", "ffmpeg"):
     if not shutil.which(tool):
         print(f"drawings: {tool} is not installed")

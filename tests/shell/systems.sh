@@ -67,7 +67,9 @@ truncate -s 100000001 large.system
 refused 1 'at most 100 MB' list large.system
 refused 3 'No such file' list none.system
 mkdir folder.system
-refused 3 'no regular file' list folder.system
+refused 3 'Is a directory' list folder.system
+mkfifo pipe.system
+refused 3 'it is a pipe' list pipe.system # which nobody waits for
 refused 1 'no parameter "M"' list toda M=3
 refused 1 'takes parameters with numbers' list toda N
 refused 1 'outside of its range' list toda N=2

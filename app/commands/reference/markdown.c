@@ -7,6 +7,7 @@
 #include "app/commands/reference/catalogue.h"
 #include "app/commands/reference/theory.h"
 #include "app/request/fitting.h"
+#include "core/certify.h"
 #include "core/schemes.h"
 
 /* A cell of a table: a bar would end it. */
@@ -36,10 +37,8 @@ static void put_claims(const struct gm_scheme *scheme)
 
 static void put_theory(const struct gm_scheme *scheme)
 {
-    struct gm_coefficients coefficients;
-    if (scheme->family->coefficients_open && scheme->family->coefficients_open(scheme, &coefficients)) {
-        const struct gm_theory theory = gm_theory_of(&coefficients);
-        gm_coefficients_close(&coefficients);
+    const struct gm_theory theory = gm_scheme_theory(scheme);
+    if (theory.known) {
         printf("By theory of ");
         gm_theory_print(&theory, "");
         printf(".\n\n");
