@@ -8,9 +8,12 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/reference/version.h"
-#include "app/request/drive.h"
+#include "app/output/say.h"
+#include "app/request/interrupt.h"
+#include "app/request/share.h"
 #include "core/formula/nearest.h"
 #include "core/memory.h"
+#include "render/gl/context.h"
 
 /* What may stand first: a command or a scene. */
 static const char *first_word(size_t i, const void *data)
@@ -34,6 +37,20 @@ static void help_command(const struct gm_command_row *command)
     gm_options_help(command->bit);
 }
 
+static int help_of(const struct gm_command_row *command)
+{
+    help_command(command);
+    return gm_finish(GM_EXIT_OK);
+}
+
+static int unknown_command(const char *word)
+{
+    const char *near = gm_nearest(word, gm_command_count + gm_scene_count(), first_word, NULL);
+    gm_complain("there is no command or scene \"%.60s\"%s%s", word,
+                near ? "; did you mean " : "; see geomint --help", near ? near : "");
+    return GM_EXIT_USAGE;
+}
+
 static int help(void)
 {
     printf("geomint %s: see what a geometric integrator keeps and what an ordinary one destroys.\n\n"
@@ -52,27 +69,39 @@ static int help(void)
     return gm_finish(GM_EXIT_OK);
 }
 
+static void tell(const char *sentence)
+{
+    gm_complain("%s", sentence);
+}
+
+static bool is_interrupted(void)
+{
+    return gm_interrupted;
+}
+
 static int run(int argc, char *argv[])
 {
     setlocale(LC_CTYPE, "");
     /* a broken pipe and a full disk are answered where they are written to */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
+    gm_context_answer_crashes();
     const struct gm_command_row *command = gm_commands[0];
     int first = 1;
     if (argc > 1) {
         if (is_one_of(argv[1], (const char *const[]){"--help", "-h", "help", NULL})) {
-            return help();
+            if (argc == 2) {
+                return help();
+            }
+            command = gm_command_find(argv[2]);
+            return command ? help_of(command) : unknown_command(argv[2]);
         }
         if (is_one_of(argv[1], (const char *const[]){"--version", "-V", "version", NULL})) {
             return gm_version();
         }
         command = gm_command_find(argv[1]);
         if (!command) {
-            const char *near = gm_nearest(argv[1], gm_command_count + gm_scene_count(), first_word, NULL);
-            gm_complain("there is no command or scene \"%.60s\"%s%s", argv[1],
-                        near ? "; did you mean " : "; see geomint --help", near ? near : "");
-            return GM_EXIT_USAGE;
+            return unknown_command(argv[1]);
         }
         /* a scene's name opens the explorer, and is its first word */
         first = strcmp(command->name, argv[1]) == 0 ? 2 : 1;
@@ -82,14 +111,16 @@ static int run(int argc, char *argv[])
     }
     for (int i = first; i < argc; i++) {
         if (is_one_of(argv[i], (const char *const[]){"--help", "-h", NULL})) {
-            help_command(command);
-            return gm_finish(GM_EXIT_OK);
+            return help_of(command);
         }
     }
     char message[GM_MESSAGE];
     struct gm_options options;
     int status = GM_EXIT_USAGE;
     if (gm_options_parse(&options, command->bit, argc, argv, first, message)) {
+        char kernels[4096];
+        gm_share_folder("kernel", "GEOMINT_KERNEL", kernels, sizeof kernels);
+        gm_engine_choose(options.engine, kernels, command->bit == GM_TUI ? NULL : tell, is_interrupted);
         status = command->function(&options);
     } else {
         gm_complain("%s", message);

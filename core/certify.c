@@ -34,6 +34,22 @@ void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim
     verdict->measured = true;
 }
 
+double gm_distance(const double *a, const double *b, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        largest = fmax(largest, fabs(a[i] - b[i]));
+    }
+    return largest;
+}
+
+void gm_certificate_undecided(struct gm_certificate *certificate, enum gm_claim claim, const char *problem)
+{
+    struct gm_verdict *verdict = gm_certificate_claim(certificate, claim);
+    verdict->undecided = true;
+    verdict->problem = verdict->measured ? verdict->problem : problem;
+}
+
 struct solution {
     const gsl_odeiv2_system *equations;
     double tolerance, until, *y;
@@ -62,7 +78,7 @@ struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme)
 {
     struct gm_theory theory = {.known = false};
     struct gm_coefficients coefficients;
-    if (scheme->family->coefficients_open && scheme->family->coefficients_open(scheme, &coefficients)) {
+    if (gm_scheme_coefficients_open(scheme, &coefficients)) {
         theory = gm_theory_of(&coefficients);
         gm_coefficients_close(&coefficients);
     }
@@ -78,13 +94,15 @@ static void ask_theory(struct gm_certificate *certificate)
     if (!theory.known) {
         return;
     }
-    certificate->theory_holds = scheme->order <= theory.order &&
-                                (theory.symplectic || !(scheme->claims & GM_SYMPLECTIC)) &&
+    const bool proved = scheme->order <= theory.order || theory.at_least;
+    certificate->theory_holds = proved && (theory.symplectic || !(scheme->claims & GM_SYMPLECTIC)) &&
                                 (theory.symmetric || !(scheme->claims & GM_SYMMETRIC));
-    certificate->order_holds &= certificate->order > 0.95 * theory.order;
+    /* what is measured beyond theory is special to a problem */
+    const int least = theory.order > scheme->order ? theory.order : scheme->order;
+    certificate->order_holds = certificate->order > 0.95 * least || (proved && !certificate->ladder.settled);
 }
 
-struct gm_certificate gm_certify(const struct gm_scheme *scheme)
+static struct gm_certificate begin(const struct gm_scheme *scheme)
 {
     struct gm_certificate certificate = {.scheme = scheme, .order = NAN, .order_problem = ""};
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
@@ -94,13 +112,34 @@ struct gm_certificate gm_certify(const struct gm_scheme *scheme)
     }
     gm_certificate_claim(&certificate, GM_SYMPLECTIC)->tolerance = 1e-10;
     gm_certificate_claim(&certificate, GM_KEEPS_VOLUME)->tolerance = 1e-10;
-    scheme->family->kind->certify(scheme, &certificate);
-    ask_theory(&certificate);
-    certificate.holds = certificate.order_holds && certificate.theory_holds;
+    gm_certificate_claim(&certificate, GM_CONFORMAL)->tolerance = 1e-10;
+    return certificate;
+}
+
+static void conclude(struct gm_certificate *certificate)
+{
+    ask_theory(certificate);
+    certificate->holds = certificate->order_holds && certificate->theory_holds;
     for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        struct gm_verdict *result = &certificate.claims[bit];
+        struct gm_verdict *result = &certificate->claims[bit];
+        const bool open = !result->measured && (result->undecided || result->reason);
         result->holds = result->measured && result->defect <= result->tolerance;
-        certificate.holds &= !result->claimed || result->holds;
+        certificate->holds &= !result->claimed || result->holds || open;
     }
+}
+
+struct gm_certificate gm_certify(const struct gm_scheme *scheme)
+{
+    struct gm_certificate certificate = begin(scheme);
+    scheme->family->kind->certify(scheme, &certificate);
+    conclude(&certificate);
+    return certificate;
+}
+
+struct gm_certificate gm_certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system)
+{
+    struct gm_certificate certificate = begin(scheme);
+    scheme->family->kind->certify_on(scheme, system, &certificate);
+    conclude(&certificate);
     return certificate;
 }

@@ -15,27 +15,62 @@
 struct gm_verdict {
     bool claimed;
     bool measured;       /* there was a certification problem that the scheme fits */
+    bool undecided;      /* there was one where the measurement can tell neither; if it is all there was, the
+                            claim is not broken */
     bool holds;          /* measured, and within the tolerance on every problem */
     double defect;       /* the worst over the problems */
     double tolerance;    /* that a claim is held to */
     const char *problem; /* where the worst was seen */
+    const char *reason;  /* why nothing was measured on a given system; NULL elsewhere */
+};
+
+/* Errors at smaller and smaller steps, whose slope is an order. */
+enum { GM_LADDER = 44 };
+struct gm_ladder {
+    double dt[GM_LADDER], error[GM_LADDER];
+    size_t count; /* 0: the order is found otherwise */
+    /* two octaves of dt tell the same; else an order lower than that by theory refutes nothing */
+    bool settled;
 };
 
 /* What was measured, and what the coefficients say: a claim that either refutes is broken. */
 struct gm_certificate {
     const struct gm_scheme *scheme;
-    double order; /* measured, the lowest over the problems */
+    /* measured, the lowest over the problems; NaN: on none of them errors stand clear of round-off */
+    double order;
+    struct gm_ladder ladder; /* of that problem */
     bool order_holds;
     const char *order_problem;
+    const char *order_reason;                 /* why there is no order on a given system; NULL: there is */
     struct gm_verdict claims[GM_CLAIM_COUNT]; /* by bit number */
-    /* Of schemes whose rows are coefficients (gm_family.coefficients_open), else not known. It holds where the
-       conditions of the claimed order do, and the algebra of what is claimed of structure. */
+    /* Of schemes whose rows are coefficients (gm_family.coefficients_open), else not known. It holds where
+       the conditions of the claimed order do, and the algebra of what is claimed of structure. */
     struct gm_theory theory;
     bool theory_holds;
     bool holds; /* the order and every claim, by both */
 };
 
 struct gm_certificate gm_certify(const struct gm_scheme *scheme);
+
+/* A quantity that the motion keeps. */
+struct gm_kept {
+    const char *name;
+    double (*value)(const void *data, const double *y);
+    const void *data;
+};
+
+/* A system on which a scheme is measured that fits it: defects of one step dt from the start, and the order
+   by steps from 8 dt on. */
+struct gm_certified_system {
+    const struct gm_problem *problem; /* of one member */
+    const double *start;
+    double dt;
+    const struct gm_kept *kept; /* beside the energy */
+    size_t kept_count;
+};
+
+/* What means nothing there is not measured, for a reason that is told, and breaks no claim. */
+struct gm_certificate gm_certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system);
 
 /* What theory says of a scheme; not known where its rows are no coefficients, or memory is short. */
 struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme);
@@ -45,7 +80,12 @@ struct gm_theory gm_scheme_theory(const struct gm_scheme *scheme);
 /* Takes a defect in; of several the worst is kept. */
 void gm_certificate_note(struct gm_certificate *certificate, enum gm_claim claim, double defect,
                          const char *problem);
+/* Notes that a problem can tell neither way: steps fail, or differences are lost in round-off. */
+void gm_certificate_undecided(struct gm_certificate *certificate, enum gm_claim claim, const char *problem);
 struct gm_verdict *gm_certificate_claim(struct gm_certificate *certificate, enum gm_claim claim);
+
+/* The largest difference. */
+double gm_distance(const double *a, const double *b, size_t n);
 
 /* y := the solution at the time `until` of these equations, from y at 0, by GSL's Prince-Dormand stepper with
    this absolute and relative tolerance; false where it finds none or memory is short. */

@@ -6,6 +6,7 @@
 #include "core/scheme.h"
 
 struct gm_certificate;
+struct gm_certified_system;
 struct gm_quantity;
 struct gm_run;
 
@@ -29,6 +30,10 @@ struct gm_kind {
     gm_loop *(*loop)(const struct gm_scheme *scheme, const struct gm_problem *problem);
     /* Measures the order and the claims of a scheme of this kind. */
     void (*certify)(const struct gm_scheme *scheme, struct gm_certificate *certificate);
+    /* The same on one system; NULL: what is certified on a given system is none of this kind. */
+    void (*certify_on)(const struct gm_scheme *scheme, const struct gm_certified_system *system,
+                       struct gm_certificate *certificate);
+    size_t most_certified;                   /* components of such a system */
     const struct gm_family *const *families; /* NULL-terminated */
     /* What a run's states are called: gm_quantities of core/quantity.h. */
     size_t (*quantities)(const struct gm_run *run, struct gm_quantity *quantities);

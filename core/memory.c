@@ -2,6 +2,7 @@
 /* The allocators of the whole program, wrapped: a refusal is noted, and handed on. */
 #include "core/memory.h"
 
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -21,34 +22,54 @@ void gm_memory_refused(void)
     atomic_store(&was_short, true);
 }
 
+/* GSL has one handler for all threads, and it may be somebody else's: it is exchanged while at least one
+   thread is in here, and hears meanwhile what happens in other threads. */
+static struct {
+    pthread_mutex_t lock;
+    unsigned inside;
+    gsl_error_handler_t *others; /* NULL: GSL's own, which says what is wrong and aborts */
+} handling = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
 static void note_error(const char *reason, const char *file, int line, int error)
 {
-    (void)reason;
-    (void)file;
-    (void)line;
-    if (error == GSL_ENOMEM) {
-        gm_memory_refused();
-        if (way_out) {
-            longjmp(*way_out, 1);
+    if (!way_out) {
+        pthread_mutex_lock(&handling.lock);
+        gsl_error_handler_t *const others = handling.others;
+        pthread_mutex_unlock(&handling.lock);
+        if (others) {
+            others(reason, file, line, error);
+        } else {
+            gsl_stream_printf("ERROR", file, line, reason);
+            abort();
         }
+    } else if (error == GSL_ENOMEM) {
+        gm_memory_refused();
+        longjmp(*way_out, 1);
     }
 }
 
-void gm_memory_heed_gsl(void)
+static void exchange_handler(bool enter)
 {
-    gsl_set_error_handler(note_error);
+    pthread_mutex_lock(&handling.lock);
+    if (enter && handling.inside++ == 0) {
+        handling.others = gsl_set_error_handler(note_error);
+    } else if (!enter && --handling.inside == 0) {
+        gsl_set_error_handler(handling.others);
+    }
+    pthread_mutex_unlock(&handling.lock);
 }
 
 bool gm_memory_guard_gsl(bool (*work)(void *data), void *data)
 {
     jmp_buf here, *const outer = way_out;
-    gm_memory_heed_gsl();
+    exchange_handler(true);
     way_out = &here;
     bool good = false;
     if (setjmp(here) == 0) {
         good = work(data);
     }
     way_out = outer;
+    exchange_handler(false);
     return good;
 }
 
@@ -60,6 +81,11 @@ unsigned long gm_memory_refusals(void)
 bool gm_memory_was_short(void)
 {
     return atomic_load(&was_short);
+}
+
+void gm_memory_forget(void)
+{
+    atomic_store(&was_short, false);
 }
 
 static void *noted(void *memory)

@@ -13,10 +13,8 @@
 /* Notes a refusal that a library reports. */
 void gm_memory_refused(void);
 
-/* From now on GSL, which would end the program at an error, only has its refusals noted. */
-void gm_memory_heed_gsl(void);
-
-/* Calls `work`, which uses GSL, and returns what it says; false, and noted, where GSL was refused memory.
+/* Calls `work`, which uses GSL, and returns what it says; false, and noted, where GSL was refused memory. An
+   error of GSL's, which would end the program, does nothing meanwhile; its handler is then again what it was.
    GSL goes on with the null pointer in some places (gsl_odeiv2_control_y_new, gsl_linalg_LU_decomp), so it is
    left by a jump out of its error handler: what it had taken so far is lost, what `work` stored in `data` is
    not. */
@@ -25,7 +23,8 @@ bool gm_memory_guard_gsl(bool (*work)(void *data), void *data);
 /* How many refusals this thread has met: what was computed between two equal answers is whole. */
 unsigned long gm_memory_refusals(void);
 
-/* Whether any thread has met one since the program began. */
+/* Whether any thread has met one since the program began, or since that was forgotten. */
 bool gm_memory_was_short(void);
+void gm_memory_forget(void);
 
 #endif

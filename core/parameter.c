@@ -34,7 +34,7 @@ static void store_double(const struct gm_parameter *row, void *owner, double val
 static enum gm_parse store_text(const struct gm_parameter *row, void *owner, const char *text)
 {
     const size_t length = strlen(text);
-    if (length == 0 || length >= GM_TEXT_SIZE || strpbrk(text, ",\t\n\r")) {
+    if (length == 0 || length >= GM_TEXT_SIZE || strpbrk(text, row->names ? "\t\n\r" : ",\t\n\r")) {
         return GM_NOT_UNDERSTOOD;
     }
     memcpy((char *)owner + row->offset, text, length + 1);

@@ -15,7 +15,7 @@ enum gm_type {
     GM_INTEGER, /* stored as long */
     GM_CHOICE,  /* stored as int, an index into choices */
     GM_BOOLEAN, /* stored as int, 0 or 1; written no, yes */
-    GM_TEXT,    /* stored as char[GM_TEXT_SIZE]; no comma, no control character */
+    GM_TEXT,    /* stored as char[GM_TEXT_SIZE]; no comma but with `names`, no control character */
 };
 
 enum { GM_TEXT_SIZE = 256 };
@@ -33,7 +33,9 @@ struct gm_parameter {
     /* NULL-terminated, for GM_CHOICE; of a GM_TEXT the usual words, where there are such, else NULL */
     const char *const *choices;
     bool file;      /* a text that is the path of a file */
+    bool names;     /* a text whose commas part names, and not lanes, unless all that they part are choices */
     bool automatic; /* a real that may also be "auto": NaN, until its owner settles it */
+    bool required;  /* the default is what was given once: it is always told */
 };
 
 enum gm_parse {

@@ -2,6 +2,8 @@
 /* What a state is called: asked of its kind. */
 #include "core/quantity.h"
 
+#include <string.h>
+
 #include "core/kind.h"
 #include "core/run.h"
 
@@ -10,9 +12,36 @@ size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities)
     return run->problem->kind->quantities(run, quantities);
 }
 
+size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *quantities)
+{
+    const size_t all = gm_quantities(run, quantities);
+    size_t count = 0;
+    for (size_t i = 0; i < all; i++) {
+        if (strcmp(quantities[i].name, "t") != 0) {
+            quantities[count++] = quantities[i];
+        }
+    }
+    return count;
+}
+
 size_t gm_quantity_size(const struct gm_run *run, const struct gm_quantity *quantity)
 {
     return quantity->count * quantity->width * run->problem->m;
+}
+
+size_t gm_quantity_shape(const struct gm_quantity *quantity, size_t members, size_t shape[GM_QUANTITY_AXES])
+{
+    size_t axes = 0;
+    if (quantity->support != GM_ON_RUN) {
+        shape[axes++] = quantity->count;
+    }
+    if (members > 1) {
+        shape[axes++] = members;
+    }
+    if (quantity->width > 1) {
+        shape[axes++] = quantity->width;
+    }
+    return axes;
 }
 
 const double *gm_quantity_values(const struct gm_run *run, const struct gm_quantity *quantity,

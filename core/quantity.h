@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a state is called: named arrays, as files hold them that others read. Each kind of problem says which
+   there are (struct gm_kind). */
 #ifndef GM_CORE_QUANTITY_H
 #define GM_CORE_QUANTITY_H
 
@@ -6,9 +8,6 @@
 #include <stddef.h>
 
 struct gm_run;
-
-/* What a state is called: named arrays, as files hold them that others read. Each kind of problem says which
-   there are (struct gm_kind). */
 
 /* What the values belong to. */
 enum gm_support {
@@ -34,13 +33,19 @@ struct gm_quantity {
     void (*derive)(const struct gm_run *run, double *values);
 };
 
-enum { GM_QUANTITIES = 16 /* most of a kind */ };
+enum { GM_QUANTITIES = 16 /* most of a kind */, GM_QUANTITY_AXES = 3 };
 
 /* The quantities of a run's states, into GM_QUANTITIES places; their number. They stay valid with the run. */
 size_t gm_quantities(const struct gm_run *run, struct gm_quantity *quantities);
 
+/* Those of rows that tell their time: without the one that a system carries as its last component. */
+size_t gm_quantities_beside_time(const struct gm_run *run, struct gm_quantity *quantities);
+
 /* How many numbers it has, over all members. */
 size_t gm_quantity_size(const struct gm_run *run, const struct gm_quantity *quantity);
+
+/* The lengths of its axes, for so many members; their number, 0 for a single number. */
+size_t gm_quantity_shape(const struct gm_quantity *quantity, size_t members, size_t shape[GM_QUANTITY_AXES]);
 
 /* The numbers now: in the state, or in `scratch` (gm_quantity_size), where they are derived. */
 const double *gm_quantity_values(const struct gm_run *run, const struct gm_quantity *quantity,

@@ -186,12 +186,65 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
     return run->status;
 }
 
+bool gm_run_repeats(const struct gm_run *run)
+{
+    const struct gm_family *family = run->scheme->family;
+    return run->status == GM_OK && run->n > 0 && !family->own_time && !family->memory &&
+           !family->workspace_reset;
+}
+
+const double *gm_run_before(const struct gm_run *run)
+{
+    return half(run, 1 - run->current);
+}
+
+/* The last step again, of another length. */
+static struct gm_task part_of(const struct gm_run *run, double fraction)
+{
+    struct gm_task task = task_of(run, 1 - run->current, run->current, 1);
+    task.n--;
+    task.steps_before--;
+    task.t = run->t0 + (double)task.n * run->dt;
+    task.dt = fraction * run->dt;
+    return task;
+}
+
+bool gm_run_part(const struct gm_run *run, double fraction, double *y)
+{
+    struct gm_task task = part_of(run, fraction);
+    const unsigned long refusals = gm_memory_refusals();
+    task.out = y;
+    task.carry_out = task.carry ? y + state_count(run) : NULL;
+    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
+    return progress.done == 1 && gm_memory_refusals() == refusals;
+}
+
+void gm_run_shorten(struct gm_run *run, double fraction)
+{
+    const struct gm_task task = part_of(run, fraction);
+    const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
+    run->evaluations += progress.evaluations;
+    run->solves += progress.solves;
+    run->iterations += progress.iterations;
+    run->t = run->t0 = task.t + task.dt;
+    run->n = 0;
+}
+
 long gm_run_steps_at(const struct gm_run *run, double t)
 {
     const double most = (double)(LONG_MAX / 4);
     const double steps = round((t - run->t0) / run->dt);
     return run->scheme->family->own_time || !(steps < most) ? LONG_MAX / 4
                                                             : run->steps - run->n + (long)steps;
+}
+
+long gm_run_steps_by(const struct gm_run *run, double t)
+{
+    if (run->scheme->family->own_time) {
+        return run->steps + (run->t < t ? 1 : 0);
+    }
+    const double ahead = (t - run->t) / run->dt;
+    return run->steps + (long)floor(fmin(ahead * (1 + 1e-12) + 1e-6, 1e15));
 }
 
 bool gm_run_goes_on(const struct gm_run *run, long steps, double until)
@@ -222,11 +275,15 @@ void gm_run_set_step(struct gm_run *run, double dt)
     start(run);
 }
 
-void gm_run_set_state(struct gm_run *run, const double *y)
+void gm_run_set_state(struct gm_run *run, const double *y, const double *memory)
 {
     memcpy(half(run, run->current), y, state_count(run) * sizeof(double));
     memset(half(run, run->current) + state_count(run), 0, carry_count(run) * sizeof(double));
     gm_run_set_step(run, run->dt);
+    if (memory) {
+        memcpy(half(run, run->current) + state_count(run) + carry_count(run), memory,
+               memory_count(run) * sizeof(double));
+    }
 }
 
 struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *scheme)

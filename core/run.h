@@ -42,12 +42,28 @@ double gm_run_per_member(const struct gm_run *run, unsigned long count);
    and further calls do nothing. GM_OUT_OF_MEMORY leaves the state where it was before the call. */
 enum gm_status gm_run_advance(struct gm_run *run, long steps);
 
+/* Whether the last step can be made again with another length: gm_run_advance was last called for one step,
+   in this segment (that is up to the caller), and the scheme neither chooses its steps nor remembers any. */
+bool gm_run_repeats(const struct gm_run *run);
+/* Where that step began; valid as gm_run_state is. */
+const double *gm_run_before(const struct gm_run *run);
+/* Where it would end if only this fraction of it were made: the run stays as it is. y has room for 2 * n * m
+   doubles (the state is the first half), aligned for 128 bytes. False where that led to no state. */
+bool gm_run_part(const struct gm_run *run, double fraction, double *y);
+/* Puts that in the place of the step, and begins a new segment there; a fraction that gm_run_part could
+   make. */
+void gm_run_shorten(struct gm_run *run, double fraction);
+
 /* How many steps in all a run has made when it is at the time t, to the nearest; of a scheme that chooses its
    steps, more than it will ever make. */
 long gm_run_steps_at(const struct gm_run *run, double t);
 
-/* Whether a run is still on its way to an end: `steps` steps in all, or, if its scheme chooses them, the first
-   that is not before the time `until`; one that misses it by round-off has reached it. */
+/* The same for a picture of the time t: the last step that ends not after it; where the scheme chooses its
+   steps, one more than so far as long as the run is before it. */
+long gm_run_steps_by(const struct gm_run *run, double t);
+
+/* Whether a run is still on its way to an end: `steps` steps in all, or, if its scheme chooses them, the
+   first that is not before the time `until`; one that misses it by round-off has reached it. */
 bool gm_run_goes_on(const struct gm_run *run, long steps, double until);
 
 /* Advances to that end, as gm_run_advance does; gm_run_until to the time t alone. */
@@ -57,9 +73,9 @@ enum gm_status gm_run_until(struct gm_run *run, double t);
 /* Starts a new segment at the present time with another step (its sign may change). */
 void gm_run_set_step(struct gm_run *run, double dt);
 
-/* Starts a new segment at the present time in the state y (n * m, copied); the scheme remembers what it
-   remembers when the step is changed. */
-void gm_run_set_state(struct gm_run *run, const double *y);
+/* Starts a new segment at the present time in the state y (n * m, copied). The scheme remembers what it
+   remembers when the step is changed or, with `memory` not NULL, that (as gm_run_memory lays it out). */
+void gm_run_set_state(struct gm_run *run, const double *y, const double *memory);
 
 /* Continues from the present state with another scheme that fits: a new run with the old one's time,
    step and counts. NULL when memory is short; the old run is untouched. */

@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "core/theory/coefficients.h"
+
 static const struct {
     const char *letter, *word;
 } claims[GM_CLAIM_COUNT] = {
@@ -20,6 +22,10 @@ static const struct {
     {"C", "keeps constants"},
     {"B", "closes budgets"},
     {"A", "keeps bilinear invariants"},
+    {"N", "keeps momentum maps"},
+    {"F", "conformal symplectic"},
+    {"K", "keeps constraints"},
+    {"T", "keeps hidden constraints"},
 };
 
 const char *gm_claim_letter(unsigned bit)
@@ -46,7 +52,8 @@ const struct gm_parameter gm_settings_parameters[] = {
     {
         .key = "binding",
         .unit = "",
-        .help = "frequency that binds the two copies of phase space (tao2, tao4)",
+        .help =
+            "frequency that binds the two copies of phase space (tao2, tao4); stiff springs bear up to 1/(dt Ω)², and half of it",
         .type = GM_REAL,
         .offset = offsetof(struct gm_settings, binding),
         .standard = "20",
@@ -100,4 +107,11 @@ bool gm_scheme_takes(const struct gm_scheme *scheme, const struct gm_parameter *
         at++;
     }
     return at && *at;
+}
+
+bool gm_scheme_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
+{
+    return scheme->exact
+               ? gm_coefficients_copy(coefficients, scheme->exact)
+               : scheme->family->coefficients_open && scheme->family->coefficients_open(scheme, coefficients);
 }

@@ -16,12 +16,16 @@ enum gm_claim {
     GM_KEEPS_LINEAR = 1u << 5,    /* every linear invariant */
     GM_KEEPS_VOLUME = 1u << 6,
     GM_MULTISYMPLECTIC = 1u << 7,
-    GM_EQUIVARIANT = 1u << 8,      /* commutes with the problem's symmetry group */
-    GM_DIVERGENCE_FREE = 1u << 9,  /* d1 d0 psi = 0: no mass is made */
-    GM_KEEPS_CONSTANTS = 1u << 10, /* a constant scalar stays constant */
-    GM_CLOSES_BUDGET = 1u << 11,   /* the scalar changes by what crosses the boundary */
-    GM_KEEPS_BILINEAR = 1u << 12,  /* every invariant q' A p, as angular momentum is one */
-    GM_CLAIM_COUNT = 13,
+    GM_EQUIVARIANT = 1u << 8,          /* commutes with the problem's symmetry group */
+    GM_DIVERGENCE_FREE = 1u << 9,      /* d1 d0 psi = 0: no mass is made */
+    GM_KEEPS_CONSTANTS = 1u << 10,     /* a constant scalar stays constant */
+    GM_CLOSES_BUDGET = 1u << 11,       /* the scalar changes by what crosses the boundary */
+    GM_KEEPS_BILINEAR = 1u << 12,      /* every invariant q' A p, as angular momentum is one */
+    GM_KEEPS_MOMENTUM_MAPS = 1u << 13, /* of every symmetry that moves the coordinates by affine maps */
+    GM_CONFORMAL = 1u << 14,           /* with a friction -c p it shrinks every area by exp(-c t) */
+    GM_KEEPS_CONSTRAINTS = 1u << 15,   /* g(q) = 0, */
+    GM_KEEPS_HIDDEN = 1u << 16,        /* and dg/dq v = 0 */
+    GM_CLAIM_COUNT = 17,
 };
 
 /* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */
@@ -45,6 +49,14 @@ extern const struct gm_parameter *const gm_settings_of_tao[];              /* bi
 extern const struct gm_parameter *const gm_settings_of_variational_time[]; /* tau0 */
 extern const struct gm_parameter *const gm_settings_of_gsl[];              /* tolerance */
 
+struct gm_coefficients; /* core/theory/coefficients.h */
+
+/* Where linear theory bounds the steps of a scheme. */
+struct gm_step_limit {
+    const char *condition;                                                /* "4/dt^2 >= 4/dx^2 + V''" */
+    double (*longest)(const struct gm_problem *problem, const double *y); /* about the state y */
+};
+
 /* A scheme is a row of data. A number at the end of a name is the order. */
 struct gm_scheme {
     const char *name;      /* "rk4" */
@@ -57,9 +69,18 @@ struct gm_scheme {
     int order;                /* 0: it chooses its order itself */
     unsigned needs;           /* facets of its kind of problem, GM_NEEDS_*; all of them */
     unsigned claims;          /* GM_SYMPLECTIC | ... */
+    /* What pictures and sentences ask of it beside. */
+    const struct gm_step_limit *limit; /* NULL: none is told */
+    bool steady;                       /* its steps lead to a steady state: there is no time */
+    bool in_cells; /* what it keeps of a field is made of means in cells, not of values at nodes */
+    /* Of a scheme that was brought along: the word that makes it again, wherever a name may stand; and what
+       theory knows it by. NULL: it is a row of its family. */
+    const char *word;
+    const struct gm_coefficients *exact;
 };
 
-struct gm_coefficients; /* core/theory/coefficients.h */
+/* Opens what theory knows a scheme by; false: nothing, or memory is short. */
+bool gm_scheme_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients);
 
 struct gm_family {
     const struct gm_kind *kind; /* of the problems that it advances */

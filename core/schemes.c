@@ -2,6 +2,8 @@
 /* The kinds of problems and, through them, all schemes. */
 #include "core/schemes.h"
 
+#include <pthread.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define GM_KIND(name) extern const struct gm_kind gm_kind_##name;
@@ -39,6 +41,44 @@ const struct gm_scheme *gm_scheme_at(size_t index)
     return NULL;
 }
 
+/* Those that were brought along, which any thread may do. */
+static struct {
+    pthread_mutex_t lock;
+    const struct gm_scheme **schemes;
+    size_t count;
+} brought = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+bool gm_scheme_bring(const struct gm_scheme *scheme)
+{
+    pthread_mutex_lock(&brought.lock);
+    const struct gm_scheme **more = realloc(brought.schemes, (brought.count + 1) * sizeof(*more));
+    if (more) {
+        brought.schemes = more;
+        more[brought.count++] = scheme;
+    }
+    pthread_mutex_unlock(&brought.lock);
+    return more != NULL;
+}
+
+const char *gm_scheme_word(const struct gm_scheme *scheme)
+{
+    return scheme->word ? scheme->word : scheme->name;
+}
+
+/* The last one of that name that fits; problem NULL: the last one. */
+static const struct gm_scheme *find_brought(const char *name, const struct gm_problem *problem)
+{
+    const struct gm_scheme *found = NULL;
+    pthread_mutex_lock(&brought.lock);
+    for (size_t i = brought.count; i-- > 0 && !found;) {
+        const struct gm_scheme *scheme = brought.schemes[i];
+        const bool named = strcmp(scheme->name, name) == 0 || strcmp(scheme->word, name) == 0;
+        found = named && (!problem || gm_scheme_fits(scheme, problem)) ? scheme : NULL;
+    }
+    pthread_mutex_unlock(&brought.lock);
+    return found;
+}
+
 const struct gm_scheme *gm_scheme_find(const char *name)
 {
     for (size_t i = 0; i < gm_scheme_count(); i++) {
@@ -47,12 +87,16 @@ const struct gm_scheme *gm_scheme_find(const char *name)
             return scheme;
         }
     }
-    return NULL;
+    return find_brought(name, NULL);
 }
 
 const struct gm_scheme *gm_scheme_find_for(const char *name, const struct gm_problem *problem)
 {
     const struct gm_scheme *found = gm_scheme_find(name);
+    if (found && found->word) {
+        const struct gm_scheme *fitting = find_brought(name, problem);
+        return fitting ? fitting : found;
+    }
     for (size_t i = 0; found && i < gm_scheme_count() && !gm_scheme_fits(found, problem); i++) {
         const struct gm_scheme *scheme = gm_scheme_at(i);
         if (strcmp(scheme->name, name) == 0 && gm_scheme_fits(scheme, problem)) {

@@ -6,14 +6,19 @@
 
 #include "app/commands/commands.h"
 #include "app/output/provenance.h"
+#include "app/output/say.h"
 #include "app/output/still.h"
+#include "app/request/arguments.h"
 #include "app/request/drive.h"
+#include "app/request/interrupt.h"
+#include "app/request/system.h"
 #include "render/vector/svg.h"
 
 /* The texts that it reads. */
-enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, NEEDED, SCALE = NEEDED, DPI, TITLE, TEXTS };
-static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY_CHANGES, GM_KEY_STEPS,
-                                        GM_KEY_PICTURE, GM_KEY_SCALE,     GM_KEY_DPI,     GM_KEY_TITLE};
+enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, NEEDED, SCALE = NEEDED, DPI, TITLE, SYSTEM, TEXTS };
+static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY_CHANGES,
+                                        GM_KEY_STEPS,   GM_KEY_PICTURE,   GM_KEY_SCALE,
+                                        GM_KEY_DPI,     GM_KEY_TITLE,     GM_KEY_SYSTEM};
 
 /* Opens every lane and drives it to the step that `steps` names for it. */
 static bool drive(const struct gm_request *request, struct gm_lane **lanes, const char *steps, char *message)
@@ -57,6 +62,18 @@ static bool parse(struct gm_request *request, const char *arguments, const char 
     return true;
 }
 
+/* The word that named the system means the text that the picture tells. False: no memory. */
+static bool recall_system(char *const *texts)
+{
+    struct gm_arguments words = {0};
+    const char *told = texts[COMMAND] ? texts[COMMAND] : texts[ARGUMENTS];
+    bool good = !texts[SYSTEM] || !told || gm_arguments_split(&words, told);
+    const int place = texts[COMMAND] ? gm_provenance_scene_place(&words) : 0;
+    good = good && (words.count <= place || gm_system_recall(words.words[place], texts[SYSTEM]));
+    gm_arguments_close(&words);
+    return good;
+}
+
 /* NAME-again, with `end` after it; malloc'ed */
 static char *output_name(const char *path, const char *end)
 {
@@ -72,7 +89,7 @@ static char *output_name(const char *path, const char *end)
 static const struct gm_command_row *chart_of(const char *name)
 {
     const struct gm_command_row *command = gm_command_find(name);
-    return command && command->bit & (GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP) ? command : NULL;
+    return command && command->bit & GM_CHARTS ? command : NULL;
 }
 
 /* Measures a chart once more: the run times are those of now. */
@@ -86,7 +103,7 @@ static int chart_again(const struct gm_options *options, const char *command)
     char *name = output_name(options->arguments.words[0], "");
     int status = GM_EXIT_FILE;
     if (name && chart && gm_options_parse(&again, chart->bit, words.count, words.words, 1, message)) {
-        again.out = options->out;
+        again.out = options->out || options->output ? options->out : ".";
         again.output = options->output;
         again.format = options->format;
         again.name = name;
@@ -111,8 +128,9 @@ static bool take_number(const char *text, double low, double high, double *numbe
 static bool take_look(struct gm_appearance *look, char *const *texts)
 {
     char theme[8] = "";
-    if (sscanf(texts[PICTURE], "%5dx%5d %7s", &look->width, &look->height, theme) != 3 || look->width < 64 ||
-        look->height < 64 || look->width > 16384 || look->height > 16384) {
+    if (sscanf(texts[PICTURE], "%5dx%5d %7s", &look->width, &look->height, theme) != 3 ||
+        look->width < GM_LEAST_SIDE || look->height < GM_LEAST_SIDE || look->width > GM_MOST_SIDE ||
+        look->height > GM_MOST_SIDE) {
         return false;
     }
     look->theme = strcmp(theme, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
@@ -190,7 +208,9 @@ static int command_again(const struct gm_options *options)
         gm_complain("%s", message);
         return GM_EXIT_FILE;
     }
-    const int status = texts[COMMAND] ? chart_again(options, texts[COMMAND]) : picture_again(options, texts);
+    const int status = !recall_system(texts) ? GM_EXIT_MEMORY
+                       : texts[COMMAND]      ? chart_again(options, texts[COMMAND])
+                                             : picture_again(options, texts);
     for (size_t i = 0; i < TEXTS; i++) {
         free(texts[i]);
     }

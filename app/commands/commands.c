@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "scenes/frame/scene.h"
+#include "app/request/system.h"
 
 const struct gm_command_row *const gm_commands[] = {
 #define GM_COMMAND(name) &gm_command_##name,
@@ -20,5 +20,5 @@ const struct gm_command_row *gm_command_find(const char *word)
             return gm_commands[i];
         }
     }
-    return gm_scene_find(word) ? gm_commands[0] : NULL;
+    return gm_scene_find(word) || gm_system_is(word) ? gm_commands[0] : NULL;
 }

@@ -7,8 +7,11 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
-#include "app/request/drive.h"
+#include "app/output/say.h"
+#include "app/request/arguments.h"
 #include "app/request/fitting.h"
+#include "app/request/room.h"
+#include "app/request/system.h"
 #include "app/request/words.h"
 #include "app/studies/sweep.h"
 #include "app/tours/tour.h"
@@ -45,11 +48,23 @@ static struct stem behind_last(const char *word, const char *breaks)
     return stem;
 }
 
+static void offer_system(const char *name, const void *stem)
+{
+    offer(stem, name, "a system");
+}
+
+static void offer_room(const char *name, const void *stem)
+{
+    offer(stem, name, "a room");
+}
+
 static void offer_scenes(const struct stem *stem)
 {
     for (size_t i = 0; i < gm_scene_count(); i++) {
         offer(stem, gm_scene_at(i)->name, gm_scene_at(i)->title);
     }
+    gm_system_each(offer_system, stem);
+    gm_room_each(offer_room, stem);
 }
 
 static void offer_schemes(const struct stem *stem, const struct gm_scene *scene)
@@ -84,10 +99,10 @@ static void offer_tours(const struct stem *stem)
 
 static void offer_observables(const struct stem *stem, const struct gm_scene *scene)
 {
-    for (size_t i = 0; scene && i < scene->observable_count; i++) {
+    const struct gm_observable *observable;
+    for (size_t i = 0; scene && (observable = gm_scene_observable_at(scene, i)) != NULL; i++) {
         char title[GM_MESSAGE];
-        offer(stem, scene->observables[i].key,
-              gm_observable_title(&scene->observables[i], title, sizeof title));
+        offer(stem, observable->key, gm_observable_title(observable, title, sizeof title));
     }
 }
 
@@ -108,7 +123,7 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
                          const struct gm_scene *scene)
 {
     if (strcmp(option->name, "--measure") == 0) {
-        const char *comma = option->commands & GM_SWEEP ? strrchr(stem->begin, ',') : NULL;
+        const char *comma = option->commands & (GM_SWEEP | GM_RUN) ? strrchr(stem->begin, ',') : NULL;
         struct stem last = *stem;
         if (comma) { /* of a list the last one */
             const size_t used = strlen(last.front);
@@ -121,10 +136,16 @@ static void offer_values(const struct gm_option *option, const struct stem *stem
         offer_named(stem, gm_sweep_statuses);
     } else if (strcmp(option->name, "--region") == 0) {
         offer_schemes(stem, NULL);
+    } else if (strcmp(option->name, "--on") == 0) {
+        offer_scenes(stem);
     } else if (strcmp(option->name, "--format") == 0) {
         for (int i = 0; i < GM_FORMAT_COUNT; i++) {
             offer(stem, gm_format_name((enum gm_format)i), "");
         }
+    } else if (strcmp(option->name, "--engine") == 0) {
+        offer(stem, "auto", "compiled where that pays");
+        offer(stem, "interpreted", "at once, everywhere");
+        offer(stem, "native", "compiled first");
     } else if (strcmp(option->name, "--theme") == 0) {
         offer(stem, "light", "for paper");
         offer(stem, "dark", "for a screen");
@@ -251,6 +272,7 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
     switch (command->bit) {
     case GM_LIST:
         offer(&stem, "scenes", "");
+        offer(&stem, "systems", "");
         offer(&stem, "schemes", "");
         offer(&stem, "figures", "");
         offer_scenes(&stem);
@@ -270,6 +292,7 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
     case GM_RENDER:
     case GM_WORK_PRECISION:
     case GM_STABILITY:
+    case GM_BACKWARD:
     case GM_SWEEP:
         if (!scene) {
             offer_scenes(&stem);
@@ -282,6 +305,25 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
     default:
         return;
     }
+}
+
+/* What a system is made of; a file's scene has those of its formulas. */
+static void offer_formulas(const char *word, const char *system, const struct gm_scene *scene)
+{
+    const struct stem stem = whole(word);
+    struct gm_arguments formulas = {0};
+    if (gm_room_is(system)) {
+        return; /* it has its lines in the file alone */
+    }
+    const bool known = scene && gm_system_formulas(scene->text, &formulas);
+    for (const char *const *key = gm_system_keys(system); *key; key++) {
+        char assignment[32];
+        snprintf(assignment, sizeof assignment, "%s=", *key);
+        if (!known || gm_arguments_have(&formulas, assignment)) {
+            offer_key(&stem, *key, "a formula of the system");
+        }
+    }
+    gm_arguments_close(&formulas);
 }
 
 static void offer_commands(const char *word)
@@ -304,8 +346,15 @@ static int command_complete(int count, char *const words[])
     }
     const struct gm_command_row *command = gm_command_find(words[0]);
     const struct gm_scene *scene = NULL;
+    const char *system = NULL;
+    char message[GM_MESSAGE];
+    int status;
     for (int i = 0; i < count - 1 && !scene; i++) {
         scene = gm_scene_find(words[i]);
+        if (!scene && gm_system_is(words[i])) {
+            system = system ? system : words[i];
+            scene = gm_system_scene(count - 1 - i, words + i, &status, message);
+        }
     }
     struct gm_option option;
     if (!command) {
@@ -318,7 +367,12 @@ static int command_complete(int count, char *const words[])
     } else if (last[0] == '-') {
         offer_options(command, last, scene);
     } else {
-        offer_words(command, last, scene);
+        if (system && !strchr(last, '=')) {
+            offer_formulas(last, system, scene);
+        }
+        if (scene || !system) {
+            offer_words(command, last, scene);
+        }
     }
     return gm_finish(GM_EXIT_OK);
 }

@@ -18,7 +18,8 @@
 #include "app/figures/page.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
-#include "app/request/drive.h"
+#include "app/output/say.h"
+#include "app/request/interrupt.h"
 #include "render/clock.h"
 
 enum { MOST_WORKERS = 64, QUICK_WIDTH = 640, QUICK_HEIGHT = 360 };

@@ -6,14 +6,19 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
-#include "app/commands/system.h"
+#include "app/commands/reference/system.h"
 #include "app/output/json.h"
+#include "app/output/say.h"
+#include "app/output/scheme_json.h"
 #include "app/output/wrapped.h"
-#include "app/request/drive.h"
 #include "app/request/fitting.h"
+#include "app/request/room.h"
 #include "app/request/system.h"
+#include "core/formula/equations.h"
 #include "core/formula/nearest.h"
 #include "core/memory.h"
+#include "core/ode/indicators/tangent.h"
+#include "core/ode/ode.h"
 #include "core/schemes.h"
 
 static void list_scenes(const struct gm_options *options)
@@ -39,6 +44,35 @@ static void list_scenes(const struct gm_options *options)
             gm_print_wrapped(scene->blurb, printf("  "), 2);
             gm_print_wrapped(scene->watch, printf("  "), 2);
         }
+    }
+}
+
+/* A system by its name: one that cannot be opened has its name alone. */
+static void list_system(const char *name, const void *data)
+{
+    const struct gm_options *options = data;
+    char path[4096], message[GM_MESSAGE];
+    struct gm_own_system system = {0};
+    const bool found = gm_system_path(name, path, sizeof path);
+    const bool good = found && gm_system_open(&system, path, NULL, 0, message) == GM_EXIT_OK;
+    const char *title = good && system.texts[GM_WORD_TITLE] ? system.texts[GM_WORD_TITLE] : "";
+    const char *about = good && system.texts[GM_WORD_ABOUT] ? system.texts[GM_WORD_ABOUT] : "";
+    if (options->json) {
+        printf("{");
+        gm_json_pair("system", name);
+        printf(",");
+        gm_json_pair("title", title);
+        printf(",");
+        gm_json_pair("about", about);
+        printf("}\n");
+    } else {
+        gm_print_wrapped(title, printf("%-21s ", name), 22);
+        if (options->longer) {
+            gm_print_wrapped(about, printf("  "), 2);
+        }
+    }
+    if (found) {
+        gm_system_close(&system);
     }
 }
 
@@ -68,32 +102,15 @@ static void list_scheme(const struct gm_scheme *scheme, const struct gm_options 
         gm_print_wrapped(text, printf("%-*s %d  %s ", NAME, scheme->name, scheme->order, letters), TITLE);
         if (options->longer) {
             print_formula(scheme->formula);
-            snprintf(text, sizeof text, "%s; %s", scheme->family->title, scheme->reference);
+            const bool equations = scheme->family->kind == &gm_kind_ode;
+            snprintf(text, sizeof text, "%s; %s%s%s", scheme->family->title, scheme->reference,
+                     equations ? "; derivative of a step: " : "", equations ? gm_tangent_word(scheme) : "");
             gm_print_wrapped(text, printf("  "), 2);
         }
         return;
     }
-    printf("{");
-    gm_json_pair("scheme", scheme->name);
-    printf(",");
-    gm_json_pair("title", scheme->title);
-    printf(",\"order\":%d,", scheme->order);
-    gm_json_pair("family", scheme->family->title);
-    printf(",");
-    gm_json_pair("for", gm_scheme_problems(scheme));
-    printf(",\"claims\":[");
-    const char *comma = "";
-    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
-        if (scheme->claims >> bit & 1) {
-            printf("%s\"%s\"", comma, gm_claim_word(bit));
-            comma = ",";
-        }
-    }
-    printf("],");
-    gm_json_pair("formula", scheme->formula);
-    printf(",");
-    gm_json_pair("reference", scheme->reference);
-    printf("}\n");
+    gm_scheme_put(stdout, scheme);
+    printf("\n");
 }
 
 /* What the letters of claims mean, of all that these schemes have. */
@@ -164,7 +181,9 @@ static void print_parameter(const struct gm_parameter *row)
     char range[256], text[512];
     gm_catalogue_range(row, range, sizeof range);
     snprintf(text, sizeof text, "%s%s%s [%s]", row->help, row->unit[0] ? ", in " : "", row->unit, range);
-    gm_print_wrapped(text, printf("  %-*s %s ", KEY, row->key, row->standard), KEY + DEFAULT + 4);
+    const int before = printf("  %-*s %s", KEY, row->key, row->standard);
+    const bool fits = before < KEY + DEFAULT + 4;
+    gm_print_wrapped(text, printf(fits ? " " : "\n") + (fits ? before : -1), KEY + DEFAULT + 4);
 }
 
 static void print_parameter_json(const struct gm_parameter *row)
@@ -251,10 +270,11 @@ static void print_entry(const struct entry *entry, const struct gm_options *opti
     for (size_t i = 0; i < entry->row_count; i++) {
         print_parameter(entry->rows[i]);
     }
-    printf("\nobservables\n");
-    for (size_t i = 0; i < scene->observable_count; i++) {
-        const struct gm_observable *observable = &scene->observables[i];
+    const struct gm_observable *observable;
+    for (size_t i = 0; (observable = gm_scene_observable_at(scene, i)) != NULL; i++) {
         char title[GM_MESSAGE];
+        fputs(i == 0 ? "\nobservables\n" : "", stdout);
+        fputs(i == scene->observable_count ? "computed when asked for by --measure\n" : "", stdout);
         gm_print_wrapped(gm_observable_title(observable, title, sizeof title),
                          printf("  %s ", observable->key), KEY + 11);
     }
@@ -293,6 +313,10 @@ static void print_entry_json(const struct entry *entry)
     for (size_t i = 0; i < scene->observable_count; i++) {
         printf("%s\"%s\"", i ? "," : "", scene->observables[i].key);
     }
+    printf("],\"asked\":[");
+    for (size_t i = 0; i < scene->asked_count; i++) {
+        printf("%s\"%s\"", i ? "," : "", scene->asked[i].key);
+    }
     printf("],\"schemes\":[");
     for (size_t i = 0; i < entry->scheme_count; i++) {
         printf("%s\"%s\"", i ? "," : "", entry->schemes[i]->name);
@@ -317,7 +341,7 @@ static bool list_scene(const struct gm_scene *scene, const struct gm_options *op
 }
 
 /* The lists beside those of a scene. */
-enum { LISTS = 3 };
+enum { LISTS = 4 };
 
 static int list_markdown(const char *what)
 {
@@ -334,44 +358,64 @@ static int list_markdown(const char *what)
 
 static const char *list_name(size_t i, const void *data)
 {
-    static const char *const lists[LISTS] = {"scenes", "schemes", "figures"};
-    return (void)data, i < LISTS ? lists[i] : gm_scene_at(i - LISTS)->name;
+    static const char *const lists[LISTS] = {"scenes", "systems", "schemes", "figures"};
+    return (void)data, lists[i];
 }
 
 static int command_list(const struct gm_options *options)
 {
     char path[4096];
-    const bool is_system = options->arguments.count > 0 && !gm_scene_find(options->arguments.words[0]) &&
-                           gm_system_path(options->arguments.words[0], path, sizeof path);
-    if (is_system && !options->markdown) {
-        return gm_list_system(options, path);
+    const char *first = options->arguments.count > 0 ? options->arguments.words[0] : "";
+    const bool typed = strcmp(first, gm_system_typed) == 0 && options->arguments.count > 1;
+    const bool is_system = *first && !gm_scene_find(first) && gm_system_path(first, path, sizeof path);
+    if ((is_system || typed) && !options->markdown) {
+        const enum gm_telling telling = options->json     ? GM_TELL_JSON
+                                        : options->latex  ? GM_TELL_LATEX
+                                        : options->longer ? GM_TELL_ALL
+                                                          : GM_TELL_SHORT;
+        return gm_list_system(&options->arguments, typed ? NULL : path, telling);
     }
     if (options->latex) {
         gm_complain("--latex writes the equations of a system, such as share/systems/toda.system");
         return GM_EXIT_USAGE;
     }
     if (options->arguments.count > 1) {
-        gm_complain("list takes one name: scenes, schemes, figures, a scene or a system");
+        gm_complain("list takes one name: scenes, systems, schemes, figures, a scene, a system or a room");
         return GM_EXIT_USAGE;
     }
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
     if (options->markdown) {
         return list_markdown(what);
     }
+    const struct gm_scene *scene = gm_scene_find(what);
+    if (!scene && gm_room_is(what)) {
+        int status;
+        char message[GM_MESSAGE];
+        scene = gm_room_scene(what, &status, message);
+        if (!scene) {
+            gm_complain("%s", message);
+            return status;
+        }
+    }
     if (strcmp(what, "scenes") == 0) {
         list_scenes(options);
+    } else if (strcmp(what, "systems") == 0) {
+        gm_system_each(list_system, options);
     } else if (strcmp(what, "schemes") == 0) {
         list_schemes(options);
     } else if (strcmp(what, "figures") == 0) {
         list_figures(options);
-    } else if (gm_scene_find(what)) {
-        if (!list_scene(gm_scene_find(what), options)) {
+    } else if (scene) {
+        if (!list_scene(scene, options)) {
             return GM_EXIT_USAGE;
         }
     } else {
-        const char *near = gm_nearest(what, LISTS + gm_scene_count(), list_name, NULL);
-        gm_complain("list knows scenes, schemes, figures and the names of scenes, not \"%.60s\"%s%s", what,
-                    near ? "; did you mean " : "", near ? near : "");
+        char found[GM_NEAR];
+        const char *list = gm_nearest(what, LISTS, list_name, NULL);
+        const char *near = list ? list : gm_system_near(what, found);
+        gm_complain("list knows scenes, systems, schemes, figures and the names of scenes and systems, not "
+                    "\"%.60s\"%s%s",
+                    what, near ? "; did you mean " : "", near ? near : "");
         return GM_EXIT_USAGE;
     }
     return gm_finish(GM_EXIT_OK);
@@ -379,7 +423,7 @@ static int command_list(const struct gm_options *options)
 
 const struct gm_command_row gm_command_list = {
     .name = "list",
-    .synopsis = "[scenes|schemes|figures|SCENE|SYSTEM]",
+    .synopsis = "[scenes|systems|schemes|figures|SCENE|SYSTEM|ROOM]",
     .help = "what there is",
     .bit = GM_LIST,
     .function = command_list,

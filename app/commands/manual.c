@@ -5,7 +5,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
-#include "app/request/drive.h"
+#include "app/output/say.h"
 #include "app/request/words.h"
 #include "core/schemes.h"
 
@@ -96,9 +96,10 @@ static void put_scenes(void)
         printf(". ");
         put_line(scene->blurb);
         printf(".PP\nObservables:");
-        for (size_t k = 0; k < scene->observable_count; k++) {
-            printf(k ? ", " : " ");
-            put(scene->observables[k].key);
+        const struct gm_observable *observable;
+        for (size_t k = 0; (observable = gm_scene_observable_at(scene, k)) != NULL; k++) {
+            printf(k == scene->observable_count ? "; when asked for: " : k ? ", " : " ");
+            put(observable->key);
         }
         printf(".\n");
         for (size_t k = 0; k < scene->parameter_count; k++) {
@@ -170,6 +171,10 @@ static void put_surroundings(void)
         {"GEOMINT_THEME", "light, dark or mono, in the terminal"},
         {"GEOMINT_TOURS", "a folder with tours, in place of the installed ones"},
         {"GEOMINT_SYSTEMS", "a folder with systems, in place of the installed ones"},
+        {"GEOMINT_ROOMS", "a folder with rooms, in place of the installed ones"},
+        {"GEOMINT_KERNEL", "a folder with the sources of loops, in place of the installed one"},
+        {"GEOMINT_COMPILER_SECONDS", "how long the compiler of loops may take (10)"},
+        {"XDG_CACHE_HOME", "where the folder geomint with compiled loops is, in place of ~/.cache"},
         {"NO_COLOR", "if it is not empty, the explorer uses no colour"},
     };
     printf(".SH EXIT STATUS\n");

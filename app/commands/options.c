@@ -11,7 +11,23 @@
 #include "render/cells/text.h"
 #include "render/files/sink.h"
 
-enum kind { FLAG, TEXT, TITLE, FORMAT, MOVIE, WHOLE, TIME, RATE, FPS, SCALE, DPI, SIZE, THEME, SHARD };
+enum kind {
+    FLAG,
+    TEXT,
+    TITLE,
+    FORMAT,
+    MOVIE,
+    WHOLE,
+    TIME,
+    RATE,
+    FPS,
+    SCALE,
+    DPI,
+    SIZE,
+    THEME,
+    SHARD,
+    ENGINE
+};
 
 struct row {
     const char *name;
@@ -22,12 +38,13 @@ struct row {
 };
 
 #define AT(member) offsetof(struct gm_options, member)
-#define PAINTS (GM_RENDER | GM_FIGURES | GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP | GM_TOUR)
-#define PRINTS (GM_RENDER | GM_WORK_PRECISION | GM_STABILITY | GM_SWEEP | GM_AGAIN)
+#define PAINTS (GM_CHARTS | GM_RENDER | GM_FIGURES | GM_TOUR)
+#define PRINTS (GM_CHARTS | GM_RENDER | GM_AGAIN)
 #define EXPLORES (GM_TUI | GM_TERMINAL | GM_TOUR)
 
 static const struct row rows[] = {
-    {"--json", FLAG, GM_RUN | GM_LIST | GM_CERTIFY | GM_STABILITY | GM_WORK_PRECISION | GM_FIGURES, AT(json),
+    {"--json", FLAG,
+     GM_RUN | GM_LIST | GM_CERTIFY | GM_STABILITY | GM_BACKWARD | GM_WORK_PRECISION | GM_FIGURES, AT(json),
      "", "one JSON object a line"},
     {"--long", FLAG, GM_LIST, AT(longer), "", "with formulas and references"},
     {"--markdown", FLAG, GM_LIST, AT(markdown), "", "scenes or schemes as in the documentation"},
@@ -75,12 +92,21 @@ static const struct row rows[] = {
     {"--shard", SHARD, GM_RENDER, AT(shard), "I/N", "only the I-th of N shares of the frames"},
     {"--shard", SHARD, GM_SWEEP, AT(shard), "I/N",
      "only the I-th of N shares of the runs, in a table of its own"},
+    {"--engine", ENGINE, GM_TUI | GM_RUN | GM_RENDER | GM_SWEEP | GM_WORK_PRECISION, AT(engine),
+     "auto|interpreted|native", "what advances systems of one's own: compiled loops, where they pay (auto)"},
+    {"--clear", FLAG, GM_CACHE, AT(clear), "", "remove them"},
     {"--strict", FLAG, GM_RUN | GM_RENDER, AT(strict), "",
      "exit 2 if a lane ends in a numerical failure (run: or with a warning)"},
     {"--measure", TEXT, GM_WORK_PRECISION, AT(measure), "KEY", "the observable that is the error"},
+    {"--measure", TEXT, GM_RUN, AT(measure), "KEY,...",
+     "the observables that are told (all but those that are computed only when asked for)"},
     {"--measure", TEXT, GM_SWEEP, AT(measure), "KEY,...", "the observables of the table (all)"},
     {"--region", TEXT, GM_STABILITY, AT(region), "SCHEME",
      "the linear stability region of a scheme, no scene"},
+    {"--on", TEXT, GM_CERTIFY, AT(on), "SYSTEM",
+     "measure on this system: a scene's name, a file, or system with formulas behind the scheme"},
+    {"--polish", TEXT, GM_CERTIFY, AT(polish), "OUT.scheme",
+     "write the scheme with decimals that satisfy the order conditions"},
     {"--list", FLAG, GM_TOUR, AT(listing), "", "what there is; with a tour, its steps"},
     {"--quick", FLAG, GM_FIGURES, AT(quick), "", "smaller pictures; long runs are coarser and not judged"},
 };
@@ -106,7 +132,8 @@ static bool store_between(char *place, const struct row *row, const char *value,
 
 static bool is_painted(double width, double height)
 {
-    return width >= 64 && height >= 64 && width <= 16384 && height <= 16384;
+    return width >= GM_LEAST_SIDE && height >= GM_LEAST_SIDE && width <= GM_MOST_SIDE &&
+           height <= GM_MOST_SIDE;
 }
 
 /* "1280x720", or "16x9cm", of which the pixels follow when --dpi is known: page[] then is in mm. */
@@ -250,6 +277,9 @@ static bool store(struct gm_options *options, const struct row *row, const char 
         options->shards = shards;
         return true;
     }
+    case ENGINE:
+        return gm_engine_named(value, &options->engine) ||
+               refuse(message, row->name, value, "is none of: auto, interpreted, native");
     case THEME:
         options->look.theme = strcmp(value, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
         return strcmp(value, "dark") == 0 || strcmp(value, "light") == 0 ||

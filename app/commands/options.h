@@ -3,6 +3,7 @@
 #ifndef GM_APP_COMMANDS_OPTIONS_H
 #define GM_APP_COMMANDS_OPTIONS_H
 
+#include "app/native/engine.h"
 #include "app/output/press.h"
 #include "app/request/arguments.h"
 #include "app/request/request.h"
@@ -21,17 +22,22 @@ enum gm_command {
     GM_STABILITY = 1 << 9,
     GM_TOUR = 1 << 10,
     GM_SWEEP = 1 << 11,
+    GM_BACKWARD = 1 << 12,
+    GM_CACHE = 1 << 13,
     GM_MANUAL = 1 << 29,
     GM_COMPLETE = 1 << 30,
+    /* those that draw what they measured */
+    GM_CHARTS = GM_WORK_PRECISION | GM_STABILITY | GM_BACKWARD | GM_SWEEP | GM_CERTIFY,
 };
 
 /* The --options of a command line; what is not given is 0, NULL or as said. */
 struct gm_options {
-    int json, state, maximum, strict, longer, quick, markdown, latex, listing, yes;
+    int json, state, maximum, strict, longer, quick, markdown, latex, listing, yes, clear;
     const char *save, *tracks, *checkpoint, *from_checkpoint;
-    const char *csv, *profile, *out, *movie, *measure, *region, *changes;
+    const char *csv, *profile, *out, *movie, *measure, *region, *changes, *on, *polish;
     const char *output; /* one picture's file; NULL: not given */
     const char *format_name;
+    enum gm_engine engine;            /* auto, if it is not given */
     enum gm_format format;            /* of pictures: png, unless the two before say otherwise */
     const char *name;                 /* of a chart's files, by `again` alone; NULL: the command's own */
     const char *table, *retry, *join; /* of sweep */
@@ -45,12 +51,6 @@ struct gm_options {
     const char *graphics, *colours, *shade; /* what to believe of the terminal */
     struct gm_arguments arguments;          /* what is left: scene, key=value, names */
 };
-
-/* Bounds of --scale and --dpi. */
-#define GM_LEAST_SCALE 0.25
-#define GM_MOST_SCALE 4.0
-#define GM_LEAST_DPI 24.0
-#define GM_MOST_DPI 2400.0
 
 /* Reads argv[first..]; the texts point into it. False with a sentence. To be closed in
    both cases. */

@@ -9,8 +9,10 @@
 #include "app/commands/commands.h"
 #include "app/output/checkpoint.h"
 #include "app/output/folder.h"
+#include "app/output/say.h"
 #include "app/output/still.h"
 #include "app/request/drive.h"
+#include "app/request/interrupt.h"
 #include "core/memory.h"
 #include "render/clock.h"
 #include "render/files/sink.h"
@@ -62,17 +64,9 @@ static void show_progress(const struct work *work, long made, double started)
 static bool drive_to(struct work *work, long frame, char *message)
 {
     for (size_t i = 0; i < work->request->count; i++) {
-        const long steps = work->request->lanes[i].steps;
-        struct gm_drive *drive = &work->drives[i];
-        long due = 0, before = -1;
-        /* where the scheme chooses its step, one after the other until the time is reached */
-        do {
-            before = drive->lane->run->steps;
-            due = gm_drive_step_at(drive, gm_schedule_time(&work->schedule, frame));
-            if (!gm_drive_to(drive, due < steps ? due : steps, true, message)) {
-                return false;
-            }
-        } while (drive->lane->scheme->family->own_time && drive->lane->run->steps > before);
+        if (!gm_drive_until(&work->drives[i], gm_schedule_time(&work->schedule, frame), true, message)) {
+            return false;
+        }
     }
     return true;
 }
@@ -114,7 +108,7 @@ static bool paint_frame(struct work *work, long frame, char *message)
         return false; /* the sink tells why when it is closed */
     }
     gm_picture_clear(work->picture);
-    work->request->scene->draw(lanes_of(work), work->request->count, work->picture);
+    gm_lanes_draw(lanes_of(work), work->request->count, work->picture);
     if (!gm_canvas_paint(work->canvas, work->picture, rgb) || gm_memory_was_short()) {
         return gm_refuse(message, "not enough memory to paint");
     }
@@ -260,6 +254,7 @@ static bool open_sinks(struct work *work, const char *name, char *message)
     const struct gm_sink_settings settings = {
         .width = options->look.width,
         .height = options->look.height,
+        .dpi = options->look.dpi,
         .fps = isnan(options->fps) ? 30 : options->fps,
         .texts = work->provenance.texts,
         .text_count = work->provenance.count,
@@ -310,6 +305,23 @@ static void tell_warnings(const struct work *work)
     }
 }
 
+/* The ends that are none of those asked for, each once; a scene's own lanes end where their picture is
+   best. */
+static void tell_other_ends(const struct work *work)
+{
+    char last[GM_MESSAGE] = "", sentence[GM_MESSAGE];
+    const struct gm_arguments *typed = &work->options->arguments;
+    const bool asked = gm_arguments_have(typed, "until=") || gm_arguments_have(typed, "dt=");
+    for (size_t i = 0; asked && i < work->request->count; i++) {
+        gm_drive_other_end(&work->drives[i], sentence, sizeof sentence);
+        if (sentence[0] && work->lanes[i]->run->steps == work->request->lanes[i].steps &&
+            strcmp(sentence, last) != 0) {
+            gm_complain("%s", sentence);
+            strcpy(last, sentence);
+        }
+    }
+}
+
 /* The exit status of frames that are all written. */
 static int tell_end(const struct work *work)
 {
@@ -321,6 +333,7 @@ static int tell_end(const struct work *work)
     }
     free(failures);
     tell_warnings(work);
+    tell_other_ends(work);
     return work->options->strict && failed ? GM_EXIT_NUMERICAL : GM_EXIT_OK;
 }
 
@@ -472,9 +485,10 @@ static int render(struct gm_request *request, const struct gm_options *options, 
 static bool take_changes(struct gm_request *request, const char *list, char *message)
 {
     char *text = list ? strdup(list) : NULL;
-    int colons = 0;
+    int colons = 0, depth = 0; /* a scheme may be a word with commas in its parentheses */
     for (char *at = text; at && *at; at++) {
-        if (*at == ',') {
+        depth += (*at == '(') - (*at == ')');
+        if (*at == ',' && depth == 0) {
             *at = '\n';
             colons = 0;
         } else if (*at == ':' && colons < 2) {

@@ -12,18 +12,23 @@
 #include "app/data/rows.h"
 #include "app/data/save.h"
 #include "app/data/tracks.h"
+#include "app/native/engine.h"
 #include "app/output/checkpoint.h"
 #include "app/output/csv.h"
 #include "app/output/folder.h"
 #include "app/output/json.h"
 #include "app/output/pause.h"
+#include "app/output/say.h"
+#include "app/request/chosen.h"
 #include "app/request/drive.h"
+#include "app/request/interrupt.h"
 #include "core/memory.h"
 #include "render/clock.h"
 
 /* What the command writes beside its numbers. */
 struct outputs {
     const struct gm_options *options;
+    struct gm_chosen chosen; /* the observables that are told */
     struct gm_rows rows;
     FILE *csv; /* NULL: not asked for, as the others */
     struct gm_save *save;
@@ -42,13 +47,32 @@ struct outcome {
     char warning[GM_MESSAGE]; /* what is wrong with an end that is called well; "" for nothing */
 };
 
+/* The observable that is told in place i. */
+static const struct gm_observable *told(const struct outcome *outcome, size_t i)
+{
+    return gm_scene_observable_at(outcome->drive.lane->scene, outcome->outputs->chosen.numbers[i]);
+}
+
+static double observe_told(const struct outcome *outcome, size_t i)
+{
+    return gm_lane_observe(outcome->drive.lane, outcome->outputs->chosen.numbers[i]);
+}
+
+/* Why there is no value of it; NULL: there is one. */
+static const char *missing(const struct outcome *outcome, size_t i)
+{
+    return isnan(outcome->values[i])
+               ? gm_lane_missing(outcome->drive.lane, outcome->outputs->chosen.numbers[i])
+               : NULL;
+}
+
 /* Looks at the lane's end. Where there is no memory for that the lane says so, and the number is not one. */
 static void observe(struct outcome *outcome)
 {
     struct gm_lane *lane = outcome->drive.lane;
     const unsigned long refusals = gm_memory_refusals();
-    for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        outcome->values[i] = gm_lane_observe(lane, i);
+    for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
+        outcome->values[i] = observe_told(outcome, i);
     }
     if (!outcome->interrupted) {
         gm_drive_warning(&outcome->drive, outcome->warning, sizeof outcome->warning);
@@ -73,13 +97,12 @@ static const char *tell_end(const struct outcome *outcome, char *sentence, size_
 /* Why values are null, where any is. */
 static void print_json_reasons(const struct outcome *outcome)
 {
-    const struct gm_scene *scene = outcome->drive.lane->scene;
     const char *front = ",\"reasons\":{";
-    for (size_t i = 0; i < scene->observable_count; i++) {
-        const struct gm_observable *observable = &scene->observables[i];
-        if (observable->missing && isnan(outcome->values[i])) {
+    for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
+        const char *reason = missing(outcome, i);
+        if (reason) {
             fputs(front, stdout);
-            gm_json_pair(observable->key, observable->missing);
+            gm_json_pair(told(outcome, i)->key, reason);
             front = ",";
         }
     }
@@ -92,20 +115,35 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     const struct gm_run *run = lane->run;
     char sentence[GM_MESSAGE];
     const char *status = tell_end(outcome, sentence, sizeof sentence);
-    printf("{\"scene\":\"%s\",\"scheme\":\"%s\",\"parameters\":", lane->scene->name, lane->scheme->name);
+    printf("{");
+    gm_json_pair("scene", lane->scene->name);
+    if (lane->scene->text) {
+        putchar(',');
+        gm_json_pair("system", lane->scene->text);
+    }
+    printf(",");
+    gm_json_pair("scheme", lane->scheme->name);
+    if (gm_engine_of(lane)) {
+        putchar(',');
+        gm_json_pair("engine", gm_engine_of(lane));
+    }
+    printf(",\"parameters\":");
     gm_meta_parameters(stdout, lane);
     printf(",\"status\":\"%s\",\"message\":\"%s\",\"warning\":\"%s\",\"t\":", status, sentence,
            outcome->warning);
     gm_json_number(run->t);
+    if (lane->scene->stop) {
+        printf(",\"stopped\":%s", gm_lane_stopped(lane) ? "true" : "false");
+    }
     printf(",\"steps\":%ld,\"evaluations\":%.0f,\"solves\":%.0f,\"seconds\":%.6g,\"observables\":{",
            run->steps, gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves),
            outcome->drive.seconds);
-    for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        printf("%s\"%s\":", i ? "," : "", lane->scene->observables[i].key);
+    for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
+        printf("%s\"%s\":", i ? "," : "", told(outcome, i)->key);
         gm_json_number(outcome->values[i]);
     }
-    for (size_t i = 0; outcome->maxima && i < lane->scene->observable_count; i++) {
-        printf(",\"%s_max\":", lane->scene->observables[i].key);
+    for (size_t i = 0; outcome->maxima && i < outcome->outputs->chosen.count; i++) {
+        printf(",\"%s_max\":", told(outcome, i)->key);
         gm_json_number(outcome->maxima[i]);
     }
     printf("}");
@@ -131,8 +169,8 @@ static void print_text(const struct outcome *outcome)
     gm_say("%s  %s%s%s%s%s", lane->scene->name, lane->scheme->name, shown->panel_name[0] ? "  " : "",
            shown->panel_name, shown->colour_name[0] ? "  " : "", shown->colour_name);
     int width = 0; /* of the names */
-    for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        const int length = (int)strlen(lane->scene->observables[i].key) + (outcome->maxima ? 4 : 0);
+    for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
+        const int length = (int)strlen(told(outcome, i)->key) + (outcome->maxima ? 4 : 0);
         width = length > width ? length : width;
     }
     width = width > 20 ? width : 20;
@@ -148,18 +186,18 @@ static void print_text(const struct outcome *outcome)
     printf("  %-*s %.10g\n  %-*s %ld\n  %-*s %.0f\n  %-*s %.0f\n  %-*s %.3g\n", width, "t", run->t, width,
            "steps", run->steps, width, "evaluations", gm_run_per_member(run, run->evaluations), width,
            "solves", gm_run_per_member(run, run->solves), width, "seconds", outcome->drive.seconds);
-    for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        const struct gm_observable *observable = &lane->scene->observables[i];
-        if (observable->missing && isnan(outcome->values[i])) {
-            printf("  %-*s none: %s\n", width, observable->key, observable->missing);
+    for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
+        const char *reason = missing(outcome, i);
+        if (reason) {
+            printf("  %-*s none: %s\n", width, told(outcome, i)->key, reason);
         } else {
-            printf("  %-*s %.10g\n", width, observable->key, outcome->values[i]);
+            printf("  %-*s %.10g\n", width, told(outcome, i)->key, outcome->values[i]);
         }
     }
     char name[64];
-    for (size_t i = 0; outcome->maxima && i < lane->scene->observable_count; i++) {
-        snprintf(name, sizeof name, "%s_max", lane->scene->observables[i].key);
-        const bool none = lane->scene->observables[i].missing && isnan(outcome->maxima[i]);
+    for (size_t i = 0; outcome->maxima && i < outcome->outputs->chosen.count; i++) {
+        snprintf(name, sizeof name, "%s_max", told(outcome, i)->key);
+        const bool none = isnan(outcome->maxima[i]) && missing(outcome, i);
         printf(none ? "  %-*s none\n" : "  %-*s %.10g\n", width, name, outcome->maxima[i]);
     }
 }
@@ -202,8 +240,10 @@ static char *front_of(const struct gm_request *request, const struct gm_lane *la
     if (!stream) {
         return NULL;
     }
-    fprintf(stream, lane ? "%s,%zu,%s" : "scene,lane,scheme", request->scene->name, index,
-            lane ? lane->scheme->name : "");
+    fprintf(stream, lane ? "%s,%zu," : "scene,lane,scheme", request->scene->name, index);
+    if (lane) {
+        gm_csv_put_text(stream, lane->scheme->name);
+    }
     for (size_t own = 2; own-- > 0;) {
         const struct gm_parameter *rows = own ? request->scene->parameters : gm_settings_parameters;
         const size_t count = own ? request->scene->parameter_count : gm_settings_parameter_count;
@@ -232,16 +272,16 @@ static void write_row(FILE *csv, const struct outcome *outcome)
     const struct gm_lane *lane = outcome->drive.lane;
     char sentence[GM_MESSAGE];
     fprintf(csv, "%s,%.17g,%s", outcome->front, lane->run->t, tell_end(outcome, sentence, sizeof sentence));
-    for (size_t i = 0; i < lane->scene->observable_count; i++) {
-        fprintf(csv, ",%.17g", gm_lane_observe(lane, i));
+    for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
+        fprintf(csv, ",%.17g", observe_told(outcome, i));
     }
     fputc('\n', csv);
 }
 
 static void take_maxima(struct outcome *outcome)
 {
-    for (size_t i = 0; outcome->maxima && i < outcome->drive.lane->scene->observable_count; i++) {
-        const double value = gm_lane_observe(outcome->drive.lane, i);
+    for (size_t i = 0; outcome->maxima && i < outcome->outputs->chosen.count; i++) {
+        const double value = observe_told(outcome, i);
         if (!(fabs(value) <= fabs(outcome->maxima[i])) && !isnan(value)) { /* the maximum is NaN at first */
             outcome->maxima[i] = value;
         }
@@ -426,7 +466,8 @@ static bool close_csv(FILE *csv)
     return fclose(csv) == 0 && !failed;
 }
 
-static FILE *open_csv(const char *path, const struct gm_request *request, char *message)
+static FILE *open_csv(const char *path, const struct gm_request *request, const struct gm_chosen *chosen,
+                      char *message)
 {
     FILE *csv = open_stream(path, "w", message);
     if (!csv) {
@@ -439,8 +480,8 @@ static FILE *open_csv(const char *path, const struct gm_request *request, char *
         return NULL;
     }
     fprintf(csv, "%s,t,status", names);
-    for (size_t i = 0; i < request->scene->observable_count; i++) {
-        fprintf(csv, ",%s", request->scene->observables[i].key);
+    for (size_t i = 0; i < chosen->count; i++) {
+        fprintf(csv, ",%s", gm_scene_observable_at(request->scene, chosen->numbers[i])->key);
     }
     fputc('\n', csv);
     free(names);
@@ -509,6 +550,11 @@ static bool check_options(const struct gm_options *options)
         gm_complain("standard output takes one of --csv -, --profile - and --json");
         return false;
     }
+    if ((options->every > 0 || !isnan(options->interval)) && !options->csv && !options->save) {
+        gm_complain("--%s says which steps have a row: of --csv or --save",
+                    options->every > 0 ? "every" : "interval");
+        return false;
+    }
     return true;
 }
 
@@ -533,7 +579,10 @@ static bool has_profile(const struct gm_request *request)
 static int open_outputs(struct outputs *outputs, const struct gm_request *request, char *message)
 {
     const struct gm_options *options = outputs->options;
-    const size_t numbers = options->maximum ? request->scene->observable_count : 0;
+    if (!gm_chosen_open(&outputs->chosen, request->scene, options->measure, message)) {
+        return GM_EXIT_USAGE;
+    }
+    const size_t numbers = options->maximum ? outputs->chosen.count : 0;
     if (options->profile && !has_profile(request)) {
         gm_refuse(message, "scene %s has no profiles", request->scene->name);
         return GM_EXIT_USAGE;
@@ -542,7 +591,14 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
         return GM_EXIT_USAGE;
     }
     if ((options->checkpoint || options->from_checkpoint) && !gm_checkpoint_fits(request)) {
-        gm_refuse(message, "a run of these schemes cannot be gone on with from a checkpoint");
+        size_t i = 0;
+        while (i < request->count && !request->lanes[i].scheme->family->not_resumable) {
+            i++;
+        }
+        const bool keeps_to_itself = i < request->count; /* the library behind a scheme */
+        gm_refuse(message, "a run %s%s cannot be gone on with from a checkpoint",
+                  keeps_to_itself ? "by " : "",
+                  keeps_to_itself ? request->lanes[i].scheme->name : "that is changed in flight");
         return GM_EXIT_USAGE;
     }
     if (options->tracks && !gm_tracks_knows(options->tracks, request->scene, message)) {
@@ -556,7 +612,7 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
     }
     const bool good =
         (!options->checkpoint || gm_folder_make_for(options->checkpoint, message)) &&
-        (!options->csv || (outputs->csv = open_csv(options->csv, request, message))) &&
+        (!options->csv || (outputs->csv = open_csv(options->csv, request, &outputs->chosen, message))) &&
         (!options->tracks || (outputs->tracks = gm_tracks_open(options->tracks, request->count, message))) &&
         (!options->save || (outputs->save = gm_save_open(options->save, request->count,
                                                          gm_pause_has_rows(outputs->pause), message)));
@@ -569,11 +625,13 @@ static int close_outputs(struct outputs *outputs, bool opened, int status)
     char message[GM_MESSAGE];
     const struct gm_options *options = outputs->options;
     const bool refused = status == GM_EXIT_FILE || !opened;
+    /* what a checkpoint goes on with is not lost to a slip */
+    const bool keeps = options->checkpoint || (options->from_checkpoint && refused);
     if (outputs->csv && !close_csv(outputs->csv) && outputs->csv != stdout) {
         gm_complain("%s could not be written: %s", options->csv, strerror(errno));
         status = GM_EXIT_FILE;
     }
-    if (outputs->save && !gm_save_close(outputs->save, !refused, options->checkpoint != NULL, message)) {
+    if (outputs->save && !gm_save_close(outputs->save, !refused, keeps, message)) {
         gm_complain("%s", message);
         status = GM_EXIT_FILE;
     }
@@ -582,6 +640,7 @@ static int close_outputs(struct outputs *outputs, bool opened, int status)
         status = GM_EXIT_FILE;
     }
     gm_pause_close(outputs->pause);
+    gm_chosen_close(&outputs->chosen);
     if (status != GM_EXIT_FILE && status != GM_EXIT_USAGE) {
         const char *const written[] = {options->csv, options->profile, options->save, options->tracks,
                                        options->checkpoint};
@@ -597,7 +656,7 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
 {
     char message[GM_MESSAGE];
     const struct gm_options *options = outputs->options;
-    const size_t observables = request->scene->observable_count;
+    const size_t observables = outputs->chosen.count;
     struct outcome outcome = {.drive = {.request = request, .index = index}, .outputs = outputs};
     outcome.drive.lane = gm_request_open_lane(request, index, message);
     outcome.front = outcome.drive.lane ? front_of(request, outcome.drive.lane, index) : NULL;

@@ -7,7 +7,8 @@
 #include "app/commands/commands.h"
 #include "app/commands/tui.h"
 #include "app/explorer/explorer.h"
-#include "app/request/drive.h"
+#include "app/output/say.h"
+#include "app/request/interrupt.h"
 #include "app/tours/movie.h"
 #include "app/tours/tour.h"
 

@@ -4,7 +4,7 @@
 
 #include "app/commands/commands.h"
 #include "app/explorer/explorer.h"
-#include "app/request/drive.h"
+#include "app/output/say.h"
 
 struct gm_overrides gm_overrides_of(const struct gm_options *options)
 {

@@ -40,7 +40,13 @@ static size_t begin(struct crew *crew)
         crew->leave = true;
         pthread_cond_broadcast(&crew->room);
     }
-    return crew->leave || crew->next == pool->count ? pool->count : crew->next++;
+    if (crew->leave || crew->next == pool->count) {
+        return pool->count;
+    }
+    if (crew->next + 1 == pool->count) { /* nothing is left for those who wait */
+        pthread_cond_broadcast(&crew->room);
+    }
+    return crew->next++;
 }
 
 static void *work(void *self)
@@ -110,7 +116,8 @@ size_t gm_pool_run(const struct gm_pool *pool)
 {
     struct crew crew = {.pool = pool};
     const size_t wanted = pool->jobs > 0 ? pool->jobs : gm_pool_cores();
-    const size_t most = wanted < pool->count ? wanted : pool->count;
+    const size_t useful = pool->count < pool->window ? pool->count : pool->window;
+    const size_t most = wanted < useful ? wanted : useful;
     pthread_t *threads = most > 1 ? calloc(most, sizeof *threads) : NULL;
     crew.done = threads ? calloc(pool->window, sizeof *crew.done) : NULL;
     size_t started = 0;

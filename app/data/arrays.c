@@ -6,33 +6,50 @@
 
 #include "app/data/format.h"
 #include "app/data/npz.h"
+#include "core/run.h"
 
-static bool put_quantity(struct gm_saved *lane, size_t i, const struct gm_run *run)
+static bool put_quantity(struct gm_saved *lane, size_t i, const struct gm_run *run, const double *state)
 {
     const struct gm_quantity *quantity = &lane->quantities[i];
-    const size_t size = gm_quantity_size(run, quantity);
-    const double *values = gm_quantity_values(run, quantity, lane->scratch);
+    struct gm_column *column = &lane->columns[i + 1];
+    const size_t size = lane->sizes[i];
+    const double *values = quantity->derive ? gm_quantity_values(run, quantity, lane->scratch)
+                                            : state + quantity->first * lane->members;
     if (!quantity->whole) {
-        return gm_column_put(&lane->columns[i + 1], values, size * sizeof *values);
+        return gm_column_put(column, values, size * sizeof *values);
     }
     for (size_t k = 0; k < size; k++) {
         const int64_t number = (int64_t)values[k];
-        if (!gm_column_put(&lane->columns[i + 1], &number, sizeof number)) {
+        if (!gm_column_put(column, &number, sizeof number)) {
             return false;
         }
     }
     return true;
 }
 
+/* Whether all quantities are single numbers of the state in its order, as of most ordinary differential
+   equations: saving them is to cost little beside a step. */
+static bool is_plain(const struct gm_saved *lane)
+{
+    bool plain = lane->members == 1;
+    for (size_t i = 0; i < lane->count; i++) {
+        const struct gm_quantity *quantity = &lane->quantities[i];
+        plain = plain && lane->sizes[i] == 1 && quantity->first == i && !quantity->derive &&
+                !quantity->whole && !quantity->fixed;
+    }
+    return plain;
+}
+
 static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
+    const double *state = gm_run_state(run);
+    lane->plain = is_plain(lane);
     bool good = gm_column_open(saving->part, lane->index, 0, lane->rows, sizeof(double), &lane->columns[0]);
     for (size_t i = 0; i < lane->count && good; i++) {
         const struct gm_quantity *quantity = &lane->quantities[i];
-        const size_t size = gm_quantity_size(run, quantity) * sizeof(double);
-        good = gm_column_open(saving->part, lane->index, i + 1, quantity->fixed ? 0 : lane->rows, size,
-                              &lane->columns[i + 1]) &&
-               (!quantity->fixed || put_quantity(lane, i, run));
+        good = gm_column_open(saving->part, lane->index, i + 1, quantity->fixed ? 0 : lane->rows,
+                              lane->sizes[i] * sizeof(double), &lane->columns[i + 1]) &&
+               (!quantity->fixed || put_quantity(lane, i, run, state));
     }
     return good;
 }
@@ -40,9 +57,13 @@ static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const s
 static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
     (void)saving;
+    const double *state = gm_run_state(run);
     bool good = gm_column_put(&lane->columns[0], &run->t, sizeof run->t);
-    for (size_t i = 0; i < lane->count && good; i++) {
-        good = lane->quantities[i].fixed || put_quantity(lane, i, run);
+    for (size_t i = 0; i < lane->count && good && lane->plain; i++) {
+        good = gm_column_put(&lane->columns[i + 1], state + i, sizeof *state);
+    }
+    for (size_t i = 0; i < lane->count && good && !lane->plain; i++) {
+        good = lane->quantities[i].fixed || put_quantity(lane, i, run, state);
     }
     return good;
 }
@@ -50,18 +71,13 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
 static size_t shape_of(const struct gm_saved *lane, const struct gm_quantity *quantity,
                        uint64_t shape[GM_NPZ_AXES])
 {
-    size_t axes = 0;
+    size_t lengths[GM_QUANTITY_AXES], axes = 0;
     if (!quantity->fixed) {
         shape[axes++] = lane->rows;
     }
-    if (quantity->support != GM_ON_RUN) {
-        shape[axes++] = quantity->count;
-    }
-    if (lane->members > 1) {
-        shape[axes++] = lane->members;
-    }
-    if (quantity->width > 1) {
-        shape[axes++] = quantity->width;
+    const size_t own = gm_quantity_shape(quantity, lane->members, lengths);
+    for (size_t i = 0; i < own; i++) {
+        shape[axes++] = lengths[i];
     }
     return axes;
 }
@@ -103,4 +119,4 @@ static bool join(const struct gm_saving *saving, FILE *file)
     return npz && gm_npz_close(npz) && good;
 }
 
-const struct gm_format gm_format_npz = {.ending = ".npz", .begin = begin, .row = row, .join = join};
+const struct gm_data_format gm_data_format_npz = {.ending = ".npz", .begin = begin, .row = row, .join = join};

@@ -16,7 +16,9 @@ enum { GM_COLUMNS = GM_QUANTITIES + 1 };
 struct gm_saved {
     size_t index; /* of the lane */
     struct gm_quantity quantities[GM_QUANTITIES];
+    size_t sizes[GM_QUANTITIES]; /* how many numbers each has (gm_quantity_size) */
     size_t count, members;
+    bool plain; /* every row is the numbers of the state, one a column (npz) */
     uint64_t rows;
     struct gm_column columns[GM_COLUMNS];
     double *scratch; /* room for the longest quantity that is derived; NULL once the lane has ended */
@@ -30,7 +32,7 @@ struct gm_saving {
     size_t begun, count;
 };
 
-struct gm_format {
+struct gm_data_format {
     const char *ending;
     bool grows; /* the file is made anew now and then while rows come */
     /* Opens the columns of a lane, with as many rows as it has already; these and the following are false
@@ -43,6 +45,6 @@ struct gm_format {
     const char *(*refuse)(const struct gm_saving *saving);
 };
 
-extern const struct gm_format gm_format_npz, gm_format_csv, gm_format_pvd;
+extern const struct gm_data_format gm_data_format_npz, gm_data_format_csv, gm_data_format_pvd;
 
 #endif

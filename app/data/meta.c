@@ -59,9 +59,12 @@ char *gm_meta_text(const struct gm_lane *lane, const char *status, const char *s
     if (!stream) {
         return NULL;
     }
-    fprintf(stream,
-            "{\"version\":\"geomint %s\",\"scene\":\"%s\",\"scheme\":\"%s\",\"parameters\":", GM_VERSION,
-            lane->scene->name, lane->scheme->name);
+    fprintf(stream, "{\"version\":\"geomint %s\",\"scene\":\"%s\"", GM_VERSION, lane->scene->name);
+    if (lane->scene->text) {
+        fputs(",\"system\":", stream);
+        gm_json_put_text(stream, lane->scene->text);
+    }
+    fprintf(stream, ",\"scheme\":\"%s\",\"parameters\":", lane->scheme->name);
     gm_meta_parameters(stream, lane);
     fprintf(stream, ",\"status\":\"%s\",\"message\":", status);
     gm_json_put_text(stream, sentence);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* NumPy's archives. APPNOTE.TXT 6.3.10 of PKWARE (the ZIP format), and numpy/lib/format.py (the .npy format). */
+/* NumPy's archives. APPNOTE.TXT 6.3.10 of PKWARE (the ZIP format), and numpy/lib/format.py (the .npy
+   format). */
 #include "app/data/npz.h"
 
 #include <errno.h>

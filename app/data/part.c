@@ -16,7 +16,7 @@
 #include "app/output/folder.h"
 #include "render/message.h"
 
-enum { BUFFER = 1 << 16, NAME = 48 };
+enum { BUFFER = GM_COLUMN_BUFFER, NAME = 48 };
 
 struct gm_part {
     char *path;
@@ -175,9 +175,9 @@ bool gm_column_flush(struct gm_column *column, bool sync)
     return write_all(column->file, column->buffer, used) && (!sync || fsync(column->file) == 0);
 }
 
-bool gm_column_put(struct gm_column *column, const void *bytes, size_t size)
+bool gm_column_put_full(struct gm_column *column, const void *bytes, size_t size)
 {
-    if (size > BUFFER - column->used && !gm_column_flush(column, false)) {
+    if (!gm_column_flush(column, false)) {
         return false;
     }
     if (size > BUFFER) {

@@ -26,8 +26,7 @@ long gm_rows_next(const struct gm_rows *rows, const struct gm_run *run)
 {
     const long next = run->steps + 1, far = 1L << 40;
     if (!is_by_time(rows, run)) {
-        const long every = rows->every ? rows->every : 1;
-        return run->steps - run->steps % every + every;
+        return rows->every < 2 ? next : run->steps - run->steps % rows->every + rows->every;
     }
     if (run->scheme->family->own_time) {
         return next;
@@ -38,7 +37,7 @@ long gm_rows_next(const struct gm_rows *rows, const struct gm_run *run)
 bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double before)
 {
     if (!is_by_time(rows, run)) {
-        return run->steps % (rows->every ? rows->every : 1) == 0;
+        return rows->every < 2 || run->steps % rows->every == 0;
     }
     if (run->scheme->family->own_time) {
         return floor(run->t / rows->interval) != floor(before / rows->interval);

@@ -13,16 +13,17 @@
 
 struct gm_save {
     struct gm_saving saving;
-    const struct gm_format *format;
+    const struct gm_data_format *format;
     struct gm_part *part;
     char *path;
     double due; /* of a file that grows: when it is made anew */
 };
 
-static const struct gm_format *const formats[] = {&gm_format_npz, &gm_format_csv, &gm_format_pvd};
+static const struct gm_data_format *const formats[] = {&gm_data_format_npz, &gm_data_format_csv,
+                                                       &gm_data_format_pvd};
 enum { FORMATS = sizeof formats / sizeof formats[0] };
 
-static const struct gm_format *format_of(const char *path)
+static const struct gm_data_format *format_of(const char *path)
 {
     const size_t length = strlen(path);
     for (size_t i = 0; i < FORMATS; i++) {
@@ -82,11 +83,11 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
 {
     struct gm_saved *lane = &save->saving.lanes[save->saving.begun++];
     *lane = (struct gm_saved){.index = index, .rows = rows, .members = run->problem->m};
-    lane->count = gm_quantities(run, lane->quantities);
+    lane->count = gm_quantities_beside_time(run, lane->quantities);
     size_t longest = 1;
     for (size_t i = 0; i < lane->count; i++) {
-        const size_t size = gm_quantity_size(run, &lane->quantities[i]);
-        longest = lane->quantities[i].derive && size > longest ? size : longest;
+        lane->sizes[i] = gm_quantity_size(run, &lane->quantities[i]);
+        longest = lane->quantities[i].derive && lane->sizes[i] > longest ? lane->sizes[i] : longest;
     }
     lane->scratch = malloc(longest * sizeof *lane->scratch);
     const char *reason = save->format->refuse ? save->format->refuse(&save->saving) : NULL;

@@ -11,8 +11,8 @@
 
 struct gm_save;
 
-/* Whether there is a format of this file's ending; false with a sentence (GM_MESSAGE bytes) that names them.
- */
+/* Whether there is a format of this file's ending; false with a sentence (GM_MESSAGE bytes) that names
+   them. */
 bool gm_save_knows(const char *path, char *message);
 
 /* Begins a file of `lanes` lanes or, with go_on, one that was interrupted. NULL with a sentence. */

@@ -10,19 +10,16 @@ static bool put_names(const struct gm_saved *lane, FILE *file)
 {
     for (size_t i = 0; i < lane->count; i++) {
         const struct gm_quantity *quantity = &lane->quantities[i];
-        const size_t lengths[] = {quantity->support == GM_ON_RUN ? 0 : quantity->count,
-                                  lane->members > 1 ? lane->members : 0,
-                                  quantity->width > 1 ? quantity->width : 0};
+        size_t lengths[GM_QUANTITY_AXES];
+        const size_t axes = gm_quantity_shape(quantity, lane->members, lengths);
         const size_t size = quantity->count * lane->members * quantity->width;
         for (size_t k = 0; k < size && !quantity->fixed; k++) {
             size_t block = size, rest = k;
             fprintf(file, ",%s", quantity->name);
-            for (int axis = 0; axis < 3; axis++) {
-                if (lengths[axis] > 0) {
-                    block /= lengths[axis];
-                    fprintf(file, "[%zu]", rest / block);
-                    rest %= block;
-                }
+            for (size_t axis = 0; axis < axes; axis++) {
+                block /= lengths[axis];
+                fprintf(file, "[%zu]", rest / block);
+                rest %= block;
             }
         }
     }
@@ -46,8 +43,7 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
             continue;
         }
         const double *values = gm_quantity_values(run, quantity, lane->scratch);
-        const size_t size = gm_quantity_size(run, quantity);
-        for (size_t k = 0; k < size && good; k++) {
+        for (size_t k = 0; k < lane->sizes[i] && good; k++) {
             good = gm_column_print(column, ",%.17g", values[k]);
         }
     }
@@ -77,5 +73,5 @@ static const char *refuse(const struct gm_saving *saving)
                 : "the lanes' states differ in their columns, which one table does not hold; .npz does";
 }
 
-const struct gm_format gm_format_csv = {
+const struct gm_data_format gm_data_format_csv = {
     .ending = ".csv", .begin = begin, .row = row, .join = join, .refuse = refuse};

@@ -263,7 +263,7 @@ static bool write_group(const struct group *group, const char *path)
 /* The folder of the .vtu files, FILE without its ending; malloc'ed. */
 static char *folder_of(const struct gm_saving *saving)
 {
-    return strndup(saving->path, strlen(saving->path) - strlen(gm_format_pvd.ending));
+    return strndup(saving->path, strlen(saving->path) - strlen(gm_data_format_pvd.ending));
 }
 
 static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
@@ -323,5 +323,5 @@ static bool join(const struct gm_saving *saving, FILE *file)
     return good && fputs("</Collection>\n</VTKFile>\n", file) >= 0;
 }
 
-const struct gm_format gm_format_pvd = {
+const struct gm_data_format gm_data_format_pvd = {
     .ending = ".pvd", .grows = true, .begin = begin, .row = row, .join = join};

@@ -24,13 +24,15 @@ static bool is_open(const struct gm_explorer *explorer, const struct gm_start_en
     if (entry->tour) {
         return explorer->open.touring && strcmp(entry->tour->name, explorer->open.guide.tour->name) == 0;
     }
-    return !explorer->open.touring && entry->scene == explorer->open.scene;
+    const struct gm_scene *scene = explorer->open.scene;
+    const bool own = scene && scene->text; /* which is in no list */
+    return !explorer->open.touring && (entry->scene ? entry->scene == scene : own);
 }
 
 bool gm_explorer_is_looked_at(const struct gm_explorer *explorer)
 {
     const struct gm_start_entry *entry = chosen(explorer);
-    return entry && is_open(explorer, entry);
+    return entry && entry->scene && is_open(explorer, entry);
 }
 
 void gm_explorer_look_soon(struct gm_explorer *explorer)
@@ -66,7 +68,7 @@ static void find(struct gm_start *start, size_t first, struct gm_start_entry ent
 static void choose(struct gm_start *start, const struct gm_start_entry *before)
 {
     start->choice = 0;
-    for (size_t i = 1; i < start->count; i++) {
+    for (size_t i = 1; i < start->count && before; i++) {
         const struct gm_start_entry *entry = &start->found[i];
         const bool same = entry->scene == before->scene && entry->tour == before->tour;
         const int rank = start->ranks[i], best = start->ranks[start->choice];
@@ -77,7 +79,8 @@ static void choose(struct gm_start *start, const struct gm_start_entry *before)
 static void find_all(struct gm_explorer *explorer)
 {
     struct gm_start *start = &explorer->list.start;
-    const struct gm_start_entry before = chosen(explorer) ? *chosen(explorer) : (struct gm_start_entry){0};
+    const struct gm_start_entry *present = chosen(explorer);
+    const struct gm_start_entry before = present ? *present : (struct gm_start_entry){0};
     start->count = 0;
     for (size_t i = 0; i < gm_scene_count(); i++) {
         const struct gm_scene *scene = gm_scene_at(i);
@@ -85,13 +88,15 @@ static void find_all(struct gm_explorer *explorer)
                                scene->watch ? scene->watch : "", NULL};
         find(start, 0, (struct gm_start_entry){.scene = scene}, texts);
     }
+    const char *own[] = {GM_START_OWN, "a formula that you type, or a file", NULL};
+    find(start, 0, (struct gm_start_entry){0}, own);
     start->scenes = start->count;
     for (size_t i = 0; i < explorer->list.tour_count; i++) {
         const struct gm_tour *tour = &explorer->list.tours[i];
         const char *texts[] = {tour->name, tour->title, tour->about ? tour->about : "", "tour", NULL};
         find(start, start->scenes, (struct gm_start_entry){.tour = tour}, texts);
     }
-    choose(start, &before);
+    choose(start, present ? &before : NULL);
     gm_explorer_look_soon(explorer);
 }
 
@@ -102,6 +107,7 @@ void gm_explorer_show_start(struct gm_explorer *explorer)
         explorer->list.tours = gm_tours_read(&explorer->list.tour_count, message);
     }
     explorer->list.shown = true;
+    explorer->editing = false;
     explorer->list.start.typed[0] = '\0';
     find_all(explorer);
     for (size_t i = 0; i < explorer->list.start.count; i++) {
@@ -137,7 +143,12 @@ void gm_explorer_enter(struct gm_explorer *explorer)
     if (!entry) {
         return;
     }
-    if (!explorer->list.kept || !is_open(explorer, entry)) {
+    const bool goes_on = explorer->list.kept && is_open(explorer, entry);
+    if (!goes_on && !entry->tour && !entry->scene) {
+        gm_explorer_ask_system(explorer);
+        return;
+    }
+    if (!goes_on) {
         explorer->face.parameter = 0;
         if (!(entry->tour ? enter_tour(explorer, entry->tour) : enter_scene(explorer, entry->scene))) {
             gm_explorer_leave(explorer, GM_EXIT_USAGE);
@@ -185,6 +196,8 @@ void gm_explorer_press_in_list(struct gm_explorer *explorer, int key)
         gm_explorer_look_soon(explorer);
     } else if (key == '\t' || key == KEY_BTAB) {
         go_to_others(explorer);
+    } else if (key == '/' && !start->typed[0]) {
+        /* what is typed is looked for anyway */
     } else if (gm_typed_key(start->typed, key)) {
         find_all(explorer);
     }

@@ -2,14 +2,16 @@
 #ifndef GM_APP_EXPLORER_EVENTS_H
 #define GM_APP_EXPLORER_EVENTS_H
 
+#include "app/explorer/background/check.h"
 #include "app/explorer/background/measure.h"
 #include "app/explorer/open.h"
 #include "app/explorer/terminal/mouse.h"
+#include "app/explorer/view/own.h"
 #include "app/explorer/view/start.h"
 
 /* What the files of the explorer share: explorer.c its beginning, its events and its end, choose.c the list
-   of scenes and tours, press.c the keys, point.c the mouse, show.c what is shown and when. Everything stands
-   under who writes it. */
+   of scenes and tours, own.c the prompt for a system or scheme of one's own, press.c the keys, point.c the
+   mouse, show.c what is shown and when. Everything stands under who writes it. */
 
 /* The list of scenes and tours. */
 struct gm_list {
@@ -38,8 +40,12 @@ struct gm_explorer {
     struct gm_list list;
     struct gm_pointer pointer;
     struct gm_measure measure;
-    bool dirty; /* the screen has to be composed again */
-    bool fresh; /* with a new picture */
+    struct gm_own_prompt own;
+    struct gm_check check; /* of what is typed in it */
+    bool editing;          /* the present system is asked for, to be edited */
+    int64_t held_until;    /* keys wait for the page that is awaited; 0: they do not */
+    bool dirty;            /* the screen has to be composed again */
+    bool fresh;            /* with a new picture */
     bool leave;
     int status;
     char message[GM_MESSAGE]; /* said when the terminal is the shell's again */
@@ -63,6 +69,17 @@ void gm_explorer_look(struct gm_explorer *explorer);
 /* Opens the chosen scene or tour, or goes back to it where it was left. */
 void gm_explorer_enter(struct gm_explorer *explorer);
 void gm_explorer_press_in_list(struct gm_explorer *explorer, int key);
+
+/* ---- a system or scheme of one's own ---- */
+
+/* Opens the prompt, with the system that is open, with what was typed before, or with an example. */
+void gm_explorer_ask_system(struct gm_explorer *explorer);
+void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
+void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork);
+void gm_explorer_press_own(struct gm_explorer *explorer, int key);
+/* Finds out what is wrong with what was typed, and takes it once that is nothing and it was entered. */
+void gm_explorer_check_own(struct gm_explorer *explorer);
+void gm_explorer_close_own(struct gm_explorer *explorer);
 
 /* ---- input ---- */
 

@@ -15,7 +15,7 @@
 
 #include "app/explorer/events.h"
 #include "app/explorer/terminal/console.h"
-#include "app/request/drive.h"
+#include "app/output/say.h"
 #include "render/clock.h"
 
 enum { FRAME_MILLISECONDS = 33, LOOK_MILLISECONDS = 66 };
@@ -35,7 +35,7 @@ static void read_cell_size(struct gm_explorer *explorer)
 
 static void read_keys(struct gm_explorer *explorer)
 {
-    for (int key; !explorer->leave && (key = gm_console_key()) >= 0;) {
+    for (int key; !explorer->leave && !explorer->face.awaited && (key = gm_console_key()) >= 0;) {
         struct gm_mouse_event event;
         enum gm_mouse_result result = gm_mouse_feed(&explorer->pointer.mouse, key, &event);
         if (result == GM_MOUSE_NOT && key != KEY_RESIZE) { /* a size is no key: a page stays open */
@@ -84,14 +84,19 @@ static void read_command(struct gm_explorer *explorer)
         return;
     }
     explorer->open.told = shot->command_number;
+    explorer->face.awaited = false;
+    if (explorer->editing) {
+        gm_explorer_edit_system(explorer, shot->commands[GM_COMMAND_EXPLORER]);
+        return;
+    }
     explorer->face.page = GM_PAGE_COMMAND;
     explorer->face.scroll = 0;
     explorer->face.command = GM_COMMAND_PICTURE;
     gm_explorer_copy(explorer);
 }
 
-/* At a fixed pace, whatever taking and drawing a shot costs, but for a pause in which others get their turn.
- */
+/* At a fixed pace, whatever taking and drawing a shot costs, but for a pause in which others get their
+   turn. */
 static int64_t next_time(int64_t last, int period)
 {
     enum { LEAST_PAUSE = 10 };
@@ -137,6 +142,22 @@ static void read_news(struct gm_explorer *explorer)
     }
 }
 
+/* For how many milliseconds more keys wait for the page that they were typed for; 0: they are read. */
+static int hold_keys(struct gm_explorer *explorer)
+{
+    enum { LONGEST = 500 }; /* a worker in a long step does not silence the keys */
+    const int64_t now = gm_clock_milliseconds();
+    if (explorer->face.awaited && explorer->held_until == 0) {
+        explorer->held_until = now + LONGEST;
+    }
+    if (!explorer->face.awaited || now >= explorer->held_until) {
+        explorer->face.awaited = false;
+        explorer->held_until = 0;
+        return 0;
+    }
+    return (int)(explorer->held_until - now);
+}
+
 static void run(struct gm_explorer *explorer)
 {
     enum { KEYS, NEWS, SCREEN, MEASURE, COUNT };
@@ -144,8 +165,9 @@ static void run(struct gm_explorer *explorer)
     gm_explorer_resize(explorer);
     while (!explorer->leave) {
         int wait = gm_explorer_output(explorer);
+        const int hold = hold_keys(explorer);
         struct pollfd watched[COUNT] = {
-            [KEYS] = {.fd = STDIN_FILENO, .events = POLLIN},
+            [KEYS] = {.fd = hold > 0 ? -1 : STDIN_FILENO, .events = POLLIN},
             [NEWS] = {.fd = explorer->wake, .events = POLLIN},
             [SCREEN] = {.fd = gm_writer_idle(writer) ? -1 : writer->fd, .events = POLLOUT},
             [MEASURE] = {.fd = explorer->measure.fd, .events = POLLIN},
@@ -153,7 +175,7 @@ static void run(struct gm_explorer *explorer)
         if (explorer->leave) {
             break;
         }
-        int patience = gm_console_patience();
+        int patience = hold > 0 ? hold : gm_console_patience();
         if (patience >= 0 && (wait < 0 || patience < wait)) {
             wait = patience;
         }
@@ -169,8 +191,13 @@ static void run(struct gm_explorer *explorer)
         if (watched[MEASURE].revents && gm_measure_read(&explorer->measure)) {
             explorer->dirty = true;
         }
+        gm_explorer_check_own(explorer);
+        if (hold > 0) {
+            continue;
+        }
         if (watched[KEYS].revents & POLLIN ? has_keys() : patience >= 0 && !watched[KEYS].revents) {
             read_keys(explorer);
+            gm_explorer_check_own(explorer);
             read_cell_size(explorer);
         } else if (watched[KEYS].revents) {
             gm_explorer_leave(explorer, GM_EXIT_OK);
@@ -195,6 +222,7 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
                                      .monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
                                      .only_monochrome = explorer.terminal.colours == GM_COLOURS_NONE,
                                      .studies = &explorer.open.studies};
+    explorer.face.own = &explorer.own;
     explorer.wake = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     explorer.open.wake = explorer.wake;
     explorer.open.display = &explorer.display;
@@ -221,6 +249,7 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     }
     gm_console_close();
     gm_measure_close(&explorer.measure);
+    gm_explorer_close_own(&explorer);
     gm_open_close(&explorer.open);
     gm_studies_close(&explorer.open.studies);
     gm_screen_close(&explorer.screen);

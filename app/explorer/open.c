@@ -60,6 +60,21 @@ bool gm_open_request(struct gm_open *open, const struct gm_request *request, cha
     return take_over(open, gm_worker_open(request, open->wake, NULL, message), request->scene);
 }
 
+bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault *fault)
+{
+    struct gm_request request;
+    if (!gm_typed_request(&request, line, FIRST_SCHEMES, fault)) {
+        return false;
+    }
+    struct gm_worker *worker = gm_worker_open(&request, open->wake, NULL, fault->sentence);
+    if (worker) {
+        abandon(open);
+        take_over(open, worker, request.scene);
+    }
+    gm_request_close(&request);
+    return worker != NULL;
+}
+
 bool gm_open_scene(struct gm_open *open, const struct gm_scene *scene, bool preview, char *message)
 {
     abandon(open);

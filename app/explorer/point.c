@@ -4,6 +4,8 @@
 
 #include <curses.h>
 
+#include "app/explorer/view/chooser.h"
+
 /* The part of a hit's width that a column stands for, 0 to 1. */
 static double part_of(const struct gm_hit *hit, int column)
 {
@@ -35,6 +37,11 @@ static void drag(struct gm_explorer *explorer, int column)
 
 static void click_scheme(struct gm_explorer *explorer, const struct gm_scheme *scheme)
 {
+    if (scheme == &gm_chooser_own) {
+        explorer->face.choice = scheme;
+        gm_explorer_press(explorer, '\n');
+        return;
+    }
     bool fork = explorer->face.choosing == GM_CHOOSE_FORK;
     explorer->face.choosing = GM_CHOOSE_NOTHING;
     gm_worker_order(explorer->open.worker,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keys, as they act on the explorer. */
+/* A key to whoever it is for: a prompt, a list, a study, a tour, the scene; or to the explorer itself. */
 #include "app/explorer/events.h"
 
 #include "app/explorer/view/chooser.h"
@@ -60,7 +60,7 @@ static void press_in_tour(struct gm_explorer *explorer, int key)
 }
 
 /* A key of an open scene: it belongs to what is open above it, or is one of the table. */
-static enum gm_key_result press_in_scene(const struct gm_press *press)
+static enum gm_key_result press_in_scene(const struct gm_keystroke *press)
 {
     struct gm_face *face = press->face;
     face->read = press->shot->message_number;
@@ -68,7 +68,7 @@ static enum gm_key_result press_in_scene(const struct gm_press *press)
         return GM_KEY_REPAINT;
     }
     if (press->shot->running_ahead && press->key != 'q') { /* any key stops it */
-        return gm_press_order(press, (struct gm_order){.kind = GM_ORDER_HALT});
+        return gm_keystroke_order(press, (struct gm_order){.kind = GM_ORDER_HALT});
     }
     if (face->page != GM_PAGE_SCENE) {
         return gm_pages_press(press->key, face);
@@ -81,6 +81,10 @@ static enum gm_key_result press_in_scene(const struct gm_press *press)
 
 void gm_explorer_press(struct gm_explorer *explorer, int key)
 {
+    if (explorer->own.kind != GM_OWN_NONE && key != GM_KEY_REDRAW) {
+        gm_explorer_press_own(explorer, key);
+        return;
+    }
     if (explorer->list.shown) {
         gm_explorer_press_in_list(explorer, key);
         return;
@@ -102,7 +106,7 @@ void gm_explorer_press(struct gm_explorer *explorer, int key)
         explorer->dirty = true;
         return;
     }
-    const struct gm_press one = {key, &explorer->face, explorer->open.shot, explorer->open.worker};
+    const struct gm_keystroke one = {key, &explorer->face, explorer->open.shot, explorer->open.worker};
     switch (press_in_scene(&one)) {
     case GM_KEY_LEAVE:
         gm_explorer_leave(explorer, GM_EXIT_OK);
@@ -124,8 +128,22 @@ void gm_explorer_press(struct gm_explorer *explorer, int key)
         gm_studies_begin(&explorer->open.studies, key, explorer->open.shot, explorer->wake);
         explorer->dirty = true;
         break;
+    case GM_KEY_OWN: {
+        const enum gm_choosing choosing = face->choosing;
+        explorer->face.choosing = GM_CHOOSE_NOTHING;
+        if (choosing == GM_CHOOSE_NOTHING) {
+            gm_explorer_ask_system(explorer);
+        } else {
+            gm_explorer_ask_scheme(explorer, choosing == GM_CHOOSE_FORK);
+        }
+        break;
+    }
     case GM_KEY_TOUR:
         press_in_tour(explorer, key);
+        break;
+    case GM_KEY_FILE:
+        gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_SYSTEM});
+        explorer->dirty = true;
         break;
     case GM_KEY_COPY:
         gm_explorer_copy(explorer);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is shown, and when. */
+/* The screen is composed once for all that has happened since, and no sooner than the terminal takes it. */
 #include "app/explorer/events.h"
 
 #include "app/explorer/view/scene.h"

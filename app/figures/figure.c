@@ -10,6 +10,7 @@
 #include "app/output/still.h"
 #include "app/request/arguments.h"
 #include "app/request/drive.h"
+#include "app/request/interrupt.h"
 #include "core/memory.h"
 #include "render/clock.h"
 
@@ -201,7 +202,7 @@ static double at_start(const struct gm_lane *lane, size_t observable)
     struct gm_view view = gm_lane_view(lane);
     view.state = view.start;
     view.t = view.t0;
-    return lane->scene->observables[observable].evaluate(&view);
+    return gm_observe(&lane->scene->observables[observable], &view);
 }
 
 static double measure(const struct gm_lane *lane, const struct gm_statement *statement)

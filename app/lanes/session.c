@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/native/engine.h"
 #include "core/schemes.h"
 #include "scenes/frame/lane_pack.h"
 
@@ -43,7 +44,7 @@ bool gm_session_differs(const struct gm_session *session, const struct gm_parame
 
 static bool goes(const struct gm_lane *lane)
 {
-    return lane->run->status == GM_OK;
+    return lane->run->status == GM_OK && !gm_lane_stopped(lane);
 }
 
 double gm_session_direction(const struct gm_session *session)
@@ -164,17 +165,16 @@ static void note_lanes(struct gm_session *session)
     }
 }
 
+static bool is_later(const struct gm_change *change, const void *data)
+{
+    const struct gm_change *than = data;
+    return change->lane == than->lane && (than->step < 0 || change->step > than->step);
+}
+
 /* Forgets the logged changes of a lane after `step`; all of them for step < 0. */
 static void cut_log(struct gm_session *session, size_t lane, long step)
 {
-    size_t kept = 0;
-    for (size_t i = 0; i < session->log.change_count; i++) {
-        const struct gm_change *change = &session->log.changes[i];
-        if (change->lane != lane || (step >= 0 && change->step <= step)) {
-            session->log.changes[kept++] = *change;
-        }
-    }
-    session->log.change_count = kept;
+    gm_changes_drop(&session->log, is_later, &(struct gm_change){.lane = lane, .step = step});
 }
 
 /* The lanes go on from the moment that is looked at: what came later is gone. */
@@ -211,7 +211,9 @@ static struct fresh open_lane(const struct gm_scene *scene, const void *paramete
         timing->dt = fabs(timing->dt); /* every lane begins forwards */
         fresh.lane = gm_lane_open(scene, fresh.start, settings, scheme, sentence);
     }
-    if (!fresh.lane) {
+    if (fresh.lane) {
+        gm_engine_meet(fresh.lane);
+    } else {
         free(fresh.start);
         fresh.start = NULL;
         gm_refuse(message, "%s", sentence);
@@ -270,8 +272,8 @@ static void show_in_order(struct gm_session *session)
 
 /* ---- a session's beginning and end ---- */
 
-/* Room for every lane that may come is there from the beginning, so that only the parameters are allocated.
- */
+/* Room for every lane that may come is there from the beginning, so that only the parameters are
+   allocated. */
 static bool log_open(struct gm_session *session, const struct gm_request *request)
 {
     session->log = (struct gm_request){.scene = session->scene};
@@ -286,7 +288,7 @@ static void log_close(struct gm_session *session)
         free(session->log.lanes[i].parameters);
     }
     free(session->log.lanes);
-    free(session->log.changes);
+    gm_changes_drop(&session->log, NULL, NULL);
     free(session->log.arguments);
     session->log = (struct gm_request){0};
 }
@@ -404,6 +406,20 @@ static bool apply_change(struct gm_session *session, size_t i, const char *text,
     return true;
 }
 
+/* Another change of the same key at the same step. */
+struct overtaking {
+    size_t lane;
+    long step;
+    const char *text;
+};
+
+static bool is_overtaken(const struct gm_change *change, const void *data)
+{
+    const struct overtaking *by = data;
+    return change->lane == by->lane && change->step == by->step &&
+           strncmp(change->text, by->text, strcspn(by->text, "=") + 1) == 0;
+}
+
 /* The same, and logs it. */
 static bool make_change(struct gm_session *session, size_t i, const char *text, char *message)
 {
@@ -411,15 +427,8 @@ static bool make_change(struct gm_session *session, size_t i, const char *text, 
         return false;
     }
     /* of several changes of one key at one step only the last one counts */
-    long step = session->lanes[i]->run->steps;
-    size_t key = (size_t)(strchr(text, '=') - text) + 1, kept = 0;
-    for (size_t k = 0; k < session->log.change_count; k++) {
-        const struct gm_change *change = &session->log.changes[k];
-        if (change->lane != i || change->step != step || strncmp(change->text, text, key) != 0) {
-            session->log.changes[kept++] = *change;
-        }
-    }
-    session->log.change_count = kept;
+    const long step = session->lanes[i]->run->steps;
+    gm_changes_drop(&session->log, is_overtaken, &(struct overtaking){i, step, text});
     if (!gm_change_add(&session->log, i, step, text)) {
         return short_of_memory(message);
     }
@@ -443,7 +452,7 @@ bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_par
 {
     bool alone = gm_session_differs(session, row, of_scheme), now = row->live && !of_scheme;
     bool step = !of_scheme && row->offset == offsetof(struct gm_timing, dt);
-    char change[sizeof(struct gm_change){0}.text];
+    char change[GM_MESSAGE];
     /* a step is set by its size; which way it goes is another matter */
     snprintf(change, sizeof change, "%s=%s%s%s", row->key,
              step && gm_session_direction(session) < 0 ? "-(" : "", text,
@@ -470,10 +479,14 @@ bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_par
 
 bool gm_session_switch(struct gm_session *session, size_t lane, const struct gm_scheme *scheme, char *message)
 {
-    char change[sizeof(struct gm_change){0}.text];
-    snprintf(change, sizeof change, "scheme=%s", scheme->name);
+    char *change = NULL;
+    if (asprintf(&change, "scheme=%s", gm_scheme_word(scheme)) < 0) {
+        return short_of_memory(message);
+    }
     settle(session);
-    if (!make_change(session, lane, change, message)) {
+    const bool good = make_change(session, lane, change, message);
+    free(change);
+    if (!good) {
         return false;
     }
     session->log.lanes[lane].shown = session->lanes[lane]->named; /* another one where nothing is made yet */
@@ -580,7 +593,7 @@ bool gm_session_turn(struct gm_session *session, char *message)
     }
     settle(session);
     for (size_t i = 0; i < session->count; i++) {
-        char text[sizeof(struct gm_change){0}.text], number[64];
+        char text[80], number[64];
         snprintf(text, sizeof text, "dt=%s",
                  gm_number_format(-session->lanes[i]->run->dt, number, sizeof number));
         if (!make_change(session, i, text, message)) {

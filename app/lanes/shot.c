@@ -152,6 +152,6 @@ void gm_shot_take(struct gm_shot *shot, const struct gm_session *session, size_t
     shot->scheme_count = gm_session_fits(session, shot->schemes, GM_SHOT_SCHEMES);
     if (draw) {
         gm_picture_clear(shot->picture);
-        session->scene->draw((const struct gm_lane *const *)session->lanes, session->count, shot->picture);
+        gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, shot->picture);
     }
 }

@@ -38,7 +38,7 @@ struct gm_shot_parameter {
     bool of_scheme;
     bool differs;    /* from lane to lane; the value is the selected one's */
     double position; /* 0 to 1 in its range, or -1 */
-    char value[GM_VALUE_TEXT];
+    char value[GM_TEXT_SIZE];
 };
 
 struct gm_shot {

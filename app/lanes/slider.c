@@ -119,15 +119,15 @@ static bool next_choice(const struct gm_parameter *row, const void *owner, int d
     if (count < 2) {
         return false;
     }
-    snprintf(text, GM_VALUE_TEXT, "%s",
+    snprintf(text, GM_TEXT_SIZE, "%s",
              choices[direction > 0 ? (at + 1) % count
                      : at > 0      ? at - 1
                                    : count - 1]);
     return true;
 }
 
-/* The distance of fine values: a fortieth to a hundredth of the value, about a tenth of a step of `rounds`.
- */
+/* The distance of fine values: a fortieth to a hundredth of the value, about a tenth of a step of
+   `rounds`. */
 static double fine_step(double value, int direction)
 {
     double decade = floor(log10(value) + 1e-9), scale = pow(10, decade), mantissa = value / scale;
@@ -136,7 +136,7 @@ static double fine_step(double value, int direction)
 }
 
 bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direction, bool fine,
-                    char text[GM_VALUE_TEXT])
+                    char text[GM_TEXT_SIZE])
 {
     if (row->type == GM_CHOICE || row->type == GM_BOOLEAN || row->type == GM_TEXT) {
         return next_choice(row, owner, direction, text);
@@ -158,11 +158,11 @@ bool gm_slider_next(const struct gm_parameter *row, const void *owner, int direc
     if (next == value) {
         return false;
     }
-    snprintf(text, GM_VALUE_TEXT, row->type == GM_INTEGER ? "%.0f" : "%.10g", next == 0 ? 0.0 : next);
+    snprintf(text, GM_TEXT_SIZE, row->type == GM_INTEGER ? "%.0f" : "%.10g", next == 0 ? 0.0 : next);
     return true;
 }
 
-bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_VALUE_TEXT])
+bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_TEXT_SIZE])
 {
     double low, high;
     if (!slider_range(row, &low, &high)) {
@@ -184,6 +184,6 @@ bool gm_slider_at(const struct gm_parameter *row, double position, char text[GM_
         value = round(value / unit) * unit;
     }
     value = fmin(fmax(value, row->lowest), row->highest);
-    snprintf(text, GM_VALUE_TEXT, row->type == GM_INTEGER ? "%.0f" : "%.6g", value == 0 ? 0.0 : value);
+    snprintf(text, GM_TEXT_SIZE, row->type == GM_INTEGER ? "%.0f" : "%.6g", value == 0 ? 0.0 : value);
     return true;
 }

@@ -8,7 +8,24 @@
 
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
+#include "app/request/arguments.h"
+#include "app/request/request.h"
 #include "render/message.h"
+
+/* The text of the system that a command "stability NAME key=value" is of; NULL: it is of none. */
+static const char *source_of(const char *command)
+{
+    char message[GM_MESSAGE];
+    int refusal;
+    struct gm_arguments words = {0};
+    const struct gm_scene *scene = NULL;
+    if (gm_arguments_split(&words, command) && words.count > 1) {
+        const int place = gm_provenance_scene_place(&words);
+        scene = gm_request_scene(place > 1 ? 1 : words.count - 1, words.words + place, &refusal, message);
+    }
+    gm_arguments_close(&words);
+    return scene ? scene->source : NULL;
+}
 
 static bool paint(struct gm_chart *chart, const void *data,
                   void (*draw)(const void *data, struct gm_picture *picture), char *message)
@@ -19,8 +36,8 @@ static bool paint(struct gm_chart *chart, const void *data,
     }
     struct gm_picture *picture = gm_picture_open();
     struct gm_provenance provenance = {0};
-    bool good = picture && gm_provenance_of_command(&provenance, chart->command, &chart->print.look,
-                                                    gm_press_backend(press));
+    bool good = picture && gm_provenance_of_command(&provenance, chart->command, source_of(chart->command),
+                                                    &chart->print.look, gm_press_backend(press));
     if (good) {
         draw(data, picture);
         good = gm_press_write(press, &chart->print, picture, provenance.texts, provenance.count, message);

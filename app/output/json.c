@@ -39,18 +39,16 @@ void gm_json_text(const char *text)
     gm_json_put_text(stdout, text);
 }
 
-void gm_json_pair(const char *key, const char *text)
+void gm_json_put_pair(FILE *stream, const char *key, const char *text)
 {
-    gm_json_text(key);
-    putchar(':');
-    gm_json_text(text);
+    gm_json_put_text(stream, key);
+    fputc(':', stream);
+    gm_json_put_text(stream, text);
 }
 
-void gm_json_number_pair(const char *key, double value)
+void gm_json_pair(const char *key, const char *text)
 {
-    gm_json_text(key);
-    putchar(':');
-    gm_json_number(value);
+    gm_json_put_pair(stdout, key, text);
 }
 
 void gm_json_put_number(FILE *stream, double value)
@@ -65,4 +63,16 @@ void gm_json_put_number(FILE *stream, double value)
 void gm_json_number(double value)
 {
     gm_json_put_number(stdout, value);
+}
+
+void gm_json_put_number_pair(FILE *stream, const char *key, double value)
+{
+    gm_json_put_text(stream, key);
+    fputc(':', stream);
+    gm_json_put_number(stream, value);
+}
+
+void gm_json_number_pair(const char *key, double value)
+{
+    gm_json_put_number_pair(stdout, key, value);
 }

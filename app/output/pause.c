@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "app/output/snapshot.h"
+#include "core/schemes.h"
 #include "scenes/frame/lane_pack.h"
 
 /* A lane's record: its size in bytes, this size not among them, then struct gm_paused, then the
@@ -37,10 +38,11 @@ static char *identify(const struct gm_request *request, size_t numbers)
     if (!stream) {
         return NULL;
     }
-    fprintf(stream, "run %s, %zu numbers, program %08x\n", scene->name, numbers, program);
+    fprintf(stream, "run %s, %zu numbers, program %08x\n", scene->mark ? scene->mark : scene->name, numbers,
+            program);
     for (size_t i = 0; i < request->count; i++) {
         const struct gm_lane_spec *spec = &request->lanes[i];
-        fprintf(stream, "scheme=%s", spec->scheme->name);
+        fprintf(stream, "scheme=%s", gm_scheme_word(spec->scheme));
         for (size_t k = 0; k < scene->parameter_count; k++) {
             const struct gm_parameter *row = &scene->parameters[k];
             if (strcmp(row->key, "until") == 0) {

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "app/request/drive.h"
+#include "app/output/say.h"
 #include "core/memory.h"
 #include "render/gl/canvas.h"
 #include "render/message.h"
@@ -108,7 +108,7 @@ bool gm_press_write(struct gm_press *press, struct gm_print *print, struct gm_pi
     if (!gm_canvas_paint(press->canvas, picture, press->rgb) || gm_memory_was_short()) {
         return no_memory(look, message);
     }
-    return gm_png_write(path, look->width, look->height, press->rgb, texts, count, message);
+    return gm_png_write(path, look->width, look->height, look->dpi, press->rgb, texts, count, message);
 }
 
 void gm_press_tell(const struct gm_print *print, const char *table)

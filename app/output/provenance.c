@@ -106,7 +106,9 @@ bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_reques
         take(provenance, GM_KEY_ARGUMENTS, gm_request_format(request)) &&
         take(provenance, GM_KEY_CHANGES, gm_changes_format(request)) &&
         take(provenance, GM_KEY_PICTURE, format("%dx%d %s", look->width, look->height, theme_name(look))) &&
-        take_look(provenance, look) && take(provenance, "geomint:context", format("%s", backend));
+        take_look(provenance, look) &&
+        (!request->scene->source || take(provenance, GM_KEY_SYSTEM, format("%s", request->scene->source))) &&
+        take(provenance, "geomint:context", format("%s", backend));
     if (!good) {
         gm_provenance_close(provenance);
     }
@@ -137,19 +139,25 @@ static char *look_options(const struct gm_appearance *look)
     return text;
 }
 
-bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
+bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command, const char *system,
                               const struct gm_appearance *look, const char *backend)
 {
     *provenance = (struct gm_provenance){0};
     char *options = look_options(look);
     const bool good = options && take(provenance, "Software", format("geomint %s", GM_VERSION)) &&
                       take(provenance, GM_KEY_COMMAND, format("%s%s", command, options)) &&
+                      (!system || take(provenance, GM_KEY_SYSTEM, format("%s", system))) &&
                       take(provenance, "geomint:context", format("%s", backend));
     free(options);
     if (!good) {
         gm_provenance_close(provenance);
     }
     return good;
+}
+
+int gm_provenance_scene_place(const struct gm_arguments *command)
+{
+    return command->count > 2 && strcmp(command->words[1], GM_ON) == 0 ? 2 : 1;
 }
 
 void gm_provenance_close(struct gm_provenance *provenance)

@@ -2,13 +2,14 @@
 #ifndef GM_APP_OUTPUT_PROVENANCE_H
 #define GM_APP_OUTPUT_PROVENANCE_H
 
+#include "app/request/arguments.h"
 #include "app/request/request.h"
 #include "render/files/png.h"
 #include "render/layout/appearance.h"
 
 /* What a PNG tells of how it was made: enough for `geomint again`. */
 
-enum { GM_PROVENANCE_TEXTS = 12 };
+enum { GM_PROVENANCE_TEXTS = 13 };
 
 struct gm_provenance {
     struct gm_png_text texts[GM_PROVENANCE_TEXTS];
@@ -24,10 +25,10 @@ struct gm_provenance {
 #define GM_KEY_SCALE "geomint:scale"     /* of letters and lines; none: 1 */
 #define GM_KEY_DPI "geomint:dpi"         /* pixels an inch; none: 96 */
 #define GM_KEY_TITLE "geomint:title"     /* over the picture; none: the scene's */
+#define GM_KEY_SYSTEM "geomint:system"   /* the text of a system, where the scene is one of a file */
 
-#define GM_KEY_COMMAND                                                                                       \
-    "geomint:command" /* of a chart, instead of all these: the words of its command line                     \
-                       */
+/* of a chart, instead of all these: the words of its command line */
+#define GM_KEY_COMMAND "geomint:command"
 
 #define GM_KEY_FRAME "geomint:frame"       /* which frame of which render */
 #define GM_KEY_FAILURES "geomint:failures" /* a line for each lane that has failed by then */
@@ -35,10 +36,16 @@ struct gm_provenance {
 /* Everything but the steps. False when memory is short. */
 bool gm_provenance_make(struct gm_provenance *provenance, const struct gm_request *request,
                         const struct gm_appearance *look, const char *backend);
-/* The same for a chart: the words that `again` measures it with, to which the look is added. */
-bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command,
+/* The same for a chart: the words that `again` measures it with, to which the look is added, and the text of
+   the system that it is of, or NULL. */
+bool gm_provenance_of_command(struct gm_provenance *provenance, const char *command, const char *system,
                               const struct gm_appearance *look, const char *backend);
 void gm_provenance_close(struct gm_provenance *provenance);
+
+/* Which word of a command is the scene's: the first behind its name, or what GM_ON says of `certify`, which
+   then comes first. */
+#define GM_ON "--on"
+int gm_provenance_scene_place(const struct gm_arguments *command);
 
 /* The steps of the lanes now, as the text of GM_KEY_STEPS; malloc'ed, NULL when memory is short. */
 char *gm_provenance_steps(const struct gm_lane *const *lanes, size_t count);

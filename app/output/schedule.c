@@ -8,11 +8,7 @@ static double end_of(const struct gm_request *request)
 {
     double end = -INFINITY;
     for (size_t i = 0; i < request->count; i++) {
-        const struct gm_timing *timing = request->lanes[i].parameters;
-        const double t0 = gm_scene_t0(request->scene, timing);
-        /* a scheme that chooses its steps ends at `until`, the others at the step that is nearest to it */
-        const double steps_end = t0 + (double)request->lanes[i].steps * timing->dt;
-        end = fmax(end, request->lanes[i].scheme->family->own_time ? timing->until : steps_end);
+        end = fmax(end, request->lanes[i].end);
     }
     return end;
 }

@@ -126,8 +126,6 @@ bool gm_snapshot_unpack(struct gm_lane *lane, double t, const unsigned char *byt
 {
     const struct gm_run *run = lane->run;
     const double t0 = run->t0, dt = run->dt;
-    const long most = lane->scheme->family->own_time ? GM_MOST_STEPS
-                                                     : gm_drive_step_at(&(struct gm_drive){.lane = lane}, t);
     return gm_lane_unpack(lane, bytes, size) && run->t0 == t0 && run->dt == dt && run->n == run->steps &&
-           run->steps <= most;
+           run->steps <= gm_run_steps_by(run, t);
 }

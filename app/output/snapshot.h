@@ -20,8 +20,8 @@ struct gm_snapshot {
 /* Replaces the file at once, or leaves it as it was. False with a sentence (GM_MESSAGE bytes). */
 bool gm_snapshot_write(const char *path, const struct gm_snapshot *snapshot, char *message);
 
-/* Reads the one of this identity. False with a sentence: there is none, it is damaged or of something else.
- */
+/* Reads the one of this identity. False with a sentence: there is none, it is damaged or of something
+   else. */
 bool gm_snapshot_read(const char *path, struct gm_snapshot *snapshot, char *message);
 
 /* Puts a lane just opened into a packed state, which must be one that this lane can have at the time t; from

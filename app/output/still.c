@@ -39,7 +39,7 @@ bool gm_still_write(struct gm_print *print, const struct gm_request *request,
     bool good = picture && steps && failures &&
                 gm_provenance_make(&provenance, request, &print->look, gm_press_backend(press));
     if (good) {
-        request->scene->draw(lanes, request->count, picture);
+        gm_lanes_draw(lanes, request->count, picture);
         good = print_texts(press, print, picture, &provenance, steps, failures, message);
     } else {
         snprintf(message, GM_MESSAGE, "not enough memory for a picture");

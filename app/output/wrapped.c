@@ -9,6 +9,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "render/cells/text.h"
+
 enum { NARROWEST = 20, ROOM = 24, LEAST_INDENT = 4 };
 
 int gm_output_columns(void)
@@ -48,8 +50,11 @@ static size_t first_part(const char *text, int room)
     return part;
 }
 
-void gm_print_wrapped(const char *text, int before, int indent)
+void gm_print_wrapped(const char *words, int before, int indent)
 {
+    const bool plain = gm_text_is_plain(words);
+    char *const tame = plain ? NULL : strdup(words);
+    const char *text = plain ? words : tame ? gm_text_tame(tame) : "";
     const int columns = gm_output_columns();
     const int further = columns > 0 && indent > columns - ROOM ? LEAST_INDENT : indent;
     int at = before, blanks = 0; /* before the next word */
@@ -74,4 +79,5 @@ void gm_print_wrapped(const char *text, int before, int indent)
         text += blanks;
     }
     putchar('\n');
+    free(tame);
 }

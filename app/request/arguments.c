@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Words as one owned list: split from a text, completed by what is usual, written so that they are read again. */
+/* Words as one owned list: split from a text, completed by what is usual, written so that they are read
+   again. */
 #include "app/request/arguments.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+#include "scenes/frame/scene.h"
 
 void gm_arguments_close(struct gm_arguments *arguments)
 {
@@ -27,6 +30,16 @@ bool gm_arguments_add(struct gm_arguments *arguments, const char *word)
     }
     arguments->count++;
     return true;
+}
+
+bool gm_arguments_end(struct gm_arguments *arguments)
+{
+    char **more = realloc(arguments->words, ((size_t)arguments->count + 1) * sizeof *more);
+    if (more) {
+        arguments->words = more;
+        more[arguments->count] = NULL;
+    }
+    return more != NULL;
 }
 
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text)
@@ -87,6 +100,48 @@ void gm_arguments_put(FILE *stream, const char *word)
         }
         putc(*word, stream);
     }
+}
+
+void gm_arguments_put_shell(FILE *stream, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,/:%@^";
+    size_t front = strspn(word, plain);
+    if (!word[front] && front > 0) {
+        fputs(word, stream);
+        return;
+    }
+    const char *equals = strchr(word, '=');
+    front = equals && equals < word + front ? (size_t)(equals - word) + 1 : 0;
+    fprintf(stream, "%.*s'", (int)front, word);
+    for (const char *at = word + front; *at; at++) {
+        fputs(*at == '\'' ? "'\\'" : "", stream);
+        putc(*at, stream);
+        fputs(*at == '\'' ? "'" : "", stream);
+    }
+    putc('\'', stream);
+}
+
+void gm_arguments_put_scene(FILE *stream, const struct gm_scene *scene)
+{
+    gm_arguments_put(stream, scene->words ? scene->words[0] : scene->name);
+    for (size_t i = 1; scene->words && scene->words[i]; i++) {
+        fputc(' ', stream);
+        gm_arguments_put(stream, scene->words[i]);
+    }
+}
+
+void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t size)
+{
+    char *whole = NULL;
+    size_t length = 0;
+    FILE *stream = scene->words ? open_memstream(&whole, &length) : NULL;
+    for (size_t i = 0; stream && scene->words[i]; i++) {
+        fputs(i ? " " : "", stream);
+        gm_arguments_put_shell(stream, scene->words[i]);
+    }
+    const bool told = stream && fclose(stream) == 0;
+    snprintf(text, size, "%s", told ? whole : scene->name);
+    free(whole);
 }
 
 char *gm_arguments_join(const char *front, const struct gm_arguments *arguments)

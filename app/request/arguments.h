@@ -7,6 +7,8 @@
 
 /* Words as they were typed, or as a text holds them: a scene and its key=value, or the words of a command. */
 
+struct gm_scene;
+
 struct gm_arguments { /* {0} is an empty list */
     char **words;     /* its own copies */
     int count;
@@ -18,6 +20,9 @@ void gm_arguments_close(struct gm_arguments *arguments);
 bool gm_arguments_add(struct gm_arguments *arguments, const char *word);
 bool gm_arguments_split(struct gm_arguments *arguments, const char *text);
 
+/* Puts a NULL behind the last word, which it does not count. */
+bool gm_arguments_end(struct gm_arguments *arguments);
+
 /* Whether one of the words sets the key that `word` sets: "dt=" or "dt=0.1". */
 bool gm_arguments_have(const struct gm_arguments *arguments, const char *word);
 
@@ -28,6 +33,12 @@ bool gm_arguments_complete(struct gm_arguments *arguments, const struct gm_argum
 
 /* Writes one word as gm_arguments_split reads it. */
 void gm_arguments_put(FILE *stream, const char *word);
+/* Writes one word as a shell reads it: quotes are where they are needed. */
+void gm_arguments_put_shell(FILE *stream, const char *word);
+/* Writes a scene as the first word, or as those that it was made of. */
+void gm_arguments_put_scene(FILE *stream, const struct gm_scene *scene);
+/* The same as a shell reads it, as far as `text` has room. */
+void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t size);
 /* "FRONT word word"; malloc'ed, NULL when memory is short. */
 char *gm_arguments_join(const char *front, const struct gm_arguments *arguments);
 

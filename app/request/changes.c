@@ -9,6 +9,7 @@
 
 #include "app/request/arguments.h"
 #include "app/request/request.h"
+#include "app/request/scheme.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 
@@ -29,9 +30,9 @@ static void format_key(FILE *stream, const struct gm_request *request, const cha
                                             char *text),
                        const void *row, const char *standard, size_t *lists)
 {
-    char first[GM_TEXT_SIZE], text[GM_TEXT_SIZE];
+    char room[GM_TEXT_SIZE], text[GM_TEXT_SIZE];
     bool same = true;
-    snprintf(first, sizeof first, "%s", value(request, 0, row, text));
+    const char *first = value(request, 0, row, room);
     for (size_t i = 1; i < request->count; i++) {
         same &= strcmp(first, value(request, i, row, text)) == 0;
     }
@@ -50,8 +51,8 @@ static void format_key(FILE *stream, const struct gm_request *request, const cha
 static const char *scheme_value(const struct gm_request *request, size_t lane, const void *row, char *text)
 {
     (void)row;
-    snprintf(text, GM_TEXT_SIZE, "%s", request->lanes[lane].scheme->name);
-    return text;
+    (void)text;
+    return gm_scheme_word(request->lanes[lane].scheme);
 }
 
 static const char *parameter_value(const struct gm_request *request, size_t lane, const void *row, char *text)
@@ -76,12 +77,13 @@ char *gm_request_format(const struct gm_request *request)
         return NULL;
     }
     size_t lists = 0;
-    fputs(request->scene->name, stream);
+    gm_arguments_put_scene(stream, request->scene);
     format_key(stream, request, "scheme", scheme_value, NULL, NULL, &lists);
     for (size_t i = 0; i < request->scene->parameter_count; i++) {
         const struct gm_parameter *row = &request->scene->parameters[i];
         if (!is_idle(request, row->key)) {
-            format_key(stream, request, row->key, parameter_value, row, row->standard, &lists);
+            format_key(stream, request, row->key, parameter_value, row, row->required ? NULL : row->standard,
+                       &lists);
         }
     }
     for (size_t i = 0; i < gm_settings_parameter_count; i++) {
@@ -122,9 +124,11 @@ bool gm_change_add(struct gm_request *request, size_t lane, long step, const cha
         return false;
     }
     request->changes = grown;
-    struct gm_change *change = &grown[request->change_count++];
-    *change = (struct gm_change){.lane = lane, .step = step};
-    snprintf(change->text, sizeof change->text, "%s", text);
+    char *copy = strdup(text);
+    if (!copy) {
+        return false;
+    }
+    grown[request->change_count++] = (struct gm_change){.lane = lane, .step = step, .text = copy};
     return true;
 }
 
@@ -145,21 +149,17 @@ static bool parse_change(struct gm_request *request, const char *line)
         return false;
     }
     const char *text = end + strspn(end, " ");
-    return strlen(text) < sizeof request->changes->text && gm_text_is_plain(text) &&
-           gm_change_add(request, lane, step, text);
+    return gm_text_is_plain(text) && gm_change_add(request, lane, step, text);
 }
 
 bool gm_changes_parse(struct gm_request *request, const char *text)
 {
     while (*text) {
         const size_t length = strcspn(text, "\n");
-        char line[256];
-        if (length >= sizeof line) {
-            return false;
-        }
-        memcpy(line, text, length);
-        line[length] = '\0';
-        if (!parse_change(request, line)) {
+        char *line = strndup(text, length);
+        const bool good = line && parse_change(request, line);
+        free(line);
+        if (!good) {
             return false;
         }
         text += length + (text[length] == '\n');
@@ -169,7 +169,7 @@ bool gm_changes_parse(struct gm_request *request, const char *text)
 
 /* What a change is: a scheme's name, a step, or (neither) a live parameter, which is stored. */
 struct meaning {
-    const char *scheme;
+    const struct gm_scheme *scheme;
     double dt;
 };
 
@@ -181,15 +181,13 @@ static bool understand(const struct gm_scene *scene, void *parameters, const cha
         return gm_refuse(message, "\"%.60s\" is not of the form key=value", text);
     }
     char key[96];
-    snprintf(key, sizeof key, "%.*s", (int)(equals - text), text);
+    snprintf(key, sizeof key, "%.*s", (int)(equals - text < 95 ? equals - text : 95), text);
     const char *value = equals + 1;
     *meaning = (struct meaning){.dt = NAN};
     if (strcmp(key, "scheme") == 0) {
-        meaning->scheme = value;
-        if (!gm_scheme_find(value)) {
-            return gm_refuse(message, "there is no scheme \"%.40s\"", value);
-        }
-        return true;
+        bool unreadable;
+        meaning->scheme = gm_scheme_named(value, &unreadable, message);
+        return meaning->scheme || (!message[0] && gm_refuse(message, "there is no scheme \"%.40s\"", value));
     }
     if (strcmp(key, "dt") == 0) {
         /* its sign may turn, which no range in the table allows */
@@ -229,7 +227,8 @@ bool gm_change_apply(struct gm_lane *lane, const char *text, char *message)
         return false;
     }
     if (meaning.scheme) {
-        return gm_lane_switch(lane, gm_scheme_find_for(meaning.scheme, &lane->problem), message);
+        return gm_lane_switch(lane, gm_scheme_find_for(gm_scheme_word(meaning.scheme), &lane->problem),
+                              message);
     }
     if (!isnan(meaning.dt)) {
         gm_lane_set_step(lane, meaning.dt);

@@ -1,32 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lanes driven from outside any scene: steps in bursts, changes in flight, interruption. */
+/* Lanes driven from outside any scene: steps in bursts, changes in flight; and how they ended, in words. */
 #include "app/request/drive.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "render/cells/text.h"
+#include "app/native/engine.h"
+#include "app/request/interrupt.h"
 #include "render/clock.h"
-
-volatile sig_atomic_t gm_interrupted;
-
-static void interrupt(int number)
-{
-    (void)number;
-    gm_interrupted = gm_interrupted + 1;
-}
-
-void gm_catch_interrupts(void)
-{
-    struct sigaction action = {.sa_handler = interrupt};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
 
 /* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble. */
 static long burst_of(const struct gm_lane *lane)
@@ -71,12 +54,26 @@ static double until_of(const struct gm_lane *lane)
 
 bool gm_drive_goes_on(const struct gm_drive *drive, long step)
 {
-    return gm_run_goes_on(drive->lane->run, step, until_of(drive->lane));
+    return gm_run_goes_on(drive->lane->run, step, until_of(drive->lane)) && !gm_lane_stopped(drive->lane);
 }
 
 /* The system is asked for the time of every step that is long, of short ones after so many seconds of them:
    asking takes longer than a short step. */
 static const double unasked = 20e-6;
+
+/* What asking twice takes by itself, the least of a few times: more than a short step. */
+static double asking(void)
+{
+    static _Thread_local double least = 0;
+    if (least == 0) {
+        least = INFINITY;
+        for (int i = 0; i < 8; i++) {
+            const double start = gm_clock_processor_seconds();
+            least = fmin(least, gm_clock_processor_seconds() - start);
+        }
+    }
+    return least;
+}
 
 /* Makes steps up to `stop` in all, which are timed. */
 static void advance(struct gm_drive *drive, long stop, bool record)
@@ -93,13 +90,27 @@ static void advance(struct gm_drive *drive, long stop, bool record)
     }
     const long made = lane->run->steps - before;
     if (measured) {
-        const double took = gm_clock_processor_seconds() - start;
+        const double took = fmax(gm_clock_processor_seconds() - start - asking(), 0);
         drive->seconds += took;
         drive->each = made > 0 ? took / (double)made : 0;
         drive->unmeasured = drive->each > 0 ? (long)fmin(unasked / drive->each, 1e6) : 0;
     } else {
         drive->seconds += drive->each * (double)made;
         drive->unmeasured -= made;
+    }
+}
+
+/* Steps that take long may be worth compiling. */
+static void look_for_engine(struct gm_drive *drive, long step)
+{
+    static const double often = 0.05; /* seconds */
+    const struct gm_run *run = drive->lane->run;
+    if (drive->seconds >= drive->looked + often || drive->looked == 0) {
+        const bool known = !drive->lane->scheme->family->own_time;
+        const long end = known ? gm_run_steps_at(run, until_of(drive->lane)) : run->steps;
+        const double left = (double)((end < step ? end : step) - run->steps);
+        gm_engine_look(drive->lane, drive->seconds - drive->looked, drive->each * fmax(left, 0));
+        drive->looked = drive->seconds;
     }
 }
 
@@ -120,42 +131,40 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);
         }
+        /* makes steps to and fro: what recording knows of the last one is gone */
+        look_for_engine(drive, step);
     }
     return true;
 }
 
-long gm_drive_step_at(const struct gm_drive *drive, double t)
+bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message)
 {
-    const struct gm_run *run = drive->lane->run;
-    if (run->scheme->family->own_time) {
-        return run->steps + (run->t < t ? 1 : 0);
+    const struct gm_lane *lane = drive->lane; /* its run is another one after a change of scheme */
+    const long end = drive->request->lanes[drive->index].steps;
+    long before = -1;
+    /* until no more turn out to be due: a scheme may choose its steps, and a change have shortened them */
+    while (lane->run->steps > before) {
+        const long due = gm_run_steps_by(lane->run, t);
+        before = lane->run->steps;
+        if (!gm_drive_to(drive, due < end ? due : end, record, message)) {
+            return false;
+        }
     }
-    const double ahead = (t - run->t) / run->dt;
-    return run->steps + (long)floor(fmin(ahead * (1 + 1e-12) + 1e-6, (double)GM_MOST_STEPS));
+    return true;
 }
 
-__attribute__((format(printf, 3, 0))) static void put_line(FILE *stream, const char *front,
-                                                           const char *format, va_list arguments)
+/* What the scene knows of a step that led to no number; false if it knows nothing. */
+static bool tell_part(const struct gm_lane *lane, char *text, size_t size)
 {
-    char text[8192]; /* a path may have 4096 bytes */
-    vsnprintf(text, sizeof text, format, arguments);
-    fprintf(stream, "%s%s\n", front, gm_text_tame(text));
-}
-
-void gm_complain(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    put_line(stderr, "geomint: ", format, arguments);
-    va_end(arguments);
-}
-
-void gm_say(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    put_line(stdout, "", format, arguments);
-    va_end(arguments);
+    char part[GM_MESSAGE / 2] = "";
+    const struct gm_view view = gm_lane_view(lane);
+    if (lane->scene->failure) {
+        lane->scene->failure(&view, part, sizeof part);
+    }
+    if (part[0]) {
+        snprintf(text, size, "the step after t = %.6g led to no number: %s", view.t, part);
+    }
+    return part[0] != '\0';
 }
 
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
@@ -166,11 +175,17 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     case GM_OK:
         return;
     case GM_BLOW_UP:
+        if (tell_part(lane, text, size)) {
+            return;
+        }
         snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to no number at all", run->t,
                  run->limit);
         return;
     case GM_NO_CONVERGENCE: {
         const double iterations = gm_run_per_member(run, run->failed_iterations);
+        if (tell_part(lane, text, size)) {
+            return;
+        }
         if (iterations < 1) {
             snprintf(
                 text, size,
@@ -203,7 +218,7 @@ static double overshoot(const struct gm_drive *drive)
     const struct gm_run *run = drive->lane->run;
     const double until = drive->request->lanes[drive->index].until; /* NAN: not asked for */
     const bool there = !(fabs(run->t - until) > 1e-9 * fmax(fabs(until), fabs(run->dt)));
-    return run->status != GM_OK || there ? 0 : run->t - until;
+    return run->status != GM_OK || there || gm_lane_stopped(drive->lane) ? 0 : run->t - until;
 }
 
 void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)
@@ -216,25 +231,21 @@ void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)
     }
 }
 
-void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size)
+void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size)
 {
-    gm_lane_warning(drive->lane, text, size);
+    text[0] = '\0';
     if (!drive->lane->scheme->family->own_time && overshoot(drive) != 0) {
-        const size_t used = strlen(text);
-        snprintf(text + used, size - used,
-                 "%sthe run ends at t = %.10g and not at until = %.10g: that is no whole number of steps",
-                 used ? "; " : "", drive->lane->run->t, drive->request->lanes[drive->index].until);
+        snprintf(text, size,
+                 "the run ends at t = %.10g and not at until = %.10g: that is no whole number of steps",
+                 drive->lane->run->t, drive->request->lanes[drive->index].until);
     }
 }
 
-int gm_finish(int status)
+void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size)
 {
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        if (errno == EPIPE) {
-            return GM_EXIT_PIPE;
-        }
-        gm_complain("standard output could not be written: %s", strerror(errno));
-        return GM_EXIT_FILE;
-    }
-    return status;
+    char end[GM_MESSAGE];
+    gm_drive_other_end(drive, end, sizeof end);
+    gm_lane_warning(drive->lane, text, size);
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%s", used && end[0] ? "; " : "", end);
 }

@@ -2,15 +2,9 @@
 #ifndef GM_APP_REQUEST_DRIVE_H
 #define GM_APP_REQUEST_DRIVE_H
 
-#include <signal.h>
-
 #include "app/request/request.h"
 
-/* Drives lanes from outside any scene: steps, changes in flight, processor time, interruption. */
-
-/* How often SIGINT or SIGTERM came; long work looks at it between steps. */
-extern volatile sig_atomic_t gm_interrupted;
-void gm_catch_interrupts(void);
+/* Drives lanes from outside any scene: steps, changes in flight, processor time. */
 
 struct gm_drive {
     struct gm_lane *lane;
@@ -20,6 +14,7 @@ struct gm_drive {
     double seconds;  /* processor time of its steps */
     double each;     /* ... of one, when it was last measured */
     long unmeasured; /* so many more steps are taken for as long */
+    double looked;   /* of the seconds, when another engine was last looked for */
 };
 
 /* Advances to `step` steps in all, recording after every one if `record`; makes the changes that are due.
@@ -30,15 +25,8 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message);
 /* Whether the lane is still on its way to `step` steps in all, or its end (gm_run_goes_on). */
 bool gm_drive_goes_on(const struct gm_drive *drive, long step);
 
-/* The last step not after the time t: how many steps in all the lane has made then. Where the
-   scheme chooses its step: one step more, as long as t is not reached. */
-long gm_drive_step_at(const struct gm_drive *drive, double t);
-
-/* Prints "geomint: sentence" to standard error. What a terminal would obey instead of showing it is replaced:
-   sentences quote files and arguments. */
-__attribute__((format(printf, 1, 2))) void gm_complain(const char *format, ...);
-/* The same for a line of standard output, without a front. */
-__attribute__((format(printf, 1, 2))) void gm_say(const char *format, ...);
+/* Advances to where the lane is looked at for the time t (gm_run_steps_by), but not beyond its own end. */
+bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message);
 
 /* Writes one sentence on how a failed lane stands; empty for GM_OK. */
 void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size);
@@ -47,12 +35,12 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size);
    to its end, which is after the until asked for; empty if there is nothing to say. */
 void gm_drive_message(const struct gm_drive *drive, char *text, size_t size);
 
-/* Writes what is wrong with a run that is not failed: gm_lane_warning, an end that steps of the length asked
-   for cannot make the until asked for; empty if there is nothing. */
-void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size);
+/* Writes that a run at its end is not at the until asked for, which is no whole number of steps; empty if it
+   is. */
+void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size);
 
-/* Flushes standard output. The status to exit with: `status`, or 3 with a complaint if it could not be
- * written. */
-int gm_finish(int status);
+/* Writes what is wrong with a run that is not failed: gm_lane_warning and gm_drive_other_end; empty if there
+   is nothing. */
+void gm_drive_warning(const struct gm_drive *drive, char *text, size_t size);
 
 #endif

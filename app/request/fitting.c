@@ -11,11 +11,10 @@ size_t gm_fitting_schemes(const struct gm_scene *scene, const struct gm_scheme *
     size_t count = 0;
     char sentence[GM_MESSAGE];
     struct gm_problem problem = {0};
-    void *parameters = calloc(1, scene->size);
+    void *parameters = gm_scene_defaults(scene);
     if (!parameters) {
         return 0;
     }
-    gm_parameters_reset(scene->parameters, scene->parameter_count, parameters);
     if (scene->setup(parameters, &problem, sentence)) {
         for (size_t i = 0; i < gm_scheme_count() && count < GM_FITTING_SCHEMES; i++) {
             if (gm_scheme_fits(gm_scheme_at(i), &problem)) {

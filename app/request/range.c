@@ -12,7 +12,14 @@
 
 bool gm_range_is(const char *text)
 {
-    return strstr(text, "..") != NULL;
+    int depth = 0; /* those of a sum, sum(i = 1 .. 3, q[i]), make no range */
+    for (const char *at = text; *at; at++) {
+        depth += (*at == '(' || *at == '[') - (*at == ')' || *at == ']');
+        if (depth == 0 && at[0] == '.' && at[1] == '.') {
+            return true;
+        }
+    }
+    return false;
 }
 
 static double to_15_digits(double value)

@@ -1,23 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From words to a scene and its lanes, with a sentence for what cannot be. */
 #include "app/request/request.h"
-#include "core/schemes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/native/engine.h"
 #include "app/request/arguments.h"
 #include "app/request/fitting.h"
+#include "app/request/scheme.h"
+#include "app/request/system.h"
 #include "app/request/words.h"
 #include "core/formula/nearest.h"
 #include "core/memory.h"
-
-static const char *scene_name(size_t i, const void *data)
-{
-    return (void)data, gm_scene_at(i)->name;
-}
+#include "core/schemes.h"
 
 static const char *scheme_name(size_t i, const void *data)
 {
@@ -58,27 +56,35 @@ static bool set_parameter(const struct gm_parameter *row, void *owner, const cha
                      high, nearest);
 }
 
-static bool set_scheme(const struct gm_scene *scene, struct gm_lane_spec *spec, const char *name,
-                       char *message)
+static bool set_scheme(struct gm_request *request, struct gm_lane_spec *spec, const char *name, char *message)
 {
-    spec->scheme = gm_scheme_find(name);
+    const struct gm_scene *scene = request->scene;
+    bool unreadable = false;
+    spec->scheme = gm_scheme_named(name, &unreadable, message);
+    if (!spec->scheme && message[0]) {
+        request->refusal = unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
+        return false;
+    }
     if (!spec->scheme) {
         const struct gm_scheme *fitting[GM_FITTING_SCHEMES];
         const char *near = gm_nearest(name, gm_fitting_schemes(scene, fitting), scheme_name, fitting);
+        char words[256];
+        gm_arguments_tell_scene(scene, words, sizeof words);
         return gm_refuse(message, "there is no scheme \"%.40s\"%s%s", name,
-                         near ? "; did you mean " : "; see geomint list ", near ? near : scene->name);
+                         near ? "; did you mean " : "; see geomint list ", near ? near : words);
     }
     return true;
 }
 
 /* Applies value `index` of a list to a lane; some common keys are not the lane's. */
-static bool apply(const struct gm_scene *scene, struct gm_lane_spec *spec, const struct gm_word *list,
+static bool apply(struct gm_request *request, struct gm_lane_spec *spec, const struct gm_word *list,
                   size_t index, char *message)
 {
-    char formatted[GM_VALUE_TEXT];
+    const struct gm_scene *scene = request->scene;
+    char formatted[GM_TEXT_SIZE];
     const char *text = gm_word_value(list, index, formatted);
     if (strcmp(list->key, "scheme") == 0) {
-        return set_scheme(scene, spec, text, message);
+        return set_scheme(request, spec, text, message);
     }
     if (strcmp(list->key, "steps") == 0) {
         double steps = 0;
@@ -109,7 +115,7 @@ static void add_name(const struct gm_word *list, size_t index, const struct gm_s
                      size_t size)
 {
     const size_t length = strlen(name);
-    char value[GM_VALUE_TEXT];
+    char value[GM_TEXT_SIZE];
     const char *comma = length ? ", " : "";
     if (strcmp(list->key, "scheme") == 0) {
         snprintf(name + length, size - length, "%s%s", comma, scheme->title);
@@ -176,22 +182,24 @@ static bool settle_time(const struct gm_scene *scene, struct gm_lane_spec *spec,
     const bool own_time = spec->scheme && spec->scheme->family->own_time;
     const double t0 = gm_scene_t0(scene, spec->parameters);
     spec->until = steps_given ? NAN : timing->until;
-    if (steps_given) {
-        timing->until = own_time ? GM_NEVER : t0 + (double)spec->steps * timing->dt;
-        return true;
-    }
     if (own_time) {
-        spec->steps = GM_MOST_STEPS; /* it ends at the first t >= until, after steps that it chooses */
+        timing->until = steps_given ? GM_NEVER : timing->until;
+        spec->steps = steps_given ? spec->steps : GM_MOST_STEPS;
+        spec->end = timing->until;
         return true;
     }
-    const double steps = round((timing->until - t0) / timing->dt);
-    if (steps < 0) {
-        return gm_refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
+    if (!steps_given) {
+        const double steps = round((timing->until - t0) / timing->dt);
+        if (steps < 0) {
+            return gm_refuse(message, "until=%g lies before the start, t = %g", timing->until, t0);
+        }
+        if (!(steps <= (double)GM_MOST_STEPS)) {
+            return gm_refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
+        }
+        spec->steps = (long)steps;
     }
-    if (!(steps <= (double)GM_MOST_STEPS)) {
-        return gm_refuse(message, "until / dt is %.3g steps; 1e15 is the most", steps);
-    }
-    spec->steps = (long)steps;
+    spec->end = t0 + (double)spec->steps * timing->dt;
+    timing->until = steps_given ? spec->end : timing->until;
     return true;
 }
 
@@ -227,7 +235,7 @@ static bool check_settings(const struct gm_request *request, const struct gm_wor
 }
 
 /* A key that has no effect in any lane is not taken: whoever types it expects one. */
-static bool check_effects(const struct gm_request *request, const struct gm_words *words, char *message)
+static bool check_effects(struct gm_request *request, const struct gm_words *words, char *message)
 {
     for (size_t i = 0; i < words->count; i++) {
         const char *key = words->list[i].key, *why = NULL;
@@ -238,6 +246,7 @@ static bool check_effects(const struct gm_request *request, const struct gm_word
             }
         }
         if (why) {
+            snprintf(request->refused, sizeof request->refused, "%s", key);
             return gm_refuse(message, "%s= has no effect here: %s", key, why);
         }
     }
@@ -287,7 +296,9 @@ static bool find_schemes(struct gm_request *request, char *message)
         }
         if (!scene->setup(request->lanes[i].parameters, &problem, message)) {
             char sentence[GM_MESSAGE];
-            request->unreadable = scene->readable && !scene->readable(request->lanes[i].parameters, sentence);
+            if (scene->readable && !scene->readable(request->lanes[i].parameters, sentence)) {
+                request->refusal = GM_EXIT_FILE;
+            }
             return false;
         }
         for (size_t k = i; k < request->count && !unfit; k++) {
@@ -301,9 +312,11 @@ static bool find_schemes(struct gm_request *request, char *message)
             scene->close(&problem);
         }
     }
+    char words[256];
+    gm_arguments_tell_scene(scene, words, sizeof words);
     return !unfit ||
            gm_refuse(message, "scheme %s does not fit scene %s; geomint list %s names those that do",
-                     unfit->name, scene->name, scene->name);
+                     unfit->name, scene->name, words);
 }
 
 /* Evaluations per model time over the first steps; NAN with a sentence if there are none. */
@@ -387,15 +400,15 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, bool 
     }
     for (size_t k = 0; k < count; k++) {
         struct gm_lane_spec *spec = &request->lanes[k];
-        spec->parameters = calloc(1, scene->size);
+        spec->parameters = gm_scene_defaults(scene);
         request->count++;
         if (!spec->parameters) {
             return gm_refuse(message, "not enough memory");
         }
-        gm_parameters_reset(scene->parameters, scene->parameter_count, spec->parameters);
         gm_parameters_reset(gm_settings_parameters, gm_settings_parameter_count, &spec->settings);
         for (size_t i = 0; i < words->count; i++) {
-            if (!apply(scene, spec, &words->list[i], gm_words_choice(words, i, k), message)) {
+            if (!apply(request, spec, &words->list[i], gm_words_choice(words, i, k), message)) {
+                snprintf(request->refused, sizeof request->refused, "%s", words->list[i].key);
                 return false;
             }
         }
@@ -431,18 +444,33 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, bool 
     return check_settings(request, words, message);
 }
 
-static bool parse(struct gm_request *request, int count, char *const typed[], size_t schemes, bool recalled,
-                  char *message)
+const struct gm_scene *gm_request_scene(int count, char *const words[], int *status, char *message)
+{
+    const struct gm_scene *scene = gm_scene_find(words[0]);
+    *status = GM_EXIT_USAGE;
+    if (!scene && gm_system_is(words[0])) {
+        return gm_system_scene(count, words, status, message);
+    }
+    if (!scene) {
+        char found[GM_NEAR];
+        const char *near = gm_system_near(words[0], found);
+        gm_refuse(message, "there is no scene \"%.40s\"%s%s", words[0],
+                  near ? "; did you mean " : "; see geomint list", near ? near : "");
+    }
+    return scene;
+}
+
+/* `scene`: the one that the first word names; NULL: it is found. */
+static bool parse(struct gm_request *request, const struct gm_scene *scene, int count, char *const typed[],
+                  size_t schemes, bool recalled, char *message)
 {
     *request = (struct gm_request){0};
     if (count == 0) {
         return gm_refuse(message, "which scene? geomint list names them");
     }
-    request->scene = gm_scene_find(typed[0]);
+    request->scene = scene ? scene : gm_request_scene(count, typed, &request->refusal, message);
     if (!request->scene) {
-        const char *near = gm_nearest(typed[0], gm_scene_count(), scene_name, NULL);
-        return gm_refuse(message, "there is no scene \"%.40s\"%s%s", typed[0],
-                         near ? "; did you mean " : "; see geomint list", near ? near : "");
+        return false;
     }
     /* without a word a scene is shown by its own lanes */
     struct gm_arguments own = {0};
@@ -456,6 +484,9 @@ static bool parse(struct gm_request *request, int count, char *const typed[], si
     struct gm_words words;
     const unsigned long refusals = gm_memory_refusals();
     bool good = gm_words_read(&words, request->scene, given_count, given, schemes, message);
+    if (!good && words.count > 0) {
+        snprintf(request->refused, sizeof request->refused, "%s", words.list[words.count - 1].key);
+    }
     request->overlay = good && gm_words_chosen(&words, "overlay");
     good = good && make_lanes(request, &words, recalled, message);
     if (good) {
@@ -463,14 +494,16 @@ static bool parse(struct gm_request *request, int count, char *const typed[], si
         good = request->arguments || gm_refuse(message, "not enough memory");
     }
     if (gm_memory_refusals() != refusals) { /* whatever was made of it: a fault of a mesh or of its file */
-        good = request->unreadable = gm_refuse(message, "not enough memory");
+        good = gm_refuse(message, "not enough memory");
+        request->refusal = GM_EXIT_FILE;
     }
     gm_words_close(&words);
     gm_arguments_close(&own);
     if (!good) {
-        const bool unreadable = request->unreadable;
+        const struct gm_request refused = *request;
         gm_request_close(request);
-        request->unreadable = unreadable;
+        request->refusal = refused.refusal;
+        memcpy(request->refused, refused.refused, sizeof refused.refused);
     }
     return good;
 }
@@ -478,7 +511,13 @@ static bool parse(struct gm_request *request, int count, char *const typed[], si
 bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
                       char *message)
 {
-    return parse(request, count, words, schemes, false, message);
+    return parse(request, NULL, count, words, schemes, false, message);
+}
+
+bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *scene, int count,
+                          char *const words[], size_t schemes, char *message)
+{
+    return parse(request, scene, count, words, schemes, false, message);
 }
 
 bool gm_request_recall(struct gm_request *request, const char *arguments, char *message)
@@ -486,7 +525,7 @@ bool gm_request_recall(struct gm_request *request, const char *arguments, char *
     struct gm_arguments words = {0};
     *request = (struct gm_request){0};
     const bool good = gm_arguments_split(&words, arguments)
-                          ? parse(request, words.count, words.words, 1, true, message)
+                          ? parse(request, NULL, words.count, words.words, 1, true, message)
                           : gm_refuse(message, "not enough memory");
     gm_arguments_close(&words);
     return good;
@@ -494,7 +533,26 @@ bool gm_request_recall(struct gm_request *request, const char *arguments, char *
 
 int gm_request_refusal(const struct gm_request *request)
 {
-    return request->unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
+    return request->refusal ? request->refusal : GM_EXIT_USAGE;
+}
+
+void gm_changes_drop(struct gm_request *request,
+                     bool (*drops)(const struct gm_change *change, const void *data), const void *data)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < request->change_count; i++) {
+        const struct gm_change change = request->changes[i];
+        if (!drops || drops(&change, data)) {
+            free(change.text);
+        } else {
+            request->changes[kept++] = change;
+        }
+    }
+    request->change_count = kept;
+    if (!drops) {
+        free(request->changes);
+        request->changes = NULL;
+    }
 }
 
 void gm_request_close(struct gm_request *request)
@@ -503,7 +561,7 @@ void gm_request_close(struct gm_request *request)
         free(request->lanes[i].parameters);
     }
     free(request->lanes);
-    free(request->changes);
+    gm_changes_drop(request, NULL, NULL);
     free(request->arguments);
     *request = (struct gm_request){0};
 }
@@ -524,6 +582,7 @@ struct gm_lane *gm_request_open_lane(const struct gm_request *request, size_t in
         gm_lane_open(request->scene, spec->parameters, &spec->settings, spec->scheme, message);
     if (lane) {
         gm_lane_show(lane, &spec->shown);
+        gm_engine_meet(lane);
     }
     return lane;
 }

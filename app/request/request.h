@@ -2,6 +2,7 @@
 #ifndef GM_APP_REQUEST_REQUEST_H
 #define GM_APP_REQUEST_REQUEST_H
 
+#include "app/request/exit.h"
 #include "render/message.h"
 #include "scenes/frame/lane.h"
 
@@ -14,13 +15,14 @@ struct gm_lane_spec {
     const struct gm_scheme *scheme;
     long steps;   /* from start to until */
     double until; /* as asked for; NAN where steps= says it */
+    double end;   /* the time of the last step; of a scheme that chooses its steps, what that is to reach */
 };
 
 /* A change made in flight: after `step` steps of lane `lane`, "key=value" (a live parameter or scheme). */
 struct gm_change {
     size_t lane;
     long step;
-    char text[96];
+    char *text; /* of the request; a scheme that was brought along is the word that makes it again */
 };
 
 /* So many steps a lane may make, and changes lie at so many at most. */
@@ -32,32 +34,28 @@ struct gm_request {
     size_t count;
     struct gm_change *changes; /* in order of step */
     size_t change_count;
-    bool overlay;    /* all lanes in one panel */
-    bool unreadable; /* of a request that was refused: because of a file that it names */
-    char *arguments; /* what it was read from, schemes named; NULL: gm_request_format finds out */
+    bool overlay;     /* all lanes in one panel */
+    int refusal;      /* the exit status of a request that was refused; 0: that of wrong usage */
+    char refused[48]; /* the key that was refused, or "" */
+    char *arguments;  /* what it was read from, schemes named; NULL: gm_request_format finds out */
 };
 
 /* How many of a scene's preferred schemes a command takes where none is named. */
 enum { GM_RUN_SCHEMES = 1, GM_RENDER_SCHEMES = 3 };
 
-/* Exit statuses of the program. */
-enum {
-    GM_EXIT_OK = 0,
-    GM_EXIT_USAGE = 1,
-    GM_EXIT_NUMERICAL = 2,
-    GM_EXIT_FILE = 3,
-    GM_EXIT_CLAIM = 4,
-    GM_EXIT_MEMORY = 5,
-    GM_EXIT_INTERRUPTED = 130,
-    GM_EXIT_PIPE = 141,
-};
+/* The scene that the first of these words names, or that is made of them: a system. NULL with a sentence and
+   an exit status. */
+const struct gm_scene *gm_request_scene(int count, char *const words[], int *status, char *message);
 
 /* Reads words such as "disc", "scheme=rk4,midpoint", "dt=pi/60,pi/12", "zip=yes",
    "overlay=yes" (the scene first).
    `schemes` is how many of the scene's preferred schemes to take where none is named. False with one
-   sentence in message (GM_MESSAGE bytes); the request is then empty, but for `unreadable`. */
+   sentence in message (GM_MESSAGE bytes); the request is then empty, but for `refusal` and `refused`. */
 bool gm_request_parse(struct gm_request *request, int count, char *const words[], size_t schemes,
                       char *message);
+/* The same for a scene that is known, and named by the first word. */
+bool gm_request_parse_for(struct gm_request *request, const struct gm_scene *scene, int count,
+                          char *const words[], size_t schemes, char *message);
 /* The same of the arguments of a request that was made once, as text: a key may have no effect any more. */
 bool gm_request_recall(struct gm_request *request, const char *arguments, char *message);
 void gm_request_close(struct gm_request *request);
@@ -78,6 +76,9 @@ void gm_show_in_order(struct gm_shown *shown, size_t lane, const struct gm_schem
 
 /* Appends one; false when memory is short. */
 bool gm_change_add(struct gm_request *request, size_t lane, long step, const char *text);
+/* Closes those for which `drops` says so; NULL: all. */
+void gm_changes_drop(struct gm_request *request,
+                     bool (*drops)(const struct gm_change *change, const void *data), const void *data);
 
 /* A copy of a scene's parameters; malloc'ed, NULL when memory is short. */
 void *gm_parameters_copy(const struct gm_scene *scene, const void *parameters);

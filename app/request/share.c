@@ -2,30 +2,46 @@
 /* Where the data are that the program brings. */
 #include "app/request/share.h"
 
+#include <dirent.h>
+#include <dlfcn.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-/* bin/geomint beside share/geomint, wherever the two have been moved together. */
+#include "core/formula/reader.h"
+
+/* The program or the library that this is part of. */
+static bool find_self(char self[4096])
+{
+    static const char part = 0;
+    Dl_info here;
+    const bool library = dladdr(&part, &here) && strstr(here.dli_fname, "libgeomint.so");
+    char *found = realpath(library ? here.dli_fname : "/proc/self/exe", NULL);
+    const bool known = found && snprintf(self, 4096, "%s", found) < 4096;
+    free(found);
+    return known;
+}
+
+/* bin/geomint, lib/libgeomint.so or lib/MACHINE/libgeomint.so beside share/geomint, wherever they have been
+   moved together. */
 static bool beside_program(const char *name, char *path, size_t size)
 {
-    char program[4096];
-    const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length <= 0) {
+    char self[4096];
+    if (!find_self(self)) {
         return false;
     }
-    program[length] = '\0';
-    for (int i = 0; i < 2; i++) {
-        char *slash = strrchr(program, '/');
-        if (!slash) {
-            return false;
-        }
+    char *slash = strrchr(self, '/');
+    for (int up = 0; slash && up < 3; up++) {
         *slash = '\0';
+        const int wanted = snprintf(path, size, "%s/share/geomint/%s", self, name);
+        if (up > 0 && wanted < (int)size && access(path, R_OK) == 0) {
+            return true;
+        }
+        slash = strrchr(self, '/');
     }
-    const int wanted = snprintf(path, size, "%s/share/geomint/%s", program, name);
-    return wanted < (int)size && access(path, R_OK) == 0;
+    return false;
 }
 
 const char *gm_share_folder(const char *name, const char *variable, char *path, size_t size)
@@ -37,4 +53,25 @@ const char *gm_share_folder(const char *name, const char *variable, char *path, 
         snprintf(path, size, "%s/%s", GM_SHARE, name);
     }
     return path;
+}
+
+bool gm_share_find(const char *folder, const char *name, const char *ending, char *path, size_t size)
+{
+    return snprintf(path, size, "%s/%s%s", folder, name, ending) < (int)size && access(path, F_OK) == 0;
+}
+
+void gm_share_each(const char *folder, const char *ending, void (*each)(const char *name, const void *data),
+                   const void *data)
+{
+    struct dirent **entries = NULL;
+    const int count = folder[0] ? scandir(folder, &entries, NULL, alphasort) : 0;
+    for (int i = 0; i < count; i++) {
+        char *name = entries[i]->d_name;
+        if (gm_word_ends(name, ending)) {
+            name[strlen(name) - strlen(ending)] = '\0';
+            each(name, data);
+        }
+        free(entries[i]);
+    }
+    free(entries);
 }

@@ -8,6 +8,7 @@
 
 #include "app/request/arguments.h"
 #include "core/formula/nearest.h"
+#include "core/schemes.h"
 #include "render/cells/text.h"
 #include "render/message.h"
 
@@ -64,8 +65,8 @@ static bool add_value(struct gm_word *list, const char *text, size_t length, cha
         return gm_refuse(message, "%s= has more than %d values; a range, 0..1:%d, has any number", list->key,
                          GM_MOST_PIECES, 2 * GM_MOST_PIECES);
     }
-    struct gm_piece *piece = &list->pieces[list->piece_count];
-    *piece = (struct gm_piece){.text = strndup(text, length)};
+    struct gm_word_piece *piece = &list->pieces[list->piece_count];
+    *piece = (struct gm_word_piece){.text = strndup(text, length)};
     if (!piece->text) {
         return gm_refuse(message, "not enough memory");
     }
@@ -77,7 +78,7 @@ static bool add_value(struct gm_word *list, const char *text, size_t length, cha
 /* Where the last piece of a number's list is a range, it stands for its values. */
 static bool read_range(struct gm_word *list, const struct gm_scene *scene, char *message)
 {
-    struct gm_piece *piece = &list->pieces[list->piece_count - 1];
+    struct gm_word_piece *piece = &list->pieces[list->piece_count - 1];
     const struct gm_parameter *own = gm_scene_parameter(scene, list->key);
     const struct gm_parameter *row = own ? own : gm_setting_find(list->key);
     const bool steps = strcmp(list->key, "steps") == 0;
@@ -93,9 +94,9 @@ static bool read_range(struct gm_word *list, const struct gm_scene *scene, char 
 }
 
 /* The piece that value `index` belongs to, and the index within it. */
-static const struct gm_piece *piece_of(const struct gm_word *list, size_t *index)
+static const struct gm_word_piece *piece_of(const struct gm_word *list, size_t *index)
 {
-    const struct gm_piece *piece = list->pieces;
+    const struct gm_word_piece *piece = list->pieces;
     for (;; piece++) {
         const size_t count = piece->range.count ? piece->range.count : 1;
         if (*index < count) {
@@ -107,13 +108,13 @@ static const struct gm_piece *piece_of(const struct gm_word *list, size_t *index
 
 const char *gm_word_value(const struct gm_word *list, size_t index, char *text)
 {
-    const struct gm_piece *piece = piece_of(list, &index);
+    const struct gm_word_piece *piece = piece_of(list, &index);
     if (piece->range.count == 0) {
         return piece->text;
     }
     const double value = gm_range_at(&piece->range, index);
     for (int digits = 15; digits <= 17; digits++) { /* most have 15 */
-        snprintf(text, GM_VALUE_TEXT, "%.*g", digits, value);
+        snprintf(text, GM_TEXT_SIZE, "%.*g", digits, value);
         if (strtod(text, NULL) == value) {
             break;
         }
@@ -124,13 +125,13 @@ const char *gm_word_value(const struct gm_word *list, size_t index, char *text)
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text)
 {
     enum { SHORT = 8 };
-    const struct gm_piece *piece = piece_of(list, &index);
+    const struct gm_word_piece *piece = piece_of(list, &index);
     if (piece->range.count == 0) {
         return piece->text;
     }
     const double value = gm_range_at(&piece->range, index);
-    if (strlen(gm_number_format(value, text, GM_VALUE_TEXT)) > SHORT) {
-        snprintf(text, GM_VALUE_TEXT, "%.6g", value);
+    if (strlen(gm_number_format(value, text, GM_TEXT_SIZE)) > SHORT) {
+        snprintf(text, GM_TEXT_SIZE, "%.6g", value);
     }
     return text;
 }
@@ -180,6 +181,45 @@ static bool has_orders(const char *word)
     return false;
 }
 
+/* The next comma outside of parentheses; NULL. */
+static const char *next_comma(const char *text)
+{
+    int depth = 0;
+    for (; *text; text++) {
+        depth += (*text == '(') - (*text == ')');
+        if (*text == ',' && depth <= 0) {
+            return text;
+        }
+    }
+    return NULL;
+}
+
+/* Whether the scene was made of that word already. */
+static bool is_of_scene(const struct gm_scene *scene, const char *word)
+{
+    for (const char *const *own = scene->words; own && *own; own++) {
+        if (strcmp(*own, word) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether commas in the value are its own. */
+static bool is_whole(const struct gm_parameter *row, const char *value)
+{
+    bool choices = row && row->choices;
+    for (const char *at = value; choices && at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        const size_t length = strcspn(at, ",");
+        bool met = false;
+        for (size_t i = 0; row->choices[i]; i++) {
+            met |= strncmp(row->choices[i], at, length) == 0 && strlen(row->choices[i]) == length;
+        }
+        choices = met;
+    }
+    return row && row->names && !choices;
+}
+
 static bool read_word(struct gm_words *words, const struct gm_scene *scene, const char *word, char *message)
 {
     const char *equals = strchr(word, '=');
@@ -201,8 +241,10 @@ static bool read_word(struct gm_words *words, const struct gm_scene *scene, cons
     if (!known_key(scene, list->key)) {
         const size_t names = gm_common_key_count + scene->parameter_count + gm_settings_parameter_count;
         const char *near = gm_nearest(list->key, names, key_name, scene);
+        char typed[256];
+        gm_arguments_tell_scene(scene, typed, sizeof typed);
         return gm_refuse(message, "scene %s has no parameter \"%.40s\"%s%s", scene->name, list->key,
-                         near ? "; did you mean " : "; see geomint list ", near ? near : scene->name);
+                         near ? "; did you mean " : "; see geomint list ", near ? near : typed);
     }
     for (size_t i = 0; i + 1 < words->count; i++) {
         if (strcmp(words->list[i].key, list->key) == 0) {
@@ -210,8 +252,9 @@ static bool read_word(struct gm_words *words, const struct gm_scene *scene, cons
         }
     }
     const char *at = equals + 1;
+    const bool whole = is_whole(gm_scene_parameter(scene, list->key), at);
     for (;;) {
-        const char *comma = strchr(at, ',');
+        const char *comma = whole ? NULL : next_comma(at);
         if (!add_value(list, at, comma ? (size_t)(comma - at) : strlen(at), message)) {
             return false;
         }
@@ -322,7 +365,7 @@ bool gm_words_read(struct gm_words *words, const struct gm_scene *scene, int cou
 {
     memset(words, 0, sizeof *words);
     for (int i = 0; i < count; i++) {
-        if (!read_word(words, scene, typed[i], message)) {
+        if (!is_of_scene(scene, typed[i]) && !read_word(words, scene, typed[i], message)) {
             return false;
         }
     }
@@ -341,12 +384,15 @@ char *gm_words_join(const struct gm_scene *scene, const struct gm_words *words)
     if (!stream) {
         return NULL;
     }
-    fputs(scene->name, stream);
+    gm_arguments_put_scene(stream, scene);
     for (size_t i = 0; i < words->count; i++) {
+        const bool is_scheme = strcmp(words->list[i].key, "scheme") == 0;
         fprintf(stream, " %s=", words->list[i].key);
         for (size_t k = 0; k < words->list[i].piece_count; k++) {
             fputs(k ? "," : "", stream);
-            gm_arguments_put(stream, words->list[i].pieces[k].text);
+            const char *typed = words->list[i].pieces[k].text;
+            const struct gm_scheme *scheme = is_scheme ? gm_scheme_find(typed) : NULL;
+            gm_arguments_put(stream, scheme ? gm_scheme_word(scheme) : typed);
         }
     }
     fclose(stream);

@@ -7,17 +7,17 @@
 
 /* What was typed behind a scene's name: keys with lists of values, and which of the values lane k has. */
 
-enum { GM_MOST_WORDS = 32, GM_MOST_PIECES = 64, GM_MOST_REQUESTED = 64, GM_VALUE_TEXT = 64 };
+enum { GM_MOST_WORDS = 32, GM_MOST_PIECES = 64, GM_MOST_REQUESTED = 64 };
 
 /* What stands between two commas: a value, or a range of them. */
-struct gm_piece {
+struct gm_word_piece {
     char *text;
     struct gm_range range; /* count 0: none */
 };
 
 struct gm_word {
     char *key;
-    struct gm_piece pieces[GM_MOST_PIECES];
+    struct gm_word_piece pieces[GM_MOST_PIECES];
     size_t piece_count;
     size_t count; /* of values */
 };
@@ -47,7 +47,7 @@ void gm_words_close(struct gm_words *words);
 /* NULL if the key was not typed. */
 const struct gm_word *gm_words_find(const struct gm_words *words, const char *key);
 
-/* Value `index` of a list: as typed, or, of a range, in `text` (GM_VALUE_TEXT bytes) as it would be. */
+/* Value `index` of a list: as typed, or, of a range, in `text` (GM_TEXT_SIZE bytes) as it would be. */
 const char *gm_word_value(const struct gm_word *list, size_t index, char *text);
 /* The same as a name of it: a value of a range with 6 digits. */
 const char *gm_word_name(const struct gm_word *list, size_t index, char *text);

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "app/request/drive.h"
+#include "app/request/interrupt.h"
 
 bool gm_listener_stops(const struct gm_listener *listener)
 {

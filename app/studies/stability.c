@@ -17,11 +17,10 @@ static const double most_seconds = 10;
 static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typed, const char *word)
 {
     char key[64];
-    void *own = calloc(1, scene->size);
+    void *own = gm_scene_defaults(scene);
     if (!own) {
         return false;
     }
-    gm_parameters_reset(scene->parameters, scene->parameter_count, own);
     for (int i = 1; i < typed->count; i++) {
         const char *value = strchr(typed->words[i], '=');
         snprintf(key, sizeof key, "%.*s", (int)strcspn(typed->words[i], "="), typed->words[i]);
@@ -36,7 +35,8 @@ static bool is_idle(const struct gm_scene *scene, const struct gm_arguments *typ
     return idle;
 }
 
-/* The plan's arguments that have an effect, and its schemes, as a text; malloc'ed, NULL when memory is short. */
+/* The plan's arguments that have an effect, and its schemes, as a text; malloc'ed, NULL when memory is
+   short. */
 static char *usual_words(const struct gm_scene *scene, const struct gm_arguments *typed)
 {
     struct gm_arguments all = {0}, kept = {0};
@@ -60,12 +60,16 @@ static char *usual_words(const struct gm_scene *scene, const struct gm_arguments
 /* The scene, what is usual for this purpose unless overridden, and the user's words. */
 static bool parse(struct gm_stability_table *table, const struct gm_arguments *typed, char *message)
 {
-    const struct gm_scene *scene = gm_scene_find(typed->words[0]);
-    if (scene && !scene->stability) {
+    const struct gm_scene *scene =
+        gm_request_scene(typed->count, typed->words, &table->request.refusal, message);
+    if (!scene) {
+        return false;
+    }
+    if (!scene->stability) {
         return gm_refuse(message, "scene %s has no stability map", scene->name);
     }
     struct gm_arguments words = {0};
-    char *usual = scene ? usual_words(scene, typed) : strdup("");
+    char *usual = usual_words(scene, typed);
     const bool good =
         (usual && gm_arguments_complete(&words, typed, usual)) || gm_refuse(message, "not enough memory");
     const bool parsed = good && gm_request_parse(&table->request, words.count, words.words, 6, message);
@@ -129,7 +133,7 @@ static const struct gm_observable *find(const struct gm_scene *scene, const char
 static double evaluate(const struct gm_lane *lane, const struct gm_observable *observable)
 {
     const struct gm_view view = gm_lane_view(lane);
-    return observable->evaluate(&view);
+    return observable ? gm_observe(observable, &view) : 1;
 }
 
 /* Up to `steps` steps in all, or the end of a scheme that chooses them; one by one where the largest value on
@@ -140,7 +144,7 @@ static void run_to(struct gm_lane *lane, long steps, const struct gm_observable 
     const double until = ((const struct gm_timing *)lane->parameters)->until;
     const double started = gm_clock_processor_seconds();
     while (gm_run_goes_on(lane->run, steps, until) && gm_clock_processor_seconds() - started < most_seconds &&
-           !gm_listener_stops(listener)) {
+           !gm_lane_stopped(lane) && !gm_listener_stops(listener)) {
         const long left = steps - lane->run->steps, burst = largest ? 1 : 1000;
         gm_lane_to(lane, lane->run->steps + (left < burst ? left : burst), until);
         if (largest) {

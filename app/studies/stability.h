@@ -8,7 +8,7 @@
 
 /* Which time step keeps which scheme bounded, over a grid of steps and of one parameter. */
 
-enum gm_verdict {
+enum gm_cell_verdict {
     GM_UNTRIED,
     GM_BOUNDED,
     GM_LOST,   /* what should be kept fell below half of its start */
@@ -18,7 +18,7 @@ enum gm_verdict {
 };
 
 struct gm_map_cell {
-    enum gm_verdict verdict;
+    enum gm_cell_verdict verdict;
     enum gm_status status;
     double dt, t;        /* the time it came to */
     double ratio, error; /* of what should be kept to its start; NAN: not known */
@@ -38,7 +38,7 @@ struct gm_stability_table {
 };
 
 /* Reads the words, a scene and its key=value. False with a sentence (GM_MESSAGE bytes); of the table only
-   request.unreadable says something then. */
+   request.refusal says something then. */
 bool gm_stability_open(struct gm_stability_table *table, const struct gm_arguments *arguments, char *message);
 void gm_stability_close(struct gm_stability_table *table);
 

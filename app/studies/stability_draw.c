@@ -64,7 +64,8 @@ static void draw_map(const struct gm_stability_table *table, const struct gm_sta
             if (letter != '.') {
                 gm_mark_text(picture, panel, (struct gm_style){.role = GM_INK, .alpha = 1, .width = 1},
                              logarithmic ? sqrt(x[v] * x[v + 1]) : (x[v] + x[v + 1]) / 2,
-                             sqrt(y[s] * y[next]), GM_ANCHOR_CENTRE, gm_picture_text(picture, "%c", letter));
+                             sqrt(y[s] * y[next]), GM_ANCHOR_CENTRE, gm_picture_text(picture, "%c", letter))
+                    ->fixed = true;
             }
         }
     }

@@ -6,9 +6,9 @@
 
 /* ---- work-precision ---- */
 
-static bool open_work(void *table, const struct gm_arguments *arguments, char *message)
+static bool open_work(void *table, const struct gm_arguments *arguments, const char *measure, char *message)
 {
-    return gm_work_open(table, arguments, NULL, message);
+    return gm_work_open(table, arguments, measure, message);
 }
 
 static bool measure_work(void *table, const struct gm_listener *listener, char *message)
@@ -33,8 +33,10 @@ static void close_work(void *table)
 
 /* ---- stability ---- */
 
-static bool open_stability(void *table, const struct gm_arguments *arguments, char *message)
+static bool open_stability(void *table, const struct gm_arguments *arguments, const char *measure,
+                           char *message)
 {
+    (void)measure;
     return gm_stability_open(table, arguments, message);
 }
 
@@ -58,12 +60,44 @@ static void close_stability(void *table)
     gm_stability_close(table);
 }
 
+/* ---- backward error ---- */
+
+static bool open_backward(void *table, const struct gm_arguments *arguments, const char *measure,
+                          char *message)
+{
+    (void)measure;
+    return gm_backward_open(table, arguments, message);
+}
+
+static bool measure_backward(void *table, const struct gm_listener *listener, char *message)
+{
+    return gm_backward_measure(table, listener, message);
+}
+
+static void draw_backward(const void *table, struct gm_picture *picture)
+{
+    gm_backward_draw(table, picture);
+}
+
+static bool write_backward(const void *table, const char *path)
+{
+    return gm_backward_write(table, path);
+}
+
+static void close_backward(void *table)
+{
+    gm_backward_close(table);
+}
+
 /* ---- all ---- */
 
 const struct gm_study_row gm_study_rows[GM_STUDY_COUNT] = {
-    [GM_STUDY_WORK] = {"work-precision", open_work, measure_work, draw_work, write_work, close_work},
-    [GM_STUDY_STABILITY] = {"stability", open_stability, measure_stability, draw_stability, write_stability,
-                            close_stability},
+    [GM_STUDY_WORK] = {"work-precision", GM_EXIT_NUMERICAL, open_work, measure_work, draw_work, write_work,
+                       close_work},
+    [GM_STUDY_STABILITY] = {"stability", GM_EXIT_USAGE, open_stability, measure_stability, draw_stability,
+                            write_stability, close_stability},
+    [GM_STUDY_BACKWARD] = {"backward", GM_EXIT_USAGE, open_backward, measure_backward, draw_backward,
+                           write_backward, close_backward},
 };
 
 enum gm_study_kind gm_study_find(const char *name)

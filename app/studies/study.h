@@ -2,22 +2,27 @@
 #ifndef GM_APP_STUDIES_STUDY_H
 #define GM_APP_STUDIES_STUDY_H
 
+#include "app/studies/backward.h"
 #include "app/studies/stability.h"
 #include "app/studies/work.h"
 
 /* What the kinds of studies have in common, for whoever shows one without knowing which. */
 
-enum gm_study_kind { GM_STUDY_NONE, GM_STUDY_WORK, GM_STUDY_STABILITY, GM_STUDY_COUNT };
+enum gm_study_kind { GM_STUDY_NONE, GM_STUDY_WORK, GM_STUDY_STABILITY, GM_STUDY_BACKWARD, GM_STUDY_COUNT };
 
 union gm_study_table {
+    struct gm_request request; /* with which each begins */
     struct gm_work_table work;
     struct gm_stability_table stability;
+    struct gm_backward_table backward;
 };
 
-/* As gm_work_open and its neighbours say; `table` is that of the kind. */
+/* As gm_work_open and its neighbours say; `table` is that of the kind, `measure` NULL or what the others do
+   not take. */
 struct gm_study_row {
     const char *name; /* of its command */
-    bool (*open)(void *table, const struct gm_arguments *arguments, char *message);
+    int refusal;      /* the exit status where nothing can be measured */
+    bool (*open)(void *table, const struct gm_arguments *arguments, const char *measure, char *message);
     bool (*measure)(void *table, const struct gm_listener *listener, char *message);
     void (*draw)(const void *table, struct gm_picture *picture);
     bool (*write)(const void *table, const char *path);

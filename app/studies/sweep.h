@@ -3,12 +3,13 @@
 #define GM_APP_STUDIES_SWEEP_H
 
 #include "app/request/arguments.h"
+#include "app/request/chosen.h"
 #include "app/request/request.h"
 #include "app/request/words.h"
 #include "app/studies/listener.h"
 
-/* A sweep: a run for every combination of the values of its keys, and a row of a table for every run. Runs are
-   numbered from 0, the first list changes slowest, and made from their number alone: nothing is stored of
+/* A sweep: a run for every combination of the values of its keys, and a row of a table for every run. Runs
+   are numbered from 0, the first list changes slowest, and made from their number alone: nothing is stored of
    them. In the table they stand in this order, so that a row's key is its place, and its cells up to
    `status`, in full precision, have to be those of the run with this number. */
 
@@ -19,8 +20,7 @@ struct gm_sweep {
     char *measure;        /* the observables as a list, where they were chosen; else NULL */
     size_t count;         /* runs */
     size_t shard, shards; /* of the share that is made: runs shard - 1, shard - 1 + shards, ...; 1, 1: all */
-    size_t *observables;  /* those that have a column, by their number in the scene */
-    size_t observable_count;
+    struct gm_chosen chosen; /* observables, which have a column each */
 };
 
 /* Reads a scene and its key=value, and a list of observables, or NULL for all. False with a sentence
@@ -78,13 +78,13 @@ char *gm_sweep_share_path(const char *path, size_t shard, size_t shards);
 
 /* ---- shares ---- */
 
-/* Notes beside a table which sweep its shares belong to, FILE.csv.sweep, so that they can be joined. False with
-   a sentence if it says another one already. */
+/* Notes beside a table which sweep its shares belong to, FILE.csv.sweep, so that they can be joined. False
+   with a sentence if it says another one already. */
 bool gm_sweep_note(const struct gm_sweep *sweep, const char *path, char *message);
 /* Opens the sweep that FILE.csv.sweep tells of. */
 bool gm_sweep_recall(struct gm_sweep *sweep, const char *path, char *message);
-/* Joins the shares' rows in the order of the runs to FILE.csv; for each run without a row `missing` is told how
-   it is asked for. False with a sentence. */
+/* Joins the shares' rows in the order of the runs to FILE.csv; for each run without a row `missing` is told
+   how it is asked for. False with a sentence. */
 bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
                    void (*missing)(size_t run, const char *words), size_t *missing_count, char *message);
 
@@ -92,8 +92,8 @@ bool gm_sweep_join(const struct gm_sweep *sweep, const char *path,
 
 /* What a picture needs of a table: bounded, however many rows. */
 struct gm_sweep_chart;
-/* One key with several numbers makes a graph, two a map. NULL with a sentence where there is another number of
-   them, or the table cannot be read. */
+/* One key with several numbers makes a graph, two a map. NULL with a sentence where there is another number
+   of them, or the table cannot be read. */
 struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, const char *path, char *message);
 bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message);
 void gm_sweep_chart_close(struct gm_sweep_chart *chart);

@@ -25,6 +25,7 @@ struct gm_work_line { /* one scheme, from the longest step to the shortest, at e
     const struct gm_scheme *scheme;
     struct gm_work_point *points;
     size_t count;
+    char reason[GM_MESSAGE]; /* why the measure is no number; empty: it is one, or the status says it */
     /* where the resolution varies: those that no other beats in error and cost, by rising cost; else NULL */
     struct gm_work_point *best[GM_COST_COUNT];
     size_t best_count[GM_COST_COUNT];
@@ -33,6 +34,7 @@ struct gm_work_line { /* one scheme, from the longest step to the shortest, at e
 struct gm_work_table {
     struct gm_request request; /* its first lane has the parameters that all share */
     char settings[160];        /* the words that set parameters which all runs share: "viscosity=0.05" */
+    bool best;                 /* built-in schemes are added that promise most */
     const char *measure;       /* "solution_error" or an observable's key */
     bool observed;             /* it is the observable, not the distance of the states */
     const char *measure_title;
@@ -54,7 +56,7 @@ struct gm_work_table {
 
 /* Reads the words, a scene and its key=value, and settles schemes, steps and measure: `measure` is the key of
    an observable, or NULL for what the scene's plan says. False with a sentence (GM_MESSAGE bytes); of the
-   table only request.unreadable says something then. */
+   table only request.refusal says something then. */
 bool gm_work_open(struct gm_work_table *table, const struct gm_arguments *arguments, const char *measure,
                   char *message);
 void gm_work_close(struct gm_work_table *table);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The work-precision diagram: every scheme a line; the few that matter coloured and named, the others grey.
- */
+/* The work-precision diagram: every scheme a line; the few that matter coloured and named, the others
+   grey. */
 #include <math.h>
 #include <string.h>
 

@@ -3,10 +3,13 @@
 #include "app/studies/work.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/cores/pool.h"
+#include "app/native/engine.h"
 #include "core/schemes.h"
 #include "render/clock.h"
 
@@ -30,6 +33,9 @@ static struct gm_lane *open_lane(const struct gm_work_table *table, const struct
     struct gm_lane *lane =
         gm_lane_open(table->request.scene, timing, &table->request.lanes[0].settings, scheme, message);
     timing->dt = usual;
+    if (lane) {
+        gm_engine_meet(lane);
+    }
     return lane;
 }
 
@@ -38,18 +44,23 @@ static bool stopped(const struct gm_work_table *table)
     return gm_listener_stops(table->listener);
 }
 
+static bool goes_on(const struct gm_work_table *table, const struct gm_lane *lane, long steps)
+{
+    return gm_run_goes_on(lane->run, steps, timing_of(table)->until) && !gm_lane_stopped(lane);
+}
+
 /* To the end, in bursts that answer an interruption; gives up after `most` seconds. Returns the processor
-   time. */
+   time. A run that its scene may stop is followed in any case. */
 static double run_through(const struct gm_work_table *table, struct gm_lane *lane, long steps, bool follow,
                           double most)
 {
     const double size = (double)(lane->problem.n * lane->problem.m), until = timing_of(table)->until;
     const long burst = (long)fmax(1, fmin(1e5, 1e6 / size));
     double spent = 0;
-    while (gm_run_goes_on(lane->run, steps, until) && spent < most && !stopped(table)) {
+    while (goes_on(table, lane, steps) && spent < most && !stopped(table)) {
         const long left = steps - lane->run->steps, stop = lane->run->steps + (left < burst ? left : burst);
         const double started = gm_clock_processor_seconds();
-        if (follow) {
+        if (follow || lane->scene->stop) {
             gm_lane_to(lane, stop, until);
         } else {
             gm_run_to(lane->run, stop, until);
@@ -57,6 +68,20 @@ static double run_through(const struct gm_work_table *table, struct gm_lane *lan
         spent += gm_clock_processor_seconds() - started;
     }
     return spent;
+}
+
+/* A run to the end that is not timed, which tells how far it is. */
+static void run_reference(const struct gm_work_table *table, struct gm_lane *lane)
+{
+    const size_t all = table->scheme_count * table->step_count * table->resolution_count;
+    const long steps = gm_run_steps_at(lane->run, timing_of(table)->until);
+    for (int percent = 0; percent < 100 && !stopped(table); percent++) {
+        char what[32];
+        snprintf(what, sizeof what, percent ? "reference, %d %%" : "reference", percent);
+        gm_listener_hears(table->listener, what, 0, all);
+        const double share = (percent + 1) / 100.;
+        run_through(table, lane, percent < 99 ? (long)(share * (double)steps) : steps, false, INFINITY);
+    }
 }
 
 /* The state that solutions are measured against: the exact one, or that of a trusted run, for all steps of
@@ -93,7 +118,7 @@ static double *reference_state(struct gm_work_table *table, char *message)
         lane = open_lane(table, trusted, dt, message);
         if (lane) {
             /* the carried rounding errors are worth their price here */
-            run_through(table, lane, gm_run_steps_at(lane->run, timing_of(table)->until), false, INFINITY);
+            run_reference(table, lane);
         }
         if (!lane || lane->run->status != GM_OK || stopped(table)) {
             if (lane) {
@@ -133,24 +158,46 @@ static double error_of(const struct gm_work_table *table, const struct gm_lane *
     return observable < 0 ? NAN : fabs(gm_lane_observe(lane, (size_t)observable));
 }
 
-/* One scheme with one step. False with a sentence only if no lane could be opened. */
-static bool measure_point(const struct gm_work_table *table, const struct gm_scheme *scheme, double dt,
-                          const double *reference, struct gm_work_point *point, char *message)
+/* Why the lane has no such number, where it says so. */
+static void note_reason(const struct gm_work_table *table, const struct gm_lane *lane,
+                        struct gm_work_line *line)
 {
-    const bool own_time = scheme->family->own_time;
-    const double until = timing_of(table)->until;
-    const bool follow = table->request.scene->follow > 0 && !reference;
-    *point = (struct gm_work_point){.dt = dt, .error = NAN, .seconds = INFINITY};
+    const int observable = gm_scene_observable(table->request.scene, table->measure);
+    const char *reason = observable < 0 ? NULL : gm_lane_missing(lane, (size_t)observable);
+    snprintf(line->reason, sizeof line->reason, "%s", reason ? reason : "");
+}
+
+/* A line's scheme with one step. */
+struct measuring {
+    const struct gm_work_table *table;
+    struct gm_work_line *line;
+    const double *reference;
+    struct gm_work_point *point;
+    struct gm_lane *followed; /* NULL, or a lane at its start, for an observable that recalls the past */
+    atomic_bool needless;     /* to follow it: the run does not come to its end */
+    double recalled;          /* what it then says */
+    bool opened;
+    char *message;
+};
+
+/* Repeats the run, on a core of its own, and takes its end. */
+static void time_runs(struct measuring *measuring)
+{
+    const struct gm_work_table *table = measuring->table;
+    const bool own_time = measuring->line->scheme->family->own_time;
+    const double *reference = measuring->reference;
+    struct gm_work_point *point = measuring->point;
     double spent = 0;
     for (int repeat = 0; repeat < REPEATS && spent < enough_seconds && !stopped(table); repeat++) {
-        struct gm_lane *lane = open_lane(table, scheme, dt, message);
+        struct gm_lane *lane = open_lane(table, measuring->line->scheme, point->dt, measuring->message);
         if (!lane) {
-            return false;
+            measuring->opened = false;
+            return;
         }
         const struct gm_run *run = lane->run;
-        const long steps = gm_run_steps_at(run, until);
+        const long steps = gm_run_steps_at(run, timing_of(table)->until);
         const double seconds = run_through(table, lane, steps, false, most_seconds);
-        const bool whole = !gm_run_goes_on(run, steps, until);
+        const bool whole = !goes_on(table, lane, steps);
         point->seconds = whole ? fmin(point->seconds, seconds) : point->seconds;
         spent += whole ? seconds : enough_seconds;
         if (repeat == 0) {
@@ -161,26 +208,79 @@ static bool measure_point(const struct gm_work_table *table, const struct gm_sch
             point->solves = gm_run_per_member(run, run->solves);
             if (run->status == GM_OK && whole && !stopped(table) && (!reference || !own_time)) {
                 point->error = error_of(table, lane, reference);
+                if (!reference && isnan(point->error)) {
+                    note_reason(table, lane, measuring->line);
+                }
             }
         }
         gm_lane_close(lane);
-    }
-    /* an observable that recalls the past: once more, looking on the way */
-    if (follow && point->status == GM_OK && isfinite(point->error) && !stopped(table)) {
-        struct gm_lane *lane = open_lane(table, scheme, dt, message);
-        if (!lane) {
-            return false;
+        if (!isfinite(point->error)) {
+            atomic_store(&measuring->needless, true);
         }
-        run_through(table, lane, gm_run_steps_at(lane->run, until), true, INFINITY);
-        point->error = error_of(table, lane, reference);
-        gm_lane_close(lane);
     }
+}
+
+/* Once more, looking on the way; beside the runs that are timed. */
+static void follow_run(struct measuring *measuring)
+{
+    enum { SLICES = 100 };
+    struct gm_lane *lane = measuring->followed;
+    const long steps = gm_run_steps_at(lane->run, timing_of(measuring->table)->until);
+    for (int i = 1; i <= SLICES && !atomic_load(&measuring->needless); i++) {
+        const long slice = i < SLICES ? (long)((double)steps * i / SLICES) : steps;
+        run_through(measuring->table, lane, slice, true, INFINITY);
+    }
+    measuring->recalled = error_of(measuring->table, lane, NULL);
+}
+
+static void do_part(void *self, size_t index, size_t slot)
+{
+    (void)slot;
+    if (index == 0) {
+        time_runs(self);
+    } else {
+        follow_run(self);
+    }
+}
+
+static bool took_part(void *self, size_t index, size_t slot)
+{
+    (void)self, (void)index, (void)slot;
     return true;
 }
 
+/* False with a sentence only if no lane could be opened. */
+static bool measure_point(const struct gm_work_table *table, struct gm_work_line *line, double dt,
+                          const double *reference, struct gm_work_point *point, char *message)
+{
+    struct measuring measuring = {.table = table,
+                                  .line = line,
+                                  .reference = reference,
+                                  .point = point,
+                                  .opened = true,
+                                  .message = message};
+    const bool follow = table->request.scene->follow > 0 && !reference;
+    *point = (struct gm_work_point){.dt = dt, .error = NAN, .seconds = INFINITY};
+    if (follow && !(measuring.followed = open_lane(table, line->scheme, dt, message))) {
+        return false;
+    }
+    const size_t cores = gm_pool_cores();
+    gm_pool_run(&(struct gm_pool){.count = follow ? 2 : 1,
+                                  .jobs = cores < 2 ? 1 : 2,
+                                  .window = 2,
+                                  .work = do_part,
+                                  .take = took_part,
+                                  .self = &measuring});
+    if (follow && point->status == GM_OK && isfinite(point->error)) {
+        point->error = measuring.recalled;
+    }
+    gm_lane_close(measuring.followed);
+    return measuring.opened;
+}
+
 /* Shorter steps than this are of no use: round-off rules, or it takes too long; or, where the resolution
-   varies, the resolution rules. `count` points of this resolution were measured, the last ones of the line.
- */
+   varies, the resolution rules. `count` points of this resolution were measured, the last ones of the
+   line. */
 static bool is_enough(const struct gm_work_table *table, const struct gm_work_line *line, size_t count)
 {
     if (count < 2) {
@@ -206,7 +306,7 @@ static double step_of(const struct gm_work_table *table, size_t rung)
     return timing->dt;
 }
 
-static bool measure_line(struct gm_work_table *table, struct gm_work_line *line, const double *reference,
+static void measure_line(struct gm_work_table *table, struct gm_work_line *line, const double *reference,
                          char *message)
 {
     const size_t all = table->scheme_count * table->step_count * table->resolution_count;
@@ -221,17 +321,17 @@ static bool measure_line(struct gm_work_table *table, struct gm_work_line *line,
             struct gm_work_point point;
             gm_listener_hears(table->listener, line->scheme->name,
                               table->line_count * each - each + r * table->step_count + k, all);
-            if (!measure_point(table, line->scheme, step_of(table, k), reference, &point, message)) {
-                return false;
+            if (!measure_point(table, line, step_of(table, k), reference, &point, message)) {
+                snprintf(line->reason, sizeof line->reason, "%s", message);
+                return;
             }
             if (stopped(table)) {
-                return true;
+                return;
             }
             point.resolution = table->resolution ? gm_work_resolution(table, table->resolutions[r]) : 0;
             line->points[line->count++] = point;
         }
     }
-    return true;
 }
 
 /* The best points by each cost, where resolution and step vary. Errors of both may cancel by chance: a point
@@ -266,8 +366,6 @@ bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *list
 {
     double *reference = NULL;
     table->listener = listener;
-    gm_listener_hears(listener, "reference", 0,
-                      table->scheme_count * table->step_count * table->resolution_count);
     if (!table->observed) {
         reference = reference_state(table, message);
         if (!reference) {
@@ -275,6 +373,7 @@ bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *list
         }
     }
     bool good = true;
+    size_t points = 0;
     for (size_t i = 0; i < table->scheme_count && good && !stopped(table); i++) {
         struct gm_work_line *line = &table->lines[table->line_count];
         *line = (struct gm_work_line){.scheme = table->schemes[i]};
@@ -284,8 +383,10 @@ bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *list
             break;
         }
         table->line_count++;
-        good = measure_line(table, line, reference, message) && choose_best(table, line, message);
+        measure_line(table, line, reference, message);
+        points += line->count;
+        good = choose_best(table, line, message);
     }
     free(reference);
-    return good;
+    return good && points > 0;
 }

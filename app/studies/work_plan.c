@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/request/chosen.h"
 #include "app/studies/work.h"
-#include "core/formula/nearest.h"
+#include "core/certify.h"
+#include "core/formula/lines.h"
 #include "core/schemes.h"
 
 static const double usual_errors[3] = {1e-3, 1e-6, 1e-9};
@@ -19,11 +21,11 @@ static struct gm_timing *timing_of(const struct gm_work_table *table)
 }
 
 /* Fills an empty list: the scene, its arguments for this purpose unless overridden, and the user's words. */
-static bool complete(struct gm_arguments *words, const struct gm_arguments *typed, char *message)
+static bool complete(struct gm_arguments *words, const struct gm_arguments *typed, int *status, char *message)
 {
-    const struct gm_scene *scene = gm_scene_find(typed->words[0]);
-    return gm_arguments_complete(words, typed, scene && scene->work ? scene->work->arguments : "") ||
-           gm_refuse(message, "not enough memory");
+    const struct gm_scene *scene = gm_request_scene(typed->count, typed->words, status, message);
+    return scene && (gm_arguments_complete(words, typed, scene->work ? scene->work->arguments : "") ||
+                     gm_refuse(message, "not enough memory"));
 }
 
 /* Lanes may differ in scheme, dt, resolution and ratio alone, and in what was not typed but follows from
@@ -91,6 +93,66 @@ static bool add_scheme(struct gm_work_table *table, const struct gm_scheme *sche
     return true;
 }
 
+/* Takes "best" out of the list of schemes, wherever it stands; false: it is not among them. */
+static bool take_best(struct gm_arguments *words)
+{
+    static const char key[] = "scheme=", best[] = "best";
+    for (int i = 1; i < words->count; i++) {
+        char *const list = words->words[i];
+        if (strncmp(list, key, sizeof key - 1) != 0) {
+            continue;
+        }
+        struct gm_span rest = {sizeof key - 1, strlen(list)}, name;
+        while (gm_span_take(list, &rest, ",", &name)) {
+            if (name.end - name.begin == sizeof best - 1 &&
+                memcmp(list + name.begin, best, sizeof best - 1) == 0) {
+                /* with the comma behind it, or else that before it, so that something is left to be alike */
+                const bool last = rest.begin == rest.end, alone = last && name.begin == sizeof key - 1;
+                const size_t from = last && !alone ? name.begin - 1 : name.begin,
+                             to = last ? name.end : rest.begin;
+                memmove(list + from, list + to, strlen(list + to) + 1);
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* The built-in schemes of the first one's family that promise the smallest error at equal cost: the smallest
+   error constant by theory, of its order before those of other orders. */
+static bool add_best(struct gm_work_table *table, const struct gm_lane *lane, char *message)
+{
+    enum { BEST = 3 };
+    const struct gm_scheme *like = table->schemes[0], *best[BEST] = {NULL};
+    double constants[BEST] = {0};
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        const struct gm_scheme *scheme = gm_scheme_at(i);
+        if (scheme->family != like->family || scheme == like || !gm_scheme_fits(scheme, &lane->problem)) {
+            continue;
+        }
+        const struct gm_theory theory = gm_scheme_theory(scheme);
+        double constant = theory.known ? theory.error_constant : INFINITY;
+        const struct gm_scheme *next = scheme;
+        for (int k = 0; k < BEST && next; k++) {
+            const int off = abs(next->order - like->order);
+            const int than = best[k] ? abs(best[k]->order - like->order) : 0;
+            if (!best[k] || off < than || (off == than && constant < constants[k])) {
+                const struct gm_scheme *moved = best[k];
+                const double its = constants[k];
+                best[k] = next;
+                constants[k] = constant;
+                next = moved;
+                constant = its;
+            }
+        }
+    }
+    for (int k = 0; k < BEST && best[k]; k++) {
+        add_scheme(table, best[k]);
+    }
+    return best[0] || gm_refuse(message, "best: of the family of %s, %s, no other scheme fits", like->name,
+                                like->family->title);
+}
+
 /* Those of the words, or all that fit `lane`'s problem and are no yardstick themselves. */
 static bool choose_schemes(struct gm_work_table *table, const struct gm_lane *lane, bool named, char *message)
 {
@@ -102,6 +164,9 @@ static bool choose_schemes(struct gm_work_table *table, const struct gm_lane *la
     }
     for (size_t i = 0; named && i < request->count; i++) {
         add_scheme(table, request->lanes[i].scheme);
+    }
+    if (table->best && !add_best(table, lane, message)) {
+        return false;
     }
     for (size_t i = 0; !named && i < gm_scheme_count(); i++) {
         const struct gm_work *work = request->scene->work;
@@ -192,11 +257,6 @@ static bool choose_resolutions(struct gm_work_table *table, const struct gm_argu
     return true;
 }
 
-static const char *observable_name(size_t i, const void *scene)
-{
-    return ((const struct gm_scene *)scene)->observables[i].key;
-}
-
 static bool choose_measure(struct gm_work_table *table, const struct gm_lane *lane, const char *asked,
                            char *message)
 {
@@ -207,30 +267,28 @@ static bool choose_measure(struct gm_work_table *table, const struct gm_lane *la
     table->measure_title = "largest difference from the true solution";
     table->observed =
         strcmp(table->measure, solution_error) != 0 ||
-        (scene->work && scene->work->measure && strcmp(scene->work->measure, solution_error) == 0);
+        (scene->work && scene->work->measure && strcmp(scene->work->measure, solution_error) == 0) ||
+        (!lane->problem.exact && gm_scene_observable(scene, solution_error) >= 0);
     if (!table->observed) {
         return true;
     }
-    for (size_t i = 0; i < scene->observable_count; i++) {
-        if (strcmp(scene->observables[i].key, table->measure) != 0) {
-            continue;
-        }
-        /* at the start already a measure can say nothing with these parameters, as a distance from an exact
-           solution that there is not */
-        if (isfinite(gm_lane_observe(lane, i))) {
-            table->measure_title = scene->observables[i].title;
-            return true;
-        }
-        if (!asked) {
-            table->measure = solution_error;
-            table->observed = false;
-            return true;
-        }
-        return gm_refuse(message, "%s says nothing with these parameters", asked);
+    const int found = gm_scene_observable(scene, table->measure);
+    if (found < 0) {
+        return gm_chosen_refuse(scene, table->measure, message);
     }
-    const char *near = gm_nearest(table->measure, scene->observable_count, observable_name, scene);
-    return gm_refuse(message, "scene %s has no observable %.60s%s%s", scene->name, table->measure,
-                     near ? "; did you mean " : "", near ? near : "");
+    /* at the start already a measure can say nothing with these parameters, as a distance from an exact
+       solution that there is not; or with this scheme, but then others may say more */
+    const struct gm_observable *observable = gm_scene_observable_at(scene, (size_t)found);
+    if (observable->why || isfinite(gm_lane_observe(lane, (size_t)found))) {
+        table->measure_title = observable->title;
+        return true;
+    }
+    if (!asked) {
+        table->measure = solution_error;
+        table->observed = false;
+        return true;
+    }
+    return gm_refuse(message, "%s says nothing with these parameters", asked);
 }
 
 /* One lane is set up, and tells which measure says something and which schemes fit. */
@@ -281,8 +339,13 @@ bool gm_work_open(struct gm_work_table *table, const struct gm_arguments *argume
         return gm_refuse(message, "work-precision of which scene? See geomint list scenes");
     }
     struct gm_arguments words = {0};
-    bool good = complete(&words, arguments, message) &&
-                gm_request_parse(&table->request, words.count, words.words, 1, message);
+    bool good = complete(&words, arguments, &table->request.refusal, message);
+    table->best = good && take_best(&words);
+    for (int i = 1; good && table->best && i < words.count; i++) {
+        good = strcmp(words.words[i], "scheme=") != 0 ||
+               gm_refuse(message, "best are those to compare a scheme with: scheme=my.scheme,best");
+    }
+    good = good && gm_request_parse(&table->request, words.count, words.words, 1, message);
     if (good && !plan(table, &words, arguments, measure, message)) {
         gm_work_close(table);
         good = false;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "app/output/csv.h"
 #include "app/studies/work.h"
 
 double gm_work_cost(const struct gm_work_point *point, enum gm_work_cost cost)
@@ -161,7 +162,9 @@ bool gm_work_write(const struct gm_work_table *table, const char *path)
         const struct gm_work_line *line = &table->lines[i];
         for (size_t k = 0; k < line->count; k++) {
             const struct gm_work_point *point = &line->points[k];
-            fprintf(csv, "%s,%s,%d,", table->request.scene->name, line->scheme->name, line->scheme->order);
+            fprintf(csv, "%s,", table->request.scene->name);
+            gm_csv_put_text(csv, line->scheme->name);
+            fprintf(csv, ",%d,", line->scheme->order);
             if (table->resolution) {
                 fprintf(csv, "%.17g,", gm_work_resolution(table, point->resolution));
             }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes that a tour has arranged for a session, made at their time. */
 #include "app/tours/agenda.h"
-#include "core/schemes.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "core/schemes.h"
 
 struct gm_agenda gm_agenda_of(const struct gm_tour *tour, size_t step, size_t from)
 {
@@ -62,7 +63,7 @@ static void make_change(struct gm_session *session, const struct gm_tour_change 
             }
             continue;
         }
-        char key[sizeof change->text];
+        char key[96];
         snprintf(key, sizeof key, "%.*s", (int)strcspn(change->text, "="), change->text);
         const struct gm_parameter *row = gm_scene_parameter(session->scene, key);
         bool restart = false;

@@ -9,8 +9,9 @@
 
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
+#include "app/output/say.h"
 #include "app/request/arguments.h"
-#include "app/request/drive.h"
+#include "app/request/interrupt.h"
 #include "app/tours/agenda.h"
 #include "core/memory.h"
 #include "render/files/png.h"
@@ -85,7 +86,7 @@ static bool paint(struct show *show)
     struct gm_paragraph told[PARAGRAPHS];
     gm_picture_clear(show->picture);
     if (!show->table) {
-        session->scene->draw((const struct gm_lane *const *)session->lanes, session->count, show->picture);
+        gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, show->picture);
     } else {
         gm_study_rows[show->step->study].draw(show->table, show->picture);
     }
@@ -134,7 +135,7 @@ static bool write_page(struct show *show, const char *suffix)
     } else {
         memcpy(texts, provenance.texts, provenance.count * sizeof texts[0]);
         texts[provenance.count] = (struct gm_png_text){GM_KEY_STEPS, steps};
-        good = gm_png_write(path, output->look.width, output->look.height, show->rgb, texts,
+        good = gm_png_write(path, output->look.width, output->look.height, output->look.dpi, show->rgb, texts,
                             provenance.count + 1, show->message);
         show->failed = !good;
     }
@@ -208,7 +209,7 @@ static bool measure(struct show *show)
     struct gm_arguments words = {0};
     union gm_study_table table;
     bool good = gm_arguments_split(&words, show->step->study_words) || fail(show, "not enough memory");
-    if (good && (good = study->open(&table, &words, show->message))) {
+    if (good && (good = study->open(&table, &words, NULL, show->message))) {
         show->table = &table;
         good = study->measure(&table, &listener, show->message) && paint(show) && write_page(show, "") &&
                put(show, frames_of(show, end_seconds));

@@ -9,8 +9,10 @@
 #include <string.h>
 
 #include "app/request/arguments.h"
+#include "app/request/scheme.h"
 #include "app/tours/tour.h"
 #include "core/formula/nearest.h"
+#include "core/memory.h"
 #include "render/cells/text.h"
 #include "render/files/regular_file.h"
 
@@ -33,11 +35,17 @@ struct reader {
     size_t count;
     char *message;
     struct gm_tour *tour;
+    unsigned long refusals; /* of memory, before it was read */
 };
 
 /* ---- lines ---- */
 
-/* Says a sentence with file and line; false. */
+static bool short_of_memory(struct reader *reader)
+{
+    return gm_refuse(reader->message, "not enough memory");
+}
+
+/* Says a sentence with file and line, unless it was memory; false. */
 __attribute__((format(printf, 3, 4))) static bool refuse(struct reader *reader, long line, const char *format,
                                                          ...)
 {
@@ -46,12 +54,9 @@ __attribute__((format(printf, 3, 4))) static bool refuse(struct reader *reader, 
     va_start(arguments, format);
     vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    return gm_refuse(reader->message, "%.100s, line %ld: %.380s", reader->name, line, sentence);
-}
-
-static bool short_of_memory(struct reader *reader)
-{
-    return gm_refuse(reader->message, "not enough memory");
+    return gm_memory_refusals() != reader->refusals
+               ? short_of_memory(reader)
+               : gm_refuse(reader->message, "%.100s, line %ld: %.380s", reader->name, line, sentence);
 }
 
 static const char *word_name(size_t i, const void *data)
@@ -239,7 +244,8 @@ static bool read_study(struct reader *reader, const struct entry *entry, struct 
     snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : 0), entry->text);
     step->study = gm_study_find(name);
     if (step->study == GM_STUDY_NONE) {
-        return refuse(reader, entry->line, "a study is work-precision or stability, with a scene: \"%.60s\"",
+        return refuse(reader, entry->line,
+                      "a study is work-precision, stability or backward, with a scene: \"%.60s\"",
                       entry->text);
     }
     step->study_words = strdup(entry->text + length);
@@ -249,7 +255,7 @@ static bool read_study(struct reader *reader, const struct entry *entry, struct 
         return short_of_memory(reader);
     }
     union gm_study_table table;
-    const bool good = gm_study_rows[step->study].open(&table, &words, message);
+    const bool good = gm_study_rows[step->study].open(&table, &words, NULL, message);
     if (good) {
         gm_study_rows[step->study].close(&table);
     }
@@ -288,11 +294,15 @@ static bool read_change(struct reader *reader, const struct entry *entry, const 
         good = refuse(reader, entry->line, "lane= goes with scheme=; a parameter changes in every lane");
     } else {
         change->lane = has_lane ? (long)lane - 1 : GM_EVERY_LANE;
-        snprintf(change->text, sizeof change->text, "%s", list[count - 1]);
+        change->text = strdup(list[count - 1]);
         struct gm_lane *trial = gm_request_open_lane(shown, has_lane ? (size_t)change->lane : 0, message);
-        good = (trial && gm_change_apply(trial, change->text, message)) ||
-               refuse(reader, entry->line, "%s", message);
+        good = change->text ? (trial && gm_change_apply(trial, change->text, message)) ||
+                                  refuse(reader, entry->line, "%s", message)
+                            : short_of_memory(reader);
         gm_lane_close(trial);
+    }
+    if (!good) {
+        free(change->text);
     }
     gm_arguments_close(&words);
     step->change_count += good;
@@ -464,12 +474,46 @@ static bool read_entries(struct reader *reader)
     return true;
 }
 
+/* Paths of schemes are those from the tour's folder. */
+static bool place_schemes(struct reader *reader)
+{
+    bool good = true;
+    for (size_t i = 0; good && i < reader->count; i++) {
+        struct entry *entry = &reader->entries[i];
+        const bool has_words =
+            entry->word == SHOW || entry->word == AT || entry->word == STUDY || entry->word == TRY;
+        struct gm_arguments words = {0};
+        if (!has_words || !strstr(entry->text, "scheme=")) {
+            continue;
+        }
+        good = gm_arguments_split(&words, entry->text);
+        for (int k = 1; good && k < words.count; k++) {
+            char *placed = gm_scheme_words_from(reader->name, words.words[k]);
+            good = placed != NULL;
+            if (good) {
+                free(words.words[k]);
+                words.words[k] = placed;
+            }
+        }
+        char *text = good ? gm_arguments_join("", &words) : NULL;
+        good = text != NULL;
+        if (good) {
+            memmove(text, text + 1, strlen(text)); /* the blank in front */
+            free(entry->text);
+            entry->text = text;
+        }
+        gm_arguments_close(&words);
+    }
+    return good || short_of_memory(reader);
+}
+
 bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, size_t size, char *message)
 {
     *tour = (struct gm_tour){.name = strdup(name)};
-    struct reader reader = {.name = name, .message = message, .tour = tour};
-    const bool good =
-        tour->name ? read_lines(&reader, text, size) && read_entries(&reader) : short_of_memory(&reader);
+    struct reader reader = {.name = name, .message = message, .tour = tour, .refusals = gm_memory_refusals()};
+    const bool good = tour->name
+                          ? read_lines(&reader, text, size) && place_schemes(&reader) && read_entries(&reader)
+                          : short_of_memory(&reader);
     for (size_t i = 0; i < reader.count; i++) {
         free(reader.entries[i].text);
     }

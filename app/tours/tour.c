@@ -14,6 +14,9 @@ void gm_tour_close(struct gm_tour *tour)
             free(texts[k]);
         }
         gm_request_close(&step->request);
+        for (size_t k = 0; k < step->change_count; k++) {
+            free(step->changes[k].text);
+        }
         free(step->changes);
     }
     free(tour->steps);

@@ -13,8 +13,8 @@ enum { GM_EVERY_LANE = -1 };
 /* A change in flight, at a model time. */
 struct gm_tour_change {
     double t;
-    long lane;     /* from 0, or GM_EVERY_LANE */
-    char text[96]; /* "scheme=midpoint", "dt=0.1" */
+    long lane;  /* from 0, or GM_EVERY_LANE */
+    char *text; /* "scheme=midpoint", "dt=0.1" */
 };
 
 struct gm_tour_step {
@@ -46,7 +46,7 @@ struct gm_tour {
 /* Reads a tour and tries out everything that it shows. False with one sentence that names file and line
    (GM_MESSAGE bytes); the tour is then empty. */
 bool gm_tour_read(struct gm_tour *tour, const char *path, char *message);
-/* The same from memory; `name` stands for the file in sentences. */
+/* The same from memory; `name` stands for the file in sentences, and paths of schemes are from its folder. */
 bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, size_t size, char *message);
 void gm_tour_close(struct gm_tour *tour);
 

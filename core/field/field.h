@@ -29,15 +29,15 @@ struct gm_form {
     void (*gradient)(const void *parameters, const double *s, double *gradient); /* at one point */
 };
 
-/* u_tt - u_xx + V'(u) = 0. All arrays have `count` entries. */
+/* u_tt - u_xx + V'(u) = 0. All arrays have `count` entries, and may be the same. */
 struct gm_wave {
-    double (*potential)(double u);                                /* V */
-    double (*slope)(double u);                                    /* V' */
-    double (*curvature)(double u);                                /* V'' */
-    void (*slopes)(const double *u, double *slope, size_t count); /* V' of many */
+    double (*potential)(const struct gm_problem *problem, double u); /* V */
+    double (*slope)(const struct gm_problem *problem, double u);     /* V' */
+    double (*curvature)(const struct gm_problem *problem, double u); /* V'' */
+    void (*slopes)(const struct gm_problem *problem, const double *u, double *slope, size_t count);
     /* [V(a) - V(b)] / (a - b), without cancellation, and its derivative in a */
-    double (*quotient)(double a, double b);
-    double (*quotient_slope)(double a, double b);
+    double (*quotient)(const struct gm_problem *problem, double a, double b);
+    double (*quotient_slope)(const struct gm_problem *problem, double a, double b);
 };
 
 /* What the box scheme leaves of an equation of first order in time:

@@ -73,13 +73,13 @@ double gm_nodes_law(const struct gm_form *field, bool centred, size_t points, do
     const size_t d = field->dimension;
     const double over_t = 1 / (centred ? 2 * dt : dt), over_x = 1 / (centred ? 2 * dx : dx);
     /* both tangents at a node and the next; the flux in space behind a node is that before the next */
-    double sides[2][2][3 * GM_MOST_COMPONENTS] = {{{0}}};
+    double sides[2][2][3 * GM_LARGEST_FORM] = {{{0}}};
     double largest = 0, before = 0;
     complete(a, points - 1, sides[0][0]);
     complete(b, points - 1, sides[0][1]);
     for (size_t i = 0; i <= points; i++) {
-        double(*const left)[3 * GM_MOST_COMPONENTS] = sides[i % 2];
-        double(*const here)[3 * GM_MOST_COMPONENTS] = sides[(i + 1) % 2];
+        double(*const left)[3 * GM_LARGEST_FORM] = sides[i % 2];
+        double(*const here)[3 * GM_LARGEST_FORM] = sides[(i + 1) % 2];
         complete(a, i < points ? i : 0, here[0]);
         complete(b, i < points ? i : 0, here[1]);
         const double behind = form(d, field->k, centred, left[0] + d, here[0] + d, left[1] + d, here[1] + d);

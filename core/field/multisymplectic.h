@@ -41,8 +41,8 @@ typedef void gm_complete_node(const void *tangent, size_t node, double *s);
 /* The largest residual of schemes of nodes: with M+ and K+ the upper triangles
        M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s)        (Euler box)
    or with `centred` the whole matrices and centred differences (midpoint). Tangents a and b on a ring; no
-   dimension is above GM_MOST_COMPONENTS. */
-enum { GM_MOST_COMPONENTS = 4 };
+   dimension is above GM_LARGEST_FORM. */
+enum { GM_LARGEST_FORM = 4 };
 double gm_nodes_law(const struct gm_form *field, bool centred, size_t points, double dx, double dt,
                     gm_complete_node *complete, const void *a, const void *b);
 

@@ -1,146 +1,377 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From the kinds of boundary edges to what is given at the boundary's vertices: psi, sheets, the scalar. */
+/* From the sides of boundary edges to what is given at the boundary's vertices: psi, sheets, the scalar; and
+   which vertices have one unknown psi together, around holes. */
 #include "core/flow/boundary.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* A run of boundary edges of one side: `first` .. `first + count`, cyclic; psi goes from `from` to `to` along
-   it. */
-struct run {
-    size_t first, count;
-    double from, to;
+/* What is made: psi goes from `level` on along a piece. */
+struct maker {
+    struct gm_flow *flow;
+    const unsigned char *side_of;
+    const struct gm_side *sides;
+    enum gm_vertex_kind outlet;
 };
 
-static size_t next_edge(const struct gm_complex *complex, size_t edge)
+static bool is_open(const struct gm_side *side)
 {
-    return edge + 1 < complex->boundary ? edge + 1 : 0;
+    return side->kind == GM_EDGE_INLET || side->kind == GM_EDGE_OUTLET;
 }
 
-static size_t edge_before(const struct gm_complex *complex, size_t edge)
-{
-    return edge > 0 ? edge - 1 : complex->boundary - 1;
-}
-
-/* The only run of edges of this side; count = 0 if there is none. */
-static enum gm_boundary_fault find_run(const struct gm_complex *complex, const unsigned char *sides,
-                                       enum gm_edge_kind side, struct run *run)
-{
-    size_t runs = 0, total = 0;
-    *run = (struct run){0};
-    for (size_t e = 0; e < complex->boundary; e++) {
-        total += sides[e] == side;
-        if (sides[e] == side && sides[edge_before(complex, e)] != side) {
-            runs++;
-            run->first = e;
-        }
-    }
-    run->count = total;
-    return total == complex->boundary ? GM_BOUNDARY_WHOLE
-           : runs > 1                 ? GM_BOUNDARY_SEVERAL
-           : total == 1               ? GM_BOUNDARY_SHORT
-                                      : GM_BOUNDARY_OK;
-}
-
-static double run_length(const struct gm_complex *complex, const struct run *run)
+static double length_of(const struct gm_complex *complex, const struct gm_opening *opening)
 {
     double length = 0;
-    size_t e = run->first;
-    for (size_t i = 0; i < run->count; i++, e = next_edge(complex, e)) {
+    size_t e = opening->first;
+    for (size_t i = 0; i < opening->count; i++, e = gm_complex_next(complex, e)) {
         length += complex->length[complex->boundary_edge[e]];
     }
     return length;
 }
 
-/* Gives the vertices inside a run the kind and the parabolic profile. */
-static void open_run(struct gm_flow *flow, const struct run *run, enum gm_vertex_kind kind, bool theta_fixed,
-                     double theta)
+/* The integral of the profile over edge e, from the part s of the piece on, by Gauss's rule of three
+   points. */
+static double through_edge(const struct gm_complex *complex, const struct gm_side *side, size_t e, double s,
+                           double length, bool magnitude)
+{
+    static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834},
+                        weight[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    const double own = complex->length[complex->boundary_edge[e]];
+    const double *a = complex->point + 2 * complex->boundary_vertex[e],
+                 *b = complex->point + 2 * complex->boundary_vertex[gm_complex_next(complex, e)];
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        const double part = (1 + node[i]) / 2;
+        const double at[2] = {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
+        const double speed = side->profile(side->data, s + part * own / length, at);
+        sum += weight[i] * own * (magnitude ? fabs(speed) : speed);
+    }
+    return sum;
+}
+
+/* The integral of the profile over an opening, and that of its magnitude. */
+static double through_profile(const struct gm_complex *complex, const struct gm_side *side,
+                              const struct gm_opening *opening, double *magnitude)
+{
+    const double whole = opening->side_length;
+    double passed = opening->before, sum = 0;
+    size_t e = opening->first;
+    *magnitude = 0;
+    for (size_t i = 0; side->profile && i < opening->count; i++, e = gm_complex_next(complex, e)) {
+        sum += through_edge(complex, side, e, passed / whole, whole, false);
+        *magnitude += through_edge(complex, side, e, passed / whole, whole, true);
+        passed += complex->length[complex->boundary_edge[e]];
+    }
+    return sum;
+}
+
+/* The pieces of inlets and outlets, in the order of the boundary. */
+static enum gm_boundary_fault find_openings(const struct maker *maker)
+{
+    struct gm_flow *flow = maker->flow;
+    const struct gm_complex *complex = flow->complex;
+    size_t inlets = 0, outlets = 0;
+    flow->opening = calloc(complex->boundary + 1, sizeof *flow->opening);
+    if (!flow->opening) {
+        return GM_BOUNDARY_MEMORY;
+    }
+    for (size_t e = 0; e < complex->boundary; e++) {
+        const unsigned char side = maker->side_of[e];
+        const bool begins = maker->side_of[gm_complex_previous(complex, e)] != side;
+        if (!is_open(&maker->sides[side])) {
+            continue;
+        }
+        /* of a mesh that lies over itself no loop is within another */
+        const bool elsewhere = flow->openings > 0 && gm_complex_loop(complex, e) !=
+                                                         gm_complex_loop(complex, flow->opening[0].first);
+        if (flow->hole[complex->boundary_vertex[e]] > 0 || elsewhere) {
+            return GM_BOUNDARY_IN_HOLE;
+        }
+        *(maker->sides[side].kind == GM_EDGE_INLET ? &inlets : &outlets) += 1;
+        if (!begins) {
+            continue;
+        }
+        struct gm_opening *opening = &flow->opening[flow->openings++];
+        *opening =
+            (struct gm_opening){.side = side, .first = e, .inlet = maker->sides[side].kind == GM_EDGE_INLET};
+        for (size_t at = e; maker->side_of[at] == side && opening->count < complex->boundary;
+             at = gm_complex_next(complex, at)) {
+            opening->count++;
+        }
+        if (opening->count == 1) {
+            return GM_BOUNDARY_SHORT;
+        }
+    }
+    const bool whole = inlets + outlets == complex->boundary && complex->boundary > 0 && flow->openings < 2;
+    return whole                           ? GM_BOUNDARY_WHOLE
+           : (inlets > 0) != (outlets > 0) ? inlets > 0 ? GM_BOUNDARY_NO_OUTLET : GM_BOUNDARY_NO_INLET
+                                           : GM_BOUNDARY_OK;
+}
+
+/* How long openings are, and where in their sides: these begin counter-clockwise from the lowest of the
+   leftmost points of the wall. */
+static void measure_openings(struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
-    const double length = run_length(complex, run);
-    double passed = 0;
-    size_t e = run->first;
-    for (size_t i = 0; i < run->count; i++, e = next_edge(complex, e)) {
-        const int v = complex->boundary_vertex[e];
-        if (i > 0) {
-            const double s = passed / length;
-            flow->kind[v] = (unsigned char)kind;
-            flow->psi[v] =
-                kind == GM_VERTEX_OPEN ? 0 : run->from + (run->to - run->from) * s * s * (3 - 2 * s);
-            flow->theta_fixed[v] = theta_fixed;
-            flow->theta[v] = theta_fixed ? theta : 0;
-        }
-        passed += complex->length[complex->boundary_edge[e]];
+    double length[256] = {0};
+    size_t corner = 0;
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const double *p = complex->point + 2 * complex->boundary_vertex[b],
+                     *least = complex->point + 2 * complex->boundary_vertex[corner];
+        corner = p[0] < least[0] || (p[0] == least[0] && p[1] < least[1]) ? b : corner;
+    }
+    size_t first = 0;
+    while (first < flow->openings && flow->opening[first].first < corner) {
+        first++;
+    }
+    for (size_t i = 0; i < flow->openings; i++) {
+        struct gm_opening *opening = &flow->opening[(first + i) % flow->openings];
+        opening->length = length_of(complex, opening);
+        opening->before = length[opening->side];
+        length[opening->side] += opening->length;
+    }
+    for (size_t i = 0; i < flow->openings; i++) {
+        flow->opening[i].side_length = length[flow->opening[i].side];
     }
 }
 
-static bool list_inflow(struct gm_flow *flow, const struct run *run)
+/* How much goes through each opening, and the largest speed. */
+static enum gm_boundary_fault share_flow(const struct maker *maker)
+{
+    struct gm_flow *flow = maker->flow;
+    double in = 0, out = 0, open_length = 0, side_profile[256] = {0};
+    measure_openings(flow);
+    for (size_t i = 0; i < flow->openings; i++) {
+        struct gm_opening *opening = &flow->opening[i];
+        double size = 0;
+        opening->profile = through_profile(flow->complex, &maker->sides[opening->side], opening, &size);
+        side_profile[opening->side] += opening->profile;
+        if (size > 0 && !(opening->profile > 1e-9 * size)) {
+            return GM_BOUNDARY_PROFILE;
+        }
+    }
+    for (size_t i = 0; i < flow->openings; i++) {
+        struct gm_opening *opening = &flow->opening[i];
+        const struct gm_side *side = &maker->sides[opening->side];
+        if (side->profile && side->flow > 0 && !(side_profile[opening->side] > 0)) {
+            return GM_BOUNDARY_PROFILE;
+        }
+        if (!isnan(side->flow)) {
+            const double part = side_profile[opening->side] > 0
+                                    ? opening->profile / side_profile[opening->side]
+                                    : opening->length / opening->side_length;
+            opening->flow = side->flow * part;
+        } else if (side->profile) {
+            opening->flow = opening->profile;
+        } else if (opening->inlet) {
+            opening->flow = 2.0 / 3 * side->speed * opening->length;
+        } else {
+            open_length += opening->length;
+        }
+        *(opening->inlet ? &in : &out) += opening->flow;
+    }
+    if (open_length == 0 && fabs(in - out) > 1e-9 * fmax(fabs(in), fabs(out))) {
+        return GM_BOUNDARY_UNBALANCED;
+    }
+    const double all = in - out, rest = fabs(all) > 1e-9 * fmax(fabs(in), fabs(out)) ? all : 0;
+    for (size_t i = 0; i < flow->openings; i++) {
+        struct gm_opening *opening = &flow->opening[i];
+        const struct gm_side *side = &maker->sides[opening->side];
+        const bool left = isnan(side->flow) && !side->profile && !opening->inlet;
+        if (left && rest < 0) {
+            return GM_BOUNDARY_BACKWARDS;
+        }
+        opening->flow = left ? rest * (opening->length / open_length) : opening->flow;
+        if (!opening->inlet || side->profile || !isnan(side->flow)) {
+            flow->speed = fmax(flow->speed, 1.5 * fabs(opening->flow) / opening->length);
+        }
+    }
+    return GM_BOUNDARY_OK;
+}
+
+/* Where two sides meet a wall that holds a quantity wins, then an inlet; NULL: neither does. */
+static const struct gm_side *winner(const struct gm_side *before, const struct gm_side *side,
+                                    bool before_holds, bool side_holds)
+{
+    const struct gm_side *meet[2] = {before_holds ? before : NULL, side_holds ? side : NULL}, *holds = NULL;
+    for (int k = 0; k < 2; k++) {
+        const bool wall = meet[k] && !is_open(meet[k]), inlet = meet[k] && meet[k]->kind == GM_EDGE_INLET;
+        holds = wall || (inlet && !holds) ? meet[k] : holds;
+    }
+    return holds;
+}
+
+static void hold(struct gm_flow *flow, int v, const struct gm_side *side)
+{
+    flow->theta_fixed[v] = side != NULL;
+    flow->theta[v] = side ? side->theta : 0;
+}
+
+static void hold_temperature(const struct maker *maker, int v, const struct gm_side *side)
+{
+    struct gm_flow *flow = maker->flow;
+    if (flow->heat) {
+        flow->temperature_fixed[v] = side != NULL;
+        flow->temperature[v] = side ? side->temperature : flow->reference_temperature;
+        flow->temperature_holder[v] = (unsigned char)(side ? 1 + (side - maker->sides) : 0);
+    }
+}
+
+/* Gives the vertices inside a piece their kind and the profile, and tells what psi is behind it. */
+static double open_piece(const struct maker *maker, const struct gm_opening *opening, double level)
+{
+    struct gm_flow *flow = maker->flow;
+    const struct gm_complex *complex = flow->complex;
+    const struct gm_side *side = &maker->sides[opening->side];
+    const enum gm_vertex_kind kind = opening->inlet ? GM_VERTEX_FIXED : maker->outlet;
+    const double length = opening->length, whole = opening->side_length,
+                 rise = opening->inlet ? -opening->flow : opening->flow, all = opening->profile;
+    double passed = 0, sum = 0;
+    size_t e = opening->first;
+    for (size_t i = 0; i < opening->count; i++, e = gm_complex_next(complex, e)) {
+        const int v = complex->boundary_vertex[e];
+        const double s = passed / length;
+        if (i > 0) {
+            flow->kind[v] = (unsigned char)kind;
+            flow->psi[v] = kind == GM_VERTEX_OPEN ? 0
+                           : side->profile        ? level + rise * (all != 0 ? sum / all : s)
+                                                  : level + rise * s * s * (3 - 2 * s);
+            const struct gm_side *holds = opening->inlet ? side : NULL;
+            hold(flow, v, holds && !side->theta_free ? holds : NULL);
+            hold_temperature(maker, v, holds && !side->temperature_free ? holds : NULL);
+            flow->open[v] = opening->inlet ? GM_OPEN_INLET : GM_OPEN_OUTLET;
+        }
+        sum += side->profile
+                   ? through_edge(complex, side, e, (opening->before + passed) / whole, whole, false)
+                   : 0;
+        passed += complex->length[complex->boundary_edge[e]];
+    }
+    return level + rise;
+}
+
+/* Where tracers come back: all inlets as one line, along which psi goes on from one to the next. */
+static bool list_inflow(struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
     struct gm_inflow *inflow = &flow->inflow;
-    inflow->point = malloc(2 * (run->count + 1) * sizeof *inflow->point);
-    inflow->psi = malloc((run->count + 1) * sizeof *inflow->psi);
+    size_t count = 0;
+    for (size_t i = 0; i < flow->openings; i++) {
+        count += flow->opening[i].inlet ? flow->opening[i].count + 1 : 0;
+    }
+    inflow->point = malloc(2 * (count + 1) * sizeof *inflow->point);
+    inflow->psi = malloc((count + 1) * sizeof *inflow->psi);
     if (!inflow->point || !inflow->psi) {
         return false;
     }
-    size_t e = run->first;
-    for (size_t i = 0; i <= run->count; i++, e = next_edge(complex, e)) {
-        const int v = complex->boundary_vertex[e];
-        inflow->point[2 * i] = complex->point[2 * v];
-        inflow->point[2 * i + 1] = complex->point[2 * v + 1];
-        inflow->psi[i] = flow->psi[v];
+    for (size_t i = 0; i < flow->openings; i++) {
+        const struct gm_opening *opening = &flow->opening[i];
+        size_t e = opening->first;
+        const double shift =
+            inflow->count > 0 ? inflow->psi[inflow->count - 1] - flow->psi[complex->boundary_vertex[e]] : 0;
+        for (size_t k = 0; opening->inlet && k <= opening->count; k++, e = gm_complex_next(complex, e)) {
+            const int v = complex->boundary_vertex[e];
+            inflow->point[2 * inflow->count] = complex->point[2 * v];
+            inflow->point[2 * inflow->count + 1] = complex->point[2 * v + 1];
+            inflow->psi[inflow->count++] = flow->psi[v] + shift;
+        }
+        flow->inlet_length += opening->inlet ? opening->length : 0;
     }
-    inflow->count = run->count + 1;
     return true;
 }
 
-enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned char *sides, double speed,
-                                            enum gm_vertex_kind outlet, double theta)
+static void number_holes(struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
-    struct run in, out;
-    if (complex->loops != 1) {
-        return GM_BOUNDARY_LOOPS;
+    for (size_t loop = 0; loop < complex->loops; loop++) {
+        if (gm_complex_loop_area(complex, loop) >= 0) {
+            continue;
+        }
+        flow->holes++;
+        for (size_t b = complex->loop_start[loop]; b < complex->loop_start[loop + 1]; b++) {
+            flow->hole[complex->boundary_vertex[b]] = (int)flow->holes;
+        }
     }
-    enum gm_boundary_fault fault = find_run(complex, sides, GM_EDGE_INLET, &in);
-    if (fault == GM_BOUNDARY_OK) {
-        fault = find_run(complex, sides, GM_EDGE_OUTLET, &out);
+}
+
+static void set_walls(const struct maker *maker)
+{
+    struct gm_flow *flow = maker->flow;
+    const struct gm_complex *complex = flow->complex;
+    for (size_t e = 0; e < complex->boundary; e++) {
+        const struct gm_side *side = &maker->sides[maker->side_of[e]],
+                             *before = &maker->sides[maker->side_of[gm_complex_previous(complex, e)]];
+        const int v = complex->boundary_vertex[e],
+                  end = complex->boundary_vertex[gm_complex_next(complex, e)];
+        const bool slip = side->kind == GM_EDGE_SLIP && before->kind == GM_EDGE_SLIP;
+        flow->kind[v] = slip ? GM_VERTEX_SLIP : GM_VERTEX_FIXED;
+        hold(flow, v, winner(before, side, !before->theta_free, !side->theta_free));
+        hold_temperature(maker, v, winner(before, side, !before->temperature_free, !side->temperature_free));
+        if (side->kind == GM_EDGE_LID) {
+            const double half = complex->length[complex->boundary_edge[e]] / 2;
+            flow->sheet[v] -= side->speed * half;
+            flow->sheet[end] -= side->speed * half;
+        }
+        if (side->kind == GM_EDGE_LID || side->kind == GM_EDGE_INLET) {
+            flow->speed = fmax(flow->speed, fabs(side->speed));
+        }
     }
+}
+
+enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned char *side_of,
+                                         const struct gm_side *sides, enum gm_vertex_kind outlet)
+{
+    const struct gm_complex *complex = flow->complex;
+    const struct maker maker = {flow, side_of, sides, outlet};
+    free(flow->opening);
+    flow->opening = NULL;
+    flow->openings = flow->holes = 0;
+    number_holes(flow);
+    enum gm_boundary_fault fault = find_openings(&maker);
     if (fault != GM_BOUNDARY_OK) {
         return fault;
     }
-    if ((in.count > 0) != (out.count > 0)) {
-        return in.count > 0 ? GM_BOUNDARY_NO_OUTLET : GM_BOUNDARY_NO_INLET;
+    set_walls(&maker);
+    fault = share_flow(&maker);
+    if (fault != GM_BOUNDARY_OK || flow->openings == 0) {
+        return fault;
     }
-    const double through = 2.0 / 3 * speed * run_length(complex, &in);
-    for (size_t e = 0; e < complex->boundary; e++) {
-        const int v = complex->boundary_vertex[e], end = complex->boundary_vertex[next_edge(complex, e)];
-        const bool slip = sides[e] == GM_EDGE_SLIP && sides[edge_before(complex, e)] == GM_EDGE_SLIP;
-        flow->kind[v] = slip ? GM_VERTEX_SLIP : GM_VERTEX_FIXED;
-        flow->theta_fixed[v] = true;
-        flow->theta[v] = 0;
-        if (sides[e] == GM_EDGE_LID) {
-            const double half = complex->length[complex->boundary_edge[e]] / 2;
-            flow->sheet[v] -= speed * half;
-            flow->sheet[end] -= speed * half;
+    size_t start = 0;
+    while (flow->opening[start].inlet) {
+        start++;
+    }
+    /* psi rises over outlets, stays along walls, and falls over inlets */
+    double level = 0, through = 0;
+    for (size_t i = 0; i < flow->openings; i++) {
+        const struct gm_opening *opening = &flow->opening[(start + i) % flow->openings],
+                                *next = &flow->opening[(start + i + 1) % flow->openings];
+        flow->psi[complex->boundary_vertex[opening->first]] = level;
+        level = open_piece(&maker, opening, level);
+        through += opening->flow;
+        if (fabs(level) <= 1e-12 * through) {
+            level = 0; /* all that entered has left, but for rounding */
+        }
+        size_t e = opening->first;
+        for (size_t k = 0; k < opening->count; k++) {
+            e = gm_complex_next(complex, e);
+        }
+        for (; i + 1 < flow->openings && e != next->first; e = gm_complex_next(complex, e)) {
+            flow->psi[complex->boundary_vertex[e]] = level;
         }
     }
-    flow->speed = speed;
-    if (in.count == 0) {
-        return GM_BOUNDARY_OK;
+    return list_inflow(flow) ? GM_BOUNDARY_OK : GM_BOUNDARY_MEMORY;
+}
+
+enum gm_boundary_fault gm_flow_set_boundary(struct gm_flow *flow, const unsigned char *kinds, double speed,
+                                            enum gm_vertex_kind outlet, double theta)
+{
+    struct gm_side sides[GM_EDGE_SLIP + 1];
+    for (int kind = 0; kind <= GM_EDGE_SLIP; kind++) {
+        sides[kind] = (struct gm_side){
+            .kind = (enum gm_edge_kind)kind,
+            .flow = NAN,
+            .speed = kind == GM_EDGE_INLET || kind == GM_EDGE_LID ? speed : 0,
+            .theta = kind == GM_EDGE_INLET ? theta : 0,
+        };
     }
-    flow->speed = fmax(speed, 1.5 * through / run_length(complex, &out));
-    /* psi rises over the outlet, stays, and falls over the inlet */
-    size_t e = out.first;
-    for (size_t i = 0; i < out.count; i++) {
-        e = next_edge(complex, e);
-    }
-    for (; e != in.first; e = next_edge(complex, e)) {
-        flow->psi[complex->boundary_vertex[e]] = through;
-    }
-    flow->psi[complex->boundary_vertex[in.first]] = through;
-    in.from = out.to = through;
-    open_run(flow, &in, GM_VERTEX_FIXED, true, theta);
-    open_run(flow, &out, outlet, false, 0);
-    return list_inflow(flow, &in) ? GM_BOUNDARY_OK : GM_BOUNDARY_MEMORY;
+    return gm_flow_set_sides(flow, kinds, sides, outlet);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Oriented simplicial complexes with the diagonal Hodge stars of their circumcentric dual:
+/* Oriented simplicial complexes with their Hodge stars:
        star1(e) = (sum over the triangles of e of cot(opposite angle)) / 2
-       star0(v) = sum over (triangle, edge at v) of |e|^2 cot(opposite angle) / 8
+       star0(v) = sum over (triangle, edge at v) of |e|^2 cot(opposite angle) / 8 where it is circumcentric,
+                  a third of the triangles around where it is barycentric
    Hirani, Discrete Exterior Calculus (2003); Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175. */
 #include "core/flow/complex.h"
 
@@ -48,7 +49,7 @@ void gm_complex_corners(const struct gm_complex *complex, size_t triangle, doubl
     }
 }
 
-void gm_complex_circumcentre(const struct gm_complex *complex, size_t triangle, double centre[2])
+void gm_complex_centre(const struct gm_complex *complex, size_t triangle, double centre[2])
 {
     double p[6];
     gm_complex_corners(complex, triangle, p);
@@ -278,7 +279,9 @@ static bool make_boundary(struct gm_complex *complex, const long *tags, struct g
     size_t count = 0;
     for (size_t v = 0; good && v < complex->vertices; v++) {
         int at = (int)v;
-        complex->loops += leaves[v] >= 0 ? 1 : 0;
+        if (leaves[v] >= 0) {
+            complex->loop_start[complex->loops++] = count;
+        }
         while (leaves[at] >= 0) {
             const int e = leaves[at];
             leaves[at] = -1;
@@ -286,6 +289,7 @@ static bool make_boundary(struct gm_complex *complex, const long *tags, struct g
             complex->boundary_vertex[count++] = at;
             at = complex->edge[2 * e] == at ? complex->edge[2 * e + 1] : complex->edge[2 * e];
         }
+        complex->loop_start[complex->loops] = count;
     }
     free(leaves);
     return good;
@@ -328,6 +332,7 @@ static void measure(struct gm_complex *complex)
     for (size_t t = 0; t < complex->triangles; t++) {
         double p[6], share[3], sum = 0;
         gm_complex_corners(complex, t, p);
+        bool obtuse = false;
         for (int k = 0; k < 3; k++) {
             const int a = (k + 1) % 3, b = (k + 2) % 3;
             const double ax = p[2 * a] - p[2 * k], ay = p[2 * a + 1] - p[2 * k + 1];
@@ -339,10 +344,12 @@ static void measure(struct gm_complex *complex)
             complex->length[e] = hypot(x, y);
             share[k] = (x * x + y * y) * dot / cross;
             sum += share[k];
+            obtuse |= dot < 0;
             const double angle = atan2(cross, dot) * 180 / M_PI;
             complex->smallest_angle = fmin(complex->smallest_angle, angle);
             complex->largest_angle = fmax(complex->largest_angle, angle);
         }
+        complex->obtuse += obtuse;
         for (int k = 0; k < 3; k++) {
             complex->weight[3 * t + (size_t)k] = share[k] / sum;
             /* half of the part of edge k + 1, k + 2 to each of its ends */
@@ -350,8 +357,10 @@ static void measure(struct gm_complex *complex)
             complex->star0[complex->triangle[3 * t + (size_t)(k + 2) % 3]] += share[k] / 8;
         }
     }
+    complex->star_least = INFINITY;
     for (size_t e = 0; e < complex->edges; e++) {
         complex->mean_edge += complex->length[e] / (double)complex->edges;
+        complex->star_least = fmin(complex->star_least, complex->star1[e]);
     }
 }
 
@@ -398,6 +407,61 @@ static bool check_stars(const struct gm_complex *complex, const long *tags,
     return true;
 }
 
+/* The dual that is asked for. */
+static bool take_star(struct gm_complex *complex, enum gm_star star, const long *tags,
+                      struct gm_triangulation_fault *fault)
+{
+    struct gm_triangulation_fault obstacle = {.kind = GM_TRIANGULATION_OK};
+    complex->star = GM_STAR_CIRCUMCENTRIC;
+    if (star != GM_STAR_BARYCENTRIC && check_stars(complex, tags, &obstacle)) {
+        return true;
+    }
+    if (star == GM_STAR_CIRCUMCENTRIC) {
+        *fault = obstacle;
+        return false;
+    }
+    complex->star = GM_STAR_BARYCENTRIC;
+    memset(complex->star0, 0, complex->vertices * sizeof *complex->star0);
+    for (size_t k = 0; k < 3 * complex->triangles; k++) {
+        complex->weight[k] = 1.0 / 3;
+        complex->star0[complex->triangle[k]] += complex->area[k / 3] / 3;
+    }
+    return true;
+}
+
+size_t gm_complex_loop(const struct gm_complex *complex, size_t boundary_edge)
+{
+    size_t loop = 0, behind = complex->loops;
+    while (behind - loop > 1) {
+        const size_t middle = (loop + behind) / 2;
+        *(boundary_edge < complex->loop_start[middle] ? &behind : &loop) = middle;
+    }
+    return loop;
+}
+
+size_t gm_complex_next(const struct gm_complex *complex, size_t boundary_edge)
+{
+    const size_t loop = gm_complex_loop(complex, boundary_edge);
+    return boundary_edge + 1 < complex->loop_start[loop + 1] ? boundary_edge + 1 : complex->loop_start[loop];
+}
+
+size_t gm_complex_previous(const struct gm_complex *complex, size_t boundary_edge)
+{
+    const size_t loop = gm_complex_loop(complex, boundary_edge);
+    return (boundary_edge > complex->loop_start[loop] ? boundary_edge : complex->loop_start[loop + 1]) - 1;
+}
+
+double gm_complex_loop_area(const struct gm_complex *complex, size_t loop)
+{
+    double sum = 0;
+    for (size_t b = complex->loop_start[loop]; b < complex->loop_start[loop + 1]; b++) {
+        const double *p = complex->point + 2 * complex->boundary_vertex[b],
+                     *q = complex->point + 2 * complex->boundary_vertex[gm_complex_next(complex, b)];
+        sum += (p[0] * q[1] - q[0] * p[1]) / 2;
+    }
+    return sum;
+}
+
 static bool allocate(struct gm_complex *complex)
 {
     const size_t v = complex->vertices, t = complex->triangles, sides = 3 * t;
@@ -417,6 +481,7 @@ static bool allocate(struct gm_complex *complex)
         {(void **)&complex->edge_ring, 2 * sides * sizeof(int)},
         {(void **)&complex->boundary_edge, sides * sizeof(int)},
         {(void **)&complex->boundary_vertex, sides * sizeof(int)},
+        {(void **)&complex->loop_start, (sides + 1) * sizeof(size_t)},
         {(void **)&complex->length, sides * sizeof(double)},
         {(void **)&complex->area, t * sizeof(double)},
         {(void **)&complex->weight, sides * sizeof(double)},
@@ -433,7 +498,7 @@ static bool allocate(struct gm_complex *complex)
 }
 
 struct gm_complex *gm_complex_open(const double *points, size_t vertices, const int *triangles, size_t count,
-                                   const double period[2], const long *tags,
+                                   const double period[2], enum gm_star star, const long *tags,
                                    struct gm_triangulation_fault *fault)
 {
     *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_OK};
@@ -465,7 +530,7 @@ struct gm_complex *gm_complex_open(const double *points, size_t vertices, const 
     if (good) {
         make_rings(complex);
         measure(complex);
-        good = check_stars(complex, tags, fault);
+        good = take_star(complex, star, tags, fault);
     }
     free(sides);
     if (!good) {
@@ -485,7 +550,7 @@ void gm_complex_close(struct gm_complex *complex)
                            complex->ring_start,    complex->ring_vertex,   complex->ring_edge,
                            complex->edge_ring,     complex->boundary_edge, complex->boundary_vertex,
                            complex->length,        complex->area,          complex->weight,
-                           complex->star0,         complex->star1};
+                           complex->star0,         complex->star1,         complex->loop_start};
     for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
         free(owned[i]);
     }

@@ -10,9 +10,9 @@
 enum gm_triangulation_fault_kind {
     GM_TRIANGULATION_OK,
     GM_TRIANGULATION_MEMORY,
-    GM_TRIANGULATION_NOT_GMSH, /* does not begin with $MeshFormat */
-    GM_TRIANGULATION_VERSION,  /* text: the version; only 4.1 is read */
-    GM_TRIANGULATION_BINARY,
+    GM_TRIANGULATION_NOT_GMSH,      /* does not begin with $MeshFormat */
+    GM_TRIANGULATION_VERSION,       /* text: the version; 2.2 and 4.1 are read */
+    GM_TRIANGULATION_BYTES,         /* binary, in the byte order of another kind of machine */
     GM_TRIANGULATION_SYNTAX,        /* line; text: what is expected there */
     GM_TRIANGULATION_TRUNCATED,     /* text: the section that does not end */
     GM_TRIANGULATION_HUGE,          /* line: announces more than the file can hold, or than 5e6 */
@@ -40,10 +40,23 @@ struct gm_triangulation_fault {
     char text[64];
 };
 
-/* An oriented two-dimensional simplicial complex with its circumcentric dual. Triangles run
+/* Hodge stars: which point of a triangle its dual vertex is. Dual edges run from there through the middle of
+   a side to the next one; dual cells are what they enclose. A gradient that is constant on a triangle flows
+   through a path from one side's middle to another's whatever lies between, so K = d0' star1 d0 is the same
+   for all of them: it is that of linear finite elements. Cells (star0) and fluxes through dual edges differ.
+       circumcentric: the circumcentre; dual edges stand on edges, star1 is diagonal. Where triangles are obtuse
+           the parts of dual edges and cells keep their signs; every whole one has to be positive (Delaunay).
+       barycentric: the centre of mass; for any triangles. It is also the one of Galerkin: fluxes and K are those
+           of linear elements, star0 is their mass matrix with its rows summed up. */
+enum gm_star {
+    GM_STAR_AUTO, /* circumcentric where that is positive, else barycentric */
+    GM_STAR_CIRCUMCENTRIC,
+    GM_STAR_BARYCENTRIC,
+};
+
+/* An oriented two-dimensional simplicial complex with its dual. Triangles run
    counter-clockwise, edges from their lower to their higher vertex. The dual edge of e points from the
-   triangle on the right of e to the one on its left. Where triangles are obtuse the parts of dual edges and
-   cells keep their signs. */
+   triangle on the right of e to the one on its left. */
 struct gm_complex {
     size_t vertices, edges, triangles;
     double *point;              /* 2 a vertex */
@@ -61,11 +74,17 @@ struct gm_complex {
     int *boundary_edge;   /* in counter-clockwise order, loop after loop */
     int *boundary_vertex; /* the vertex where each begins */
     size_t loops;         /* connected pieces of the boundary */
+    size_t *loop_start;   /* loops + 1: where each begins in boundary_edge */
+    enum gm_star star;    /* that was taken */
+    double star_least;    /* the least entry of the circumcentric star1 */
+    size_t obtuse;        /* triangles with an angle above 90 degrees */
     double *length;       /* of the edges */
     double *area;         /* of the triangles */
-    double *weight;       /* 3 a triangle: barycentric coordinates of its circumcentre (the matrix P) */
+    double *weight;       /* 3 a triangle: barycentric coordinates of its dual vertex (the matrix P) */
     double *star0;        /* area of the dual cells */
-    double *star1;        /* |dual edge| / |edge|; on the boundary half a dual edge */
+    /* (cot + cot) / 2 of the angles that face an edge, on the boundary one: the entries of K. Where the star
+       is circumcentric it is |dual edge| / |edge|. */
+    double *star1;
     double smallest_angle, largest_angle; /* in degrees */
     double total_area, mean_edge;
 };
@@ -74,14 +93,22 @@ struct gm_complex {
    one of them used; on a torus of these periods if they are positive (triangles take the nearest images).
    NULL with a fault if it is no such mesh. `tags`: names of the points for the fault, or NULL. */
 struct gm_complex *gm_complex_open(const double *points, size_t vertices, const int *triangles, size_t count,
-                                   const double period[2], const long *tags,
+                                   const double period[2], enum gm_star star, const long *tags,
                                    struct gm_triangulation_fault *fault);
 void gm_complex_close(struct gm_complex *complex);
 
 /* The corners of a triangle, next to each other even on a torus: x0 y0 x1 y1 x2 y2. */
 void gm_complex_corners(const struct gm_complex *complex, size_t triangle, double corners[6]);
 
-/* The circumcentre of a triangle. */
-void gm_complex_circumcentre(const struct gm_complex *complex, size_t triangle, double centre[2]);
+/* The dual vertex of a triangle. */
+void gm_complex_centre(const struct gm_complex *complex, size_t triangle, double centre[2]);
+
+/* The boundary edge behind another one on its loop, and before it. */
+size_t gm_complex_next(const struct gm_complex *complex, size_t boundary_edge);
+size_t gm_complex_previous(const struct gm_complex *complex, size_t boundary_edge);
+/* Which loop a boundary edge is of. */
+size_t gm_complex_loop(const struct gm_complex *complex, size_t boundary_edge);
+/* The area that a loop encloses: positive of the outer one, negative of holes. */
+double gm_complex_loop_area(const struct gm_complex *complex, size_t loop);
 
 #endif

@@ -8,7 +8,12 @@
 
 size_t gm_flow_size(const struct gm_flow *flow)
 {
-    return GM_FLOW_BLOCKS * flow->complex->vertices + 1 + GM_TRACER_NUMBERS * flow->tracers;
+    return gm_flow_block_numbers(flow) + 1 + GM_TRACER_NUMBERS * flow->tracers;
+}
+
+size_t gm_flow_block_numbers(const struct gm_flow *flow)
+{
+    return (size_t)(flow->heat ? GM_FLOW_MOST_BLOCKS : GM_FLOW_BLOCKS) * flow->complex->vertices;
 }
 
 const double *gm_flow_block(const struct gm_flow *flow, const double *y, enum gm_flow_block block)
@@ -18,12 +23,12 @@ const double *gm_flow_block(const struct gm_flow *flow, const double *y, enum gm
 
 double gm_flow_step(const struct gm_flow *flow, const double *y)
 {
-    return y[GM_FLOW_BLOCKS * flow->complex->vertices];
+    return y[gm_flow_block_numbers(flow)];
 }
 
 const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t tracer)
 {
-    return y + GM_FLOW_BLOCKS * flow->complex->vertices + 1 + GM_TRACER_NUMBERS * tracer;
+    return y + gm_flow_block_numbers(flow) + 1 + GM_TRACER_NUMBERS * tracer;
 }
 
 struct gm_flow *gm_flow_open(struct gm_complex *complex)
@@ -39,11 +44,14 @@ struct gm_flow *gm_flow_open(struct gm_complex *complex)
         .time_unit = 1,
         .kind = calloc(n, 1),
         .psi = calloc(n, sizeof(double)),
+        .hole = calloc(n, sizeof(int)),
+        .open = calloc(n, 1),
         .sheet = calloc(n, sizeof(double)),
         .theta_fixed = calloc(n, sizeof(bool)),
         .theta = calloc(n, sizeof(double)),
     };
-    if (!flow->kind || !flow->psi || !flow->sheet || !flow->theta_fixed || !flow->theta) {
+    if (!flow->kind || !flow->psi || !flow->hole || !flow->open || !flow->sheet || !flow->theta_fixed ||
+        !flow->theta) {
         gm_flow_close(flow);
         return NULL;
     }
@@ -58,12 +66,34 @@ void gm_flow_close(struct gm_flow *flow)
     gm_complex_close(flow->complex);
     free(flow->kind);
     free(flow->psi);
+    free(flow->hole);
+    free(flow->open);
+    free(flow->opening);
     free(flow->sheet);
     free(flow->theta_fixed);
     free(flow->theta);
+    free(flow->source);
+    free(flow->temperature_fixed);
+    free(flow->temperature);
+    free(flow->temperature_holder);
     free(flow->inflow.point);
     free(flow->inflow.psi);
     free(flow);
+}
+
+bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature)
+{
+    const size_t n = flow->complex->vertices;
+    flow->temperature_fixed = calloc(n, sizeof *flow->temperature_fixed);
+    flow->temperature = malloc(n * sizeof *flow->temperature);
+    flow->temperature_holder = calloc(n, 1);
+    flow->heat = flow->temperature_fixed && flow->temperature && flow->temperature_holder;
+    for (size_t v = 0; flow->heat && v < n; v++) {
+        flow->temperature[v] = reference_temperature;
+    }
+    flow->buoyancy = buoyancy;
+    flow->reference_temperature = reference_temperature;
+    return flow->heat;
 }
 
 double gm_flow_psi_centre(const struct gm_complex *complex, const double *psi, size_t triangle)
@@ -100,6 +130,15 @@ void gm_flow_fluxes(const struct gm_complex *complex, const double *psi, double 
     for (size_t e = 0; e < complex->edges; e++) {
         flux[e] = flux_between(complex, psi, scratch, e);
     }
+}
+
+double gm_flow_row(const struct gm_complex *complex, const double *psi, size_t vertex)
+{
+    double sum = 0;
+    for (int k = complex->ring_start[vertex]; k < complex->ring_start[vertex + 1]; k++) {
+        sum += complex->star1[complex->ring_edge[k]] * (psi[vertex] - psi[complex->ring_vertex[k]]);
+    }
+    return sum;
 }
 
 void gm_flow_vorticity(const struct gm_flow *flow, const double *psi, double *omega)
@@ -157,6 +196,75 @@ void gm_flow_vertex_velocities(const struct gm_complex *complex, const double *p
     for (size_t v = 0; v < complex->vertices; v++) {
         velocities[2 * v] /= weight[v];
         velocities[2 * v + 1] /= weight[v];
+    }
+}
+
+double gm_flow_star(const struct gm_complex *complex, const double *values, size_t edge)
+{
+    if (complex->star == GM_STAR_CIRCUMCENTRIC) {
+        return complex->star1[edge] * (values[complex->edge[2 * edge + 1]] - values[complex->edge[2 * edge]]);
+    }
+    /* from the middle of the edge to the centre of mass of a triangle with the third corner c: (2 c - a - b)
+       / 6 */
+    double sum = 0;
+    for (int side = 0; side < 2; side++) {
+        const int t = complex->edge_triangle[2 * edge + (size_t)side];
+        double p[6], u[2];
+        int a = 0;
+        if (t < 0) {
+            continue;
+        }
+        while (complex->triangle_edge[3 * t + a] != (int)edge) {
+            a++;
+        }
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        gm_complex_corners(complex, (size_t)t, p);
+        gm_flow_velocity(complex, values, (size_t)t, u);
+        const double along = u[0] * (2 * p[2 * c] - p[2 * a] - p[2 * b]) / 6 +
+                             u[1] * (2 * p[2 * c + 1] - p[2 * a + 1] - p[2 * b + 1]) / 6;
+        sum += side == 0 ? -along : along;
+    }
+    return sum;
+}
+
+double gm_flow_lift(const struct gm_flow *flow, const double *temperature, size_t edge)
+{
+    const struct gm_complex *complex = flow->complex;
+    const int *end = complex->edge + 2 * edge, *side = complex->edge_triangle + 2 * edge;
+    const double middle = (temperature[end[0]] + temperature[end[1]]) / 2,
+                 height = (complex->point[2 * end[0] + 1] + complex->point[2 * end[1] + 1]) / 2;
+    double sum = 0;
+    for (int k = 0; k < 2; k++) {
+        double centre[2];
+        if (side[k] < 0) {
+            continue;
+        }
+        gm_complex_centre(complex, (size_t)side[k], centre);
+        const double here = gm_flow_psi_centre(complex, temperature, (size_t)side[k]),
+                     part = ((here + middle) / 2 - flow->reference_temperature) * (centre[1] - height);
+        sum += k == 0 ? part : -part;
+    }
+    return flow->buoyancy * sum;
+}
+
+void gm_flow_add_lift(const struct gm_flow *flow, const double *temperature, double scale, double *rate)
+{
+    const struct gm_complex *complex = flow->complex;
+    for (size_t e = 0; e < complex->edges; e++) {
+        const double lift = scale * gm_flow_lift(flow, temperature, e);
+        rate[complex->edge[2 * e]] += lift;
+        rate[complex->edge[2 * e + 1]] -= lift;
+    }
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const int v = complex->boundary_vertex[b], w = complex->boundary_vertex[gm_complex_next(complex, b)];
+        const double half =
+                         (complex->point[2 * w + 1] - complex->point[2 * v + 1]) / 2 * scale * flow->buoyancy,
+                     from = temperature[v] - flow->reference_temperature,
+                     to = temperature[w] - flow->reference_temperature;
+        if (flow->hole[v] == 0) {
+            rate[v] += half * (3 * from + to) / 4;
+            rate[w] += half * (from + 3 * to) / 4;
+        }
     }
 }
 

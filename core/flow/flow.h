@@ -13,24 +13,39 @@
        omega   = (K psi + sheet) / star0, vorticity, at the vertices; sheet: the circulation that moving walls
                  add to a boundary cell
        F       = (d1' P - boundary midpoints) psi, the flux through dual edges, exactly free of divergence on
-                 inner dual cells; P interpolates to the circumcentres
-       convection of a quantity a: -d0' diag(F) A a, A the mean of an edge's ends */
+                 inner dual cells; P interpolates to the dual vertices
+       convection of a quantity a: -d0' diag(F) A a, A the mean of an edge's ends
+   Warm air rises (Boussinesq): buoyancy (T - reference) along y in the momentum equation. */
 
 /* What is known of psi and omega at a vertex. */
 enum gm_vertex_kind {
     GM_VERTEX_FREE,  /* psi unknown: the interior */
     GM_VERTEX_OPEN,  /* psi unknown on an outlet ("free") */
-    GM_VERTEX_FIXED, /* psi given, omega by the formula: walls, inlets */
+    GM_VERTEX_FIXED, /* psi given, on a hole's wall one unknown, omega by the formula: walls, inlets */
     GM_VERTEX_SOFT,  /* psi given, omega unknown: an outlet without tangential condition */
     GM_VERTEX_SLIP,  /* psi given, omega = 0: a wall without friction */
 };
 
-/* Where tracers that leave come back: points of a line, in proportion to the flux between them. */
+/* Where tracers that leave come back: points of inlets, one after the other, in proportion to the flux
+   between them. */
 struct gm_inflow {
     size_t count;
     double *point; /* 2 each */
     double *psi;   /* monotonic */
 };
+
+/* A piece of the boundary through which air enters or leaves. */
+struct gm_opening {
+    size_t first, count; /* boundary edges, on from the first along its loop */
+    size_t side;         /* which one it is of (core/flow/boundary.h) */
+    bool inlet;
+    double length, before, side_length; /* its own, of its side's pieces before it, of all of them */
+    double profile; /* what its profile lets through before it is scaled; 0: it has none */
+    double flow;    /* in or out */
+};
+
+/* What a vertex is inside of. */
+enum gm_opening_kind { GM_OPEN_NOT, GM_OPEN_INLET, GM_OPEN_OUTLET };
 
 struct gm_flow {
     struct gm_complex *complex;
@@ -41,9 +56,22 @@ struct gm_flow {
     bool scalar;         /* theta is carried */
     unsigned char *kind; /* enum gm_vertex_kind, a vertex */
     double *psi;         /* given values, 0 elsewhere */
+    size_t holes;
+    int *hole; /* a vertex: on the wall of which hole, from 1, where psi is one unknown; 0: of none */
+    unsigned char *open; /* enum gm_opening_kind, a vertex */
+    struct gm_opening *opening;
+    size_t openings;
+    double inlet_length; /* of all together */
     double *sheet;
     bool *theta_fixed;
-    double *theta; /* given values, 0 elsewhere */
+    double *theta;                          /* given values; elsewhere those of the start */
+    double *source;                         /* of the scalar, per unit of time, a vertex; NULL: none */
+    bool heat;                              /* temperature is carried, with the scalar's diffusivity */
+    double buoyancy, reference_temperature; /* g beta; where there is none */
+    /* As those of theta; NULL without heat. holder: 1 + the side that holds it at a vertex, 0: none */
+    bool *temperature_fixed;
+    double *temperature;
+    unsigned char *temperature_holder;
     size_t tracers;
     struct gm_inflow inflow;
 };
@@ -60,6 +88,10 @@ enum gm_flow_block {
     GM_FLOW_PSI_BEFORE,
     GM_FLOW_THETA_BEFORE,
     GM_FLOW_BLOCKS,
+    /* only where heat is carried */
+    GM_FLOW_TEMPERATURE = GM_FLOW_BLOCKS,
+    GM_FLOW_TEMPERATURE_BEFORE,
+    GM_FLOW_MOST_BLOCKS,
 };
 
 /* Numbers of a tracer: its place, its triangle, and its age in steps. */
@@ -74,6 +106,8 @@ static inline const struct gm_flow *gm_flow_of(const struct gm_problem *problem)
 }
 
 size_t gm_flow_size(const struct gm_flow *flow);
+/* How many numbers the blocks are together: where the step stands. */
+size_t gm_flow_block_numbers(const struct gm_flow *flow);
 const double *gm_flow_block(const struct gm_flow *flow, const double *y, enum gm_flow_block block);
 /* The flow's time step that led to this state; 0 at the start and for steady states. */
 double gm_flow_step(const struct gm_flow *flow, const double *y);
@@ -82,13 +116,30 @@ const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t
 /* A flow that owns the complex, everything free and 0. NULL (and the complex closed) when memory is short. */
 struct gm_flow *gm_flow_open(struct gm_complex *complex);
 void gm_flow_close(struct gm_flow *flow);
+/* Lets it carry heat, nowhere held, everywhere at the reference temperature. False when memory is short. */
+bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
 
-/* psi interpolated to the circumcentre of a triangle, and the flux through the dual of an edge. */
+/* psi interpolated to the dual vertex of a triangle, and the flux through the dual of an edge. */
 double gm_flow_psi_centre(const struct gm_complex *complex, const double *psi, size_t triangle);
 double gm_flow_flux(const struct gm_complex *complex, const double *psi, size_t edge);
 
+/* (star1 d0 values) of an inner edge: what the turned gradients of its triangles sum up to along the dual
+   edge. */
+double gm_flow_star(const struct gm_complex *complex, const double *values, size_t edge);
+
+/* Buoyancy along the dual of an edge: buoyancy times the integral of (T - reference) dy, exact for a T that
+   is linear on the triangles, so that a layered fluid rests. */
+double gm_flow_lift(const struct gm_flow *flow, const double *temperature, size_t edge);
+/* Adds scale times what buoyancy adds to the circulations of dual cells, per unit of time; those of boundary
+   cells are closed along the boundary, but on the wall of a hole, whose sum is that along the dual edges
+   around it. */
+void gm_flow_add_lift(const struct gm_flow *flow, const double *temperature, double scale, double *rate);
+
 /* All fluxes; scratch: a number for each triangle. */
 void gm_flow_fluxes(const struct gm_complex *complex, const double *psi, double *scratch, double *flux);
+
+/* (K psi) of a vertex. */
+double gm_flow_row(const struct gm_complex *complex, const double *psi, size_t vertex);
 
 /* omega at every vertex from psi, but for soft outlets, whose values stay as they are. */
 void gm_flow_vorticity(const struct gm_flow *flow, const double *psi, double *omega);
@@ -121,18 +172,33 @@ struct gm_budget {
     double convected; /* in through vertices with given theta */
     double reaction;  /* what holding theta there adds */
     double outflow;   /* through all other boundary vertices */
-    double defect;    /* |rate - convected - reaction + outflow|, relative to the largest of them */
+    double sourced;   /* by sources, where theta is not given */
+    double defect;    /* |rate - convected - reaction + outflow - sourced|, relative to the largest of them */
 };
 struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y);
+
+/* The heat, over density and heat capacity, that a side's vertices give to the air per unit of time, after
+   the last step: what holding the temperature there adds. Summed up over all sides it is what warms the
+   room. */
+double gm_flow_heat(const struct gm_flow *flow, const double *y, size_t side);
+double gm_flow_temperature_mean(const struct gm_flow *flow, const double *y);
 
 /* The total pressure p/rho + |u|^2/2 of the triangles, of mean 0, after the last step: its differences over
    inner dual edges are summed along a spanning tree. False on a torus, and when memory is short. */
 bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *pressure);
 
+/* The circulation around a hole, from 1, counter-clockwise: along the dual edges around its wall. */
+double gm_flow_circulation(const struct gm_flow *flow, const double *y, size_t hole);
+
+/* What the flow does to the wall of a hole, over the density, after the last step: the pressure at the
+   middles of its edges, where the momentum equation along half dual edges takes that of the triangles, and
+   friction, viscosity times vorticity. False where there is no pressure. */
+bool gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, double force[2]);
+
 /* Velocity at a point by the cubic polynomial fitted to psi at the 24 nearest vertices, with the weight
    exp(-2 (distance / largest)^2); value of theta the same way. False where the mesh is too small. */
 struct gm_sample {
-    double psi, u, v, theta, omega;
+    double psi, u, v, theta, omega, temperature; /* the last 0 without heat */
 };
 bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, double z,
                     struct gm_sample *sample);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gmsh's file format 4.1, ASCII (Geuzaine & Remacle, Int. J. Numer. Meth. Eng. 79 (2009) 1309; Gmsh's
-   reference manual, "MSH file format"): from the text by tables of its
-   sections to a complex with names on its edges. */
+/* Gmsh's file formats 2.2 and 4.1, ASCII and binary (Geuzaine & Remacle, Int. J. Numer. Meth. Eng. 79 (2009)
+   1309; Gmsh's reference manual, "MSH file format"): by tables of the sections to a complex with names on its
+   edges. */
 #include "core/flow/gmsh.h"
 
 #include <ctype.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +26,7 @@ struct node {
 struct element {
     long nodes[3];
     long line;
-    long entity; /* of a line */
+    long entity; /* of a line; in 2.2 its physical tag */
 };
 
 struct curve {
@@ -37,6 +38,9 @@ struct reader {
     long line;
     struct gm_triangulation_fault *fault;
     const char *section;
+    bool old;    /* version 2.2 */
+    bool binary; /* the file */
+    bool raw;    /* what is read now: bytes as they are in memory */
     struct node *nodes;
     struct element *triangles, *lines;
     struct curve *curves;
@@ -45,13 +49,13 @@ struct reader {
 };
 
 /* The text: words, numbers, counts. All return false with the reader's fault where the text is not what is
-   expected; `what` says in words what that is. Announced counts are believed only as far as the text is long.
- */
+   expected; `what` says in words what that is. Announced counts are believed only as far as the text is
+   long. */
 
 /* Sets the fault, at the present line; false. */
 static bool fail(struct reader *reader, enum gm_triangulation_fault_kind kind, const char *text)
 {
-    *reader->fault = (struct gm_triangulation_fault){.kind = kind, .line = reader->line};
+    *reader->fault = (struct gm_triangulation_fault){.kind = kind, .line = reader->raw ? 0 : reader->line};
     snprintf(reader->fault->text, sizeof reader->fault->text, "%.*s", (int)sizeof reader->fault->text - 1,
              text);
     return false;
@@ -59,7 +63,8 @@ static bool fail(struct reader *reader, enum gm_triangulation_fault_kind kind, c
 
 static bool fail_at_node(struct reader *reader, enum gm_triangulation_fault_kind kind, long line, long node)
 {
-    *reader->fault = (struct gm_triangulation_fault){.kind = kind, .line = line, .nodes = {node}};
+    *reader->fault =
+        (struct gm_triangulation_fault){.kind = kind, .line = reader->binary ? 0 : line, .nodes = {node}};
     return false;
 }
 
@@ -94,9 +99,24 @@ static bool at_end(struct reader *reader)
     return reader->at >= reader->end;
 }
 
+/* Bytes as they are. */
+static bool take_raw(struct reader *reader, void *value, size_t size)
+{
+    if ((size_t)(reader->end - reader->at) < size) {
+        return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
+    }
+    memcpy(value, reader->at, size);
+    reader->at += size;
+    return true;
+}
+
 static bool take_number(struct reader *reader, double *value, const char *what)
 {
     char word[64], *rest = NULL;
+    if (reader->raw) {
+        return take_raw(reader, value, sizeof *value) &&
+               (isfinite(*value) || fail(reader, GM_TRIANGULATION_SYNTAX, what));
+    }
     if (at_end(reader)) {
         return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
     }
@@ -107,9 +127,16 @@ static bool take_number(struct reader *reader, double *value, const char *what)
     return (*rest == '\0' && isfinite(*value)) || fail(reader, GM_TRIANGULATION_SYNTAX, what);
 }
 
+/* A whole number: of 4 bytes where they are raw. */
 static bool take_whole(struct reader *reader, long *value, const char *what)
 {
     char word[32], *rest = NULL;
+    if (reader->raw) {
+        int32_t number = 0;
+        const bool good = take_raw(reader, &number, sizeof number);
+        *value = number;
+        return good;
+    }
     if (at_end(reader)) {
         return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
     }
@@ -120,10 +147,23 @@ static bool take_whole(struct reader *reader, long *value, const char *what)
     return *rest == '\0' || fail(reader, GM_TRIANGULATION_SYNTAX, what);
 }
 
+/* One that takes 8 bytes there: tags of nodes and elements. */
+static bool take_tag(struct reader *reader, long *value, const char *what)
+{
+    int64_t number = 0;
+    if (!reader->raw || reader->old) {
+        return take_whole(reader, value, what);
+    }
+    const bool good = take_raw(reader, &number, sizeof number);
+    *value = (long)number;
+    const int64_t largest = 1000000000000000000;
+    return good && ((number < largest && number > -largest) || fail(reader, GM_TRIANGULATION_SYNTAX, what));
+}
+
 /* A count of things that each need at least two bytes of the text that is left. */
 static bool take_count(struct reader *reader, long *value, const char *what)
 {
-    if (!take_whole(reader, value, what)) {
+    if (!take_tag(reader, value, what)) {
         return false;
     }
     if (*value < 0) {
@@ -142,6 +182,7 @@ static bool take_count(struct reader *reader, long *value, const char *what)
 static bool expect_end(struct reader *reader)
 {
     char wanted[44], word[44];
+    reader->raw = false;
     snprintf(wanted, sizeof wanted, "$End%s", reader->section + 1);
     if (at_end(reader)) {
         return fail(reader, GM_TRIANGULATION_TRUNCATED, reader->section);
@@ -155,20 +196,38 @@ static bool expect_end(struct reader *reader)
 /* types of elements */
 enum { LINE = 1, TRIANGLE = 2, POINT = 15 };
 
+/* What follows the line's end is binary, if the file is. */
+static void begin_raw(struct reader *reader)
+{
+    while (reader->binary && reader->at < reader->end && *reader->at++ != '\n') {
+    }
+    reader->raw = reader->binary;
+}
+
 static bool read_format(struct reader *reader)
 {
     char version[16];
-    long binary = 0, size = 0;
+    long binary = 0, size = 0, one = 1;
     if (!take_word(reader, version, sizeof version)) {
         return fail(reader, GM_TRIANGULATION_SYNTAX, "a version");
     }
-    if (strcmp(version, "4.1") != 0) {
+    reader->old = strcmp(version, "2.2") == 0;
+    if (!reader->old && strcmp(version, "4.1") != 0) {
         return fail(reader, GM_TRIANGULATION_VERSION, version);
     }
-    if (!take_whole(reader, &binary, "0 for ASCII") || !take_whole(reader, &size, "a size")) {
+    if (!take_whole(reader, &binary, "0 for ASCII, 1 for binary") || !take_whole(reader, &size, "a size")) {
         return false;
     }
-    return binary == 0 || fail(reader, GM_TRIANGULATION_BINARY, "");
+    if (binary < 0 || binary > 1 || size != 8) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX,
+                    "0 for ASCII or 1 for binary, and 8 for the size of numbers");
+    }
+    reader->binary = binary == 1;
+    begin_raw(reader);
+    if (reader->raw && !take_whole(reader, &one, "1")) {
+        return false;
+    }
+    return one == 1 || fail(reader, GM_TRIANGULATION_BYTES, "");
 }
 
 static bool read_names(struct reader *reader)
@@ -237,13 +296,20 @@ static bool read_entity(struct reader *reader, int dimension)
         reader->curves[reader->curve_count++] = (struct curve){tag, first};
     }
     long bounds = 0;
-    return dimension == 0 ||
-           (take_count(reader, &bounds, "a number of entities") && skip_numbers(reader, bounds));
+    if (dimension == 0) {
+        return true;
+    }
+    bool good = take_count(reader, &bounds, "a number of entities");
+    for (long i = 0; good && i < bounds; i++) {
+        good = take_whole(reader, &first, "an entity's tag");
+    }
+    return good;
 }
 
 static bool read_entities(struct reader *reader)
 {
     long counts[4];
+    begin_raw(reader);
     for (int i = 0; i < 4; i++) {
         if (!take_count(reader, &counts[i], "a number of entities")) {
             return false;
@@ -287,7 +353,7 @@ static bool read_node_block(struct reader *reader, size_t total)
     }
     struct node *nodes = reader->nodes + reader->node_count;
     for (long i = 0; i < count; i++) {
-        if (!take_whole(reader, &nodes[i].tag, "a node's tag")) {
+        if (!take_tag(reader, &nodes[i].tag, "a node's tag")) {
             return false;
         }
         nodes[i].line = reader->line;
@@ -304,12 +370,41 @@ static bool read_node_block(struct reader *reader, size_t total)
     return true;
 }
 
+/* The nodes of version 2.2: each with its tag. */
+static bool read_old_nodes(struct reader *reader, size_t total)
+{
+    begin_raw(reader);
+    for (; reader->node_count < total; reader->node_count++) {
+        struct node *node = &reader->nodes[reader->node_count];
+        if (!take_whole(reader, &node->tag, "a node's tag")) {
+            return false;
+        }
+        node->line = reader->line;
+        if (!take_number(reader, &node->x, "a coordinate") ||
+            !take_number(reader, &node->y, "a coordinate") ||
+            !take_number(reader, &node->z, "a coordinate")) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* What sections begin with: the numbers of blocks, but in 2.2, and of things, and the range of their tags. */
+static bool begin_blocks(struct reader *reader, long *blocks, long *total, const char *what)
+{
+    long low = 0, high = 0;
+    if (reader->old) {
+        return take_count(reader, total, what);
+    }
+    begin_raw(reader);
+    return take_count(reader, blocks, "a number of blocks") && take_count(reader, total, what) &&
+           take_tag(reader, &low, "a tag") && take_tag(reader, &high, "a tag");
+}
+
 static bool read_nodes(struct reader *reader)
 {
-    long blocks = 0, total = 0, low = 0, high = 0;
-    if (!take_count(reader, &blocks, "a number of blocks") ||
-        !take_count(reader, &total, "a number of nodes") || !take_whole(reader, &low, "a tag") ||
-        !take_whole(reader, &high, "a tag")) {
+    long blocks = 0, total = 0;
+    if (!begin_blocks(reader, &blocks, &total, "a number of nodes")) {
         return false;
     }
     if (reader->nodes) {
@@ -318,6 +413,9 @@ static bool read_nodes(struct reader *reader)
     reader->nodes = calloc((size_t)total + 1, sizeof *reader->nodes);
     if (!reader->nodes) {
         return fail(reader, GM_TRIANGULATION_MEMORY, "");
+    }
+    if (reader->old && !read_old_nodes(reader, (size_t)total)) {
+        return false;
     }
     for (long i = 0; i < blocks; i++) {
         if (!read_node_block(reader, (size_t)total)) {
@@ -337,6 +435,30 @@ static bool read_nodes(struct reader *reader)
     return true;
 }
 
+static int corners_of(long type)
+{
+    return type == POINT ? 1 : type == LINE ? 2 : type == TRIANGLE ? 3 : 0;
+}
+
+/* The nodes of an element, whose tag and further tags are read. */
+static bool read_corners(struct reader *reader, long type, struct element element)
+{
+    for (int k = 0; k < corners_of(type); k++) {
+        if (!take_tag(reader, &element.nodes[k], "a node's tag")) {
+            return false;
+        }
+        if (!reader->raw && reader->line != element.line) {
+            return fail(reader, GM_TRIANGULATION_SYNTAX, "the nodes of an element on its line");
+        }
+    }
+    if (type == TRIANGLE) {
+        reader->triangles[reader->triangle_count++] = element;
+    } else if (type == LINE) {
+        reader->lines[reader->line_count++] = element;
+    }
+    return true;
+}
+
 static bool read_element_block(struct reader *reader, size_t total, size_t *done)
 {
     long dimension = 0, entity = 0, type = 0, count = 0, tag = 0;
@@ -345,7 +467,7 @@ static bool read_element_block(struct reader *reader, size_t total, size_t *done
         !take_count(reader, &count, "a number of elements")) {
         return false;
     }
-    if (type != LINE && type != TRIANGLE && type != POINT) {
+    if (corners_of(type) == 0) {
         return fail_at_node(reader, GM_TRIANGULATION_ELEMENT, reader->line, type);
     }
     if ((size_t)count > total - *done) {
@@ -353,24 +475,48 @@ static bool read_element_block(struct reader *reader, size_t total, size_t *done
     }
     *done += (size_t)count;
     for (long i = 0; i < count; i++) {
-        struct element element = {.entity = entity};
+        if (!take_tag(reader, &tag, "an element's tag") ||
+            !read_corners(reader, type, (struct element){.line = reader->line, .entity = entity})) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Elements of version 2.2: tag, type, number of tags, those (the first is the physical one) and nodes. In
+   binary files type and numbers, of elements and of tags, stand before the elements that they hold for. */
+static bool read_old_elements(struct reader *reader, size_t total, size_t *done)
+{
+    long type = 0, count = 1, tags = 0, tag = 0;
+    if (reader->raw && (!take_whole(reader, &type, "a type of elements") ||
+                        !take_whole(reader, &count, "a number of elements") ||
+                        !take_whole(reader, &tags, "a number of tags"))) {
+        return false;
+    }
+    if (count < 1 || (size_t)count > total - *done) {
+        return fail(reader, GM_TRIANGULATION_SYNTAX, "as many elements as announced");
+    }
+    *done += (size_t)count;
+    for (long i = 0; i < count; i++) {
         if (!take_whole(reader, &tag, "an element's tag")) {
             return false;
         }
-        element.line = reader->line;
-        const int corners = type == POINT ? 1 : type == LINE ? 2 : 3;
-        for (int k = 0; k < corners; k++) {
-            if (!take_whole(reader, &element.nodes[k], "a node's tag")) {
+        struct element element = {.line = reader->line};
+        if (!reader->raw && (!take_whole(reader, &type, "a type of elements") ||
+                             !take_count(reader, &tags, "a number of tags"))) {
+            return false;
+        }
+        if (corners_of(type) == 0) {
+            return fail_at_node(reader, GM_TRIANGULATION_ELEMENT, element.line, type);
+        }
+        for (long k = 0; k < tags; k++) {
+            if (!take_whole(reader, &tag, "a tag")) {
                 return false;
             }
-            if (reader->line != element.line) {
-                return fail(reader, GM_TRIANGULATION_SYNTAX, "the nodes of an element on its line");
-            }
+            element.entity = k == 0 && labs(tag) < MOST ? labs(tag) : element.entity;
         }
-        if (type == TRIANGLE) {
-            reader->triangles[reader->triangle_count++] = element;
-        } else if (type == LINE) {
-            reader->lines[reader->line_count++] = element;
+        if (!read_corners(reader, type, element)) {
+            return false;
         }
     }
     return true;
@@ -378,10 +524,8 @@ static bool read_element_block(struct reader *reader, size_t total, size_t *done
 
 static bool read_elements(struct reader *reader)
 {
-    long blocks = 0, total = 0, low = 0, high = 0;
-    if (!take_count(reader, &blocks, "a number of blocks") ||
-        !take_count(reader, &total, "a number of elements") || !take_whole(reader, &low, "a tag") ||
-        !take_whole(reader, &high, "a tag")) {
+    long blocks = 0, total = 0;
+    if (!begin_blocks(reader, &blocks, &total, "a number of elements")) {
         return false;
     }
     if (reader->triangles) {
@@ -393,6 +537,14 @@ static bool read_elements(struct reader *reader)
         return fail(reader, GM_TRIANGULATION_MEMORY, "");
     }
     size_t done = 0;
+    if (reader->old) {
+        begin_raw(reader);
+    }
+    while (reader->old && done < (size_t)total) {
+        if (!read_old_elements(reader, (size_t)total, &done)) {
+            return false;
+        }
+    }
     for (long i = 0; i < blocks; i++) {
         if (!read_element_block(reader, (size_t)total, &done)) {
             return false;
@@ -553,13 +705,13 @@ static bool name_edges(struct reader *reader, struct gm_triangulation *mesh)
         }
         const int e = a->vertex >= 0 && b->vertex >= 0 ? find_edge(mesh->complex, a->vertex, b->vertex) : -1;
         if (e >= 0) {
-            mesh->edge_group[e] = (int)physical_of(reader, element->entity);
+            mesh->edge_group[e] = (int)(reader->old ? element->entity : physical_of(reader, element->entity));
         }
     }
     return true;
 }
 
-static bool assemble(struct reader *reader, struct gm_triangulation *mesh)
+static bool assemble(struct reader *reader, enum gm_star star, struct gm_triangulation *mesh)
 {
     if (reader->triangle_count == 0) {
         return fail(reader, GM_TRIANGULATION_EMPTY, "");
@@ -575,10 +727,10 @@ static bool assemble(struct reader *reader, struct gm_triangulation *mesh)
     }
     good = good && number_nodes(reader, points, mesh->tags, corners, &vertices);
     if (good) {
-        mesh->complex = gm_complex_open(points, vertices, corners, reader->triangle_count, plane, mesh->tags,
-                                        reader->fault);
+        mesh->complex = gm_complex_open(points, vertices, corners, reader->triangle_count, plane, star,
+                                        mesh->tags, reader->fault);
         good = mesh->complex != NULL;
-        if (!good && reader->fault->triangle > 0) {
+        if (!good && reader->fault->triangle > 0 && !reader->binary) {
             reader->fault->line = reader->triangles[reader->fault->triangle - 1].line;
         }
     }
@@ -591,13 +743,13 @@ static bool assemble(struct reader *reader, struct gm_triangulation *mesh)
     return good && name_edges(reader, mesh);
 }
 
-bool gm_triangulation_read(const char *text, size_t size, struct gm_triangulation *mesh,
+bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault)
 {
     struct reader reader = {.at = text, .end = text + size, .line = 1, .fault = fault, .section = ""};
     *mesh = (struct gm_triangulation){0};
     *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_OK};
-    const bool good = read_sections(&reader) && assemble(&reader, mesh);
+    const bool good = read_sections(&reader) && assemble(&reader, star, mesh);
     if (good) {
         mesh->group = reader.groups;
         mesh->groups = reader.group_count;
@@ -637,4 +789,13 @@ long gm_triangulation_group(const struct gm_triangulation *mesh, const char *nam
         }
     }
     return 0;
+}
+
+const char *gm_triangulation_group_names(const struct gm_triangulation *mesh, char *names, size_t size)
+{
+    snprintf(names, size, "none");
+    for (size_t i = 0, used = 0; i < mesh->groups && used + sizeof mesh->group->name + 2 < size; i++) {
+        used += (size_t)snprintf(names + used, size - used, "%s%s", i ? ", " : "", mesh->group[i].name);
+    }
+    return names;
 }

@@ -16,14 +16,17 @@ struct gm_triangulation {
     } * group;
 };
 
-/* Reads a Gmsh file, version 4.1, ASCII: `size` bytes of text. Only triangles of the plane with three nodes,
-   and the lines that carry physical groups, are taken; points are passed over; nodes that nothing uses are
-   dropped. False with a fault, and nothing to close, if the text is no such mesh. */
-bool gm_triangulation_read(const char *text, size_t size, struct gm_triangulation *mesh,
+/* Reads a Gmsh file, version 2.2 or 4.1, ASCII or binary: `size` bytes. Only triangles of the plane with
+   three nodes, and the lines that carry physical groups, are taken; points are passed over; nodes that
+   nothing uses are dropped. False with a fault, and nothing to close, if the text is no such mesh. */
+bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault);
 void gm_triangulation_close(struct gm_triangulation *mesh);
 
 /* The physical tag of a group of lines, by its name or its tag; 0 if there is none. */
 long gm_triangulation_group(const struct gm_triangulation *mesh, const char *name);
+
+/* The names of the groups, "door, window", as many as fit; "none". Returns names. */
+const char *gm_triangulation_group_names(const struct gm_triangulation *mesh, char *names, size_t size);
 
 #endif

@@ -63,12 +63,12 @@ double gm_flow_scalar_total(const struct gm_flow *flow, const double *y)
     return sum;
 }
 
-/* Row v of -d0' diag(F) A theta + kappa K theta, and q = d0' F there. */
-static double transport_row(const struct gm_flow *flow, const double *y, size_t v, double *out)
+/* Row v of -d0' diag(F) A theta + kappa K theta, and q = d0' F there; `theta`: the scalar or temperature. */
+static double transport_row(const struct gm_flow *flow, const double *y, const double *theta, size_t v,
+                            double *out)
 {
     const struct gm_complex *complex = flow->complex;
-    const double *theta = gm_flow_block(flow, y, GM_FLOW_THETA),
-                 *psi = gm_flow_block(flow, y, GM_FLOW_PSI_HALF);
+    const double *psi = gm_flow_block(flow, y, GM_FLOW_PSI_HALF);
     double sum = 0;
     *out = 0;
     for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
@@ -92,10 +92,13 @@ struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y)
     for (size_t v = 0; dt != 0 && v < complex->vertices; v++) {
         budget.rate += complex->star0[v] * (theta[v] - before[v]) / dt;
     }
+    for (size_t v = 0; flow->source && v < complex->vertices; v++) {
+        budget.sourced += flow->theta_fixed[v] ? 0 : flow->source[v];
+    }
     for (size_t b = 0; b < complex->boundary; b++) {
         const size_t v = (size_t)complex->boundary_vertex[b];
         double out = 0;
-        const double row = transport_row(flow, y, v, &out);
+        const double row = transport_row(flow, y, theta, v, &out);
         if (flow->theta_fixed[v]) {
             budget.convected -= out * theta[v];
             budget.reaction += row + out * theta[v];
@@ -106,13 +109,41 @@ struct gm_budget gm_flow_budget(const struct gm_flow *flow, const double *y)
     }
     const double largest = fmax(fmax(fabs(budget.rate), fabs(budget.convected)),
                                 fmax(fabs(budget.reaction), fabs(budget.outflow)));
-    const double defect = budget.rate - budget.convected - budget.reaction + budget.outflow;
+    const double defect = budget.rate - budget.convected - budget.reaction + budget.outflow - budget.sourced;
     budget.defect = largest > 0 ? fabs(defect) / largest : 0;
     return budget;
 }
 
+double gm_flow_heat(const struct gm_flow *flow, const double *y, size_t side)
+{
+    const struct gm_complex *complex = flow->complex;
+    const double dt = gm_flow_step(flow, y);
+    double sum = 0;
+    for (size_t b = 0; flow->heat && b < complex->boundary; b++) {
+        const size_t v = (size_t)complex->boundary_vertex[b];
+        if (flow->temperature_holder[v] == side + 1) {
+            const double *temperature = gm_flow_block(flow, y, GM_FLOW_TEMPERATURE),
+                         *before = gm_flow_block(flow, y, GM_FLOW_TEMPERATURE_BEFORE);
+            double out = 0;
+            sum += transport_row(flow, y, temperature, v, &out);
+            sum += out * temperature[v];
+            sum += dt != 0 ? complex->star0[v] * (temperature[v] - before[v]) / dt : 0;
+        }
+    }
+    return sum;
+}
+
+double gm_flow_temperature_mean(const struct gm_flow *flow, const double *y)
+{
+    double sum = 0;
+    for (size_t v = 0; flow->heat && v < flow->complex->vertices; v++) {
+        sum += flow->complex->star0[v] * gm_flow_block(flow, y, GM_FLOW_TEMPERATURE)[v];
+    }
+    return sum / flow->complex->total_area;
+}
+
 /* P(left) - P(right) over an inner edge: the mean of omega on the flux, viscosity, and what accelerates U. */
-static double pressure_step(const struct gm_flow *flow, const double *y, size_t e)
+static double inertia_step(const struct gm_flow *flow, const double *y, size_t e)
 {
     const struct gm_complex *complex = flow->complex;
     const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA_USED);
@@ -120,9 +151,21 @@ static double pressure_step(const struct gm_flow *flow, const double *y, size_t 
     const int a = complex->edge[2 * e], b = complex->edge[2 * e + 1];
     const double dt = gm_flow_step(flow, y);
     const double flux = gm_flow_flux(complex, gm_flow_block(flow, y, GM_FLOW_PSI_HALF), e);
+    if (complex->star != GM_STAR_CIRCUMCENTRIC) {
+        const double moved = gm_flow_star(complex, y, e) - gm_flow_star(complex, before, e);
+        return -flux * (omega[a] + omega[b]) / 2 + flow->viscosity * gm_flow_star(complex, omega, e) +
+               (dt != 0 ? moved / dt : 0);
+    }
     const double rate = dt != 0 ? (y[b] - before[b] - (y[a] - before[a])) / dt : 0;
     return -flux * (omega[a] + omega[b]) / 2 +
            complex->star1[e] * (flow->viscosity * (omega[b] - omega[a]) + rate);
+}
+
+/* The same with buoyancy. */
+static double pressure_step(const struct gm_flow *flow, const double *y, size_t e)
+{
+    const double step = inertia_step(flow, y, e);
+    return flow->heat ? step + gm_flow_lift(flow, gm_flow_block(flow, y, GM_FLOW_TEMPERATURE), e) : step;
 }
 
 bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *pressure)
@@ -160,7 +203,42 @@ bool gm_flow_pressure(const struct gm_flow *flow, const double *y, double *press
     return good;
 }
 
-enum { NEAREST = 24, TERMS = 10, VALUES = 3 };
+double gm_flow_circulation(const struct gm_flow *flow, const double *y, size_t hole)
+{
+    double sum = 0;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        sum += flow->hole[v] == (int)hole ? gm_flow_row(flow->complex, y, v) : 0;
+    }
+    return sum;
+}
+
+bool gm_flow_force(const struct gm_flow *flow, const double *y, size_t hole, double force[2])
+{
+    const struct gm_complex *complex = flow->complex;
+    const double *omega = gm_flow_block(flow, y, GM_FLOW_OMEGA_USED);
+    double *pressure = malloc(complex->triangles * sizeof *pressure);
+    const bool good = pressure && gm_flow_pressure(flow, y, pressure);
+    force[0] = force[1] = 0;
+    for (size_t b = 0; good && b < complex->boundary; b++) {
+        const int v = complex->boundary_vertex[b], w = complex->boundary_vertex[gm_complex_next(complex, b)];
+        const size_t e = (size_t)complex->boundary_edge[b];
+        if (flow->hole[v] != (int)hole) {
+            continue;
+        }
+        const bool left = complex->edge_triangle[2 * e] >= 0;
+        const double step = pressure_step(flow, y, e),
+                     here = pressure[complex->edge_triangle[2 * e + (left ? 0 : 1)]] + (left ? -step : step);
+        const double friction = -flow->viscosity * (omega[v] + omega[w]) / 2;
+        const double x = complex->point[2 * w] - complex->point[2 * v],
+                     z = complex->point[2 * w + 1] - complex->point[2 * v + 1];
+        force[0] += here * z + friction * x;
+        force[1] += -here * x + friction * z;
+    }
+    free(pressure);
+    return good;
+}
+
+enum { NEAREST = 24, TERMS = 10, VALUES = 4 };
 
 struct near {
     double distance, x, z;
@@ -234,7 +312,8 @@ bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, doubl
     }
     const double farthest = sqrt(nearest[rows - 1].distance);
     const double *const fields[VALUES] = {y, gm_flow_block(flow, y, GM_FLOW_THETA),
-                                          gm_flow_block(flow, y, GM_FLOW_OMEGA)};
+                                          gm_flow_block(flow, y, GM_FLOW_OMEGA),
+                                          flow->heat ? gm_flow_block(flow, y, GM_FLOW_TEMPERATURE) : NULL};
     double a[NEAREST][TERMS + VALUES], solution[VALUES][TERMS];
     for (size_t i = 0; i < rows; i++) {
         const struct near *near = &nearest[i];
@@ -246,7 +325,7 @@ bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, doubl
             a[i][k] = weight * terms[k];
         }
         for (size_t s = 0; s < VALUES; s++) {
-            a[i][TERMS + s] = weight * fields[s][near->vertex];
+            a[i][TERMS + s] = fields[s] ? weight * fields[s][near->vertex] : 0;
         }
     }
     least_squares(a, rows, solution);
@@ -254,6 +333,7 @@ bool gm_flow_sample(const struct gm_flow *flow, const double *y, double x, doubl
                                  .u = solution[0][2] / farthest,
                                  .v = -solution[0][1] / farthest,
                                  .theta = solution[1][0],
-                                 .omega = solution[2][0]};
+                                 .omega = solution[2][0],
+                                 .temperature = solution[3][0]};
     return true;
 }

@@ -234,7 +234,7 @@ struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_tri
             lay_rectangle(&pattern, r);
         }
         complex = gm_complex_open(pattern.points, pattern.vertices, pattern.triangles, pattern.count, period,
-                                  NULL, fault);
+                                  GM_STAR_CIRCUMCENTRIC, NULL, fault);
     }
     if (complex && r->irregular > 0) {
         const bool moved = jiggle(&pattern, r, complex);
@@ -243,7 +243,7 @@ struct gm_complex *gm_rectangle_open(const struct gm_rectangle *r, struct gm_tri
         *fault = (struct gm_triangulation_fault){.kind = GM_TRIANGULATION_MEMORY};
         if (moved) {
             complex = gm_complex_open(pattern.points, pattern.vertices, pattern.triangles, pattern.count,
-                                      period, NULL, fault);
+                                      period, GM_STAR_CIRCUMCENTRIC, NULL, fault);
         }
     }
     free(pattern.points);

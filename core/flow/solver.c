@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linear algebra of the steps. With z = (psi at unknowns I, omega at soft vertices O) and
+/* Linear algebra of the steps. With z = (psi at unknowns I, omega at soft vertices O) and, psi of a hole's
+   wall being one unknown, rows of its vertices summed up (the pressure comes back to itself around the hole),
        omega(z) = W (K psi + sheet) + omega_O,   W = 1 / star0, 0 at soft and slip vertices
    steps and steady states are equations R omega(z) = right on the rows I and O. The preconditioner leaves out
    the convection, with B = shift star0 + viscosity K:
@@ -11,16 +12,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool list_soft(struct gm_flow_solver *solver)
+static bool list_unknowns(struct gm_flow_solver *solver)
 {
     const struct gm_flow *flow = solver->flow;
     const size_t n = flow->complex->vertices;
     solver->soft_vertex = malloc(n * sizeof *solver->soft_vertex);
+    solver->warm_vertex = malloc(n * sizeof *solver->warm_vertex);
     solver->held = malloc(n * sizeof *solver->held);
-    if (!solver->soft_vertex || !solver->held) {
+    if (!solver->soft_vertex || !solver->warm_vertex || !solver->held) {
         return false;
     }
     for (size_t v = 0; v < n; v++) {
+        if (flow->heat && !flow->temperature_fixed[v]) {
+            solver->warm_vertex[solver->warm++] = (int)v;
+        }
         solver->held[v] = flow->kind[v] == GM_VERTEX_SLIP;
         if (flow->kind[v] == GM_VERTEX_SOFT) {
             solver->soft_vertex[solver->soft++] = (int)v;
@@ -42,8 +47,8 @@ static bool take_memory(struct gm_flow_solver *solver)
         {&solver->rate, v},
         {&solver->field, v},
         {&solver->velocities, 3 * v},
-        {&solver->b, z},
-        {&solver->x, z},
+        {&solver->b, z + solver->warm},
+        {&solver->x, z + solver->warm},
         {&solver->small_b, z},
         {&solver->small_x, z},
         {&solver->gmres, solver->vorticity_form ? 0 : gm_gmres_scratch(z)},
@@ -67,11 +72,11 @@ static bool take_memory(struct gm_flow_solver *solver)
 
 /* Nothing that inlet, outlet and lid drive is faster, on the whole, than the fastest of the flow without
    vorticity that they make: beyond twice its square in the mean over the domain a state is an artefact.
-   Where nothing drives there is no such limit. */
+   Where nothing drives, or heat does, there is no such limit. */
 static double energy_limit(struct gm_flow_solver *solver)
 {
     const struct gm_flow *flow = solver->flow;
-    if (flow->speed == 0 || solver->unknowns.count == 0) {
+    if (flow->speed == 0 || (flow->heat && flow->buoyancy != 0) || solver->unknowns.count == 0) {
         return INFINITY;
     }
     memcpy(solver->rate, flow->psi, flow->complex->vertices * sizeof *solver->rate);
@@ -89,8 +94,9 @@ struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
     }
     solver->flow = flow;
     solver->vorticity_form = gm_flow_is_vorticity_form(flow);
-    bool good = gm_unknowns_open(&solver->unknowns, flow) && list_soft(solver) && take_memory(solver) &&
-                gm_transport_open(&solver->transport, flow->complex);
+    bool good = gm_unknowns_open(&solver->unknowns, flow) && list_unknowns(solver) && take_memory(solver) &&
+                gm_transport_open(&solver->transport, flow->complex) &&
+                (!flow->heat || gm_transport_open(&solver->heat, flow->complex));
     if (good && solver->unknowns.count > 0) {
         solver->poisson = gm_unknowns_factor_poisson(&solver->unknowns, flow);
         good = solver->poisson != NULL;
@@ -113,7 +119,9 @@ void gm_flow_solver_close(struct gm_flow_solver *solver)
     gm_cholesky_close(solver->stokes);
     gm_cholesky_close(solver->soft_factor);
     gm_transport_close(&solver->transport);
+    gm_transport_close(&solver->heat);
     free(solver->soft_vertex);
+    free(solver->warm_vertex);
     free(solver->held);
     free(solver->numbers);
     free(solver);
@@ -193,19 +201,13 @@ static void apply(void *data, const double *z, double *y)
         psi[v] = unknowns->index[v] < 0 ? 0 : z[unknowns->index[v]];
     }
     for (size_t v = 0; v < complex->vertices; v++) {
-        double sum = 0;
-        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-            sum += complex->star1[complex->ring_edge[k]] * (psi[v] - psi[complex->ring_vertex[k]]);
-        }
-        omega[v] = flow->kind[v] == GM_VERTEX_SLIP ? 0 : sum / complex->star0[v];
+        omega[v] = flow->kind[v] == GM_VERTEX_SLIP ? 0 : gm_flow_row(complex, psi, v) / complex->star0[v];
     }
     for (size_t i = 0; i < solver->soft; i++) {
         omega[solver->soft_vertex[i]] = z[unknowns->count + i];
     }
     gm_transport_apply(&solver->transport, omega, psi);
-    for (size_t i = 0; i < unknowns->count; i++) {
-        y[i] = psi[unknowns->vertex[i]];
-    }
+    gm_unknowns_gather(unknowns, psi, y);
     for (size_t i = 0; i < solver->soft; i++) {
         y[unknowns->count + i] = psi[solver->soft_vertex[i]];
     }
@@ -340,13 +342,74 @@ static void put_row(struct full *full, const struct gm_flow_solver *solver, cons
     }
 }
 
-/* x = matrix^-1 b by LU; omega: with the derivative of the fluxes (else NULL). */
-static bool solve_directly(struct gm_flow_solver *solver, const double *omega)
+/* Row v of what gm_flow_add_lift takes of temperature, on the left side of the equation. */
+static void put_lift(struct full *full, const struct gm_flow_solver *solver, const int *warm_index, int v)
+{
+    const struct gm_flow *flow = solver->flow;
+    const struct gm_complex *complex = flow->complex;
+    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+        const size_t e = (size_t)complex->ring_edge[k];
+        const int *end = complex->edge + 2 * e, *side = complex->edge_triangle + 2 * e;
+        const double sign = end[0] == v ? -flow->buoyancy : flow->buoyancy,
+                     height = (complex->point[2 * end[0] + 1] + complex->point[2 * end[1] + 1]) / 2;
+        for (int s = 0; s < 2; s++) {
+            double centre[2];
+            if (side[s] < 0) {
+                continue;
+            }
+            gm_complex_centre(complex, (size_t)side[s], centre);
+            const double half = (s == 0 ? sign : -sign) * (centre[1] - height) / 2;
+            for (int c = 0; c < 3; c++) {
+                put(full, warm_index[complex->triangle[3 * side[s] + c]],
+                    half * complex->weight[3 * side[s] + c]);
+            }
+            put(full, warm_index[end[0]], half / 2);
+            put(full, warm_index[end[1]], half / 2);
+        }
+        const bool boundary = side[0] < 0 || side[1] < 0;
+        if (boundary && flow->hole[v] == 0) {
+            /* along the boundary, which has the room on its left */
+            const int w = complex->ring_vertex[k];
+            const bool leaves = (end[0] == v) == (side[0] >= 0);
+            const double rise = (complex->point[2 * w + 1] - complex->point[2 * v + 1]) / 2,
+                         part = -flow->buoyancy * (leaves ? rise : -rise);
+            put(full, warm_index[v], part * 3 / 4);
+            put(full, warm_index[w], part / 4);
+        }
+    }
+}
+
+/* The equation of temperature at v: convection and diffusion, and what the fluxes change in it. */
+static void put_heat(struct full *full, const struct gm_flow_solver *solver, const int *warm_index, int v,
+                     const double *temperature)
+{
+    const struct gm_complex *complex = solver->flow->complex;
+    put(full, warm_index[v], solver->heat.diagonal[v]);
+    bool boundary = false;
+    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+        const size_t e = (size_t)complex->ring_edge[k];
+        boundary |= complex->edge_triangle[2 * e] < 0 || complex->edge_triangle[2 * e + 1] < 0;
+    }
+    for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+        const int w = complex->ring_vertex[k];
+        const size_t e = (size_t)complex->ring_edge[k];
+        const double sign = complex->edge[2 * e] == v ? 1 : -1,
+                     mean = (temperature[v] + temperature[w]) / 2 - (boundary ? temperature[v] : 0);
+        put(full, warm_index[w], solver->heat.ring[k]);
+        put_flux(full, solver, e, sign * mean);
+    }
+}
+
+/* x = matrix^-1 b by LU; omega: with the derivative of the fluxes (else NULL); temperature: with its rows,
+   too. */
+static bool solve_directly(struct gm_flow_solver *solver, const double *omega, const double *temperature)
 {
     const struct gm_complex *complex = solver->flow->complex;
     const struct gm_unknowns *unknowns = &solver->unknowns;
-    struct full full = {.n = unknowns->count + solver->soft};
-    int *soft_index = malloc(complex->vertices * sizeof *soft_index);
+    const size_t warm = temperature ? solver->warm : 0, flow_rows = unknowns->count + solver->soft;
+    struct full full = {.n = flow_rows + warm};
+    int *soft_index = malloc(complex->vertices * sizeof *soft_index),
+        *warm_index = malloc(complex->vertices * sizeof *warm_index);
     double *buffer = malloc(full.n * sizeof *buffer);
     for (size_t v = 0; v < complex->vertices; v++) {
         for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
@@ -354,29 +417,48 @@ static bool solve_directly(struct gm_flow_solver *solver, const double *omega)
             full.capacity += (size_t)(complex->ring_start[w + 1] - complex->ring_start[w] + 2);
         }
     }
+    full.capacity *= warm > 0 ? 3 : 1;
     full.start = malloc((full.n + 1) * sizeof(int));
     full.column = malloc(full.capacity * sizeof(int));
     full.value = malloc(full.capacity * sizeof(double));
     full.place = malloc(full.n * sizeof(int));
-    bool good = soft_index && buffer && full.start && full.column && full.value && full.place && full.n > 0;
+    bool good = soft_index && warm_index && buffer && full.start && full.column && full.value && full.place &&
+                full.n > 0;
     if (good) {
         memset(full.place, -1, full.n * sizeof(int));
         memset(soft_index, -1, complex->vertices * sizeof *soft_index);
+        memset(warm_index, -1, complex->vertices * sizeof *warm_index);
         for (size_t i = 0; i < solver->soft; i++) {
             soft_index[solver->soft_vertex[i]] = (int)(unknowns->count + i);
         }
+        for (size_t i = 0; i < warm; i++) {
+            warm_index[solver->warm_vertex[i]] = (int)(flow_rows + i);
+        }
         for (full.row = 0; full.row < (int)full.n; full.row++) {
             const size_t i = (size_t)full.row;
+            const bool flows = i < flow_rows, stream = i < unknowns->count;
+            const int *vertex = stream  ? unknowns->vertex + unknowns->start[i]
+                                : flows ? solver->soft_vertex + (i - unknowns->count)
+                                        : solver->warm_vertex + (i - flow_rows);
+            const int vertices = stream ? unknowns->start[i + 1] - unknowns->start[i] : 1;
             full.start[full.row] = (int)full.used;
-            put_row(&full, solver, soft_index,
-                    i < unknowns->count ? unknowns->vertex[i] : solver->soft_vertex[i - unknowns->count],
-                    omega);
+            for (int k = 0; k < vertices; k++) {
+                if (flows) {
+                    put_row(&full, solver, soft_index, vertex[k], omega);
+                } else {
+                    put_heat(&full, solver, warm_index, vertex[k], temperature);
+                }
+                if (flows && warm > 0) {
+                    put_lift(&full, solver, warm_index, vertex[k]);
+                }
+            }
             sort_row(&full, buffer);
         }
         full.start[full.n] = (int)full.used;
         good = gm_lu_solve(full.n, full.start, full.column, full.value, solver->b, solver->x);
     }
     free(soft_index);
+    free(warm_index);
     free(buffer);
     free(full.start);
     free(full.column);
@@ -396,10 +478,16 @@ bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned
     }
     const struct gm_system system = {n, apply, precondition, solver};
     return gm_gmres(&system, solver->b, solver->x, tolerance * size, solver->gmres, iterations) ||
-           solve_directly(solver, NULL);
+           solve_directly(solver, NULL, NULL);
 }
 
-bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega)
+bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega, const double *temperature)
 {
-    return solve_directly(solver, omega);
+    if (temperature) {
+        gm_transport_apply(&solver->heat, temperature, solver->field);
+    }
+    for (size_t i = 0; temperature && i < solver->warm; i++) {
+        solver->b[solver->unknowns.count + solver->soft + i] = -solver->field[solver->warm_vertex[i]];
+    }
+    return solve_directly(solver, omega, temperature);
 }

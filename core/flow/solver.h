@@ -14,17 +14,19 @@ struct gm_flow_solver {
     bool vorticity_form;
     size_t soft; /* vertices whose omega is an unknown of its own */
     int *soft_vertex;
+    size_t warm; /* vertices whose temperature is an unknown, of steady states */
+    int *warm_vertex;
     bool *held; /* vertices whose omega is given, where steps are made for omega */
     struct gm_cholesky *poisson;
     double energy_limit;     /* no flow that these boundaries drive has more */
     double shift, viscosity; /* that stokes and soft_factor were made for; shift = 0: none yet */
     struct gm_cholesky *stokes, *soft_factor;
-    struct gm_transport transport;
-    double *numbers;                   /* the memory of all that follows */
-    double *flux, *centre;             /* edges, triangles */
-    double *rate, *field, *velocities; /* vertices, vertices, 3 * vertices */
-    double *b, *x;                     /* unknowns and soft vertices */
-    double *small_b, *small_x;         /* the same, scratch of the preconditioner */
+    struct gm_transport transport, heat; /* the latter of temperature in steady states */
+    double *numbers;                     /* the memory of all that follows */
+    double *flux, *centre;               /* edges, triangles */
+    double *rate, *field, *velocities;   /* vertices, vertices, 3 * vertices */
+    double *b, *x;                       /* unknowns, soft and warm vertices */
+    double *small_b, *small_x;           /* the same, scratch of the preconditioner */
     double *gmres, *bicgstab;
 };
 
@@ -40,8 +42,9 @@ bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double v
    residuals are compared with. */
 bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned long *iterations);
 
-/* Newton's correction of a steady state: the same with the derivative of the fluxes, by LU. omega: of the
-   state. */
-bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega);
+/* Newton's correction of a steady state: the same with the derivative of the fluxes, by LU. omega,
+   temperature (NULL without heat): of the state. With heat the corrections of temperature stand behind the
+   others in solver->x; its matrix is solver->heat, and its residual is made here. */
+bool gm_flow_solver_newton(struct gm_flow_solver *solver, const double *omega, const double *temperature);
 
 #endif

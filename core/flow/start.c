@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The states that a run may start from, without and with vorticity, and where tracers begin. */
 #include "core/flow/start.h"
 
 #include <math.h>
@@ -37,10 +38,14 @@ static void complete_start(const struct gm_flow *flow, double *y)
     memcpy(y + GM_FLOW_OMEGA_USED * n, y + GM_FLOW_OMEGA * n, n * sizeof *y);
     memcpy(y + GM_FLOW_THETA * n, flow->theta, n * sizeof *y);
     memcpy(y + GM_FLOW_THETA_BEFORE * n, flow->theta, n * sizeof *y);
-    memset(y + GM_FLOW_BLOCKS * n, 0, (1 + GM_TRACER_NUMBERS * flow->tracers) * sizeof *y);
+    for (int block = GM_FLOW_TEMPERATURE; flow->heat && block < GM_FLOW_MOST_BLOCKS; block++) {
+        memcpy(y + (size_t)block * n, flow->temperature, n * sizeof *y);
+    }
+    double *step = y + gm_flow_block_numbers(flow);
+    memset(step, 0, (1 + GM_TRACER_NUMBERS * flow->tracers) * sizeof *y);
     /* tracers are strewn evenly: the golden ratio's multiples over the triangles, by area */
     const struct gm_complex *complex = flow->complex;
-    double *tracer = y + GM_FLOW_BLOCKS * n + 1, before = 0;
+    double *tracer = step + 1, before = 0;
     size_t t = 0;
     for (size_t i = 0; i < flow->tracers; i++, tracer += GM_TRACER_NUMBERS) {
         const double at = ((double)i + 0.5) / (double)flow->tracers * complex->total_area;

@@ -90,13 +90,8 @@ static bool at_outlet(const struct gm_flow *flow, int triangle)
 {
     for (int k = 0; k < 3; k++) {
         const int v = flow->complex->triangle[3 * triangle + k];
-        if (!flow->theta_fixed[v] && flow->complex->boundary > 0 && flow->inflow.count > 0) {
-            for (int r = flow->complex->ring_start[v]; r < flow->complex->ring_start[v + 1]; r++) {
-                const int *pair = flow->complex->edge_triangle + 2 * flow->complex->ring_edge[r];
-                if (pair[0] < 0 || pair[1] < 0) {
-                    return true;
-                }
-            }
+        if (flow->open[v] == GM_OPEN_OUTLET) {
+            return true;
         }
     }
     return false;

@@ -9,28 +9,54 @@
 bool gm_unknowns_open(struct gm_unknowns *unknowns, const struct gm_flow *flow)
 {
     const size_t n = flow->complex->vertices;
-    *unknowns = (struct gm_unknowns){.vertex = malloc(n * sizeof(int)),
+    *unknowns = (struct gm_unknowns){.start = malloc((n + 1) * sizeof(int)),
+                                     .vertex = malloc(n * sizeof(int)),
                                      .index = malloc(n * sizeof(int)),
                                      .closed = flow->complex->boundary == 0};
-    if (!unknowns->vertex || !unknowns->index) {
+    if (!unknowns->start || !unknowns->vertex || !unknowns->index) {
         return false;
     }
+    int used = 0;
     for (size_t v = 0; v < n; v++) {
         const bool free_psi = flow->kind[v] == GM_VERTEX_FREE || flow->kind[v] == GM_VERTEX_OPEN;
         const bool pinned = unknowns->closed && v == 0;
         unknowns->index[v] = -1;
         if (free_psi && !pinned) {
-            unknowns->index[v] = (int)unknowns->count;
-            unknowns->vertex[unknowns->count++] = (int)v;
+            unknowns->start[unknowns->count] = used;
+            unknowns->index[v] = (int)unknowns->count++;
+            unknowns->vertex[used++] = (int)v;
         }
     }
+    for (int hole = 1; hole <= (int)flow->holes; hole++) {
+        unknowns->start[unknowns->count] = used;
+        for (size_t v = 0; v < n; v++) {
+            if (flow->hole[v] == hole) {
+                unknowns->index[v] = (int)unknowns->count;
+                unknowns->vertex[used++] = (int)v;
+            }
+        }
+        unknowns->count++;
+    }
+    unknowns->start[unknowns->count] = used;
     return true;
 }
 
 void gm_unknowns_close(struct gm_unknowns *unknowns)
 {
+    free(unknowns->start);
     free(unknowns->vertex);
     free(unknowns->index);
+}
+
+void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values, double *into)
+{
+    for (size_t i = 0; i < unknowns->count; i++) {
+        int k = unknowns->start[i];
+        into[i] = values[unknowns->vertex[k]];
+        while (++k < unknowns->start[i + 1]) {
+            into[i] += values[unknowns->vertex[k]];
+        }
+    }
 }
 
 /* Rows of a matrix that grow. */
@@ -66,29 +92,49 @@ static double diagonal(const struct gm_complex *complex, int v)
     return sum;
 }
 
+/* Adds to the entry of column j in the row being made; `place`: of columns, below the row's start where there
+   is none. */
+static void add_entry(struct rows *rows, int *place, int row, int j, double value)
+{
+    if (place[j] < rows->start[row]) {
+        place[j] = (int)rows->used;
+        rows->column[rows->used] = j;
+        rows->value[rows->used++] = 0;
+    }
+    rows->value[place[j]] += value;
+}
+
 struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
     struct rows rows;
     struct gm_cholesky *factor = NULL;
-    if (rows_open(&rows, unknowns->count, unknowns->count + 2 * complex->edges)) {
+    int *place = malloc((unknowns->count + 1) * sizeof *place);
+    if (rows_open(&rows, unknowns->count, unknowns->count + 2 * complex->edges) && place) {
+        memset(place, -1, unknowns->count * sizeof *place);
         for (size_t i = 0; i < unknowns->count; i++) {
-            const int v = unknowns->vertex[i];
+            double sum = 0;
             rows.start[i] = (int)rows.used;
-            for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-                const int j = unknowns->index[complex->ring_vertex[k]];
-                if (j >= 0) {
-                    rows.column[rows.used] = j;
-                    rows.value[rows.used++] = -complex->star1[complex->ring_edge[k]];
+            for (int at = unknowns->start[i]; at < unknowns->start[i + 1]; at++) {
+                const int v = unknowns->vertex[at];
+                sum += diagonal(complex, v);
+                for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+                    const int j = unknowns->index[complex->ring_vertex[k]];
+                    const double star = complex->star1[complex->ring_edge[k]];
+                    if (j == (int)i) {
+                        sum -= star;
+                    } else if (j >= 0) {
+                        add_entry(&rows, place, (int)i, j, -star);
+                    }
                 }
             }
-            rows.column[rows.used] = (int)i;
-            rows.value[rows.used++] = diagonal(complex, v);
+            add_entry(&rows, place, (int)i, (int)i, sum);
         }
         rows.start[unknowns->count] = (int)rows.used;
         factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value);
     }
     rows_close(&rows);
+    free(place);
     return factor;
 }
 
@@ -104,16 +150,10 @@ static void add_row(const struct gm_unknowns *unknowns, const struct gm_complex 
     for (int k = complex->ring_start[middle] - 1; k < complex->ring_start[middle + 1]; k++) {
         const bool self = k < complex->ring_start[middle];
         const int v = self ? middle : complex->ring_vertex[k], j = unknowns->index[v];
-        if (j < 0 || j > row) {
-            continue;
+        if (j >= 0 && j <= row) {
+            add_entry(rows, place, row, j,
+                      scale * (self ? diagonal(complex, middle) : -complex->star1[complex->ring_edge[k]]));
         }
-        if (place[j] < rows->start[row]) {
-            place[j] = (int)rows->used;
-            rows->column[rows->used] = j;
-            rows->value[rows->used++] = 0;
-        }
-        rows->value[place[j]] +=
-            scale * (self ? diagonal(complex, middle) : -complex->star1[complex->ring_edge[k]]);
     }
 }
 
@@ -121,7 +161,7 @@ static void add_row(const struct gm_unknowns *unknowns, const struct gm_complex 
 static size_t two_ring_bound(const struct gm_unknowns *unknowns, const struct gm_complex *complex)
 {
     size_t sum = 0;
-    for (size_t i = 0; i < unknowns->count; i++) {
+    for (int i = 0; i < unknowns->start[unknowns->count]; i++) {
         const int v = unknowns->vertex[i];
         for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
             const int w = k < complex->ring_start[v] ? v : complex->ring_vertex[k];
@@ -141,16 +181,18 @@ struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns
     if (rows_open(&rows, unknowns->count, two_ring_bound(unknowns, complex)) && place) {
         memset(place, -1, unknowns->count * sizeof *place);
         for (size_t i = 0; i < unknowns->count; i++) {
-            const int v = unknowns->vertex[i];
             rows.start[i] = (int)rows.used;
-            add_row(unknowns, complex, v, shift, &rows, place, (int)i);
-            for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
-                const bool self = k < complex->ring_start[v];
-                const int w = self ? v : complex->ring_vertex[k];
-                const double entry = self ? diagonal(complex, v) : -complex->star1[complex->ring_edge[k]];
-                if (by_formula(flow, w)) {
-                    add_row(unknowns, complex, w, viscosity * entry / complex->star0[w], &rows, place,
-                            (int)i);
+            for (int at = unknowns->start[i]; at < unknowns->start[i + 1]; at++) {
+                const int v = unknowns->vertex[at];
+                add_row(unknowns, complex, v, shift, &rows, place, (int)i);
+                for (int k = complex->ring_start[v] - 1; k < complex->ring_start[v + 1]; k++) {
+                    const bool self = k < complex->ring_start[v];
+                    const int w = self ? v : complex->ring_vertex[k];
+                    const double entry = self ? diagonal(complex, v) : -complex->star1[complex->ring_edge[k]];
+                    if (by_formula(flow, w)) {
+                        add_row(unknowns, complex, w, viscosity * entry / complex->star0[w], &rows, place,
+                                (int)i);
+                    }
                 }
             }
         }
@@ -171,17 +213,22 @@ void gm_unknowns_solve_poisson(const struct gm_unknowns *unknowns, const struct 
         psi[0] = 0;
     }
     for (size_t i = 0; i < unknowns->count; i++) {
-        const int v = unknowns->vertex[i];
-        double sum = right ? right[v] : 0;
-        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-            const int w = complex->ring_vertex[k];
-            sum += unknowns->index[w] < 0 ? complex->star1[complex->ring_edge[k]] * psi[w] : 0;
+        b[i] = 0;
+        for (int at = unknowns->start[i]; at < unknowns->start[i + 1]; at++) {
+            const int v = unknowns->vertex[at];
+            double sum = right ? right[v] : 0;
+            for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+                const int w = complex->ring_vertex[k];
+                sum += unknowns->index[w] < 0 ? complex->star1[complex->ring_edge[k]] * psi[w] : 0;
+            }
+            b[i] += sum;
         }
-        b[i] = sum;
     }
     gm_cholesky_solve(factor, b, x);
     for (size_t i = 0; i < unknowns->count; i++) {
-        psi[unknowns->vertex[i]] = x[i];
+        for (int at = unknowns->start[i]; at < unknowns->start[i + 1]; at++) {
+            psi[unknowns->vertex[at]] = x[i];
+        }
     }
     if (unknowns->closed) {
         double sum = 0;

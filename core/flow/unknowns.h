@@ -5,11 +5,13 @@
 #include "core/flow/flow.h"
 #include "core/linear/cholesky.h"
 
-/* Which vertices have an unknown psi. On a closed surface psi is determined up to a constant: vertex 0 is
-   pinned and the mean is taken off afterwards. */
+/* Which vertices have an unknown psi: E takes unknowns to vertices. Those of a hole's wall have one together,
+   behind all others. On a closed surface psi is determined up to a constant: vertex 0 is pinned and the mean is
+   taken off afterwards. */
 struct gm_unknowns {
     size_t count;
-    int *vertex; /* of an unknown */
+    int *start;  /* count + 1: where the vertices of an unknown begin */
+    int *vertex; /* of the unknowns */
     int *index;  /* of a vertex; -1: psi is given */
     bool closed;
 };
@@ -17,15 +19,19 @@ struct gm_unknowns {
 bool gm_unknowns_open(struct gm_unknowns *unknowns, const struct gm_flow *flow);
 void gm_unknowns_close(struct gm_unknowns *unknowns);
 
-/* The factor of K between unknowns. NULL when memory is short or it is not positive definite. */
+/* into[i] = the sum of values over the vertices of unknown i: E' values */
+void gm_unknowns_gather(const struct gm_unknowns *unknowns, const double *values, double *into);
+
+/* The factor of K between unknowns, E' K E. NULL when memory is short or it is not positive definite. */
 struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknowns,
                                                const struct gm_flow *flow);
 
-/* The factor of shift K + viscosity K W K between unknowns, W = 1 / star0 where omega is by the formula. */
+/* The factor of shift K + viscosity K W K between unknowns, the same way, W = 1 / star0 where omega is by the
+   formula. */
 struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
                                               double shift, double viscosity);
 
-/* Solves (K psi)_I = right_I (NULL: 0) for the unknown values of psi, the others being given in psi. b, x:
+/* Solves E' K psi = E' right (NULL: 0) for the unknown values of psi, the others being given in psi. b, x:
    scratch, a number for each unknown. On a closed surface sum star0 psi = 0 afterwards. */
 void gm_unknowns_solve_poisson(const struct gm_unknowns *unknowns, const struct gm_flow *flow,
                                struct gm_cholesky *factor, const double *right, double *b, double *x,

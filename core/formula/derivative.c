@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Differentiation of the graph, by the partial derivatives of operations.def: upwards along a vector, downwards
-   for a gradient. */
+/* Differentiation of the graph, by the partial derivatives of operations.def: upwards along a vector,
+   downwards for a gradient. */
 #include "core/formula/derivative.h"
 
 #include <stdlib.h>
@@ -35,20 +35,27 @@ static gm_node_id add_product(struct gm_formula *graph, gm_node_id sum, gm_node_
     return sum == GM_NO_NODE ? slope : gm_formula_apply(graph, GM_OPERATION_ADD, sum, slope);
 }
 
-gm_node_id *gm_derivative_along(struct gm_formula *graph, gm_node_id count, const gm_node_id *direction,
-                                size_t variables)
+gm_node_id gm_derivative_along(struct gm_formula *graph, gm_node_id root, const gm_node_id *direction,
+                               size_t variables)
 {
-    gm_node_id *slopes = malloc((count + (size_t)1) * sizeof *slopes);
-    if (!slopes) {
-        return NULL;
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, root, &count), slope = GM_NO_NODE;
+    gm_node_id *slopes = malloc((root + (size_t)1) * sizeof *slopes); /* of the parts alone */
+    if (!parts || !slopes) {
+        free(parts);
+        free(slopes);
+        graph->failed = true;
+        return GM_NO_NODE;
     }
     graph->simplifies = true;
     const gm_node_id zero = gm_formula_constant(graph, 0);
-    for (gm_node_id i = 0; i < count && !graph->failed; i++) {
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        const gm_node_id i = parts[k];
         const struct gm_node node = graph->nodes[i];
         slopes[i] = node.operation == GM_VARIABLE && node.a < variables ? direction[node.a] : zero;
         if (node.operation > GM_VARIABLE) {
-            gm_node_id slope = GM_NO_NODE;
+            slope = GM_NO_NODE;
+            graph->origin = gm_formula_origin(graph, i);
             if (slopes[node.a] != zero) {
                 slope = add_product(graph, slope, slopes[node.a], i, 0);
             }
@@ -58,30 +65,39 @@ gm_node_id *gm_derivative_along(struct gm_formula *graph, gm_node_id count, cons
             slopes[i] = slope == GM_NO_NODE ? zero : slope;
         }
     }
+    graph->origin = SIZE_MAX;
     graph->simplifies = false;
-    if (graph->failed) {
-        free(slopes);
-        slopes = NULL;
-    }
-    return slopes;
+    slope = graph->failed ? GM_NO_NODE : slopes[root];
+    free(parts);
+    free(slopes);
+    return slope;
 }
 
 bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, size_t variables,
                  gm_node_id *gradient)
 {
-    bool *active = gm_formula_dependent(graph, marked, variables);
-    gm_node_id *adjoint = malloc((root + (size_t)1) * sizeof *adjoint);
-    if (active && adjoint) {
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, root, &count);
+    gm_node_id *adjoint = malloc((root + (size_t)1) * sizeof *adjoint); /* of the parts alone */
+    bool *active = malloc(root + (size_t)1);
+    if (parts && adjoint && active) {
         graph->simplifies = true;
         const gm_node_id zero = gm_formula_constant(graph, 0);
         for (size_t i = 0; i < variables; i++) {
             gradient[i] = zero;
         }
-        for (gm_node_id i = 0; i <= root; i++) {
-            adjoint[i] = GM_NO_NODE;
+        for (size_t k = 0; k < count; k++) {
+            const struct gm_node *node = &graph->nodes[parts[k]];
+            adjoint[parts[k]] = GM_NO_NODE;
+            active[parts[k]] = node->operation == GM_VARIABLE
+                                   ? node->a < variables && marked[node->a]
+                                   : node->operation > GM_VARIABLE &&
+                                         (active[node->a] ||
+                                          (gm_operation_rows[node->operation].arity == 2 && active[node->b]));
         }
         adjoint[root] = gm_formula_constant(graph, 1);
-        for (gm_node_id i = root + 1; i-- > 0 && !graph->failed;) {
+        for (size_t k = count; k-- > 0 && !graph->failed;) {
+            const gm_node_id i = parts[k];
             const struct gm_node node = graph->nodes[i];
             if (adjoint[i] == GM_NO_NODE || adjoint[i] == zero || !active[i]) {
                 continue;
@@ -90,6 +106,7 @@ bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, 
                 gradient[node.a] = adjoint[i];
                 continue;
             }
+            graph->origin = gm_formula_origin(graph, i);
             if (active[node.a]) {
                 adjoint[node.a] = add_product(graph, adjoint[node.a], adjoint[i], i, 0);
             }
@@ -97,10 +114,12 @@ bool gm_gradient(struct gm_formula *graph, gm_node_id root, const bool *marked, 
                 adjoint[node.b] = add_product(graph, adjoint[node.b], adjoint[i], i, 1);
             }
         }
+        graph->origin = SIZE_MAX;
         graph->simplifies = false;
     } else {
         graph->failed = true;
     }
+    free(parts);
     free(active);
     free(adjoint);
     return !graph->failed;

@@ -3,12 +3,12 @@
 #include "core/formula/equations.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/formula/derivative.h"
+#include "core/formula/legendre.h"
 
 static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
 {
@@ -44,11 +44,35 @@ static void derive_poisson(struct gm_own_system *system, const gm_node_id *gradi
     for (size_t i = 0; i < n; i++) {
         system->rates[i] = gm_formula_constant(&system->graph, 0);
         for (size_t k = 0; k < n; k++) {
-            const gm_node_id term =
-                apply(system, GM_OPERATION_MULTIPLY, system->bracket[i * n + k], gradient[k]);
+            const gm_node_id entry = system->bracket[i * n + k];
+            system->graph.origin = gm_formula_origin(&system->graph, entry);
+            const gm_node_id term = apply(system, GM_OPERATION_MULTIPLY, entry, gradient[k]);
+            system->graph.origin = SIZE_MAX;
             system->rates[i] = apply(system, GM_OPERATION_ADD, system->rates[i], term);
         }
     }
+}
+
+/* momenta, forces, and the mass matrix */
+static void derive_lagrangian(struct gm_own_system *system, const gm_node_id *gradient)
+{
+    const size_t half = system->n / 2;
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    system->momenta = malloc((half + 1) * sizeof *system->momenta);
+    for (size_t i = 0; i < half && marked && system->momenta; i++) {
+        system->momenta[i] = gradient[system->velocities + i];
+        system->rates[half + i] = add_force(system, gradient[i], system->variables[i].force);
+        marked[system->velocities + i] = true;
+    }
+    if (marked && system->momenta) {
+        gm_sparse_jacobian(&system->graph, system->momenta, half, marked, system->variable_count,
+                           &system->mass);
+    }
+    for (size_t i = 0; i < system->mass.count; i++) {
+        system->mass.entries[i].column -= system->velocities;
+    }
+    system->graph.failed |= !marked || !system->momenta;
+    free(marked);
 }
 
 static bool derive(struct gm_own_system *system)
@@ -62,14 +86,12 @@ static bool derive(struct gm_own_system *system)
                                                 system->variables[i].force);
         }
     } else if (system->kind == GM_LAGRANGIAN && !system->graph.failed) {
-        system->momenta = malloc((half + 1) * sizeof *system->momenta);
-        for (size_t i = 0; i < half && system->momenta; i++) {
-            system->momenta[i] = gradient[system->velocities + i];
-            system->rates[half + i] = add_force(system, gradient[i], system->variables[i].force);
-        }
-        system->graph.failed |= !system->momenta;
+        derive_lagrangian(system, gradient);
     } else if (system->kind == GM_POISSON && !system->graph.failed) {
         derive_poisson(system, gradient);
+    } else if (system->kind == GM_FIELD && !system->graph.failed) {
+        system->rates[0] = gm_formula_variable(&system->graph, 1);
+        system->rates[1] = apply(system, GM_OPERATION_NEGATE, gradient[0], 0);
     }
     free(gradient);
     bool *marked = calloc(system->variable_count, sizeof *marked);
@@ -88,7 +110,7 @@ static bool derive(struct gm_own_system *system)
     return good;
 }
 
-static bool has(const struct gm_own_system *system, enum gm_word word)
+static bool has(const struct gm_own_system *system, enum gm_system_word word)
 {
     for (size_t i = 0; i < system->item_count; i++) {
         if (system->items[i].word == word) {
@@ -100,19 +122,61 @@ static bool has(const struct gm_own_system *system, enum gm_word word)
 
 static gm_node_id along(struct gm_own_system *system, gm_node_id node, const gm_node_id *direction)
 {
-    gm_node_id *slopes = gm_derivative_along(&system->graph, node + 1, direction, system->n + 1);
-    const gm_node_id slope = slopes ? slopes[node] : GM_NO_NODE;
-    free(slopes);
-    return slope;
+    return gm_derivative_along(&system->graph, node, direction, system->n + 1);
+}
+
+/* whether a node holds a velocity of a Lagrangian */
+static bool holds_velocities(struct gm_own_system *system, gm_node_id node)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    bool found = false;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_node *part = &system->graph.nodes[parts[i]];
+        found |= part->operation == GM_VARIABLE && part->a >= system->velocities && part->a < system->initial;
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return found;
+}
+
+bool gm_equations_in_velocities(struct gm_own_system *system, gm_node_id *nodes, size_t count)
+{
+    const size_t half = system->n / 2;
+    gm_node_id *others = malloc(system->n * sizeof *others);
+    for (size_t i = 0; others && i < half; i++) {
+        others[i] = GM_NO_NODE;
+        others[half + i] = system->momenta[i];
+    }
+    system->graph.failed |=
+        !others || !gm_formula_substitute(&system->graph, nodes, count, others, system->n);
+    free(others);
+    return !system->graph.failed;
+}
+
+/* dI/dq v + dI/dp (dL/dq + F), with dL/dv in place of p: of coordinates and velocities. How these change
+   takes the inverse of the mass matrix, so that of what holds them nothing is known. */
+static gm_node_id rate_of_lagrangian(struct gm_own_system *system, gm_node_id node, gm_node_id *direction)
+{
+    const size_t half = system->n / 2;
+    if (holds_velocities(system, node)) {
+        return GM_NO_NODE;
+    }
+    for (size_t i = 0; i < half; i++) {
+        direction[i] = gm_formula_variable(&system->graph, system->velocities + i);
+    }
+    gm_node_id rate = along(system, node, direction);
+    return !system->graph.failed && gm_equations_in_velocities(system, &rate, 1) ? rate : GM_NO_NODE;
 }
 
 gm_node_id gm_equations_rate_of(struct gm_own_system *system, gm_node_id node)
 {
     gm_node_id *direction = malloc((system->n + 1) * sizeof *direction), rate = GM_NO_NODE;
-    if (direction && system->kind != GM_LAGRANGIAN && !has(system, GM_WORD_CONSTRAINT)) {
+    if (direction && !has(system, GM_WORD_CONSTRAINT)) {
         memcpy(direction, system->rates, system->n * sizeof *direction);
         direction[system->n] = gm_formula_constant(&system->graph, 1);
-        rate = along(system, node, direction);
+        rate = system->kind == GM_LAGRANGIAN ? rate_of_lagrangian(system, node, direction)
+                                             : along(system, node, direction);
     }
     free(direction);
     return rate;
@@ -132,50 +196,57 @@ enum gm_identity gm_equations_vanishes(const struct gm_own_system *system, gm_no
     return identity;
 }
 
-__attribute__((format(printf, 3, 4))) static bool fail(struct gm_fault *fault, size_t place,
-                                                       const char *format, ...)
+static bool varies(const struct gm_own_system *system, size_t i, size_t k)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(fault->sentence, sizeof fault->sentence, format, arguments);
-    va_end(arguments);
-    fault->offset = place;
-    return false;
+    return system->graph.nodes[system->bracket[i * system->n + k]].operation != GM_CONSTANT;
 }
 
 /* sum over l of {i, l} d{j, k}/dl and cyclic */
+static gm_node_id jacobi_sum(struct gm_own_system *system, const size_t triple[3], gm_node_id *direction)
+{
+    const size_t n = system->n;
+    gm_node_id sum = gm_formula_constant(&system->graph, 0);
+    for (int turn = 0; turn < 3; turn++) {
+        const size_t a = triple[turn], b = triple[(turn + 1) % 3], c = triple[(turn + 2) % 3];
+        memcpy(direction, &system->bracket[a * n], n * sizeof *direction);
+        direction[n] = gm_formula_constant(&system->graph, 0);
+        if (varies(system, b, c)) {
+            sum = apply(system, GM_OPERATION_ADD, sum, along(system, system->bracket[b * n + c], direction));
+        }
+    }
+    return sum;
+}
+
+/* Of triples with a bracket that varies, each once: of the others the sum has no terms. */
 static bool check_jacobi(struct gm_own_system *system, struct gm_fault *fault)
 {
     const size_t n = system->n;
-    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
     gm_node_id *direction = malloc((n + 1) * sizeof *direction);
     system->jacobi = GM_ZERO_PROVED;
-    for (size_t i = 0; direction && i < n; i++) {
-        for (size_t j = i + 1; j < n; j++) {
-            for (size_t k = j + 1; k < n; k++) {
-                const size_t triple[] = {i, j, k};
-                gm_node_id sum = zero;
-                for (int turn = 0; turn < 3; turn++) {
-                    const size_t a = triple[turn], b = triple[(turn + 1) % 3], c = triple[(turn + 2) % 3];
-                    memcpy(direction, &system->bracket[a * n], n * sizeof *direction);
-                    direction[n] = zero;
-                    if (system->graph.nodes[system->bracket[b * n + c]].operation != GM_CONSTANT) {
-                        sum = apply(system, GM_OPERATION_ADD, sum,
-                                    along(system, system->bracket[b * n + c], direction));
-                    }
+    system->graph.failed |= !direction;
+    for (size_t j = 0; j < n; j++) {
+        for (size_t k = j + 1; k < n; k++) {
+            for (size_t i = 0; varies(system, j, k) && i < n && !system->graph.failed; i++) {
+                /* a triple is looked at by the first of its pairs that varies */
+                const bool elsewhere = (i < j && (varies(system, i, j) || varies(system, i, k))) ||
+                                       (i > j && i < k && varies(system, j, i));
+                if (i == j || i == k || elsewhere) {
+                    continue;
                 }
-                const enum gm_identity found = gm_equations_vanishes(system, sum);
+                const size_t triple[] = {i < j ? i : j, i < j ? j : i < k ? i : k, i < k ? k : i};
+                const enum gm_identity found =
+                    gm_equations_vanishes(system, jacobi_sum(system, triple, direction));
                 if (found == GM_NOT_ZERO) {
                     free(direction);
-                    return fail(fault, 0, "the bracket breaks Jacobi's identity for %.60s, %.60s and %.60s",
-                                system->variables[i].name, system->variables[j].name,
-                                system->variables[k].name);
+                    return gm_fail(fault, 0,
+                                   "the bracket breaks Jacobi's identity for %.60s, %.60s and %.60s",
+                                   system->variables[triple[0]].name, system->variables[triple[1]].name,
+                                   system->variables[triple[2]].name);
                 }
                 system->jacobi = found == GM_ZERO_PROVED ? system->jacobi : found;
             }
         }
     }
-    system->graph.failed |= !direction;
     free(direction);
     return true;
 }
@@ -193,6 +264,24 @@ static enum gm_identity check_casimir(struct gm_own_system *system, gm_node_id n
     }
     free(direction);
     return direction ? all : GM_UNTESTED;
+}
+
+/* Whether the constraints do not change along the generator. */
+static bool keeps_constraints(struct gm_own_system *system, const struct gm_system_item *symmetry)
+{
+    gm_node_id *direction = malloc((system->n + 1) * sizeof *direction);
+    bool kept = true;
+    for (size_t i = 0; direction && i <= system->n; i++) {
+        direction[i] = i < system->n / 2 ? symmetry->nodes[i] : gm_formula_constant(&system->graph, 0);
+    }
+    for (size_t i = 0; direction && i < system->item_count && kept && !system->graph.failed; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        kept = item->word != GM_WORD_CONSTRAINT ||
+               gm_equations_vanishes(system, along(system, item->nodes[0], direction)) != GM_NOT_ZERO;
+    }
+    system->graph.failed |= !direction;
+    free(direction);
+    return kept;
 }
 
 /* Of coordinates: the energy does not change along the generator, lifted to momenta or velocities. Of
@@ -221,9 +310,7 @@ static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_s
     gm_node_id map = zero, change = zero;
     gm_node_id *gradient = gradient_of(system, system->energy);
     for (size_t i = 0; i < half && !system->graph.failed; i++) {
-        const bool lagrangian = system->kind == GM_LAGRANGIAN;
-        const gm_node_id momentum =
-            lagrangian ? system->momenta[i] : gm_formula_variable(&system->graph, half + i);
+        const gm_node_id momentum = gm_formula_variable(&system->graph, half + i);
         map = apply(system, GM_OPERATION_ADD, map,
                     apply(system, GM_OPERATION_MULTIPLY, momentum, item->nodes[i]));
         change = apply(system, GM_OPERATION_ADD, change,
@@ -246,6 +333,9 @@ static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_s
         free(slopes);
     }
     free(gradient);
+    if (!keeps_constraints(system, item)) {
+        return GM_NOT_ZERO;
+    }
     gm_node_id *nodes = realloc(item->nodes, (half + 1) * sizeof *nodes);
     if (!nodes || system->graph.failed) {
         system->graph.failed = true;
@@ -269,23 +359,24 @@ static bool check_items(struct gm_own_system *system, struct gm_fault *fault)
             const gm_node_id rate = gm_equations_rate_of(system, item->nodes[0]);
             item->check = rate == GM_NO_NODE ? GM_UNTESTED : gm_equations_vanishes(system, rate);
             if (item->check == GM_NOT_ZERO && !forced) {
-                return fail(fault, item->place,
-                            "%.60s is no invariant; what is only nearly kept is an observable, observe",
-                            item->name);
+                return gm_fail(fault, item->place,
+                               "%.60s is no invariant; what is only nearly kept is an observable, observe",
+                               item->name);
             }
         } else if (item->word == GM_WORD_CASIMIR) {
             item->check = check_casimir(system, item->nodes[0]);
             if (item->check == GM_NOT_ZERO) {
-                return fail(fault, item->place,
-                            "%.60s is no Casimir: its bracket with the components is not 0", item->name);
+                return gm_fail(fault, item->place,
+                               "%.60s is no Casimir: its bracket with the components is not 0", item->name);
             }
         } else if (item->word == GM_WORD_SYMMETRY) {
             item->check = check_symmetry(system, item);
             if (item->check == GM_NOT_ZERO) {
-                return fail(fault, item->place, "this is no symmetry: it changes %s",
-                            system->kind == GM_CANONICAL    ? "H"
-                            : system->kind == GM_LAGRANGIAN ? "L"
-                                                            : "the motion");
+                return gm_fail(fault, item->place, "this is no symmetry: it changes %s%s",
+                               system->kind == GM_CANONICAL    ? "H"
+                               : system->kind == GM_LAGRANGIAN ? "L"
+                                                               : "the motion",
+                               has(system, GM_WORD_CONSTRAINT) ? ", or a constraint" : "");
             }
         }
     }
@@ -302,143 +393,427 @@ static double *values_for(const struct gm_own_system *system, const double *vari
     return values;
 }
 
-double *gm_equations_start(const struct gm_own_system *system)
+/* A Lagrangian at some coordinates. */
+struct transform {
+    const struct gm_own_system *system;
+    double *variables, *values; /* of the graph */
+    const gm_node_id *parts;    /* nodes that are evaluated: part_count; NULL: the first so many */
+    size_t part_count;
+    const bool *given; /* velocities that need not be found; NULL: none is */
+};
+
+/* gm_legendre_momenta; of a velocity that is given itself */
+static void momenta_at(void *data, const double *v, double *p, struct gm_mass *mass)
+{
+    struct transform *transform = data;
+    const struct gm_own_system *system = transform->system;
+    memcpy(transform->variables + system->velocities, v, system->n / 2 * sizeof *v);
+    gm_formula_evaluate_parts(&system->graph, transform->parts, transform->part_count, transform->variables,
+                              transform->values);
+    memset(mass->entries, 0, mass->n * mass->n * sizeof(double));
+    for (size_t i = 0; i < system->n / 2; i++) {
+        const bool given = transform->given && transform->given[i];
+        p[i] = given ? v[i] : transform->values[system->momenta[i]];
+        mass->entries[i * mass->n + i] = given;
+    }
+    for (size_t i = 0; i < system->mass.count; i++) {
+        const struct gm_sparse_entry *entry = &system->mass.entries[i];
+        if (!transform->given || !transform->given[entry->row]) {
+            mass->entries[entry->row * mass->n + entry->column] = transform->values[entry->node];
+        }
+    }
+}
+
+/* Velocities that were not given follow from the momenta that were. False: out of memory. */
+static bool find_velocities(struct transform transform)
+{
+    const struct gm_own_system *system = transform.system;
+    const double *variables = transform.variables;
+    const size_t half = system->n / 2;
+    double *room = malloc(5 * half * sizeof *room), *v = transform.variables + system->velocities;
+    bool *given = malloc(half * sizeof *given);
+    struct gm_mass mass = {0};
+    const bool opened = room && given && gm_mass_open(&mass, half);
+    if (opened) {
+        transform.given = given;
+        double *wanted = room, *found = room + half;
+        for (size_t i = 0; i < half; i++) {
+            given[i] = !isnan(v[i]);
+            wanted[i] = given[i] ? v[i] : variables[half + i];
+            found[i] = given[i] ? v[i] : 0;
+        }
+        gm_legendre_solve(half, false, momenta_at, &transform, wanted, &mass, room + 2 * half, found);
+        memcpy(v, found, half * sizeof *v);
+    }
+    gm_mass_close(&mass);
+    free(given);
+    free(room);
+    return opened;
+}
+
+/* Whether a variable has a value at the start by itself: the file's, or one that was given. */
+static bool is_told(const struct gm_own_system *system, const double *given, size_t number)
+{
+    return system->variables[number].start != GM_NO_NODE || (given && !isnan(given[number]));
+}
+
+/* All that a start is computed from: formulas, and momenta with what they take; malloc'ed. */
+static gm_node_id *parts_of_start(const struct gm_own_system *system, size_t *count)
+{
+    const size_t half = system->momenta ? system->n / 2 : 0;
+    gm_node_id *nodes = malloc((system->initial + half + system->mass.count + 1) * sizeof *nodes);
+    size_t found = 0;
+    for (size_t i = 0; nodes && i < system->initial; i++) {
+        nodes[found] = system->variables[i].start;
+        found += nodes[found] != GM_NO_NODE;
+    }
+    for (size_t i = 0; nodes && i < half; i++) {
+        nodes[found++] = system->momenta[i];
+    }
+    for (size_t i = 0; nodes && half > 0 && i < system->mass.count; i++) {
+        nodes[found++] = system->mass.entries[i].node;
+    }
+    gm_node_id *parts = nodes ? gm_formula_parts_of(&system->graph, nodes, found, count) : NULL;
+    free(nodes);
+    return parts;
+}
+
+double *gm_equations_start(const struct gm_own_system *system, const double *given)
 {
     const size_t half = system->n / 2;
-    double *variables = malloc(system->variable_count * sizeof *variables), *values = NULL;
-    for (size_t i = 0; variables && i < system->variable_count; i++) {
-        variables[i] = i == system->n ? 0 : system->variables[i].value;
+    struct transform start = {.system = system};
+    double *variables = malloc(system->variable_count * sizeof *variables);
+    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    gm_node_id *parts = parts_of_start(system, &start.part_count);
+    const bool good = variables && values && parts;
+    for (size_t i = 0; good && i < system->variable_count; i++) {
+        const bool follows = i < system->initial && system->variables[i].start != GM_NO_NODE;
+        variables[i] = i == system->n ? 0 : follows ? NAN : system->variables[i].value;
+        variables[i] = given && !isnan(given[i]) ? given[i] : variables[i];
     }
     /* a start may hold others: what is found in one round serves the next */
     size_t found = 0, before = 0;
-    for (bool first = true; variables && (first || found > before); first = false) {
+    for (bool first = true; good && (first || found > before); first = false) {
         before = found;
-        free(values);
-        values = values_for(system, variables);
-        for (size_t i = 0; values && i < system->initial; i++) {
-            const gm_node_id start = system->variables[i].start;
-            variables[i] = start == GM_NO_NODE ? variables[i] : values[start];
+        gm_formula_evaluate_parts(&system->graph, parts, start.part_count, variables, values);
+        for (size_t i = 0; i < system->initial; i++) {
+            const gm_node_id node = system->variables[i].start;
+            variables[i] = node == GM_NO_NODE || (given && !isnan(given[i])) ? variables[i] : values[node];
         }
-        for (size_t i = 0; values && system->momenta && i < half; i++) {
-            const bool given = system->variables[half + i].start != GM_NO_NODE;
-            variables[half + i] = given ? variables[half + i] : values[system->momenta[i]];
+        for (size_t i = 0; system->momenta && i < half; i++) {
+            variables[half + i] =
+                is_told(system, given, half + i) ? variables[half + i] : values[system->momenta[i]];
         }
         found = 0;
         for (size_t i = 0; i < system->initial; i++) {
             found += !isnan(variables[i]);
         }
     }
-    for (size_t i = 0; values && i < system->n; i++) {
+    bool unknown = false;
+    for (size_t i = 0; good && system->momenta && i < half; i++) {
+        unknown |= isnan(variables[system->velocities + i]);
+    }
+    start.variables = variables;
+    start.values = values;
+    start.parts = parts;
+    if (unknown && find_velocities(start)) {
+        gm_formula_evaluate_parts(&system->graph, parts, start.part_count, variables, values);
+        for (size_t i = 0; i < half; i++) {
+            variables[half + i] =
+                is_told(system, given, half + i) ? variables[half + i] : values[system->momenta[i]];
+        }
+    }
+    for (size_t i = 0; good && i < system->n; i++) {
         variables[system->initial + i] = variables[i];
     }
-    if (!values) {
-        free(variables);
-        variables = NULL;
-    }
+    free(parts);
     free(values);
+    if (!good) {
+        free(variables);
+        return NULL;
+    }
     return variables;
 }
 
-/* Whether the matrix of second derivatives over velocities can be factored, by Gauss, in place. */
-static bool is_regular(double *matrix, size_t n)
+static bool check_legendre(struct gm_own_system *system, double *start, double *values,
+                           struct gm_fault *fault)
 {
-    double largest = 0;
-    for (size_t i = 0; i < n * n; i++) {
-        largest = fmax(largest, fabs(matrix[i]));
+    const size_t half = system->n / 2;
+    struct gm_mass mass = {0};
+    double *room = malloc(2 * half * sizeof *room);
+    bool regular = true;
+    if (room && gm_mass_open(&mass, half)) {
+        struct transform transform = {system, start, values, NULL, system->graph.count, NULL};
+        memcpy(room, start + system->velocities, half * sizeof *room);
+        momenta_at(&transform, room, room + half, &mass);
+        regular = gm_mass_factor(&mass, 1e-14);
+    } else {
+        system->graph.failed = true;
     }
-    for (size_t k = 0; k < n; k++) {
-        size_t pivot = k;
-        for (size_t i = k + 1; i < n; i++) {
-            pivot = fabs(matrix[i * n + k]) > fabs(matrix[pivot * n + k]) ? i : pivot;
+    gm_mass_close(&mass);
+    free(room);
+    if (regular) {
+        return true;
+    }
+    char where[120] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < half && length + 40 < sizeof where; i++) {
+        length += (size_t)snprintf(where + length, sizeof where - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
+                                   system->variables[i].name, start[i]);
+    }
+    return gm_fail(
+        fault, 0,
+        "the Legendre transform of L is singular at the start, %s: momenta do not determine velocities",
+        where);
+}
+
+/* Where the first part of a node was written that is not finite; 0: none of them was written. */
+static size_t first_not_finite(struct gm_own_system *system, gm_node_id node, const double *values)
+{
+    size_t place = 0, count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    for (size_t k = 0; parts && k < count && place == 0; k++) {
+        const bool written = system->graph.places[parts[k]] != SIZE_MAX;
+        place = written && !isfinite(values[parts[k]]) ? system->graph.places[parts[k]] : 0;
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return place;
+}
+
+/* The rank of a matrix (rows * columns), which is destroyed, by elimination with complete pivoting. */
+static size_t rank_of(double *a, size_t rows, size_t columns)
+{
+    const double least = 1e-10;
+    double largest = 0;
+    for (size_t rank = 0; rank < rows && rank < columns; rank++) {
+        size_t row = rank, column = rank;
+        for (size_t i = rank; i < rows; i++) {
+            for (size_t j = rank; j < columns; j++) {
+                if (fabs(a[i * columns + j]) > fabs(a[row * columns + column])) {
+                    row = i;
+                    column = j;
+                }
+            }
         }
-        if (!(fabs(matrix[pivot * n + k]) > 1e-14 * largest)) {
-            return false;
+        largest = rank == 0 ? fabs(a[row * columns + column]) : largest;
+        if (!(fabs(a[row * columns + column]) > least * largest)) {
+            return rank;
         }
-        for (size_t j = 0; j < n; j++) {
-            const double kept = matrix[k * n + j];
-            matrix[k * n + j] = matrix[pivot * n + j];
-            matrix[pivot * n + j] = kept;
+        for (size_t j = 0; j < columns; j++) {
+            const double kept = a[row * columns + j];
+            a[row * columns + j] = a[rank * columns + j];
+            a[rank * columns + j] = kept;
         }
-        for (size_t i = k + 1; i < n; i++) {
-            const double factor = matrix[i * n + k] / matrix[k * n + k];
-            for (size_t j = k; j < n; j++) {
-                matrix[i * n + j] -= factor * matrix[k * n + j];
+        for (size_t i = 0; i < rows; i++) {
+            const double kept = a[i * columns + column];
+            a[i * columns + column] = a[i * columns + rank];
+            a[i * columns + rank] = kept;
+        }
+        for (size_t i = rank + 1; i < rows; i++) {
+            const double factor = a[i * columns + rank] / a[rank * columns + rank];
+            for (size_t j = rank; j < columns; j++) {
+                a[i * columns + j] -= factor * a[rank * columns + j];
             }
         }
     }
-    return true;
+    return rows < columns ? rows : columns;
 }
 
-static bool check_legendre(struct gm_own_system *system, const double *start, struct gm_fault *fault)
+static bool is_of_coordinates(struct gm_own_system *system, gm_node_id node)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_node *part = &system->graph.nodes[parts[i]];
+        const bool parameter = part->a >= system->parameters && part->a < system->velocities;
+        good = good && (part->operation != GM_VARIABLE || part->a < system->n / 2 || parameter);
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return good;
+}
+
+/* What the motion begins with has to keep the constraints, and their rates 0; and they are to be
+   independent. */
+static bool check_constraints(struct gm_own_system *system, const double *start, struct gm_fault *fault)
 {
     const size_t half = system->n / 2;
-    bool *marked = calloc(system->variable_count, sizeof *marked);
-    double *matrix = calloc(half * half + 1, sizeof *matrix);
-    struct gm_sparse mass = {0};
-    for (size_t i = 0; marked && i < half; i++) {
-        marked[system->velocities + i] = true;
-    }
-    bool regular = true;
-    if (marked && matrix &&
-        gm_sparse_jacobian(&system->graph, system->momenta, half, marked, system->variable_count, &mass)) {
-        double *values = values_for(system, start);
-        for (size_t i = 0; values && i < mass.count; i++) {
-            matrix[mass.entries[i].row * half + mass.entries[i].column - system->velocities] =
-                values[mass.entries[i].node];
+    size_t count = 0, last = 0;
+    gm_node_id *nodes = malloc((system->item_count + 1) * sizeof *nodes);
+    for (size_t i = 0; nodes && i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            nodes[count++] = system->items[i].nodes[0];
+            last = i;
         }
-        regular = !values || is_regular(matrix, half);
-        free(values);
     }
-    free(mass.entries);
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    struct gm_sparse slopes = {0};
+    for (size_t i = 0; marked && i < half; i++) {
+        marked[i] = true;
+    }
+    double *matrix = calloc(count * half + count + 1, sizeof *matrix), *values = NULL;
+    if (nodes && marked && matrix &&
+        gm_sparse_jacobian(&system->graph, nodes, count, marked, system->variable_count, &slopes)) {
+        values = values_for(system, start);
+    }
+    bool good = true;
+    for (size_t i = 0; i < system->item_count && good && !system->graph.failed; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        good = item->word != GM_WORD_CONSTRAINT || is_of_coordinates(system, item->nodes[0]) ||
+               gm_fail(fault, item->place, "a constraint holds coordinates and parameters alone");
+    }
+    if (values && good) {
+        double *rates = matrix + count * half;
+        for (size_t i = 0; i < slopes.count; i++) {
+            const struct gm_sparse_entry *slope = &slopes.entries[i];
+            const double velocity = system->kind == GM_LAGRANGIAN ? start[system->velocities + slope->column]
+                                                                  : values[system->rates[slope->column]];
+            matrix[slope->row * half + slope->column] = values[slope->node];
+            rates[slope->row] += values[slope->node] * velocity;
+        }
+        for (size_t i = 0, k = 0; i < system->item_count && good; i++) {
+            const struct gm_system_item *item = &system->items[i];
+            if (item->word != GM_WORD_CONSTRAINT) {
+                continue;
+            }
+            good = fabs(values[item->nodes[0]]) <= 1e-10 ||
+                   gm_fail(fault, item->place, "the start breaks this constraint: it is %g, not 0",
+                           values[item->nodes[0]]);
+            good = good &&
+                   (fabs(rates[k]) <= 1e-10 ||
+                    gm_fail(fault, item->place,
+                            "the start breaks this constraint: its rate of change is %g, not 0", rates[k]));
+            k++;
+        }
+        const size_t rank = good ? rank_of(matrix, count, half) : count;
+        good = good && (rank == count || gm_fail(fault, system->items[last].place,
+                                                 "the constraints depend on each other at the start: the "
+                                                 "derivatives of %zu have the rank %zu",
+                                                 count, rank));
+    }
+    system->graph.failed |= !values;
+    free(slopes.entries);
+    free(nodes);
     free(marked);
     free(matrix);
-    return regular ||
-           fail(fault, 0,
-                "the Legendre transform of L is singular at the start: momenta do not determine velocities");
+    free(values);
+    return good;
 }
 
 static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
 {
-    double *start = gm_equations_start(system), *values = start ? values_for(system, start) : NULL;
-    bool *reached = calloc(system->graph.count + (size_t)1, sizeof *reached);
-    bool good = true;
+    double *start = gm_equations_start(system, NULL), *values = start ? values_for(system, start) : NULL;
+    bool good = !values || system->kind != GM_LAGRANGIAN || check_legendre(system, start, values, fault);
     for (size_t i = 0; values && good && i < system->n; i++) {
         good = isfinite(start[i]) ||
-               fail(fault, 0, "%.60s is not finite at the start", system->variables[i].name);
+               gm_fail(fault, 0, "%.60s is not finite at the start", system->variables[i].name);
     }
-    for (size_t i = 0; values && good && i < system->item_count; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        if (item->word == GM_WORD_CONSTRAINT && !(fabs(values[item->nodes[0]]) <= 1e-10)) {
-            good = fail(fault, item->place, "the start breaks this constraint: it is %g, not 0",
-                        values[item->nodes[0]]);
-        }
+    if (values && good && has(system, GM_WORD_CONSTRAINT)) {
+        good = check_constraints(system, start, fault);
     }
-    for (size_t i = 0; values && reached && good && i < system->n; i++) {
+    for (size_t i = 0; values && good && i < system->n; i++) {
         if (system->rates[i] == GM_NO_NODE || isfinite(values[system->rates[i]])) {
             continue;
         }
-        /* the first of its parts that is not finite and was written */
-        gm_formula_reach(&system->graph, system->rates[i], reached);
-        size_t place = 0;
-        for (gm_node_id k = 0; k <= system->rates[i] && place == 0; k++) {
-            place = reached[k] && !isfinite(values[k]) && system->graph.places[k] != SIZE_MAX
-                        ? system->graph.places[k]
-                        : 0;
+        /* of the rate, or of what it is derived from */
+        size_t place = first_not_finite(system, system->rates[i], values);
+        if (place == 0 && system->kind != GM_RATES) {
+            place = first_not_finite(system, system->energy, values);
         }
-        good = fail(fault, place, "the rate of %.60s is not finite at the start", system->variables[i].name);
+        good =
+            gm_fail(fault, place, "the rate of %.60s is not finite at the start", system->variables[i].name);
     }
-    good = good && (!values || system->kind != GM_LAGRANGIAN || check_legendre(system, start, fault));
-    system->graph.failed |= !values || !reached;
+    if (values && good && (system->kind == GM_CANONICAL || system->kind == GM_POISSON)) {
+        good =
+            isfinite(values[system->energy]) ||
+            gm_fail(fault, first_not_finite(system, system->energy, values), "H is not finite at the start");
+    }
+    system->graph.failed |= !values;
     free(start);
     free(values);
-    free(reached);
     return good;
+}
+
+/* Whether a formula of a field holds no component, time or place but those of some numbers. */
+static bool holds_only(struct gm_own_system *system, gm_node_id node, const size_t *numbers, size_t count,
+                       const char *what, struct gm_fault *fault)
+{
+    size_t part_count = 0;
+    bool good = true;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &part_count);
+    for (size_t i = 0; parts && i < part_count && good; i++) {
+        const struct gm_node *part = &system->graph.nodes[parts[i]];
+        const bool moves =
+            part->operation == GM_VARIABLE && (part->a < system->parameters || part->a >= system->velocities);
+        size_t k = 0;
+        while (moves && k < count && numbers[k] != part->a) {
+            k++;
+        }
+        if (moves && k == count) {
+            const size_t place = system->graph.places[node];
+            good = gm_fail(fault, place == SIZE_MAX ? 0 : place, "%s does not hold %.60s", what,
+                           system->variables[part->a].name);
+        }
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return good;
+}
+
+static bool is_smooth(struct gm_own_system *system, struct gm_fault *fault)
+{
+    size_t count = 0;
+    bool good = true;
+    gm_node_id *parts = gm_formula_parts(&system->graph, system->energy, &count);
+    for (size_t i = 0; parts && i < count && good; i++) {
+        const struct gm_operation_row *row = &gm_operation_rows[system->graph.nodes[parts[i]].operation];
+        if (row->name && !row->smooth) {
+            good = gm_fail(fault, system->graph.places[parts[i]],
+                           "V has to be smooth, and %s is not: its force would jump", row->name);
+        }
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return good;
+}
+
+static bool check_field(struct gm_own_system *system, struct gm_fault *fault)
+{
+    enum { U, U_T, T };
+    const size_t x = system->velocities;
+    const size_t in_v[] = {U}, in_start[] = {x}, in_exact[] = {x, T}, in_density[] = {U, U_T, x, x + 1};
+    bool good = is_smooth(system, fault) && holds_only(system, system->energy, in_v, 1, "V", fault);
+    for (size_t i = 0; i < system->n && good; i++) {
+        good = holds_only(system, system->variables[i].start, in_start, 1, "the start of a field", fault);
+    }
+    if (good && system->variables[U_T].exact != GM_NO_NODE) {
+        good = gm_fail(fault, 0, "exact: is of %.60s alone", system->variables[U].name);
+    }
+    if (good && system->variables[U].exact != GM_NO_NODE) {
+        good = holds_only(system, system->variables[U].exact, in_exact, 2, "the exact solution of a field",
+                          fault);
+    }
+    for (size_t i = 0; i < system->item_count && good; i++) {
+        struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {
+            item->check = GM_UNTESTED;
+            good = holds_only(system, item->nodes[0], in_density, 4, "a density", fault);
+        }
+    }
+    return good && !system->graph.failed;
 }
 
 bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
                        const struct gm_system_value *values, size_t count, struct gm_fault *fault)
 {
-    return gm_system_read(system, text, length, values, count, fault) && derive(system) &&
-           (system->kind != GM_POISSON || check_jacobi(system, fault)) && check_start(system, fault) &&
+    if (!gm_system_read(system, text, length, values, count, fault) || !derive(system)) {
+        return false;
+    }
+    if (system->kind == GM_FIELD) {
+        return check_field(system, fault);
+    }
+    return (system->kind != GM_POISSON || check_jacobi(system, fault)) && check_start(system, fault) &&
            check_items(system, fault) && !system->graph.failed;
 }

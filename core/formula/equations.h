@@ -6,20 +6,23 @@
 #include "core/formula/system.h"
 
 /* Reads a system (gm_system_read), derives its equations, and checks Jacobi's identity, Casimirs, invariants,
-   symmetries, whose momentum maps are appended, and the start: constraints, the Legendre transform, what is not
-   finite. False with a fault, whose sentence is empty where memory was refused. To be closed, by
+   symmetries, whose momentum maps are appended, and the start: constraints, the Legendre transform, what is
+   not finite. False with a fault, whose sentence is empty where memory was refused. To be closed, by
    gm_system_close, in both cases. */
 bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
                        const struct gm_system_value *values, size_t count, struct gm_fault *fault);
 
 /* Values for all variables at the start, t = 0: parameters, and components as `start` says; a Lagrangian's
-   momenta of its velocities, where these are given. What needs itself is NaN. malloc'ed; NULL where memory is
+   momenta of its velocities, where these are given. `given`, of all variables, has what takes the place of
+   that, NaN where nothing does; NULL: nowhere. What needs itself is NaN. malloc'ed; NULL where memory is
    short. */
-double *gm_equations_start(const struct gm_own_system *system);
+double *gm_equations_start(const struct gm_own_system *system, const double *given);
 
 /* The rate of change of a node along the motion; GM_NO_NODE where it is not known (of a Lagrangian, or with a
    constraint) or memory was refused. */
 gm_node_id gm_equations_rate_of(struct gm_own_system *system, gm_node_id node);
+/* Of a Lagrangian: dL/dv takes the place of the momenta in nodes. False where memory was refused. */
+bool gm_equations_in_velocities(struct gm_own_system *system, gm_node_id *nodes, size_t count);
 /* Whether a node is 0 whatever the state: parameters have any value, or else the system's own. */
 enum gm_identity gm_equations_vanishes(const struct gm_own_system *system, gm_node_id node);
 

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Structure is a matter of derivatives that vanish: H separates where d2H / dp dq does. What stands in the way is
-   the first term of the sum whose own derivative does not vanish. */
+/* Structure is a matter of derivatives that vanish: H separates where d2H / dp dq does. What stands in the
+   way is the first term of the sum whose own derivative does not vanish. The parts of a facet are terms of
+   the sum, too. */
 #include "core/formula/facts.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +12,7 @@
 #include "core/formula/derivative.h"
 #include "core/formula/equations.h"
 
-enum { MOST_TERMS = 64 }; /* that are tried one by one */
+enum { MOST_TERMS = 4096, MOST_TRIED = 64 }; /* what a sum is taken apart into; what is tried one by one */
 
 static const struct {
     const char *word, *yes, *no;
@@ -23,6 +25,12 @@ static const struct {
     [GM_FACT_DIVERGENCE_FREE] = {"divergence-free", "the divergence is 0", "is the divergence"},
     [GM_FACT_SMOOTH] = {"smooth", "no min, max, abs or mod", "is not smooth"},
     [GM_FACT_AUTONOMOUS] = {"autonomous", "the time does not occur", "contains the time"},
+    [GM_FACT_FAST_LINEAR] = {"fast-linear", "H = |p|^2/2 + omega^2 q^2/2 + U(q)",
+                             "gives no coordinate a frequency of its own"},
+    [GM_FACT_KEPLER_SPLIT] = {"kepler-split", "H = |p|^2/2 - 1/|q| + W(q)", "is not -1/|q|"},
+    [GM_FACT_LAGRANGIAN] = {"lagrangian", "L = v^2/2 - V(q), one degree of freedom", ""},
+    [GM_FACT_CONFORMAL] = {"conformal", "every force is the same multiple of the momentum",
+                           "is not the multiple of the momentum that others are"},
 };
 
 const char *gm_fact_word(enum gm_fact fact)
@@ -30,13 +38,27 @@ const char *gm_fact_word(enum gm_fact fact)
     return rows[fact].word;
 }
 
+/* what is marked among the variables that a node holds */
 static bool depends(struct gm_own_system *system, gm_node_id node, const bool *marked)
 {
-    bool *dependent = gm_formula_dependent(&system->graph, marked, system->variable_count);
-    const bool answer = !dependent || dependent[node];
-    system->graph.failed |= !dependent;
-    free(dependent);
-    return answer;
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    bool found = false;
+    for (size_t i = 0; i < count && !found; i++) {
+        const struct gm_node *part = &system->graph.nodes[parts[i]];
+        found = part->operation == GM_VARIABLE && marked[part->a];
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return found;
+}
+
+static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    system->graph.simplifies = true;
+    const gm_node_id node = gm_formula_apply(&system->graph, operation, a, b);
+    system->graph.simplifies = false;
+    return node;
 }
 
 /* Whether all derivatives of a node, over sets[0], of these over sets[1], and so on, are 0. */
@@ -55,61 +77,91 @@ static enum gm_identity vanishes(struct gm_own_system *system, gm_node_id node, 
         system->graph.failed = true;
         all = GM_UNTESTED;
     }
-    for (size_t i = 0; i < system->n && all != GM_NOT_ZERO && !system->graph.failed; i++) {
+    for (size_t i = 0; i < system->variable_count && all != GM_NOT_ZERO && !system->graph.failed; i++) {
+        const bool is_zero = !sets[0][i] || gm_is_constant(&system->graph, gradient[i], 0);
         const enum gm_identity found =
-            sets[0][i] ? vanishes(system, gradient[i], sets + 1, depth - 1) : GM_ZERO_PROVED;
+            is_zero ? GM_ZERO_PROVED : vanishes(system, gradient[i], sets + 1, depth - 1);
         all = found == GM_ZERO_PROVED ? all : found;
     }
     free(gradient);
     return all;
 }
 
-/* The terms that a node is the sum of; factors that hold no component are left aside. Returns how many, at most
-   MOST_TERMS. */
-static size_t terms_of(struct gm_own_system *system, gm_node_id root, const bool *components,
-                       gm_node_id *terms)
+/* A term of a sum: coefficient * node, where the coefficient holds no component. */
+struct term {
+    gm_node_id node, coefficient;
+};
+
+/* The terms that a node is the sum of, at most MOST_TERMS. malloc'ed; NULL where memory was refused. */
+static struct term *terms_of(struct gm_own_system *system, gm_node_id root, const bool *components,
+                             size_t *count)
 {
-    bool *dependent = gm_formula_dependent(&system->graph, components, system->variable_count);
-    gm_node_id *stack = malloc((system->graph.count + (size_t)1) * sizeof *stack);
-    size_t depth = 0, count = 0;
-    if (dependent && stack) {
-        stack[depth++] = root;
+    struct gm_formula *graph = &system->graph;
+    bool *dependent = gm_formula_dependent(graph, components, system->variable_count);
+    struct term *terms = malloc((MOST_TERMS + 1) * sizeof *terms);
+    struct term *stack = malloc((MOST_TERMS + 1) * sizeof *stack);
+    size_t depth = 0;
+    *count = 0;
+    if (dependent && terms && stack) {
+        stack[depth++] = (struct term){root, gm_formula_constant(graph, 1)};
     }
-    while (depth > 0 && count < MOST_TERMS) {
-        const gm_node_id node = stack[--depth];
-        const struct gm_node *here = &system->graph.nodes[node];
-        const bool is_sum = here->operation == GM_OPERATION_ADD || here->operation == GM_OPERATION_SUBTRACT;
-        if (is_sum) {
-            stack[depth++] = here->b;
-            stack[depth++] = here->a;
-        } else if (here->operation == GM_OPERATION_NEGATE ||
-                   ((here->operation == GM_OPERATION_MULTIPLY || here->operation == GM_OPERATION_DIVIDE) &&
-                    !dependent[here->b])) {
-            stack[depth++] = here->a;
-        } else if (here->operation == GM_OPERATION_MULTIPLY && !dependent[here->a]) {
-            stack[depth++] = here->b;
-        } else {
-            terms[count++] = node;
+    while (depth > 0 && !graph->failed) {
+        const struct term top = stack[--depth];
+        const struct gm_node here = graph->nodes[top.node];
+        const bool is_last = *count + depth + 2 > MOST_TERMS;
+        switch (is_last ? GM_CONSTANT : here.operation) {
+        case GM_OPERATION_ADD:
+        case GM_OPERATION_SUBTRACT:
+            stack[depth++] =
+                (struct term){here.b, here.operation == GM_OPERATION_ADD
+                                          ? top.coefficient
+                                          : apply(system, GM_OPERATION_NEGATE, top.coefficient, 0)};
+            stack[depth++] = (struct term){here.a, top.coefficient};
+            continue;
+        case GM_OPERATION_NEGATE:
+            stack[depth++] = (struct term){here.a, apply(system, GM_OPERATION_NEGATE, top.coefficient, 0)};
+            continue;
+        case GM_OPERATION_MULTIPLY:
+        case GM_OPERATION_DIVIDE:
+            if (!dependent[here.b]) {
+                stack[depth++] =
+                    (struct term){here.a, apply(system, here.operation, top.coefficient, here.b)};
+                continue;
+            }
+            if (here.operation == GM_OPERATION_MULTIPLY && !dependent[here.a]) {
+                stack[depth++] =
+                    (struct term){here.b, apply(system, GM_OPERATION_MULTIPLY, top.coefficient, here.a)};
+                continue;
+            }
+            break;
+        default:
+            break;
         }
+        terms[(*count)++] = top;
     }
-    system->graph.failed |= !dependent || !stack;
+    graph->failed |= !dependent || !terms || !stack;
     free(dependent);
     free(stack);
-    return count;
+    if (graph->failed) {
+        free(terms);
+        terms = NULL;
+        *count = 0;
+    }
+    return terms;
 }
 
 /* The first term whose derivatives do not vanish; the node itself where no term alone is to blame. */
 static gm_node_id culprit(struct gm_own_system *system, gm_node_id node, const bool *components,
                           const bool *const *sets, size_t depth)
 {
-    gm_node_id terms[MOST_TERMS];
-    const size_t count = terms_of(system, node, components, terms);
-    for (size_t i = 0; i < count; i++) {
-        if (vanishes(system, terms[i], sets, depth) == GM_NOT_ZERO) {
-            return terms[i];
-        }
+    size_t count = 0;
+    struct term *terms = terms_of(system, node, components, &count);
+    gm_node_id found = GM_NO_NODE;
+    for (size_t i = 0; i < count && i < MOST_TRIED && found == GM_NO_NODE; i++) {
+        found = vanishes(system, terms[i].node, sets, depth) == GM_NOT_ZERO ? terms[i].node : GM_NO_NODE;
     }
-    return node;
+    free(terms);
+    return found == GM_NO_NODE ? node : found;
 }
 
 static void conclude(struct gm_finding *finding, enum gm_identity found)
@@ -118,21 +170,373 @@ static void conclude(struct gm_finding *finding, enum gm_identity found)
     finding->how = found == GM_ZERO_PROVED ? finding->how : found;
 }
 
-static void find_hamiltonian(struct gm_own_system *system, struct gm_finding *findings, const bool *q,
-                             const bool *p, const bool *components)
+static void deny(struct gm_finding *finding, gm_node_id term, const char *why)
+{
+    finding->holds = false;
+    finding->how = GM_NOT_ZERO;
+    finding->term = term;
+    finding->why = why;
+}
+
+/* Of the energy; of a Lagrangian L, with velocities for momenta: where L = T(v) - V(q), H separates as well,
+   and the transform of a quadratic T is quadratic. */
+static void find_split(struct gm_own_system *system, struct gm_finding *findings, const bool *q,
+                       const bool *p, const bool *all)
 {
     struct gm_finding *separable = &findings[GM_FACT_SEPARABLE], *nystrom = &findings[GM_FACT_NYSTROM];
+    const bool lagrangian = system->kind == GM_LAGRANGIAN;
     separable->asked = nystrom->asked = true;
     conclude(separable, vanishes(system, system->energy, (const bool *const[]){p, q}, 2));
     if (!separable->holds) {
-        separable->term = culprit(system, system->energy, components, (const bool *const[]){p, q}, 2);
-        nystrom->holds = false;
+        separable->term = culprit(system, system->energy, all, (const bool *const[]){p, q}, 2);
+        separable->why = lagrangian ? "holds coordinates and velocities" : NULL;
+        deny(nystrom, GM_NO_NODE, lagrangian ? "L does not separate" : "H does not separate");
         return;
     }
     conclude(nystrom, vanishes(system, system->energy, (const bool *const[]){p, p, p}, 3));
     if (!nystrom->holds) {
-        nystrom->term = culprit(system, system->energy, components, (const bool *const[]){p, p, p}, 3);
+        nystrom->term = culprit(system, system->energy, all, (const bool *const[]){p, p, p}, 3);
+        nystrom->why = lagrangian ? "is not quadratic in the velocities" : NULL;
     }
+}
+
+/* the derivative over variable i, which alone is marked; any node where memory was refused */
+static gm_node_id slope_of(struct gm_own_system *system, gm_node_id node, const bool *own, size_t i)
+{
+    gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient), slope = 0;
+    if (gradient && gm_gradient(&system->graph, node, own, system->variable_count, gradient)) {
+        slope = gradient[i];
+    }
+    system->graph.failed |= !gradient;
+    free(gradient);
+    return slope;
+}
+
+static bool is_held(const struct gm_own_system *system)
+{
+    bool held = false;
+    for (size_t i = 0; i < system->item_count; i++) {
+        held |= system->items[i].word == GM_WORD_CONSTRAINT;
+    }
+    return held;
+}
+
+/* Whether the system is mechanical with unit masses, H = |p|^2/2 + V(q), or L = |v|^2/2 - V(q), and nothing
+   acts beside. Else the finding says why not. */
+static bool is_of_unit_mass(struct gm_own_system *system, const struct gm_finding *findings,
+                            struct gm_finding *finding, const bool *all, bool *own)
+{
+    const size_t half = system->n / 2;
+    const bool lagrangian = system->kind == GM_LAGRANGIAN;
+    const size_t first = lagrangian ? system->velocities : half;
+    if (is_held(system)) {
+        deny(finding, GM_NO_NODE, "it has constraints");
+        return false;
+    }
+    for (size_t i = 0; i < half; i++) {
+        if (system->variables[i].force != GM_NO_NODE) {
+            deny(finding, system->variables[i].force, lagrangian ? "acts beside L" : "acts beside H");
+            return false;
+        }
+    }
+    if (!findings[GM_FACT_SEPARABLE].holds || system->timed) {
+        deny(finding, GM_NO_NODE, system->timed ? "the time occurs" : findings[GM_FACT_NYSTROM].why);
+        return false;
+    }
+    for (size_t i = 0; i < half && finding->holds && !system->graph.failed; i++) {
+        const gm_node_id p = gm_formula_variable(&system->graph, first + i);
+        const gm_node_id slope = lagrangian ? system->momenta[i] : system->rates[i];
+        conclude(finding, gm_equations_vanishes(system, apply(system, GM_OPERATION_SUBTRACT, slope, p)));
+        size_t count = 0;
+        struct term *terms = finding->holds ? NULL : terms_of(system, system->energy, all, &count);
+        own[first + i] = true;
+        finding->why = lagrangian ? "is not of |v|^2/2" : "is not of |p|^2/2";
+        for (size_t k = 0; k < count && k < MOST_TRIED && finding->term == GM_NO_NODE; k++) {
+            if (depends(system, terms[k].node, own)) {
+                const gm_node_id part = apply(system, GM_OPERATION_MULTIPLY, terms[k].coefficient,
+                                              slope_of(system, terms[k].node, own, first + i));
+                const gm_node_id rest = apply(system, GM_OPERATION_SUBTRACT, part, p);
+                finding->term =
+                    gm_equations_vanishes(system, rest) == GM_NOT_ZERO ? terms[k].node : GM_NO_NODE;
+            }
+        }
+        own[first + i] = false;
+        free(terms);
+    }
+    if (!finding->holds && finding->term == GM_NO_NODE) {
+        finding->why = lagrangian ? "the kinetic energy is not |v|^2/2" : "the kinetic energy is not |p|^2/2";
+    }
+    return finding->holds && !system->graph.failed;
+}
+
+/* a node where `count` variables, from one on, are 0 */
+static gm_node_id at_zero(struct gm_own_system *system, gm_node_id node, size_t first, size_t count)
+{
+    gm_node_id *replacement = malloc(system->variable_count * sizeof *replacement);
+    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; replacement && i < system->variable_count; i++) {
+        replacement[i] = i >= first && i < first + count ? zero : GM_NO_NODE;
+    }
+    system->graph.failed |=
+        !replacement || !gm_formula_substitute(&system->graph, &node, 1, replacement, system->variable_count);
+    free(replacement);
+    return node;
+}
+
+/* V of a system that is_of_unit_mass: H, or -L, at rest */
+static gm_node_id potential_of(struct gm_own_system *system)
+{
+    return system->kind == GM_LAGRANGIAN
+               ? apply(system, GM_OPERATION_NEGATE,
+                       at_zero(system, system->energy, system->velocities, system->n / 2), 0)
+               : at_zero(system, system->energy, system->n / 2, system->n / 2);
+}
+
+/* values of all nodes at the start; malloc'ed */
+static double *values_at_start(struct gm_own_system *system)
+{
+    double *start = gm_equations_start(system, NULL);
+    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    if (start && values) {
+        gm_formula_evaluate(&system->graph, system->graph.count, start, values);
+    } else {
+        system->graph.failed = true;
+    }
+    free(start);
+    return values;
+}
+
+/* forces[i] = -d node / d q_i */
+static void forces_of(struct gm_own_system *system, gm_node_id node, const bool *q, gm_node_id *forces)
+{
+    gm_node_id *gradient = malloc(system->variable_count * sizeof *gradient);
+    if (gradient && gm_gradient(&system->graph, node, q, system->variable_count, gradient)) {
+        for (size_t i = 0; i < system->n / 2; i++) {
+            forces[i] = apply(system, GM_OPERATION_NEGATE, gradient[i], 0);
+        }
+    }
+    system->graph.failed |= !gradient;
+    free(gradient);
+}
+
+/* A term of the potential that depends on one coordinate alone, and its second derivative. */
+struct well {
+    size_t coordinate; /* SIZE_MAX: it depends on none, or on several */
+    gm_node_id slope, stiffness;
+};
+
+/* Wells of all terms; malloc'ed. Those of a stiffness that depends on the state are none. */
+static struct well *wells_of(struct gm_own_system *system, const struct term *terms, size_t count,
+                             const bool *q, const bool *all, bool *own)
+{
+    struct well *wells = malloc((count + 1) * sizeof *wells);
+    system->graph.failed |= !wells;
+    for (size_t k = 0; k < count && !system->graph.failed; k++) {
+        struct well *well = &wells[k];
+        size_t size = 0, held = 0;
+        gm_node_id *parts = gm_formula_parts(&system->graph, terms[k].node, &size);
+        *well = (struct well){.coordinate = SIZE_MAX};
+        for (size_t i = 0; i < size; i++) {
+            const struct gm_node *part = &system->graph.nodes[parts[i]];
+            if (part->operation == GM_VARIABLE && q[part->a]) {
+                well->coordinate = held++ == 0 ? part->a : SIZE_MAX;
+            }
+        }
+        system->graph.failed |= !parts;
+        free(parts);
+        if (well->coordinate == SIZE_MAX) {
+            continue;
+        }
+        const size_t i = well->coordinate;
+        own[i] = true;
+        well->slope = apply(system, GM_OPERATION_MULTIPLY, terms[k].coefficient,
+                            slope_of(system, terms[k].node, own, i));
+        well->stiffness = slope_of(system, well->slope, own, i);
+        own[i] = false;
+        well->coordinate = depends(system, well->stiffness, all) ? SIZE_MAX : i;
+    }
+    return wells;
+}
+
+/* Each coordinate's own quadratic terms make its frequency; what is left of them, and the others, U. */
+static void find_fast_linear(struct gm_own_system *system, struct gm_finding *finding, gm_node_id potential,
+                             gm_node_id *nodes, const bool *q, const bool *all, bool *own)
+{
+    const size_t half = system->n / 2;
+    size_t count = 0, frequencies = 0;
+    struct gm_formula *graph = &system->graph;
+    const gm_node_id zero = gm_formula_constant(graph, 0);
+    struct term *terms = terms_of(system, potential, all, &count);
+    struct well *wells = wells_of(system, terms, count, q, all, own);
+    double *values = graph->failed ? NULL : values_at_start(system);
+    gm_node_id slow = zero, *squares = malloc((2 * half + 1) * sizeof *squares),
+               *rest = squares ? squares + half : NULL;
+    graph->failed |= !squares;
+    for (size_t i = 0; i < half && !graph->failed; i++) {
+        squares[i] = rest[i] = zero;
+    }
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        const size_t i = wells[k].coordinate;
+        if (i == SIZE_MAX || !(values[wells[k].stiffness] > 0)) {
+            slow = apply(system, GM_OPERATION_ADD, slow,
+                         apply(system, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node));
+            continue;
+        }
+        squares[i] = apply(system, GM_OPERATION_ADD, squares[i], wells[k].stiffness);
+        rest[i] = apply(system, GM_OPERATION_ADD, rest[i], at_zero(system, wells[k].slope, i, 1));
+        frequencies++;
+    }
+    if (frequencies == 0 && !graph->failed) {
+        deny(finding, GM_NO_NODE, "no coordinate has a frequency of its own");
+        for (size_t k = 0; k < count && finding->term == GM_NO_NODE; k++) {
+            finding->term = depends(system, terms[k].node, q) ? terms[k].node : GM_NO_NODE;
+            finding->why = finding->term == GM_NO_NODE ? finding->why : NULL;
+        }
+    } else if (!graph->failed) {
+        forces_of(system, slow, q, nodes + half);
+        for (size_t i = 0; i < half; i++) {
+            nodes[i] = squares[i] == zero ? zero : apply(system, GM_OPERATION_SQRT, squares[i], 0);
+            nodes[half + i] = apply(system, GM_OPERATION_SUBTRACT, nodes[half + i], rest[i]);
+        }
+        finding->nodes = nodes;
+    }
+    free(terms);
+    free(wells);
+    free(values);
+    free(squares);
+}
+
+/* One term is -1/|q|; the others are the perturbation. */
+static void find_kepler_split(struct gm_own_system *system, struct gm_finding *finding, gm_node_id potential,
+                              gm_node_id *nodes, const bool *q, const bool *all)
+{
+    size_t count = 0;
+    struct term *terms = terms_of(system, potential, all, &count);
+    const gm_node_id x = gm_formula_variable(&system->graph, 0), y = gm_formula_variable(&system->graph, 1);
+    const gm_node_id square = apply(system, GM_OPERATION_ADD, apply(system, GM_OPERATION_MULTIPLY, x, x),
+                                    apply(system, GM_OPERATION_MULTIPLY, y, y));
+    const gm_node_id inverse = apply(system, GM_OPERATION_DIVIDE, gm_formula_constant(&system->graph, 1),
+                                     apply(system, GM_OPERATION_SQRT, square, 0));
+    gm_node_id perturbation = gm_formula_constant(&system->graph, 0), other = GM_NO_NODE;
+    bool found = false;
+    for (size_t k = 0; k < count && !system->graph.failed; k++) {
+        const gm_node_id term = apply(system, GM_OPERATION_MULTIPLY, terms[k].coefficient, terms[k].node);
+        const bool held = depends(system, terms[k].node, q);
+        const enum gm_identity is_kepler =
+            found || !held || k >= MOST_TRIED
+                ? GM_NOT_ZERO
+                : gm_equations_vanishes(system, apply(system, GM_OPERATION_ADD, term, inverse));
+        if (is_kepler == GM_ZERO_PROVED || is_kepler == GM_ZERO_TESTED) {
+            conclude(finding, is_kepler);
+            found = true;
+        } else {
+            perturbation = apply(system, GM_OPERATION_ADD, perturbation, term);
+            other = held && other == GM_NO_NODE ? terms[k].node : other;
+        }
+    }
+    nodes[0] = potential;
+    forces_of(system, perturbation, q, nodes + 1);
+    double *values = system->graph.failed ? NULL : values_at_start(system);
+    if (!found) {
+        deny(finding, other, other == GM_NO_NODE ? "there is no -1/|q|" : NULL);
+    } else if (values && !(values[potential] < 0)) {
+        deny(finding, GM_NO_NODE, "the potential is not negative at the start");
+    }
+    finding->nodes = nodes;
+    free(values);
+    free(terms);
+}
+
+/* V, V', V'' */
+static void find_one_degree(struct gm_own_system *system, struct gm_finding *finding, gm_node_id potential,
+                            gm_node_id *nodes, const bool *q)
+{
+    nodes[0] = potential;
+    nodes[1] = slope_of(system, nodes[0], q, 0);
+    nodes[2] = slope_of(system, nodes[1], q, 0);
+    finding->nodes = nodes;
+}
+
+/* Every force is -c p: c from the first one, by the derivatives of force and momentum. */
+static void find_conformal(struct gm_own_system *system, struct gm_finding *finding, gm_node_id *nodes,
+                           const bool *all, bool *own)
+{
+    static const char changes[] = "is not a constant multiple of the momentum";
+    const size_t half = system->n / 2;
+    const bool lagrangian = system->kind == GM_LAGRANGIAN;
+    const size_t first = lagrangian ? system->velocities : half;
+    for (size_t i = 0; i < half; i++) {
+        finding->asked |= system->variables[i].force != GM_NO_NODE;
+    }
+    for (size_t i = 0; i < half && finding->asked && finding->holds && !system->graph.failed; i++) {
+        const gm_node_id written = system->variables[i].force;
+        const gm_node_id p = lagrangian ? system->momenta[i] : gm_formula_variable(&system->graph, first + i);
+        gm_node_id force = written;
+        if (force == GM_NO_NODE) {
+            deny(finding, GM_NO_NODE, "no force acts");
+            finding->component = half + i;
+            break;
+        }
+        if (lagrangian) {
+            gm_equations_in_velocities(system, &force, 1);
+        }
+        if (i == 0) {
+            own[first] = true;
+            nodes[0] = apply(system, GM_OPERATION_NEGATE,
+                             apply(system, GM_OPERATION_DIVIDE, slope_of(system, force, own, first),
+                                   slope_of(system, p, own, first)),
+                             0);
+            own[first] = false;
+        }
+        const gm_node_id rest =
+            apply(system, GM_OPERATION_ADD, force, apply(system, GM_OPERATION_MULTIPLY, nodes[0], p));
+        conclude(finding, gm_equations_vanishes(system, rest));
+        own[system->n] = true;
+        const bool varies = depends(system, nodes[0], all) || depends(system, nodes[0], own);
+        own[system->n] = false;
+        if (!finding->holds || varies) {
+            deny(finding, written, i == 0 ? changes : NULL);
+        }
+    }
+    finding->nodes = finding->holds ? nodes : NULL;
+}
+
+/* The facets of H = |p|^2/2 + V(q), and of its Lagrangian. */
+static void find_mechanical(struct gm_own_system *system, struct gm_finding *findings, gm_node_id *nodes,
+                            const bool *q, const bool *all, bool *own)
+{
+    struct gm_finding common = findings[GM_FACT_SEPARABLE];
+    const size_t n = system->n;
+    const bool canonical = system->kind == GM_CANONICAL;
+    const bool holds = is_of_unit_mass(system, findings, &common, all, own);
+    const gm_node_id potential = holds ? potential_of(system) : GM_NO_NODE;
+    static const enum gm_fact facts[] = {GM_FACT_FAST_LINEAR, GM_FACT_KEPLER_SPLIT, GM_FACT_LAGRANGIAN};
+    for (size_t i = 0; i < sizeof facts / sizeof *facts; i++) {
+        findings[facts[i]] = common;
+    }
+    findings[GM_FACT_FAST_LINEAR].asked = canonical;
+    findings[GM_FACT_KEPLER_SPLIT].asked = canonical && n == 4;
+    findings[GM_FACT_LAGRANGIAN].asked = n == 2;
+    if (holds && canonical) {
+        find_fast_linear(system, &findings[GM_FACT_FAST_LINEAR], potential, nodes, q, all, own);
+    }
+    if (holds && canonical && n == 4) {
+        find_kepler_split(system, &findings[GM_FACT_KEPLER_SPLIT], potential, nodes + n, q, all);
+    }
+    if (holds && n == 2) {
+        find_one_degree(system, &findings[GM_FACT_LAGRANGIAN], potential, nodes + n + 3, q);
+    }
+    double *values = holds && !system->graph.failed ? values_at_start(system) : NULL;
+    for (size_t i = 0; i < sizeof facts / sizeof *facts && values && !system->graph.failed; i++) {
+        struct gm_finding *finding = &findings[facts[i]];
+        const size_t count = facts[i] == GM_FACT_FAST_LINEAR ? n : 3;
+        for (size_t k = 0; k < count && finding->asked && finding->holds; k++) {
+            if (!isfinite(values[finding->nodes[k]])) { /* p^3/p at rest */
+                deny(finding, GM_NO_NODE, "it cannot be taken apart as it is written");
+            }
+        }
+    }
+    free(values);
 }
 
 static void find_of_rates(struct gm_own_system *system, struct gm_finding *findings, const bool *components,
@@ -170,63 +574,83 @@ static void find_of_rates(struct gm_own_system *system, struct gm_finding *findi
     divergence->term = divergence->holds ? GM_NO_NODE : sum;
 }
 
-/* Of all that the equations are made of, the first node of a kind. */
+/* Of all that the equations are made of, the first node of a kind; one that was written before one that was
+   derived. */
 static void find_of_parts(struct gm_own_system *system, struct gm_finding *findings)
 {
     struct gm_finding *smooth = &findings[GM_FACT_SMOOTH], *autonomous = &findings[GM_FACT_AUTONOMOUS];
-    const size_t last = system->kind == GM_RATES ? system->n : system->n + 1;
-    bool *reached = malloc(system->graph.count + (size_t)1);
     smooth->asked = autonomous->asked = true;
-    for (size_t i = 0; reached && i < last; i++) {
+    for (size_t i = 0; i <= system->n && !system->graph.failed; i++) {
         const gm_node_id root = i < system->n ? system->rates[i] : system->energy;
-        if (root == GM_NO_NODE ||
-            (i < system->n && system->kind != GM_RATES && system->kind != GM_CANONICAL)) {
+        if (root == GM_NO_NODE || (i == system->n && system->kind == GM_RATES)) {
             continue;
         }
-        gm_formula_reach(&system->graph, root, reached);
-        for (gm_node_id k = 0; k <= root; k++) {
-            const struct gm_node *node = &system->graph.nodes[k];
-            const bool written = system->graph.places[k] != SIZE_MAX || i < system->n;
-            if (reached[k] && node->operation > GM_VARIABLE && !gm_operation_rows[node->operation].smooth &&
-                written && (smooth->holds || system->graph.places[smooth->term] == SIZE_MAX)) {
-                *smooth = (struct gm_finding){true, false, GM_NOT_ZERO, k, i};
+        size_t count = 0;
+        gm_node_id *parts = gm_formula_parts(&system->graph, root, &count);
+        for (size_t k = 0; k < count; k++) {
+            const struct gm_node *node = &system->graph.nodes[parts[k]];
+            if (node->operation > GM_VARIABLE && !gm_operation_rows[node->operation].smooth &&
+                (smooth->holds || smooth->term > parts[k])) {
+                *smooth = (struct gm_finding){true, false, GM_NOT_ZERO, parts[k], i, NULL, NULL};
             }
-            if (reached[k] && node->operation == GM_VARIABLE && node->a == system->n && autonomous->holds) {
-                *autonomous = (struct gm_finding){true, false, GM_NOT_ZERO, k, i};
+            if (node->operation == GM_VARIABLE && node->a == system->n && autonomous->holds) {
+                *autonomous = (struct gm_finding){true, false, GM_NOT_ZERO, parts[k], i, NULL, NULL};
             }
         }
+        system->graph.failed |= !parts;
+        free(parts);
     }
-    system->graph.failed |= !reached;
-    free(reached);
 }
 
 bool gm_facts_find(struct gm_own_system *system, struct gm_finding findings[GM_FACTS])
 {
-    const size_t half = system->n / 2;
-    bool *marks = calloc(4 * system->variable_count, sizeof *marks);
+    const size_t half = system->n / 2, count = system->variable_count;
+    bool *marks = calloc(5 * count, sizeof *marks);
+    gm_node_id *nodes = system->facets ? system->facets : malloc((system->n + 7) * sizeof *nodes);
     for (size_t i = 0; i < GM_FACTS; i++) {
         findings[i] = (struct gm_finding){
             .holds = true, .how = GM_ZERO_PROVED, .term = GM_NO_NODE, .component = system->n};
     }
-    if (!marks) {
+    system->facets = nodes;
+    if (!marks || !nodes) {
+        free(marks);
         return false;
     }
-    bool *q = marks, *p = q + system->variable_count, *components = p + system->variable_count,
-         *own = components + system->variable_count;
+    bool *q = marks, *p = q + count, *components = p + count, *all = components + count, *own = all + count;
+    const size_t moving = system->kind == GM_LAGRANGIAN ? system->velocities : half;
     for (size_t i = 0; i < system->n; i++) {
         q[i] = i < half;
-        p[i] = i >= half;
-        components[i] = true;
+        components[i] = all[i] = true;
     }
-    if (system->kind == GM_CANONICAL) {
-        find_hamiltonian(system, findings, q, p, components);
-    }
-    if (system->kind != GM_LAGRANGIAN) {
-        find_of_rates(system, findings, components, own);
+    for (size_t i = 0; i < half && system->kind <= GM_LAGRANGIAN; i++) {
+        p[moving + i] = all[moving + i] = true;
     }
     find_of_parts(system, findings);
+    if (system->kind <= GM_LAGRANGIAN) {
+        find_split(system, findings, q, p, all);
+        find_conformal(system, &findings[GM_FACT_CONFORMAL], nodes, all, own);
+        find_mechanical(system, findings, nodes + 1, q, all, own);
+    }
+    if (system->kind != GM_LAGRANGIAN && !is_held(system)) { /* else the rates are not all of the motion */
+        find_of_rates(system, findings, components, own);
+    }
     free(marks);
     return !system->graph.failed;
+}
+
+/* Where a term was written, or, of an equation that was derived, what it came from; "" where nobody knows. */
+static void write_place(const struct gm_own_system *system, gm_node_id term, bool derived, char *text,
+                        size_t size)
+{
+    derived = derived && system->graph.origins[term] != SIZE_MAX;
+    const size_t place = derived ? system->graph.origins[term] : gm_formula_origin(&system->graph, term);
+    text[0] = '\0';
+    if (place != SIZE_MAX && !system->typed) {
+        size_t line, column;
+        gm_text_place(system->source, place, &line, &column);
+        derived |= system->graph.places[term] == SIZE_MAX;
+        snprintf(text, size, " (%sline %zu, column %zu)", derived ? "from " : "", line, column);
+    }
 }
 
 char *gm_fact_reason(const struct gm_own_system *system, enum gm_fact fact, const struct gm_finding *finding)
@@ -238,23 +662,20 @@ char *gm_fact_reason(const struct gm_own_system *system, enum gm_fact fact, cons
                         finding->how == GM_ZERO_TESTED ? " (at random points)" : "");
         return made < 0 ? NULL : reason;
     }
-    if (fact == GM_FACT_NYSTROM && finding->term == GM_NO_NODE) {
-        return strdup("H does not separate");
-    }
-    struct gm_naming naming = gm_system_naming(system);
-    naming.part = NULL; /* written out: it is what is in it that matters */
-    text = finding->term == GM_NO_NODE ? NULL : gm_formula_text(&system->graph, finding->term, &naming);
-    char where[80] = "";
-    const size_t place = finding->term == GM_NO_NODE ? SIZE_MAX : system->graph.places[finding->term];
-    if (place != SIZE_MAX) {
-        size_t line, column;
-        gm_text_place(system->source, place, &line, &column);
-        snprintf(where, sizeof where, " (line %zu, column %zu)", line, column);
-    }
     const bool in_rate = finding->component < system->n && fact != GM_FACT_DIVERGENCE_FREE;
-    made = asprintf(&reason, "%s%s %s%s%s", text ? text : "a long term", where, rows[fact].no,
-                    in_rate ? ", in the rate of " : "",
-                    in_rate ? system->variables[finding->component].name : "");
+    const char *where = in_rate ? ", in the rate of " : "",
+               *component = in_rate ? system->variables[finding->component].name : "",
+               *why = finding->why ? finding->why : rows[fact].no;
+    if (finding->term == GM_NO_NODE) {
+        made = asprintf(&reason, "%s%s%s", why, where, component);
+    } else {
+        struct gm_naming naming = gm_system_naming(system);
+        naming.part = NULL; /* written out: it is what is in it that matters */
+        text = gm_formula_text(&system->graph, finding->term, &naming);
+        char place[80];
+        write_place(system, finding->term, in_rate && system->kind != GM_RATES, place, sizeof place);
+        made = asprintf(&reason, "%s%s %s%s%s", text ? text : "a long term", place, why, where, component);
+    }
     free(text);
     return made < 0 ? NULL : reason;
 }

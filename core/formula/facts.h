@@ -13,15 +13,24 @@ enum gm_fact {
     GM_FACT_DIVERGENCE_FREE, /* the sum of d rate / d component is 0 */
     GM_FACT_SMOOTH,          /* no min, max, abs, mod */
     GM_FACT_AUTONOMOUS,      /* t does not occur */
+    /* H = |p|^2/2 + sum of omega_i^2 q_i^2 / 2 + U(q); nodes: all omega_i, all -dU/dq_i */
+    GM_FACT_FAST_LINEAR,
+    /* H = |p|^2/2 + V(q), V = -1/|q| + W(q) < 0 in the plane; nodes: V, both -dW/dq_i */
+    GM_FACT_KEPLER_SPLIT,
+    GM_FACT_LAGRANGIAN, /* L = v^2/2 - V(q), one degree of freedom; nodes: V, V', V'' */
+    GM_FACT_CONFORMAL,  /* every force is -c p with the same constant c, its node */
     GM_FACTS
 };
 
 struct gm_finding {
     bool asked; /* the kind of system has such a structure, or not */
     bool holds;
-    enum gm_identity how; /* proved, or tested at random points */
+    enum gm_identity how; /* proved, or tested at random points, with the parameters as they are */
     gm_node_id term;      /* what stands in its way; GM_NO_NODE */
     size_t component;     /* in the rate of this component; n: in H or L */
+    const char *why;      /* it does; NULL: as usual */
+    const gm_node_id
+        *nodes; /* that make the facet of core/ode/ode.h, where it holds; they are the system's */
 };
 
 /* "separable" */

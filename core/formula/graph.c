@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The graph of a formula: every node once, constants folded by the running library, derivatives simplified. */
+/* The graph of a formula: every node once, constants folded by the running library, derivatives
+   simplified. */
 #include "core/formula/graph.h"
 
 #include <math.h>
@@ -12,23 +13,6 @@ const struct gm_operation_row gm_operation_rows[GM_OPERATIONS] = {
 #include "core/formula/operations.def"
 #undef GM_OPERATION
 };
-
-double gm_whole_power(double x, double n)
-{
-    double power = 1;
-    const int whole = (int)fabs(n);
-    for (int bit = GM_MOST_CHAINED; bit > 0; bit /= 2) {
-        power = power == 1 ? 1 : power * power;
-        power = whole & bit ? (whole < 2 * bit ? x : power * x) : power;
-    }
-    return n < 0 ? 1 / power : power;
-}
-
-double gm_modulo(double a, double b)
-{
-    const double rest = fmod(a, b);
-    return rest != 0 && (rest < 0) != (b < 0) ? rest + b : rest;
-}
 
 double gm_operation_value(enum gm_operation operation, double a, double b)
 {
@@ -48,13 +32,14 @@ double gm_operation_value(enum gm_operation operation, double a, double b)
 
 void gm_formula_open(struct gm_formula *graph)
 {
-    *graph = (struct gm_formula){.place = SIZE_MAX};
+    *graph = (struct gm_formula){.place = SIZE_MAX, .origin = SIZE_MAX};
 }
 
 void gm_formula_close(struct gm_formula *graph)
 {
     free(graph->nodes);
     free(graph->places);
+    free(graph->origins);
     free(graph->table);
     *graph = (struct gm_formula){0};
 }
@@ -97,8 +82,10 @@ static bool grow(struct gm_formula *graph)
     graph->nodes = nodes ? nodes : graph->nodes;
     size_t *places = realloc(graph->places, capacity * sizeof *places);
     graph->places = places ? places : graph->places;
+    size_t *origins = realloc(graph->origins, capacity * sizeof *origins);
+    graph->origins = origins ? origins : graph->origins;
     gm_node_id *table = calloc(2 * capacity, sizeof *table);
-    if (!nodes || !places || !table || graph->count >= GM_MOST_NODES) {
+    if (!nodes || !places || !origins || !table || graph->count >= GM_MOST_NODES) {
         free(table);
         return false;
     }
@@ -128,7 +115,11 @@ static gm_node_id intern(struct gm_formula *graph, struct gm_node node)
     if (!*entry) {
         graph->nodes[graph->count] = node;
         graph->places[graph->count] = graph->simplifies ? SIZE_MAX : graph->place;
+        graph->origins[graph->count] = SIZE_MAX;
         *entry = ++graph->count;
+    }
+    if (graph->simplifies && graph->origins[*entry - 1] == SIZE_MAX) {
+        graph->origins[*entry - 1] = graph->origin;
     }
     return *entry - 1;
 }
@@ -206,19 +197,53 @@ static bool simple_difference(struct gm_formula *graph, gm_node_id a, gm_node_id
     return true;
 }
 
-/* x * (c / y), c a constant: (c x) / y */
-static gm_node_id over(struct gm_formula *graph, gm_node_id x, gm_node_id quotient)
+/* node = c / denominator, c a constant */
+static bool is_reciprocal(const struct gm_formula *graph, gm_node_id node)
+{
+    return is_operation(graph, node, GM_OPERATION_DIVIDE) &&
+           is_operation(graph, graph->nodes[node].a, GM_CONSTANT);
+}
+
+/* (c / y) * factor as (c factor) / y, where the constants are gathered above */
+static gm_node_id times_above(struct gm_formula *graph, gm_node_id quotient, double factor)
 {
     const struct gm_node node = graph->nodes[quotient];
     return gm_formula_apply(graph, GM_OPERATION_DIVIDE,
-                            gm_formula_apply(graph, GM_OPERATION_MULTIPLY, node.a, x), node.b);
+                            gm_formula_constant(graph, graph->nodes[node.a].value * factor), node.b);
+}
+
+/* A reciprocal times what is not one: it stays a factor, which other products share, and takes constants
+   up. */
+static bool product_with_reciprocal(struct gm_formula *graph, gm_node_id quotient, gm_node_id other,
+                                    gm_node_id *simple)
+{
+    double coefficient;
+    gm_node_id rest;
+    if (is_reciprocal(graph, other)) {
+        const double above = graph->nodes[graph->nodes[other].a].value;
+        const gm_node_id below =
+            gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[quotient].b, graph->nodes[other].b);
+        *simple = gm_formula_apply(
+            graph, GM_OPERATION_DIVIDE,
+            gm_formula_constant(graph, graph->nodes[graph->nodes[quotient].a].value * above), below);
+    } else if (scaled(graph, other, &coefficient, &rest)) {
+        *simple =
+            gm_formula_apply(graph, GM_OPERATION_MULTIPLY, times_above(graph, quotient, coefficient), rest);
+    } else {
+        return false;
+    }
+    return true;
 }
 
 static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b, gm_node_id *simple)
 {
     double coefficient;
     gm_node_id rest;
-    if (is_operation(graph, b, GM_CONSTANT) && !is_operation(graph, a, GM_CONSTANT)) {
+    if (a == b && is_operation(graph, a, GM_OPERATION_SQRT)) {
+        *simple = graph->nodes[a].a;
+    } else if (a == b && !is_operation(graph, a, GM_CONSTANT)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_WHOLE_POWER, a, gm_formula_constant(graph, 2));
+    } else if (is_operation(graph, b, GM_CONSTANT) && !is_operation(graph, a, GM_CONSTANT)) {
         *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, b, a);
     } else if (gm_is_constant(graph, a, 0)) {
         *simple = a;
@@ -230,12 +255,12 @@ static bool simple_product(struct gm_formula *graph, gm_node_id a, gm_node_id b,
         *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[a].a, b));
     } else if (is_operation(graph, b, GM_OPERATION_NEGATE)) {
         *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, graph->nodes[b].a));
-    } else if (is_operation(graph, b, GM_OPERATION_DIVIDE) &&
-               is_operation(graph, graph->nodes[b].a, GM_CONSTANT)) {
-        *simple = over(graph, a, b);
-    } else if (is_operation(graph, a, GM_OPERATION_DIVIDE) &&
-               is_operation(graph, graph->nodes[a].a, GM_CONSTANT)) {
-        *simple = over(graph, b, a);
+    } else if (is_reciprocal(graph, a)) {
+        return product_with_reciprocal(graph, a, b, simple);
+    } else if (is_reciprocal(graph, b) && is_operation(graph, a, GM_CONSTANT)) {
+        *simple = times_above(graph, b, graph->nodes[a].value);
+    } else if (is_reciprocal(graph, b)) {
+        *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, b, a);
     } else if (is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
         *simple = scale(graph, graph->nodes[a].value * coefficient, rest);
     } else if (!is_operation(graph, a, GM_CONSTANT) && scaled(graph, b, &coefficient, &rest)) {
@@ -267,6 +292,11 @@ static bool simple_quotient(struct gm_formula *graph, gm_node_id a, gm_node_id b
     }
     if (is_operation(graph, a, GM_OPERATION_NEGATE)) {
         *simple = negative(graph, gm_formula_apply(graph, GM_OPERATION_DIVIDE, graph->nodes[a].a, b));
+        return true;
+    }
+    if (is_operation(graph, a, GM_OPERATION_DIVIDE)) {
+        const gm_node_id below = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, graph->nodes[a].b, b);
+        *simple = gm_formula_apply(graph, GM_OPERATION_DIVIDE, graph->nodes[a].a, below);
         return true;
     }
     const bool above = divided(graph, a, &of_a, &rest_a), below = divided(graph, b, &of_b, &rest_b);
@@ -309,6 +339,16 @@ static bool simplify(struct gm_formula *graph, enum gm_operation operation, gm_n
                                        graph->nodes[a].b);
             return true;
         }
+        if (is_reciprocal(graph, a)) {
+            *simple = times_above(graph, a, -1);
+            return true;
+        }
+        if (is_operation(graph, a, GM_OPERATION_MULTIPLY) && is_reciprocal(graph, graph->nodes[a].a)) {
+            const gm_node_id other = graph->nodes[a].b;
+            *simple = gm_formula_apply(graph, GM_OPERATION_MULTIPLY,
+                                       times_above(graph, graph->nodes[a].a, -1), other);
+            return true;
+        }
         return is_operation(graph, a, GM_OPERATION_NEGATE);
     case GM_OPERATION_WHOLE_POWER:
         *simple = gm_is_constant(graph, b, 0) ? gm_formula_constant(graph, 1) : a;
@@ -330,7 +370,8 @@ gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operatio
         exponent == floor(exponent) && fabs(exponent) <= GM_MOST_CHAINED) {
         operation = GM_OPERATION_WHOLE_POWER;
     }
-    if (is_operation(graph, a, GM_CONSTANT) && (single || is_operation(graph, b, GM_CONSTANT))) {
+    if (!graph->keeps && is_operation(graph, a, GM_CONSTANT) &&
+        (single || is_operation(graph, b, GM_CONSTANT))) {
         return gm_formula_constant(graph, gm_operation_value(operation, graph->nodes[a].value, exponent));
     }
     gm_node_id simple;
@@ -340,30 +381,230 @@ gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operatio
     return intern(graph, (struct gm_node){.operation = operation, .a = a, .b = b});
 }
 
-void gm_formula_evaluate(const struct gm_formula *graph, gm_node_id count, const double *variables,
-                         double *values)
+void gm_formula_evaluate_parts(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
+                               const double *variables, double *values)
 {
-    for (gm_node_id i = 0; i < count; i++) {
+    for (size_t k = 0; k < count; k++) {
+        const gm_node_id i = parts ? parts[k] : (gm_node_id)k;
         const struct gm_node *node = &graph->nodes[i];
+        const gm_node_id b = gm_operation_rows[node->operation].arity == 2 ? node->b : node->a;
         values[i] = node->operation == GM_CONSTANT ? node->value
                     : node->operation == GM_VARIABLE
                         ? variables[node->a]
-                        : gm_operation_value(node->operation, values[node->a], values[node->b]);
+                        : gm_operation_value(node->operation, values[node->a], values[b]);
     }
 }
 
-void gm_formula_reach(const struct gm_formula *graph, gm_node_id node, bool *reached)
+void gm_formula_evaluate(const struct gm_formula *graph, gm_node_id count, const double *variables,
+                         double *values)
 {
-    memset(reached, 0, node + (size_t)1);
-    reached[node] = true;
-    for (gm_node_id i = node + 1; i-- > 0;) {
-        if (reached[i] && graph->nodes[i].operation > GM_VARIABLE) {
-            reached[graph->nodes[i].a] = true;
-            if (gm_operation_rows[graph->nodes[i].operation].arity == 2) {
-                reached[graph->nodes[i].b] = true;
+    gm_formula_evaluate_parts(graph, NULL, count, variables, values);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const gm_node_id x = *(const gm_node_id *)a, y = *(const gm_node_id *)b;
+    return (x > y) - (x < y);
+}
+
+gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id *roots, size_t root_count,
+                                size_t *count)
+{
+    enum { DENSE = 16 }; /* one of so many: looking at all is faster than sorting */
+    gm_node_id root = 0;
+    for (size_t k = 0; k < root_count; k++) {
+        root = roots[k] > root ? roots[k] : root;
+    }
+    bool *seen = calloc(root + (size_t)1, sizeof *seen);
+    size_t capacity = root_count + 64, found = 0;
+    gm_node_id *parts = malloc(capacity * sizeof *parts);
+    for (size_t k = 0; k < root_count && seen && parts; k++) {
+        if (!seen[roots[k]]) {
+            parts[found++] = roots[k];
+            seen[roots[k]] = true;
+        }
+    }
+    for (size_t i = 0; i < found; i++) {
+        const struct gm_node *node = &graph->nodes[parts[i]];
+        const size_t arity = node->operation > GM_VARIABLE ? gm_operation_rows[node->operation].arity : 0;
+        if (found + 2 > capacity) {
+            capacity *= 2;
+            gm_node_id *more = realloc(parts, capacity * sizeof *parts);
+            if (!more) {
+                found = 0;
+                break;
+            }
+            parts = more;
+        }
+        for (size_t k = 0; k < arity; k++) {
+            const gm_node_id operand = k == 0 ? node->a : node->b;
+            if (!seen[operand]) {
+                seen[operand] = true;
+                parts[found++] = operand;
             }
         }
     }
+    if (!seen || (found == 0 && root_count > 0)) {
+        free(parts);
+        parts = NULL;
+    } else if (found < root / DENSE) {
+        qsort(parts, found, sizeof *parts, ascending);
+    } else {
+        size_t filled = 0;
+        for (gm_node_id i = 0; i <= root; i++) {
+            if (seen[i]) {
+                parts[filled++] = i;
+            }
+        }
+    }
+    free(seen);
+    *count = found;
+    return parts;
+}
+
+gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, size_t *count)
+{
+    return gm_formula_parts_of(graph, &node, 1, count);
+}
+
+bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t count,
+                           const gm_node_id *replacement, size_t variables)
+{
+    const gm_node_id before = graph->count;
+    gm_node_id *others = malloc((before + (size_t)1) * sizeof *others);
+    for (gm_node_id i = 0; others && i < before; i++) {
+        others[i] = GM_NO_NODE;
+    }
+    for (size_t k = 0; others && k < count && !graph->failed; k++) {
+        size_t size = 0;
+        gm_node_id *parts = gm_formula_parts(graph, nodes[k], &size);
+        graph->failed |= !parts;
+        for (size_t p = 0; p < size; p++) {
+            const gm_node_id i = parts[p];
+            const struct gm_node node = graph->nodes[i];
+            if (others[i] != GM_NO_NODE) {
+                continue;
+            }
+            others[i] = i;
+            if (node.operation == GM_VARIABLE) {
+                const bool stays = node.a >= variables || replacement[node.a] == GM_NO_NODE;
+                others[i] = stays ? i : replacement[node.a];
+            } else if (node.operation > GM_VARIABLE) {
+                const bool single = gm_operation_rows[node.operation].arity == 1;
+                const gm_node_id a = others[node.a], b = single ? node.b : others[node.b];
+                graph->simplifies = true;
+                graph->origin = gm_formula_origin(graph, i);
+                others[i] = a == node.a && b == node.b ? i : gm_formula_apply(graph, node.operation, a, b);
+                graph->origin = SIZE_MAX;
+                graph->simplifies = false;
+            }
+        }
+        nodes[k] = parts ? others[nodes[k]] : nodes[k];
+        free(parts);
+    }
+    graph->failed |= !others;
+    free(others);
+    return !graph->failed;
+}
+
+/* node = y sqrt(y) */
+static bool is_power_three_halves(const struct gm_formula *graph, gm_node_id node, gm_node_id *y,
+                                  gm_node_id *root)
+{
+    const struct gm_node *product = &graph->nodes[node];
+    if (product->operation != GM_OPERATION_MULTIPLY) {
+        return false;
+    }
+    *root = is_operation(graph, product->a, GM_OPERATION_SQRT) ? product->a : product->b;
+    *y = *root == product->a ? product->b : product->a;
+    return is_operation(graph, *root, GM_OPERATION_SQRT) && graph->nodes[*root].a == *y;
+}
+
+static gm_node_id quicker(struct gm_formula *graph, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    gm_node_id y, root;
+    if (operation != GM_OPERATION_DIVIDE || !is_power_three_halves(graph, b, &y, &root)) {
+        return gm_formula_apply(graph, operation, a, b);
+    }
+    const gm_node_id one = gm_formula_constant(graph, 1),
+                     inverse = gm_formula_apply(graph, GM_OPERATION_DIVIDE, one, y),
+                     square = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, inverse, inverse),
+                     power = gm_formula_apply(graph, GM_OPERATION_MULTIPLY, root, square);
+    return gm_is_constant(graph, a, 1)    ? power
+           : gm_is_constant(graph, a, -1) ? negative(graph, power)
+                                          : gm_formula_apply(graph, GM_OPERATION_MULTIPLY, a, power);
+}
+
+/* Marks the parts, ascending, of which something else than sums and products is made: there a quotient that
+   is infinite may lead to a finite value, and one that is no number does not. */
+static void mark_harsh(const struct gm_formula *graph, const gm_node_id *parts, size_t size, bool *harsh)
+{
+    for (size_t k = size; k-- > 0;) {
+        const struct gm_node *node = &graph->nodes[parts[k]];
+        const bool gentle = node->operation == GM_OPERATION_ADD || node->operation == GM_OPERATION_SUBTRACT ||
+                            node->operation == GM_OPERATION_MULTIPLY ||
+                            node->operation == GM_OPERATION_NEGATE;
+        if (node->operation > GM_VARIABLE && (!gentle || harsh[parts[k]])) {
+            harsh[node->a] = true;
+            harsh[gm_operation_rows[node->operation].arity == 1 ? node->a : node->b] = true;
+        }
+    }
+}
+
+bool gm_formula_quicken(struct gm_formula *graph, gm_node_id *nodes, size_t count)
+{
+    size_t size = 0;
+    gm_node_id *parts = gm_formula_parts_of(graph, nodes, count, &size);
+    gm_node_id *others = malloc((graph->count + (size_t)1) * sizeof *others);
+    bool *harsh = calloc(graph->count + (size_t)1, sizeof *harsh);
+    graph->failed |= !parts || !others || !harsh;
+    if (!graph->failed) {
+        mark_harsh(graph, parts, size, harsh);
+    }
+    for (size_t k = 0; k < size && !graph->failed; k++) {
+        const struct gm_node node = graph->nodes[parts[k]];
+        others[parts[k]] = parts[k];
+        if (node.operation > GM_VARIABLE) {
+            const gm_node_id a = others[node.a],
+                             b = others[gm_operation_rows[node.operation].arity == 1 ? node.a : node.b];
+            others[parts[k]] = (harsh[parts[k]] ? gm_formula_apply : quicker)(graph, node.operation, a, b);
+        }
+    }
+    free(harsh);
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        nodes[k] = others[nodes[k]];
+    }
+    free(parts);
+    free(others);
+    return !graph->failed;
+}
+
+gm_node_id gm_formula_graft(struct gm_formula *graph, const struct gm_formula *other, gm_node_id root,
+                            size_t inputs, const double *values)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(other, root, &count);
+    gm_node_id *made = malloc((root + (size_t)1) * sizeof *made); /* of the parts alone */
+    graph->failed |= !parts || !made;
+    graph->simplifies = true;
+    for (size_t k = 0; k < count && !graph->failed; k++) {
+        const struct gm_node *node = &other->nodes[parts[k]];
+        if (node->operation == GM_CONSTANT) {
+            made[parts[k]] = gm_formula_constant(graph, node->value);
+        } else if (node->operation == GM_VARIABLE) {
+            made[parts[k]] = node->a < inputs ? gm_formula_variable(graph, node->a)
+                                              : gm_formula_constant(graph, values[node->a]);
+        } else {
+            const bool single = gm_operation_rows[node->operation].arity == 1;
+            made[parts[k]] =
+                gm_formula_apply(graph, node->operation, made[node->a], made[single ? node->a : node->b]);
+        }
+    }
+    graph->simplifies = false;
+    const gm_node_id node = graph->failed ? GM_NO_NODE : made[root];
+    free(parts);
+    free(made);
+    return node;
 }
 
 bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, size_t variables)

@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/formula/arithmetic.h"
+
 enum gm_operation {
     GM_CONSTANT, /* `value` */
     GM_VARIABLE, /* number `a` of the array of variables */
@@ -28,14 +30,9 @@ extern const struct gm_operation_row gm_operation_rows[GM_OPERATIONS];
 
 /* The value of an operation: the same one wherever a formula is computed. */
 double gm_operation_value(enum gm_operation operation, double a, double b);
-/* x^n for whole |n| <= GM_MOST_CHAINED by one chain: x^n = (x^(n/2))^2, times x where n is odd; 1 / x^-n. */
-enum { GM_MOST_CHAINED = 16 };
-double gm_whole_power(double x, double n);
-/* a - b floor(a / b), exact */
-double gm_modulo(double a, double b);
 
-/* A node's number. What it is made of has smaller numbers, so that a pass upwards evaluates, and one downwards
-   gathers derivatives, without recursion. */
+/* A node's number. What it is made of has smaller numbers, so that a pass upwards evaluates, and one
+   downwards gathers derivatives, without recursion. */
 typedef uint32_t gm_node_id;
 static const gm_node_id GM_NO_NODE = UINT32_MAX;
 
@@ -47,15 +44,17 @@ struct gm_node {
 
 struct gm_formula {
     struct gm_node *nodes;
-    size_t *places; /* where in the text a node was first written; SIZE_MAX: it was derived */
+    size_t *places;  /* where in the text a node was first written; SIZE_MAX: it was derived */
+    size_t *origins; /* where what it was derived from was written; SIZE_MAX: nowhere */
     gm_node_id count;
     size_t capacity;
     gm_node_id *table; /* open addressing; 0: free, else number + 1 */
     size_t slots;
-    size_t place; /* of the nodes to come */
-    /* Numbers of a formula as written are those of its operations one by one: only constants are folded. While
-       derivatives are built this is set, and more is simplified: gm_formula_apply says what. */
+    size_t place, origin; /* of the nodes to come: the former of those written, the latter of those derived */
+    /* Numbers of a formula as written are those of its operations one by one: only constants are folded.
+       While derivatives are built this is set, and more is simplified: gm_formula_apply says what. */
     bool simplifies;
+    bool keeps;  /* what is written of constants stays too: nothing is folded */
     bool failed; /* memory was refused, or there would be more than GM_MOST_NODES: the graph is of no use */
 };
 enum { GM_MOST_NODES = 20000000 };
@@ -69,17 +68,42 @@ gm_node_id gm_formula_variable(struct gm_formula *graph, size_t number);
    16 becomes a chain. While `simplifies` is set also, where x and y are finite:
      0 + x, x - 0, 1 x, x / 1, x^1 -> x    0 x, 0 / x, x^0 -> a constant    0 - x, -1 x -> -x    x - x -> 0
      -(-x) -> x    -(x - y) -> y - x    signs leave products, quotients and sums    c x + d x -> (c + d) x
-     constants gather in front: x (c y) -> c (x y), c (d x) -> (c d) x, (c / x) y -> (c y) / x,
-     (c x) / (d y) -> (c / d) (x / y) where c / d is exact, else (c x) / y -> c (x / y) */
+     x x -> x^2    sqrt(x) sqrt(x) -> x    (x / y) / z -> x / (y z)
+     constants gather in front: x (c y) -> c (x y), c (d x) -> (c d) x, and above:
+     (c / x) (d y) -> ((c d) / x) y, (c / x) (d / y) -> (c d) / (x y),
+     (c x) / (d y) -> (c / d) (x / y) where c / d is exact, else c (x / y) */
 gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operation, gm_node_id a,
                             gm_node_id b);
+
+/* The nodes with others in place of variables, in place: replacement[i] for variable i, GM_NO_NODE: it stays.
+   Simplified like a derivative. False where memory was refused. */
+bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t count,
+                           const gm_node_id *replacement, size_t variables);
+/* Nodes that are those, in place, as quickly as they can be had: x / (y sqrt(y)) as x (1/y)^2 sqrt(y), where
+   the quotient does not wait for the root, where only sums and products are made of it. The bits are others;
+   what is not finite is not, but between y = 1e-154 and 1e-205 the square is infinite where the quotient was
+   not. False: out of memory. */
+bool gm_formula_quicken(struct gm_formula *graph, gm_node_id *nodes, size_t count);
+
+/* A node of another graph made again in this one, with the constant values[i] in place of every variable i >=
+   inputs. Simplified like a derivative. GM_NO_NODE where memory was refused. */
+gm_node_id gm_formula_graft(struct gm_formula *graph, const struct gm_formula *other, gm_node_id node,
+                            size_t inputs, const double *values);
 
 /* Values of nodes 0 .. count - 1 for these variables. */
 void gm_formula_evaluate(const struct gm_formula *graph, gm_node_id count, const double *variables,
                          double *values);
 
-/* Marks those of nodes 0 .. node that a node is made of, and itself. */
-void gm_formula_reach(const struct gm_formula *graph, gm_node_id node, bool *reached);
+/* The same of `count` nodes alone, ascending, with what they are made of; NULL: of the first. */
+void gm_formula_evaluate_parts(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
+                               const double *variables, double *values);
+
+/* What a node is made of, and itself: *count nodes, ascending. malloc'ed, NULL if memory is short. The time
+   is that of these nodes, not of the graph. */
+gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, size_t *count);
+/* What several nodes are made of. */
+gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id *nodes, size_t node_count,
+                                size_t *count);
 /* For each node whether it depends on one of the variables that are marked; there are `variables` of these.
    malloc'ed, NULL if memory is short. */
 bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, size_t variables);
@@ -87,6 +111,12 @@ bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, s
 static inline bool gm_is_constant(const struct gm_formula *graph, gm_node_id node, double value)
 {
     return graph->nodes[node].operation == GM_CONSTANT && graph->nodes[node].value == value;
+}
+
+/* Where in the text a node is, or else what it was derived from. */
+static inline size_t gm_formula_origin(const struct gm_formula *graph, gm_node_id node)
+{
+    return graph->places[node] != SIZE_MAX ? graph->places[node] : graph->origins[node];
 }
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Identities, by random points in a prime field and, where that says nothing, in doubles. J. T. Schwartz, J. ACM
-   27 (1980) 701; W. A. Martin, J. Symb. Comp. 18 (1994) 1, for functions other than rational ones. */
+/* Identities, by random points in a prime field and, where that says nothing, in doubles. J. T. Schwartz, J.
+   ACM 27 (1980) 701; W. A. Martin, J. Symb. Comp. 18 (1994) 1, for functions other than rational ones. */
 #include "core/formula/identity.h"
 
 #include <math.h>
@@ -75,7 +75,8 @@ static residue unrelated(uint64_t seed, unsigned operation, residue a, residue b
     return mix(mix(mix(seed ^ operation) ^ a) ^ b) % PRIME;
 }
 
-/* f(-x) is made of f(x): which of the two a is, and a number of |x| for the operation that is its parameter. */
+/* f(-x) is made of f(x): which of the two a is, and a number of |x| for the operation that is its
+   parameter. */
 static bool is_turned(residue a)
 {
     return a > PRIME / 2;
@@ -189,15 +190,13 @@ static bool value_of(const struct gm_node *node, residue a, residue b, double ex
 }
 
 /* Whether the node is 0 at a random point; false in *exists where it has no value. */
-static bool is_zero_there(const struct gm_formula *graph, gm_node_id root, const bool *reached, uint64_t seed,
-                          residue *values, bool *exists)
+static bool is_zero_there(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
+                          uint64_t seed, residue *values, bool *exists)
 {
     *exists = true;
-    for (gm_node_id i = 0; i <= root && *exists; i++) {
+    for (size_t k = 0; k < count && *exists; k++) {
+        const gm_node_id i = parts[k];
         const struct gm_node *node = &graph->nodes[i];
-        if (!reached[i]) {
-            continue;
-        }
         if (node->operation == GM_CONSTANT) {
             *exists = isfinite(node->value);
             values[i] = *exists ? of_double(node->value) : 0;
@@ -208,7 +207,7 @@ static bool is_zero_there(const struct gm_formula *graph, gm_node_id root, const
             *exists = value_of(node, values[node->a], values[b], graph->nodes[b].value, seed, &values[i]);
         }
     }
-    return *exists && values[root] == 0;
+    return *exists && values[parts[count - 1]] == 0;
 }
 
 /* A value, and the size of all that was added up for it. */
@@ -227,15 +226,13 @@ static struct sized size_of(enum gm_operation operation, struct sized a, struct 
     return (struct sized){value, size};
 }
 
-static struct sized size_there(const struct gm_formula *graph, gm_node_id root, const bool *reached,
+static struct sized size_there(const struct gm_formula *graph, const gm_node_id *parts, size_t count,
                                uint64_t seed, const double *fixed, size_t variables, struct sized *values)
 {
-    for (gm_node_id i = 0; i <= root; i++) {
+    for (size_t k = 0; k < count; k++) {
+        const gm_node_id i = parts[k];
         const struct gm_node *node = &graph->nodes[i];
         double value = node->value;
-        if (!reached[i]) {
-            continue;
-        }
         if (node->operation == GM_VARIABLE) {
             const uint64_t random = mix(seed ^ mix(node->a));
             value = ((double)(random >> 12) * 0x1p-52 * 1.8 + .2) * (random & 1 && seed % 2 ? -1 : 1);
@@ -244,12 +241,15 @@ static struct sized size_there(const struct gm_formula *graph, gm_node_id root, 
         values[i] = node->operation > GM_VARIABLE ? size_of(node->operation, values[node->a], values[node->b])
                                                   : (struct sized){value, fabs(value)};
     }
-    return values[root];
+    return values[parts[count - 1]];
 }
 
 enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,
                                 size_t variables)
 {
+    if (graph->failed) {
+        return GM_UNTESTED;
+    }
     if (graph->nodes[node].operation == GM_CONSTANT) {
         return graph->nodes[node].value == 0 ? GM_ZERO_PROVED : GM_NOT_ZERO;
     }
@@ -257,18 +257,18 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
         residue exact;
         struct sized sized;
     } *memory = malloc((node + (size_t)1) * sizeof *memory);
-    bool *reached = malloc(node + (size_t)1);
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(graph, node, &count);
     enum gm_identity found = GM_UNTESTED;
-    if (memory && reached) {
-        gm_formula_reach(graph, node, reached);
+    if (memory && parts) {
         int proofs = 0, tests = 0;
         for (uint64_t i = 0; i < TRIES && proofs >= 0 && proofs < PROOFS; i++) {
             bool exists;
-            const bool is_zero = is_zero_there(graph, node, reached, mix(i), &memory->exact, &exists);
+            const bool is_zero = is_zero_there(graph, parts, count, mix(i), &memory->exact, &exists);
             proofs = !exists ? proofs : is_zero ? proofs + 1 : -1;
         }
         for (uint64_t i = 0; i < TRIES && tests >= 0 && tests < TESTS && proofs < PROOFS; i++) {
-            const struct sized there = size_there(graph, node, reached, i, fixed, variables, &memory->sized);
+            const struct sized there = size_there(graph, parts, count, i, fixed, variables, &memory->sized);
             if (isfinite(there.value) && isfinite(there.size)) {
                 tests = fabs(there.value) <= 1e-12 * there.size ? tests + 1 : -1;
             }
@@ -279,6 +279,6 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
                                  : GM_UNTESTED;
     }
     free(memory);
-    free(reached);
+    free(parts);
     return found;
 }

@@ -51,8 +51,8 @@ char *gm_number_format(double value, char *text, size_t size)
 {
     /* numerator * pi / denominator is worth saying only where it is short and exact to the bit */
     for (int denominator = 1; isfinite(value) && value != 0 && denominator <= 1000; denominator++) {
-        double numerator = round(value * denominator / M_PI);
-        if (numerator == 0 || fabs(numerator) > 1e6) {
+        const double numerator = round(value * denominator / M_PI);
+        if (numerator == 0 || fabs(numerator) > 1e6 || numerator * M_PI / denominator != value) {
             continue;
         }
         char times[32] = "";
@@ -65,10 +65,8 @@ char *gm_number_format(double value, char *text, size_t size)
         if (denominator != 1) {
             snprintf(over, sizeof over, "/%d", denominator);
         }
-        if (numerator * M_PI / denominator == value) {
-            snprintf(text, size, "%spi%s", times, over);
-            return text;
-        }
+        snprintf(text, size, "%spi%s", times, over);
+        return text;
     }
     format_decimal(value, text, size);
     return text;

@@ -5,9 +5,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Evaluates a formula without names, such as "1e-3", "pi/60", "2*pi", "sqrt(2/3)", ".5/800" (what it may hold:
-   core/formula/reader.h). Returns false, and leaves *value alone, if the text is anything else. The value may
-   be infinite or NaN. */
+/* Evaluates a formula without names, such as "1e-3", "pi/60", "2*pi", "sqrt(2/3)", ".5/800" (what it may
+   hold: core/formula/reader.h). Returns false, and leaves *value alone, if the text is anything else. The
+   value may be infinite or NaN. */
 bool gm_number_parse(const char *text, double *value);
 
 /* Writes value so that gm_number_parse gives the same double: multiples and fractions of pi as such,

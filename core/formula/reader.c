@@ -38,6 +38,16 @@ struct reader {
     struct gm_fault *fault;
 };
 
+bool gm_fail(struct gm_fault *fault, size_t offset, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(fault->sentence, sizeof fault->sentence, format, arguments);
+    va_end(arguments);
+    fault->offset = offset;
+    return false;
+}
+
 __attribute__((format(printf, 3, 4))) static gm_node_id fail(struct reader *reader, size_t offset,
                                                              const char *format, ...)
 {
@@ -71,6 +81,12 @@ size_t gm_name_length(const char *text, size_t length)
         i++;
     }
     return i;
+}
+
+bool gm_word_ends(const char *word, const char *ending)
+{
+    const size_t length = strlen(word), wanted = strlen(ending);
+    return length > wanted && strcmp(word + length - wanted, ending) == 0;
 }
 
 /* The next character behind blanks; '\0' at the end. */
@@ -220,7 +236,9 @@ static gm_node_id read_number(struct reader *reader)
             (int)(at - begin < 30 ? at - begin : 30), text + begin,
             (int)gm_name_length(text + at, reader->end - at < 30 ? reader->end - at : 30), text + at);
     }
-    return gm_formula_constant(reader->graph, value);
+    const struct gm_scope *scope = &reader->scope;
+    return scope->decimal ? scope->decimal(scope->data, text + begin, at - begin, value)
+                          : gm_formula_constant(reader->graph, value);
 }
 
 /* A whole number that is known while reading: an index, a bound of a loop. */
@@ -527,10 +545,15 @@ size_t gm_text_valid(const char *text, size_t length)
     return length;
 }
 
+bool gm_text_has_mark(const char *text, size_t length)
+{
+    return length >= GM_TEXT_MARK && memcmp(text, "\xef\xbb\xbf", GM_TEXT_MARK) == 0;
+}
+
 void gm_text_place(const char *text, size_t offset, size_t *line, size_t *column)
 {
     *line = *column = 1;
-    for (size_t i = 0; i < offset; i++) {
+    for (size_t i = gm_text_has_mark(text, offset) ? GM_TEXT_MARK : 0; i < offset; i++) {
         if (text[i] == '\n') {
             (*line)++;
             *column = 1;

@@ -8,8 +8,8 @@
 /* Operators by their priority: + and -, * and /, minus before an operand, ^, which binds to the right and may
    have a sign behind it: -x^2 is -(x^2), 2^-1 is 1/2. Numbers are decimals and pi; functions are the rows of
    operations.def; sum(i = 1 .. N, j = i+1 .. N, term) and prod(...) run over the names of lists, q[i]. An
-   index is computed while reading: it may hold whole numbers, the indices of the loops around it, and what the
-   scope knows the value of. */
+   index is computed while reading: it may hold whole numbers, the indices of the loops around it, and what
+   the scope knows the value of. */
 
 enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8 };
 
@@ -18,6 +18,9 @@ struct gm_fault {
     size_t offset;
     char sentence[GM_FAULT_SENTENCE];
 };
+/* Says what is wrong, and where. Returns false. */
+__attribute__((format(printf, 3, 4))) bool gm_fail(struct gm_fault *fault, size_t offset, const char *format,
+                                                   ...);
 
 /* A name as it is used. */
 struct gm_name {
@@ -48,6 +51,8 @@ struct gm_scope {
     enum gm_meaning (*find)(void *data, const struct gm_name *name, gm_node_id *node, char *sentence);
     /* for proposals: name i, NULL behind the last */
     const char *(*known)(size_t i, const void *data);
+    /* What a decimal stands for, text[0 .. length) with its value; NULL: a constant. */
+    gm_node_id (*decimal)(void *data, const char *text, size_t length, double value);
     void *data;
     bool lines;   /* newlines and comments, from # to the end of a line, are blanks */
     bool initial; /* NAME(0) has a meaning */
@@ -56,8 +61,8 @@ struct gm_scope {
     size_t index_count;
 };
 
-/* Reads text[begin .. end), all of it, into the graph. False with a fault, whose sentence is empty where a name
-   was postponed or memory was refused (graph->failed). */
+/* Reads text[begin .. end), all of it, into the graph. False with a fault, whose sentence is empty where a
+   name was postponed or memory was refused (graph->failed). */
 bool gm_formula_read(struct gm_formula *graph, const char *text, size_t begin, size_t end,
                      const struct gm_scope *scope, gm_node_id *node, struct gm_fault *fault);
 
@@ -66,9 +71,15 @@ bool gm_formula_reserves(const char *text, size_t length);
 bool gm_is_letter(char character); /* may begin a name: letters and _ */
 /* How many bytes the name at text[0 .. length) has; 0: none begins there. */
 size_t gm_name_length(const char *text, size_t length);
+/* Whether a word ends so, and is more than that: the path of a file of that kind. */
+bool gm_word_ends(const char *word, const char *ending);
 
 /* The first byte that is no UTF-8, or a NUL; `length` if there is none. */
 size_t gm_text_valid(const char *text, size_t length);
+/* Whether the text begins with the mark of UTF-8 that some editors write, of so many bytes: it says
+   nothing. */
+enum { GM_TEXT_MARK = 3 };
+bool gm_text_has_mark(const char *text, size_t length);
 /* Line and column, from 1, in characters, of a byte. */
 void gm_text_place(const char *text, size_t offset, size_t *line, size_t *column);
 

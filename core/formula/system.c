@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/formula/lines.h"
 #include "core/formula/nearest.h"
 #include "core/formula/number.h"
 
@@ -18,7 +19,9 @@ enum {
     LAGRANGIAN = 1 << GM_LAGRANGIAN,
     RATES = 1 << GM_RATES,
     POISSON = 1 << GM_POISSON,
-    ANY = CANONICAL | LAGRANGIAN | RATES | POISSON
+    FIELD = 1 << GM_FIELD,
+    MOTION = CANONICAL | LAGRANGIAN | RATES | POISSON,
+    ANY = MOTION | FIELD
 };
 
 static const struct {
@@ -31,15 +34,10 @@ static const struct {
 #undef GM_WORD
 };
 
-/* Bytes of the text. */
-struct span {
-    size_t begin, end;
-};
-
 struct line {
-    enum gm_word word;
+    enum gm_system_word word;
     size_t place;
-    struct span value;
+    struct gm_span value;
 };
 
 enum role { COMPONENT, VELOCITY, PARAMETER, TIME, NAMED };
@@ -52,9 +50,9 @@ struct entry {
     long index;
     enum role role;
     enum { UNREAD, READING, READ } state; /* of parameters and lets */
-    struct span value;                    /* their formula */
+    struct gm_span value;                 /* their formula */
     long element;                         /* the index that is bound in it; LONG_MIN: none */
-    struct span bound;
+    struct gm_span bound;
     gm_node_id node;
 };
 
@@ -115,7 +113,8 @@ static bool reserve(struct reading *reading, void **array, size_t count, size_t 
     return true;
 }
 
-/* -- lines ------------------------------------------------------------------------------------------------- */
+/* -- lines
+   ------------------------------------------------------------------------------------------------- */
 
 static const char *word_at(size_t i, const void *data)
 {
@@ -130,44 +129,12 @@ static size_t line_of(const struct reading *reading, size_t place)
     return line;
 }
 
-static bool is_blank(char character)
+static bool read_line(struct reading *reading, const struct gm_text_line *text_line)
 {
-    return character == ' ' || character == '\t' || character == '\n' || character == '\r';
-}
-
-/* Without blanks around it; a comment is blank. */
-static struct span trimmed(const struct reading *reading, struct span span)
-{
-    const char *text = reading->text;
-    while (span.begin < span.end && (is_blank(text[span.begin]) || text[span.begin] == '#')) {
-        if (text[span.begin] == '#') {
-            const char *newline = memchr(text + span.begin, '\n', span.end - span.begin);
-            span.begin = newline ? (size_t)(newline - text) : span.end;
-        } else {
-            span.begin++;
-        }
-    }
-    while (span.end > span.begin && is_blank(text[span.end - 1])) {
-        span.end--;
-    }
-    return span;
-}
-
-static bool read_line(struct reading *reading, size_t place, size_t end)
-{
-    const char *text = reading->text + place;
-    const size_t length = end - place;
-    size_t letters = 0;
-    while (letters < length && text[letters] != ':' && !is_blank(text[letters]) && text[letters] != '#') {
-        letters++;
-    }
+    const size_t place = text_line->word.begin, letters = text_line->word.end - place;
     char name[64];
-    snprintf(name, sizeof name, "%.*s", (int)(letters < 60 ? letters : 60), text);
-    if (letters == length || text[letters] != ':') {
-        return fail(reading, place + letters,
-                    "a line begins with a word and a colon, or with a blank where it goes on");
-    }
-    enum gm_word word = 0;
+    snprintf(name, sizeof name, "%.*s", (int)(letters < 60 ? letters : 60), reading->text + place);
+    enum gm_system_word word = 0;
     while (word < GM_WORDS && strcmp(words[word].word, name) != 0) {
         word++;
     }
@@ -178,90 +145,41 @@ static bool read_line(struct reading *reading, size_t place, size_t end)
     }
     for (size_t i = 0; i < reading->line_count && !words[word].repeated; i++) {
         if (reading->lines[i].word == word) {
-            return fail(reading, place, "%s is said twice, first in line %zu", name,
-                        line_of(reading, reading->lines[i].place));
+            return fail(reading, place, "%s is said twice", name);
         }
     }
     if (!reserve(reading, (void **)&reading->lines, reading->line_count, sizeof *reading->lines)) {
         return false;
     }
-    const struct span value = trimmed(reading, (struct span){place + letters + 1, end});
+    const struct gm_span value = text_line->value;
     reading->lines[reading->line_count++] = (struct line){word, place, value};
     return value.begin < value.end || fail(reading, place + letters + 1, "%s: says nothing", name);
 }
 
 static bool read_lines(struct reading *reading)
 {
-    const char *text = reading->text;
-    for (size_t at = 0; at < reading->length && !reading->failed;) {
-        size_t end = at;
-        /* a line, and those behind it that begin with a blank */
-        do {
-            const char *newline = memchr(text + end, '\n', reading->length - end);
-            end = newline ? (size_t)(newline - text) + 1 : reading->length;
-        } while (end < reading->length && (text[end] == ' ' || text[end] == '\t'));
-        const struct span span = trimmed(reading, (struct span){at, end});
-        if (span.begin < span.end && span.begin > at && (text[at] == ' ' || text[at] == '\t')) {
-            fail(reading, span.begin, "this line goes on, but there is none before it");
-        } else if (span.begin < span.end) {
-            read_line(reading, span.begin, end);
+    struct gm_text_line line;
+    struct gm_fault fault;
+    for (size_t at = 0; gm_lines_next(reading->text, reading->length, &at, &line, &fault);) {
+        if (!read_line(reading, &line)) {
+            return false;
         }
-        at = end;
     }
-    return !reading->failed;
-}
-
-/* The next separator outside of parentheses, or the end. */
-static size_t next_of(const struct reading *reading, struct span span, const char *separator)
-{
-    int depth = 0;
-    const size_t width = strlen(separator);
-    for (size_t i = span.begin; i < span.end; i++) {
-        const char here = reading->text[i];
-        if (here == '#') {
-            const char *newline = memchr(reading->text + i, '\n', span.end - i);
-            i = newline ? (size_t)(newline - reading->text) : span.end - 1;
-        } else if (depth == 0 && i + width <= span.end && memcmp(reading->text + i, separator, width) == 0) {
-            return i;
-        }
-        depth += (here == '(' || here == '[') - (here == ')' || here == ']');
-    }
-    return span.end;
-}
-
-/* Takes the piece before the next separator off the front; false where nothing is left. */
-static bool take_piece(const struct reading *reading, struct span *rest, const char *separator,
-                       struct span *piece)
-{
-    if (rest->begin >= rest->end) {
-        return false;
-    }
-    const size_t end = next_of(reading, *rest, separator);
-    *piece = trimmed(reading, (struct span){rest->begin, end});
-    rest->begin = end < rest->end ? end + strlen(separator) : end;
-    return true;
+    return !fault.sentence[0] || fail(reading, fault.offset, "%s", fault.sentence);
 }
 
 /* Words with one blank between them; malloc'ed. */
-static char *text_of(struct reading *reading, struct span span)
+static char *text_of(struct reading *reading, struct gm_span span)
 {
-    char *text = malloc(span.end - span.begin + 1), *out = text;
+    char *text = gm_span_words(reading->text, span);
     if (!text) {
         no_memory(reading);
-        return NULL;
     }
-    for (struct span rest = trimmed(reading, span); rest.begin < rest.end; rest = trimmed(reading, rest)) {
-        while (rest.begin < rest.end && !is_blank(reading->text[rest.begin]) &&
-               reading->text[rest.begin] != '#') {
-            *out++ = reading->text[rest.begin++];
-        }
-        *out++ = ' ';
-    }
-    out[out > text ? -1 : 0] = '\0';
     return text;
 }
 
-/* -- names ------------------------------------------------------------------------------------------------- */
+/* -- names
+   ------------------------------------------------------------------------------------------------- */
 
 static uint32_t *slot_of(const struct reading *reading, const char *name, size_t length, bool indexed,
                          long index)
@@ -307,9 +225,11 @@ static const struct entry *list_of(const struct reading *reading, const char *na
 
 static bool is_reserved(const char *name, size_t length)
 {
-    static const char *const reserved[] = {"dt",          "until",   "steps", "scheme",    "schemes",
-                                           "zip",         "overlay", "equal", "show",      "members",
-                                           "compensated", "binding", "tau0",  "tolerance", "t"};
+    /* keys of a command line, and columns of tables */
+    static const char *const reserved[] = {
+        "dt",    "until",   "steps",       "scheme",      "schemes", "zip",     "overlay",   "equal",
+        "show",  "members", "t",           "compensated", "binding", "tau0",    "tolerance", "spread",
+        "scene", "status",  "evaluations", "solves",      "seconds", "stopped", "shape"};
     for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
         if (strlen(reserved[i]) == length && memcmp(reserved[i], name, length) == 0) {
             return true;
@@ -321,7 +241,10 @@ static bool is_reserved(const char *name, size_t length)
 static bool add_entry(struct reading *reading, struct entry entry)
 {
     const int brief = (int)(entry.length < 60 ? entry.length : 60);
-    if (entry.role != TIME && is_reserved(entry.name, entry.length)) {
+    const bool of_ring = reading->system->kind == GM_FIELD &&
+                         ((entry.length == 11 && memcmp(entry.name, "half_length", 11) == 0) ||
+                          (entry.length == 6 && memcmp(entry.name, "points", 6) == 0));
+    if (of_ring || (entry.role != TIME && is_reserved(entry.name, entry.length))) {
         return fail(reading, entry.place, "the name %.*s is reserved", brief, entry.name);
     }
     if (reading->entry_count == reading->entry_capacity) {
@@ -429,10 +352,11 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     return GM_KNOWN;
 }
 
-/* -- formulas ---------------------------------------------------------------------------------------------- */
+/* -- formulas
+   ---------------------------------------------------------------------------------------------- */
 
 /* One attempt; false without a fault where another name has to be read first. */
-static bool attempt(struct reading *reading, struct span span, const struct span *bound, long element,
+static bool attempt(struct reading *reading, struct gm_span span, const struct gm_span *bound, long element,
                     gm_node_id *node, bool *postponed)
 {
     struct gm_scope scope = {
@@ -505,8 +429,8 @@ static bool define(struct reading *reading, uint32_t number)
     return !reading->failed;
 }
 
-static bool read_bound(struct reading *reading, struct span span, const struct span *bound, long element,
-                       gm_node_id *node)
+static bool read_bound(struct reading *reading, struct gm_span span, const struct gm_span *bound,
+                       long element, gm_node_id *node)
 {
     bool postponed = true;
     while (!reading->failed && postponed) {
@@ -520,13 +444,13 @@ static bool read_bound(struct reading *reading, struct span span, const struct s
     return false;
 }
 
-static bool read_formula(struct reading *reading, struct span span, gm_node_id *node)
+static bool read_formula(struct reading *reading, struct gm_span span, gm_node_id *node)
 {
     return read_bound(reading, span, NULL, 0, node);
 }
 
 /* A number that parameters alone make. */
-static bool read_number(struct reading *reading, struct span span, double *value)
+static bool read_number(struct reading *reading, struct gm_span span, double *value)
 {
     gm_node_id node;
     const bool was_fixed = reading->fixed;
@@ -537,7 +461,7 @@ static bool read_number(struct reading *reading, struct span span, double *value
     return good;
 }
 
-static bool read_whole(struct reading *reading, struct span span, long *value)
+static bool read_whole(struct reading *reading, struct gm_span span, long *value)
 {
     double number;
     reading->structural = true;
@@ -555,27 +479,27 @@ static bool read_whole(struct reading *reading, struct span span, long *value)
 
 /* NAME, NAME[low .. high], NAME[index] */
 struct target {
-    struct span name, index; /* empty: there is none */
-    struct span value;       /* behind the = */
+    struct gm_span name, index; /* empty: there is none */
+    struct gm_span value;       /* behind the = */
 };
 
-static bool read_target(struct reading *reading, struct span *rest, struct target *target)
+static bool read_target(struct reading *reading, struct gm_span *rest, struct target *target)
 {
-    *rest = trimmed(reading, *rest);
+    *rest = gm_span_trimmed(reading->text, *rest);
     const size_t length = gm_name_length(reading->text + rest->begin, rest->end - rest->begin);
     *target = (struct target){.name = {rest->begin, rest->begin + length}};
     if (length == 0) {
         return fail(reading, rest->begin, "a name was expected");
     }
     rest->begin += length;
-    *rest = trimmed(reading, *rest);
+    *rest = gm_span_trimmed(reading->text, *rest);
     if (rest->begin < rest->end && reading->text[rest->begin] == '[') {
-        const struct span inside = {rest->begin + 1, rest->end};
-        const size_t close = next_of(reading, inside, "]");
+        const struct gm_span inside = {rest->begin + 1, rest->end};
+        const size_t close = gm_span_until(reading->text, inside, "]");
         if (close == rest->end) {
             return fail(reading, rest->begin, "this bracket is not closed");
         }
-        target->index = trimmed(reading, (struct span){inside.begin, close});
+        target->index = gm_span_trimmed(reading->text, (struct gm_span){inside.begin, close});
         rest->begin = close + 1;
         if (target->index.begin == target->index.end) {
             return fail(reading, close, "an index was expected");
@@ -585,16 +509,16 @@ static bool read_target(struct reading *reading, struct span *rest, struct targe
 }
 
 /* NAME = formula */
-static bool read_assignment(struct reading *reading, struct span span, struct target *target)
+static bool read_assignment(struct reading *reading, struct gm_span span, struct target *target)
 {
     if (!read_target(reading, &span, target)) {
         return false;
     }
-    span = trimmed(reading, span);
+    span = gm_span_trimmed(reading->text, span);
     if (span.begin == span.end || reading->text[span.begin] != '=') {
         return fail(reading, span.begin, "= was expected");
     }
-    target->value = trimmed(reading, (struct span){span.begin + 1, span.end});
+    target->value = gm_span_trimmed(reading->text, (struct gm_span){span.begin + 1, span.end});
     return target->value.begin < target->value.end || fail(reading, span.begin + 1, "a formula was expected");
 }
 
@@ -610,12 +534,15 @@ static struct entry entry_for(const struct reading *reading, const struct target
 /* The bounds of NAME[low .. high]; false where it is none. */
 static bool read_bounds(struct reading *reading, const struct target *target, long *low, long *high)
 {
-    const size_t dots = next_of(reading, target->index, "..");
-    return dots < target->index.end && read_whole(reading, (struct span){target->index.begin, dots}, low) &&
-           read_whole(reading, trimmed(reading, (struct span){dots + 2, target->index.end}), high);
+    const size_t dots = gm_span_until(reading->text, target->index, "..");
+    return dots < target->index.end &&
+           read_whole(reading, (struct gm_span){target->index.begin, dots}, low) &&
+           read_whole(reading, gm_span_trimmed(reading->text, (struct gm_span){dots + 2, target->index.end}),
+                      high);
 }
 
-/* Calls `each` for the elements that a target names: one, or, where the index is a free name, all of a list. */
+/* Calls `each` for the elements that a target names: one, or, where the index is a free name, all of a
+   list. */
 static bool for_elements(struct reading *reading, const struct target *target,
                          bool (*each)(struct reading *reading, struct entry *entry,
                                       const struct target *target, gm_node_id node, void *data),
@@ -663,7 +590,8 @@ static bool for_elements(struct reading *reading, const struct target *target,
     return !reading->failed;
 }
 
-/* -- variables --------------------------------------------------------------------------------------------- */
+/* -- variables
+   --------------------------------------------------------------------------------------------- */
 
 static struct gm_system_variable *add_variable(struct reading *reading, const struct entry *entry)
 {
@@ -711,7 +639,7 @@ static bool add_names(struct reading *reading, const struct target *target, enum
     return !reading->failed;
 }
 
-static const struct line *line_with(const struct reading *reading, enum gm_word word)
+static const struct line *line_with(const struct reading *reading, enum gm_system_word word)
 {
     for (size_t i = 0; i < reading->line_count; i++) {
         if (reading->lines[i].word == word) {
@@ -722,10 +650,10 @@ static const struct line *line_with(const struct reading *reading, enum gm_word 
 }
 
 /* Names that are separated by blanks or commas. */
-static bool add_all_names(struct reading *reading, struct span rest, enum role role, size_t *count)
+static bool add_all_names(struct reading *reading, struct gm_span rest, enum role role, size_t *count)
 {
-    for (rest = trimmed(reading, rest); rest.begin < rest.end && !reading->failed;
-         rest = trimmed(reading, rest)) {
+    for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end && !reading->failed;
+         rest = gm_span_trimmed(reading->text, rest)) {
         struct target target;
         if (reading->text[rest.begin] == ',') {
             rest.begin++;
@@ -736,8 +664,9 @@ static bool add_all_names(struct reading *reading, struct span rest, enum role r
     return !reading->failed;
 }
 
-/* p_NAME or v_NAME for every coordinate */
-static bool add_prefixed(struct reading *reading, const char *prefix, enum role role, size_t *count, size_t n)
+/* p_NAME or v_NAME for every coordinate, or NAME_t of a field */
+static bool add_derived(struct reading *reading, const char *before, const char *behind, enum role role,
+                        size_t *count, size_t n)
 {
     for (size_t i = 0, made = 0; made < n && !reading->failed; i++) {
         struct entry entry = reading->entries[i];
@@ -745,7 +674,7 @@ static bool add_prefixed(struct reading *reading, const char *prefix, enum role 
             continue;
         }
         char *name = NULL;
-        if (asprintf(&name, "%s%s", prefix, entry.name) < 0) {
+        if (asprintf(&name, "%s%s%s", before, entry.name, behind) < 0) {
             return no_memory(reading);
         }
         entry.name = name;
@@ -764,9 +693,9 @@ static bool add_prefixed(struct reading *reading, const char *prefix, enum role 
 /* parameter: NAME = value; low .. high; meaning; unit */
 static bool add_parameter(struct reading *reading, const struct line *line, bool lists)
 {
-    struct span rest = line->value, piece, range = {0, 0}, meaning = {0, 0}, unit = {0, 0};
+    struct gm_span rest = line->value, piece, range = {0, 0}, meaning = {0, 0}, unit = {0, 0};
     struct target target;
-    take_piece(reading, &rest, ";", &piece);
+    gm_span_take(reading->text, &rest, ";", &piece);
     if (!read_assignment(reading, piece, &target)) {
         return false;
     }
@@ -774,18 +703,19 @@ static bool add_parameter(struct reading *reading, const struct line *line, bool
     if (is_list != lists) {
         return true;
     }
-    (void)(take_piece(reading, &rest, ";", &range) && take_piece(reading, &rest, ";", &meaning) &&
-           take_piece(reading, &rest, ";", &unit));
+    (void)(gm_span_take(reading->text, &rest, ";", &range) &&
+           gm_span_take(reading->text, &rest, ";", &meaning) &&
+           gm_span_take(reading->text, &rest, ";", &unit));
     const size_t first = reading->parameter_count, entries = reading->entry_count;
     if (!add_names(reading, &target, PARAMETER, &reading->parameter_count)) {
         return false;
     }
-    struct span values = target.value, value = values;
+    struct gm_span values = target.value, value = values;
     size_t pieces = 0;
     for (size_t i = first; i < reading->parameter_count && !reading->failed; i++) {
         struct entry *entry = &reading->entries[entries + i - first];
         struct gm_system_variable *variable = &reading->system->variables[i];
-        pieces += is_list && take_piece(reading, &values, ",", &value);
+        pieces += is_list && gm_span_take(reading->text, &values, ",", &value);
         entry->value = value;
         variable->meaning = text_of(reading, meaning);
         variable->unit = text_of(reading, unit);
@@ -795,15 +725,21 @@ static bool add_parameter(struct reading *reading, const struct line *line, bool
         return fail(reading, target.value.begin, "%zu values were expected, or one for all",
                     reading->parameter_count - first);
     }
-    const size_t dots = next_of(reading, range, "..");
+    const size_t dots = gm_span_until(reading->text, range, "..");
     if (range.begin < range.end && dots == range.end) {
         return fail(reading, range.begin, "a range was expected, low .. high");
     }
     if (range.begin < range.end) {
         double low, high;
-        if (!read_number(reading, trimmed(reading, (struct span){range.begin, dots}), &low) ||
-            !read_number(reading, trimmed(reading, (struct span){dots + 2, range.end}), &high)) {
+        if (!read_number(reading, gm_span_trimmed(reading->text, (struct gm_span){range.begin, dots}),
+                         &low) ||
+            !read_number(reading, gm_span_trimmed(reading->text, (struct gm_span){dots + 2, range.end}),
+                         &high)) {
             return false;
+        }
+        if (!(low <= high)) {
+            return fail(reading, range.begin, "a range's lower end comes first, and %g is above %g", low,
+                        high);
         }
         for (size_t i = first; i < reading->parameter_count; i++) {
             reading->system->variables[i].low = low;
@@ -813,6 +749,28 @@ static bool add_parameter(struct reading *reading, const struct line *line, bool
     return !reading->failed;
 }
 
+/* Values that were given take the place of those in the file. */
+static void give(struct reading *reading)
+{
+    for (size_t i = 0; i < reading->entry_count && !reading->failed; i++) {
+        struct entry *entry = &reading->entries[i];
+        const char *name = reading->system->variables[entry->number].name;
+        double given = NAN;
+        for (size_t k = 0; k < reading->value_count && entry->state == UNREAD; k++) {
+            if (strcmp(reading->values[k].name, name) == 0 &&
+                gm_number_parse(reading->values[k].text, &given)) {
+                entry->node = gm_formula_constant(&reading->system->graph, given);
+                entry->state = READ;
+                entry->value.end = entry->value.begin;
+                if (entry->node == GM_NO_NODE) {
+                    no_memory(reading);
+                }
+            }
+        }
+    }
+}
+
+/* Lists after the numbers that say how long they are; then all formulas, which may hold both. */
 static bool add_parameters(struct reading *reading)
 {
     for (int lists = 0; lists < 2; lists++) {
@@ -821,46 +779,45 @@ static bool add_parameters(struct reading *reading)
                 add_parameter(reading, &reading->lines[i], lists);
             }
         }
-        for (size_t i = 0; i < reading->entry_count && !reading->failed; i++) {
-            struct entry *entry = &reading->entries[i];
-            struct gm_system_variable *variable = &reading->system->variables[entry->number];
-            double given = NAN;
-            for (size_t k = 0; k < reading->value_count; k++) {
-                if (strcmp(reading->values[k].name, variable->name) == 0 && entry->state == UNREAD &&
-                    gm_number_parse(reading->values[k].text, &given)) {
-                    entry->node = gm_formula_constant(&reading->system->graph, given);
-                    entry->state = READ;
-                }
-            }
-            if (entry->state == READ || define(reading, (uint32_t)i)) {
-                variable->value = reading->system->graph.nodes[reading->entries[i].node].value;
-            }
-            if (!reading->failed && !isfinite(variable->value)) {
-                fail(reading, entry->place, "%s is no finite number", variable->name);
-            } else if (!reading->failed &&
-                       (variable->value < variable->low || variable->value > variable->high)) {
-                fail(reading, entry->place, "%s = %g lies outside of its range, %g .. %g", variable->name,
-                     variable->value, variable->low, variable->high);
-            }
+        give(reading);
+    }
+    for (size_t i = 0; i < reading->entry_count && !reading->failed; i++) {
+        const struct entry *entry = &reading->entries[i];
+        struct gm_system_variable *variable = &reading->system->variables[entry->number];
+        if (entry->state == READ || define(reading, (uint32_t)i)) {
+            variable->value = reading->system->graph.nodes[reading->entries[i].node].value;
+        }
+        if (!reading->failed && !isfinite(variable->value)) {
+            fail(reading, entry->place, "%s is no finite number", variable->name);
+        } else if (!reading->failed &&
+                   (variable->value < variable->low || variable->value > variable->high)) {
+            fail(reading, entry->place, "%s = %g lies outside of its range, %g .. %g", variable->name,
+                 variable->value, variable->low, variable->high);
         }
     }
     return !reading->failed;
 }
 
-/* The kind, by its lines. */
 static bool find_kind(struct reading *reading)
 {
     const struct line *energy = line_with(reading, GM_WORD_HAMILTONIAN),
                       *lagrange = line_with(reading, GM_WORD_LAGRANGE),
                       *rate = line_with(reading, GM_WORD_RATE),
-                      *bracket = line_with(reading, GM_WORD_BRACKET);
-    enum gm_system_kind kind = lagrange  ? GM_LAGRANGIAN
-                               : rate    ? GM_RATES
-                               : bracket ? GM_POISSON
-                                         : GM_CANONICAL;
-    static const char *const called[] = {"with H", "with L", "with rates", "with a bracket"};
-    if (!energy && !lagrange && !rate && !bracket) {
-        return fail(reading, 0, "the file has no equation: H, L, rate, or bracket and H");
+                      *bracket = line_with(reading, GM_WORD_BRACKET),
+                      *field = line_with(reading, GM_WORD_FIELD),
+                      *potential = line_with(reading, GM_WORD_POTENTIAL);
+    enum gm_system_kind kind = field      ? GM_FIELD
+                               : lagrange ? GM_LAGRANGIAN
+                               : rate     ? GM_RATES
+                               : bracket  ? GM_POISSON
+                                          : GM_CANONICAL;
+    static const char *const called[] = {"with H", "with L", "with rates", "with a bracket", "with a field"};
+    if (!energy && !lagrange && !rate && !bracket && !field && !potential) {
+        return fail(reading, 0, "the file has no equation: H, L, rate, bracket and H, or field and V");
+    }
+    if (!field != !potential) {
+        return field ? fail(reading, field->place, "a field needs V, as in u_tt = u_xx - V'(u)")
+                     : fail(reading, potential->place, "V is of a field, which a line \"field\" names");
     }
     if (kind == GM_POISSON && !energy) {
         return fail(reading, bracket->place, "a system with a bracket needs H");
@@ -881,16 +838,16 @@ static bool find_kind(struct reading *reading)
 }
 
 /* Components in the order in which rates and brackets name them. */
-static bool add_components_in_order(struct reading *reading, enum gm_word word)
+static bool add_components_in_order(struct reading *reading, enum gm_system_word word)
 {
     for (size_t i = 0; i < reading->line_count && !reading->failed; i++) {
-        struct span rest = reading->lines[i].value;
+        struct gm_span rest = reading->lines[i].value;
         if (reading->lines[i].word != word) {
             continue;
         }
-        rest.end = next_of(reading, rest, "=");
-        for (rest = trimmed(reading, rest); rest.begin < rest.end && !reading->failed;
-             rest = trimmed(reading, rest)) {
+        rest.end = gm_span_until(reading->text, rest, "=");
+        for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end && !reading->failed;
+             rest = gm_span_trimmed(reading->text, rest)) {
             struct target target;
             const struct entry *entry = NULL;
             if (read_target(reading, &rest, &target)) {
@@ -907,8 +864,8 @@ static bool add_components_in_order(struct reading *reading, enum gm_word word)
     return !reading->failed;
 }
 
-/* variables: parameters, components, velocities as they were met become components, t, parameters, velocities,
-   components at the start */
+/* variables: parameters, components, velocities as they were met become components, t, parameters,
+   velocities, components at the start */
 static bool arrange(struct reading *reading)
 {
     struct gm_own_system *system = reading->system;
@@ -920,7 +877,6 @@ static bool arrange(struct reading *reading)
         free(t);
         return no_memory(reading);
     }
-    memcpy(all, met + p, n * sizeof *all);
     all[n] = (struct gm_system_variable){.name = t,
                                          .value = NAN,
                                          .low = NAN,
@@ -928,9 +884,13 @@ static bool arrange(struct reading *reading)
                                          .start = GM_NO_NODE,
                                          .force = GM_NO_NODE,
                                          .exact = GM_NO_NODE};
-    memcpy(all + n + 1, met, p * sizeof *all);
-    memcpy(all + n + 1 + p, met + p + n, v * sizeof *all);
-    free(met);
+    /* a text that declares nothing has met nothing, and its sentence comes later */
+    if (met) {
+        memcpy(all, met + p, n * sizeof *all);
+        memcpy(all + n + 1, met, p * sizeof *all);
+        memcpy(all + n + 1 + p, met + p + n, v * sizeof *all);
+        free(met);
+    }
     system->variables = all;
     system->n = n;
     system->parameters = n + 1;
@@ -949,6 +909,23 @@ static bool arrange(struct reading *reading)
     return true;
 }
 
+/* u and u_t, and what densities may hold beside them: x and u_x */
+static bool add_field(struct reading *reading, const struct line *field)
+{
+    char x[] = "x";
+    const struct entry place = {
+        .name = x, .length = 1, .place = field->place, .role = VELOCITY, .number = reading->velocity_count++};
+    if (!add_all_names(reading, field->value, COMPONENT, &reading->component_count)) {
+        return false;
+    }
+    if (reading->component_count != 1) {
+        return fail(reading, field->value.begin, "a field has one name, as in field: u");
+    }
+    return add_derived(reading, "", "_t", COMPONENT, &reading->component_count, 1) &&
+           add_entry(reading, place) && add_variable(reading, &place) &&
+           add_derived(reading, "", "_x", VELOCITY, &reading->velocity_count, 1);
+}
+
 static bool add_state(struct reading *reading)
 {
     struct gm_own_system *system = reading->system;
@@ -964,17 +941,19 @@ static bool add_state(struct reading *reading)
             fail(reading, momenta->place, "%zu momenta for %zu coordinates", reading->component_count - n, n);
         }
         if (!momenta) {
-            add_prefixed(reading, "p_", COMPONENT, &reading->component_count, n);
+            add_derived(reading, "p_", "", COMPONENT, &reading->component_count, n);
         }
         if (system->kind == GM_LAGRANGIAN && velocities) {
             add_all_names(reading, velocities->value, VELOCITY, &reading->velocity_count);
         } else if (system->kind == GM_LAGRANGIAN) {
-            add_prefixed(reading, "v_", VELOCITY, &reading->velocity_count, n);
+            add_derived(reading, "v_", "", VELOCITY, &reading->velocity_count, n);
         }
         if (!reading->failed && system->kind == GM_LAGRANGIAN && reading->velocity_count != n) {
             fail(reading, velocities->place, "%zu velocities for %zu coordinates", reading->velocity_count,
                  n);
         }
+    } else if (system->kind == GM_FIELD) {
+        add_field(reading, line_with(reading, GM_WORD_FIELD));
     } else if (components) {
         add_all_names(reading, components->value, COMPONENT, &reading->component_count);
     } else {
@@ -986,6 +965,21 @@ static bool add_state(struct reading *reading)
     char t[] = "t";
     const struct entry time = {.name = t, .length = 1, .role = TIME};
     return !reading->failed && arrange(reading) && add_entry(reading, time);
+}
+
+/* How parameters follow from others, now that these have their numbers. */
+static bool relate_parameters(struct reading *reading)
+{
+    struct gm_own_system *system = reading->system;
+    for (size_t i = 0; i < reading->entry_count && !reading->failed; i++) {
+        const struct entry *entry = &reading->entries[i];
+        gm_node_id node;
+        if (entry->role == PARAMETER && entry->value.begin < entry->value.end &&
+            read_bound(reading, entry->value, &entry->bound, entry->element, &node)) {
+            system->variables[system->parameters + entry->number].start = node;
+        }
+    }
+    return !reading->failed;
 }
 
 static bool add_lets(struct reading *reading)
@@ -1010,9 +1004,10 @@ static bool add_lets(struct reading *reading)
     return !reading->failed;
 }
 
-/* -- what lines say ---------------------------------------------------------------------------------------- */
+/* -- what lines say
+   ---------------------------------------------------------------------------------------- */
 
-static struct gm_system_item *add_item(struct reading *reading, const struct line *line, struct span name)
+static struct gm_system_item *add_item(struct reading *reading, const struct line *line, struct gm_span name)
 {
     struct gm_own_system *system = reading->system;
     if (!reserve(reading, (void **)&system->items, system->item_count, sizeof *system->items)) {
@@ -1034,17 +1029,17 @@ static bool add_node(struct reading *reading, struct gm_system_item *item, gm_no
     return true;
 }
 
-static bool add_formula(struct reading *reading, struct gm_system_item *item, struct span span)
+static bool add_formula(struct reading *reading, struct gm_system_item *item, struct gm_span span)
 {
     gm_node_id node;
     return read_formula(reading, span, &node) && add_node(reading, item, node);
 }
 
 /* formulas that are separated by commas */
-static bool add_formulas(struct reading *reading, struct gm_system_item *item, struct span rest)
+static bool add_formulas(struct reading *reading, struct gm_system_item *item, struct gm_span rest)
 {
-    struct span piece;
-    while (!reading->failed && take_piece(reading, &rest, ",", &piece)) {
+    struct gm_span piece;
+    while (!reading->failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         add_formula(reading, item, piece);
     }
     return !reading->failed;
@@ -1055,8 +1050,9 @@ static bool assign(struct reading *reading, struct entry *entry, const struct ta
                    void *data)
 {
     struct gm_own_system *system = reading->system;
-    const enum gm_word word = *(const enum gm_word *)data;
-    const bool is_velocity = entry->role == VELOCITY && word == GM_WORD_START;
+    const enum gm_system_word word = *(const enum gm_system_word *)data;
+    const bool is_velocity =
+        entry->role == VELOCITY && word == GM_WORD_START && system->kind == GM_LAGRANGIAN;
     if (entry->role != COMPONENT && !is_velocity) {
         return fail(reading, target->name.begin, "%.*s is no component",
                     (int)(entry->length < 60 ? entry->length : 60), entry->name);
@@ -1079,9 +1075,9 @@ static bool assign(struct reading *reading, struct entry *entry, const struct ta
 
 static bool read_assignments(struct reading *reading, const struct line *line)
 {
-    struct span rest = line->value, piece;
-    enum gm_word word = line->word;
-    while (!reading->failed && take_piece(reading, &rest, ",", &piece)) {
+    struct gm_span rest = line->value, piece;
+    enum gm_system_word word = line->word;
+    while (!reading->failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct target target;
         reading->initial = word == GM_WORD_EXACT;
         if (read_assignment(reading, piece, &target)) {
@@ -1095,7 +1091,7 @@ static bool read_assignments(struct reading *reading, const struct line *line)
 static bool read_bracket(struct reading *reading, const struct line *line)
 {
     struct gm_own_system *system = reading->system;
-    struct span rest = line->value;
+    struct gm_span rest = line->value;
     size_t pair[2];
     for (int i = 0; i < 2; i++) {
         struct target target;
@@ -1114,7 +1110,7 @@ static bool read_bracket(struct reading *reading, const struct line *line)
         }
         pair[i] = entry->number;
     }
-    rest = trimmed(reading, rest);
+    rest = gm_span_trimmed(reading->text, rest);
     if (rest.begin == rest.end || reading->text[rest.begin] != '=') {
         return fail(reading, rest.begin, "= was expected");
     }
@@ -1157,9 +1153,9 @@ static bool generate(struct reading *reading, struct entry *entry, const struct 
 static bool read_symmetry(struct reading *reading, const struct line *line)
 {
     struct gm_own_system *system = reading->system;
-    struct span rest = line->value, name = {0, 0}, piece;
-    if (next_of(reading, rest, ";") < rest.end) {
-        take_piece(reading, &rest, ";", &name);
+    struct gm_span rest = line->value, name = {0, 0}, piece;
+    if (gm_span_until(reading->text, rest, ";") < rest.end) {
+        gm_span_take(reading->text, &rest, ";", &name);
     }
     struct gm_system_item *item = add_item(reading, line, name);
     const size_t size = system->kind <= GM_LAGRANGIAN ? system->n / 2 : system->n;
@@ -1167,7 +1163,7 @@ static bool read_symmetry(struct reading *reading, const struct line *line)
     for (size_t i = 0; item && i < size && !reading->failed; i++) {
         add_node(reading, item, zero);
     }
-    while (item && !reading->failed && take_piece(reading, &rest, ",", &piece)) {
+    while (item && !reading->failed && gm_span_take(reading->text, &rest, ",", &piece)) {
         struct target target;
         if (read_assignment(reading, piece, &target)) {
             for_elements(reading, &target, generate, item);
@@ -1179,9 +1175,9 @@ static bool read_symmetry(struct reading *reading, const struct line *line)
 /* NAME = formula; scale 1 */
 static bool read_named(struct reading *reading, const struct line *line)
 {
-    struct span rest = line->value, piece, scale;
+    struct gm_span rest = line->value, piece, scale;
     struct target target;
-    take_piece(reading, &rest, ";", &piece);
+    gm_span_take(reading->text, &rest, ";", &piece);
     if (!read_assignment(reading, piece, &target)) {
         return false;
     }
@@ -1208,7 +1204,7 @@ static bool read_named(struct reading *reading, const struct line *line)
             return fail(reading, target.name.begin, "%.60s is said twice", item->name);
         }
     }
-    if (take_piece(reading, &rest, ";", &scale)) {
+    if (gm_span_take(reading->text, &rest, ";", &scale)) {
         if (line->word == GM_WORD_OBSERVE || scale.end - scale.begin < 7 ||
             memcmp(reading->text + scale.begin, "scale ", 6) != 0) {
             return fail(reading, scale.begin,
@@ -1224,39 +1220,46 @@ static bool read_named(struct reading *reading, const struct line *line)
 /* section: y = 0, p_y > 0; x, p_x   or   section: every T; x, p_x */
 static bool read_section(struct reading *reading, const struct line *line)
 {
-    struct span rest = line->value, where, piece;
-    struct gm_system_item *item = add_item(reading, line, (struct span){0, 0});
-    take_piece(reading, &rest, ";", &where);
+    struct gm_span rest = line->value, where, piece;
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    gm_span_take(reading->text, &rest, ";", &where);
     if (!item) {
         return false;
     }
     item->periodic = where.end - where.begin > 6 && memcmp(reading->text + where.begin, "every ", 6) == 0;
     where.begin += item->periodic ? 6 : 0;
-    struct span condition;
-    take_piece(reading, &where, ",", &condition);
+    struct gm_span condition;
+    gm_span_take(reading->text, &where, ",", &condition);
     if (!item->periodic) {
-        const size_t equals = next_of(reading, condition, "=");
-        const struct span right = trimmed(reading, (struct span){equals + 1, condition.end});
+        const size_t equals = gm_span_until(reading->text, condition, "=");
+        const struct gm_span right =
+            gm_span_trimmed(reading->text, (struct gm_span){equals + 1, condition.end});
         if (equals == condition.end || right.end - right.begin != 1 || reading->text[right.begin] != '0') {
             return fail(reading, condition.begin, "a section is where something is 0, x = 0, or every T");
         }
         condition.end = equals;
     }
-    if (!add_formula(reading, item, condition)) {
+    double period = 1;
+    if (!add_formula(reading, item, condition) ||
+        (item->periodic && !read_number(reading, condition, &period))) {
         return false;
+    }
+    if (!(period > 0)) {
+        return fail(reading, condition.begin, "the time between two looks is %g, and has to be above 0",
+                    period);
     }
     if (rest.begin == rest.end || !add_formulas(reading, item, rest) || item->count != 3) {
         return fail(reading, rest.begin, "a section shows two values: ; x, p_x");
     }
-    while (!reading->failed && take_piece(reading, &where, ",", &piece)) {
-        const size_t more = next_of(reading, piece, ">"), less = next_of(reading, piece, "<"),
-                     sign = more < less ? more : less;
+    while (!reading->failed && gm_span_take(reading->text, &where, ",", &piece)) {
+        const size_t more = gm_span_until(reading->text, piece, ">"),
+                     less = gm_span_until(reading->text, piece, "<"), sign = more < less ? more : less;
         if (sign == piece.end) {
             return fail(reading, piece.begin, "a condition was expected, p_x > 0");
         }
         gm_node_id left, right;
-        if (read_formula(reading, (struct span){piece.begin, sign}, &left) &&
-            read_formula(reading, (struct span){sign + 1, piece.end}, &right)) {
+        if (read_formula(reading, (struct gm_span){piece.begin, sign}, &left) &&
+            read_formula(reading, (struct gm_span){sign + 1, piece.end}, &right)) {
             add_node(reading, item,
                      gm_formula_apply(&reading->system->graph, GM_OPERATION_SUBTRACT,
                                       sign == more ? left : right, sign == more ? right : left));
@@ -1268,11 +1271,11 @@ static bool read_section(struct reading *reading, const struct line *line)
 /* one body, or both ends of a rod, in two or three dimensions */
 static bool read_view(struct reading *reading, const struct line *line)
 {
-    struct gm_system_item *item = add_item(reading, line, (struct span){0, 0});
-    struct span rest = line->value, piece;
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    struct gm_span rest = line->value, piece;
     size_t ends = 0, dimensions = 0;
     bool equal = true;
-    while (item && !reading->failed && take_piece(reading, &rest, ";", &piece)) {
+    while (item && !reading->failed && gm_span_take(reading->text, &rest, ";", &piece)) {
         const size_t before = item->count;
         add_formulas(reading, item, piece);
         equal = equal && (ends == 0 || item->count - before == dimensions);
@@ -1285,14 +1288,25 @@ static bool read_view(struct reading *reading, const struct line *line)
                     line->word == GM_WORD_ROD ? "a rod has two ends: 0, 0; x, y"
                                               : "a body stands at two or three coordinates: x, y");
     }
+    const struct gm_own_system *system = reading->system;
+    for (size_t i = 0; i + 1 < system->item_count && !reading->failed; i++) {
+        const struct gm_system_item *other = &system->items[i];
+        const size_t of_other = other->word == GM_WORD_VIEW  ? other->count
+                                : other->word == GM_WORD_ROD ? other->count / 2
+                                                             : dimensions;
+        if (of_other != dimensions) {
+            return fail(reading, line->value.begin, "%zu coordinates, and those of the lines before are %zu",
+                        dimensions, of_other);
+        }
+    }
     return !reading->failed;
 }
 
 static bool read_angles(struct reading *reading, const struct line *line)
 {
     struct gm_own_system *system = reading->system;
-    for (struct span rest = trimmed(reading, line->value); rest.begin < rest.end && !reading->failed;
-         rest = trimmed(reading, rest)) {
+    for (struct gm_span rest = gm_span_trimmed(reading->text, line->value);
+         rest.begin < rest.end && !reading->failed; rest = gm_span_trimmed(reading->text, rest)) {
         struct target target;
         long index = 0;
         if (reading->text[rest.begin] == ',') {
@@ -1316,6 +1330,30 @@ static bool read_angles(struct reading *reading, const struct line *line)
     return !reading->failed;
 }
 
+/* A number of a ring: half its length, the points of its grid, by how much the field differs at its ends. */
+static bool read_ring(struct reading *reading, const struct line *line)
+{
+    static const struct {
+        double low, high;
+        const char *told;
+    } ranges[] = {{0.1, 1e5, "a number from 0.1 to 1e5"},
+                  {3, 1e7, "a whole number from 3 to 1e7"},
+                  {-1e6, 1e6, "a number"}};
+    const size_t row = (size_t)line->word - GM_WORD_HALF_LENGTH;
+    double number;
+    struct gm_system_item *item;
+    if (!read_number(reading, line->value, &number)) {
+        return false;
+    }
+    if (!(number >= ranges[row].low && number <= ranges[row].high) ||
+        (line->word == GM_WORD_POINTS && number != floor(number))) {
+        return fail(reading, line->value.begin, "%s is %g, and has to be %s", words[line->word].word, number,
+                    ranges[row].told);
+    }
+    item = add_item(reading, line, (struct gm_span){0, 0});
+    return item && add_formula(reading, item, line->value);
+}
+
 static bool read_what_is_said(struct reading *reading, const struct line *line)
 {
     struct gm_own_system *system = reading->system;
@@ -1332,8 +1370,13 @@ static bool read_what_is_said(struct reading *reading, const struct line *line)
         if (!read_number(reading, line->value, &number)) {
             return false;
         }
+        if (!(isfinite(number) && (line->word == GM_WORD_DT ? number > 0 : number >= 0))) {
+            return fail(reading, line->value.begin, "%s is %g, and has to be %s", words[line->word].word,
+                        number, line->word == GM_WORD_DT ? "above 0" : "0 or more");
+        }
         system->texts[line->word] = text_of(reading, line->value);
-        return true;
+        item = add_item(reading, line, (struct gm_span){0, 0});
+        return item && add_formula(reading, item, line->value);
     case GM_WORD_TITLE:
     case GM_WORD_ABOUT:
     case GM_WORD_WATCH:
@@ -1342,8 +1385,13 @@ static bool read_what_is_said(struct reading *reading, const struct line *line)
     case GM_WORD_MEMBERS:
         system->texts[line->word] = text_of(reading, line->value);
         return true;
+    case GM_WORD_HALF_LENGTH:
+    case GM_WORD_POINTS:
+    case GM_WORD_JUMP:
+        return read_ring(reading, line);
     case GM_WORD_HAMILTONIAN:
     case GM_WORD_LAGRANGE:
+    case GM_WORD_POTENTIAL:
         return read_formula(reading, line->value, &system->energy);
     case GM_WORD_RATE:
     case GM_WORD_START:
@@ -1368,7 +1416,7 @@ static bool read_what_is_said(struct reading *reading, const struct line *line)
     case GM_WORD_CONSTRAINT:
     case GM_WORD_STOP:
     case GM_WORD_MONITOR:
-        item = add_item(reading, line, (struct span){0, 0});
+        item = add_item(reading, line, (struct gm_span){0, 0});
         return item && add_formula(reading, item, line->value);
     default: /* names, which were read before */
         return true;
@@ -1424,7 +1472,7 @@ static bool name_parts(struct reading *reading)
             continue;
         }
         struct gm_system_item *item =
-            add_item(reading, &line, (struct span){entry->place, entry->place + entry->length});
+            add_item(reading, &line, (struct gm_span){entry->place, entry->place + entry->length});
         if (item && add_node(reading, item, entry->node) &&
             system->graph.nodes[entry->node].operation > GM_VARIABLE) {
             system->parts[entry->node] = item->name;
@@ -1439,14 +1487,12 @@ static bool read_system(struct reading *reading)
     if (reading->length > GM_LARGEST_SYSTEM) {
         return fail(reading, 0, "a system has at most 100 MB");
     }
-    const size_t valid = gm_text_valid(reading->text, reading->length);
-    if (valid < reading->length) {
-        return fail(reading, valid,
-                    reading->text[valid] ? "the byte 0x%02x is no UTF-8" : "a byte is 0: this is no text",
-                    (unsigned char)reading->text[valid]);
+    struct gm_fault fault;
+    if (!gm_lines_are_text(reading->text, reading->length, &fault)) {
+        return fail(reading, fault.offset, "%s", fault.sentence);
     }
     if (!read_lines(reading) || !find_kind(reading) || !add_parameters(reading) || !add_state(reading) ||
-        !all_nodes(reading, &system->rates, system->n)) {
+        !relate_parameters(reading) || !all_nodes(reading, &system->rates, system->n)) {
         return false;
     }
     if (system->kind == GM_POISSON &&
@@ -1512,7 +1558,9 @@ void gm_system_close(struct gm_own_system *system)
     free(system->items);
     free(system->rates);
     free(system->momenta);
+    free(system->mass.entries);
     free(system->bracket);
+    free(system->facets);
     free(system->parts);
     gm_formula_close(&system->graph);
     *system = (struct gm_own_system){0};

@@ -4,6 +4,7 @@
 #ifndef GM_CORE_FORMULA_SYSTEM_H
 #define GM_CORE_FORMULA_SYSTEM_H
 
+#include "core/formula/derivative.h"
 #include "core/formula/identity.h"
 #include "core/formula/reader.h"
 #include "core/formula/writer.h"
@@ -13,10 +14,11 @@ enum gm_system_kind {
     GM_LAGRANGIAN, /* the same state; L of coordinates and velocities */
     GM_RATES,      /* components with their rates */
     GM_POISSON,    /* components, a bracket, H */
+    GM_FIELD,      /* u of x and t, and u_t: u_tt = u_xx - V'(u) */
     GM_SYSTEM_KINDS
 };
 
-enum gm_word {
+enum gm_system_word {
 #define GM_WORD(constant, ...) GM_WORD_##constant,
 #include "core/formula/words.def"
 #undef GM_WORD
@@ -26,7 +28,7 @@ enum gm_word {
 enum { GM_LARGEST_SYSTEM = 100000000, GM_MOST_COMPONENTS = 100000 };
 
 /* A variable of the graph. Their numbers: the n components, t, the parameters, of a Lagrangian the n / 2
-   velocities, and the n components at the start, of which `exact` speaks. */
+   velocities, of a field x and u_x, and the n components at the start, of which `exact` speaks. */
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
     double value;         /* of a parameter; else NaN */
@@ -34,13 +36,15 @@ struct gm_system_variable {
     char *meaning, *unit; /* "" */
     bool fixed;           /* it is in an index or a bound: another value is another graph */
     bool angle;           /* periodic */
-    gm_node_id start;     /* of components, and of velocities where they are given; else GM_NO_NODE */
+    /* Of components, and of velocities where they are given; of a parameter its formula in others, unless it
+       was given. Else GM_NO_NODE. */
+    gm_node_id start;
     gm_node_id force, exact;
 };
 
 /* What a line with formulas says. */
 struct gm_system_item {
-    enum gm_word word;
+    enum gm_system_word word;
     char *name;   /* of let, invariant, casimir, symmetry, observe; "" */
     size_t place; /* of the line's text */
     gm_node_id *nodes;
@@ -50,28 +54,34 @@ struct gm_system_item {
     enum gm_identity check; /* of invariants, Casimirs and symmetries */
 };
 /* nodes: of a section what becomes 0, the two that are shown, and what must be positive; of a symmetry the
-   generator, one for a coordinate or component, and last its momentum map; of a rod one end and the other. */
+   generator, one for a coordinate or component, and last its momentum map; of a rod one end and the other; of
+   dt, until and steps the number, in parameters. */
 
 struct gm_own_system {
     enum gm_system_kind kind;
     char *source; /* the text that it was read from, closed by a NUL */
     size_t length;
+    bool typed; /* the text is made of words: its lines are nobody's */
     struct gm_formula graph;
     char *texts[GM_WORDS]; /* of the words that are texts; NULL: not given */
     size_t n;
     bool timed; /* t occurs in its equations */
     struct gm_system_variable *variables;
     size_t variable_count, parameters, velocities,
-        initial;             /* where these begin; parameters end at velocities */
-    gm_node_id energy;       /* H or L */
-    gm_node_id *rates;       /* of the n components; of a Lagrangian those of the coordinates are missing */
+        initial;       /* where these begin; parameters end at velocities */
+    gm_node_id energy; /* H, L or V */
+    /* Of the n components; of a Lagrangian those of the coordinates are missing, of a field the second is
+       without u_xx. */
+    gm_node_id *rates;
     gm_node_id *momenta;     /* of a Lagrangian: dL/dv */
+    struct gm_sparse mass;   /* and d2L/dv2, of dL/dv number `row` over velocity number `column` */
     gm_node_id *bracket;     /* of a Poisson system, n * n */
     enum gm_identity jacobi; /* of the bracket */
     struct gm_system_item *items;
     size_t item_count;
+    gm_node_id *facets; /* what core/formula/facts.c found */
     const char **parts; /* names of nodes, by number, for naming; NULL behind part_count */
-    size_t part_count;
+    size_t part_count;  /* that were read; what follows was derived */
 };
 
 /* A parameter that is to have another value, "N", "5". */
@@ -79,8 +89,8 @@ struct gm_system_value {
     const char *name, *text;
 };
 
-/* Reads what a system says, not yet what follows from it: that is gm_equations_open. False with a fault, whose
-   sentence is empty where memory was refused. To be closed in both cases. */
+/* Reads what a system says, not yet what follows from it: that is gm_equations_open. False with a fault,
+   whose sentence is empty where memory was refused. To be closed in both cases. */
 bool gm_system_read(struct gm_own_system *system, const char *text, size_t length,
                     const struct gm_system_value *values, size_t count, struct gm_fault *fault);
 void gm_system_close(struct gm_own_system *system);

@@ -70,6 +70,14 @@ static struct gm_fourier *open_chirp(struct gm_fourier *fourier)
     return fourier;
 }
 
+static bool make_tables(void *data)
+{
+    struct gm_fourier *fourier = data;
+    fourier->table = gsl_fft_complex_wavetable_alloc(fourier->count);
+    fourier->space = gsl_fft_complex_workspace_alloc(fourier->count);
+    return fourier->table && fourier->space;
+}
+
 struct gm_fourier *gm_fourier_open(size_t count)
 {
     struct gm_fourier *fourier = calloc(1, sizeof *fourier);
@@ -80,10 +88,7 @@ struct gm_fourier *gm_fourier_open(size_t count)
     if (largest_factor(count) > LARGEST_FACTOR) {
         return open_chirp(fourier);
     }
-    gm_memory_heed_gsl();
-    fourier->table = gsl_fft_complex_wavetable_alloc(count);
-    fourier->space = gsl_fft_complex_workspace_alloc(count);
-    if (!fourier->table || !fourier->space) {
+    if (!gm_memory_guard_gsl(make_tables, fourier)) {
         gm_fourier_close(fourier);
         return NULL;
     }

@@ -66,7 +66,7 @@ static inline const struct gm_moving_mesh *gm_moving_mesh_of(const struct gm_pro
 }
 
 /* A field and its rate of change in time: value, slope and rate at x. */
-typedef void gm_profile(const void *context, double x, double *value, double *slope, double *rate);
+typedef void gm_mesh_profile(const void *context, double x, double *value, double *slope, double *rate);
 
 enum gm_mesh_kind { GM_MESH_UNIFORM, GM_MESH_MOVING };
 
@@ -76,7 +76,7 @@ enum gm_mesh_kind gm_scheme_mesh(const struct gm_scheme *scheme);
 /* Writes the canonical state of a profile on a mesh of that kind: nodes by continuation from the uniform
    mesh, velocities consistent with the constraint (their section 5.2). False: no mesh was found, or out of
    memory. */
-bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_profile *profile,
+bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_profile *profile,
                    const void *context, double *state);
 
 /* Carries a state onto a mesh of that kind; as it is if it is of that kind already. `state` and `out` may be

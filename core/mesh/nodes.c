@@ -91,7 +91,7 @@ static void by_places(const struct gm_elements *stage, const double *slope, stru
 
 /* The field at the nodes where they are now, if it is a function of the place; true if all widths are
    positive. */
-static bool look(struct gm_elements *stage, const struct gm_mesh *mesh, gm_profile *profile,
+static bool look(struct gm_elements *stage, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                  const void *context)
 {
     for (size_t k = 1; profile && k <= mesh->points; k++) {
@@ -100,7 +100,7 @@ static bool look(struct gm_elements *stage, const struct gm_mesh *mesh, gm_profi
     return gm_elements_measure(stage, mesh);
 }
 
-bool gm_nodes_equidistribute(struct gm_elements *stage, const struct gm_mesh *mesh, gm_profile *profile,
+bool gm_nodes_equidistribute(struct gm_elements *stage, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                              const void *context, struct gm_banded *matrix, double *change)
 {
     enum { MOST = 50, HALVINGS = 20 };

@@ -34,7 +34,7 @@ static inline double gm_jump(const double *elements, size_t k)
    field at the nodes is given in stage->y where profile is NULL; otherwise it is the profile's value at the
    node, and stage->u and stage->v receive the profile's slope and rate there (at the ends: 0). Uses `matrix`
    (N, band 1) and `change` (N). False: no such mesh was found nearby. */
-bool gm_nodes_equidistribute(struct gm_elements *stage, const struct gm_mesh *mesh, gm_profile *profile,
+bool gm_nodes_equidistribute(struct gm_elements *stage, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                              const void *context, struct gm_banded *matrix, double *change);
 
 /* Then the nodes' velocities, into `motion` (N), with which the constraint goes on to hold. False:

@@ -24,7 +24,7 @@ void gm_soliton_problem(const struct gm_soliton *soliton, struct gm_problem *pro
 /* alpha, resolved */
 double gm_soliton_alpha(const struct gm_soliton *soliton);
 
-/* The field at the start, a gm_profile of a struct gm_soliton. */
+/* The field at the start, a gm_mesh_profile of a struct gm_soliton. */
 void gm_soliton_profile(const void *soliton, double x, double *value, double *slope, double *rate);
 
 /* The solution, exact but for what an image of the soliton behind a wall contributes there (about 1e-12); NaN

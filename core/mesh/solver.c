@@ -13,13 +13,13 @@ static const double tolerance = 1e-11; /* of a change of the unknowns */
 static const double contracts = 0.2;   /* a ratio of changes at which the rest may be told from them */
 
 /* Of a change that solves the equations: what round-off makes need not be smaller. */
-static double enough(const struct gm_equations *equations)
+static double enough(const struct gm_step_equations *equations)
 {
     return fmax(tolerance, 4 * equations->noise);
 }
 
 /* Of a change that no longer shrinks: multipliers carry noise, velocities the round-off of places over dt. */
-static double stagnation(const struct gm_equations *equations)
+static double stagnation(const struct gm_step_equations *equations)
 {
     return fmax(1e-9, 10 * equations->noise);
 }
@@ -62,7 +62,7 @@ static double *past(double *memory, size_t n, size_t back)
 }
 
 /* Extrapolates from the last `order` steps: 1 repeats the last one, 4 is cubic, 6 quintic. */
-static void extrapolate(const struct gm_equations *equations, double *memory, size_t n, size_t order,
+static void extrapolate(const struct gm_step_equations *equations, double *memory, size_t n, size_t order,
                         double *out)
 {
     const double *p1 = past(memory, n, 0), *p2 = past(memory, n, 1), *p3 = past(memory, n, 2);
@@ -102,14 +102,15 @@ static void extrapolate(const struct gm_equations *equations, double *memory, si
 }
 
 /* Factors the derivative at these unknowns, where the residual has just been evaluated. */
-static bool factor(struct gm_solver *solver, const struct gm_equations *equations, const double *unknowns)
+static bool factor(struct gm_solver *solver, const struct gm_step_equations *equations,
+                   const double *unknowns)
 {
     gm_banded_clear(&solver->matrix);
     equations->jacobian(equations->self, unknowns, &solver->matrix);
     return gm_banded_factor(&solver->matrix);
 }
 
-static bool refresh(struct gm_solver *solver, const struct gm_equations *equations, double *memory,
+static bool refresh(struct gm_solver *solver, const struct gm_step_equations *equations, double *memory,
                     const double *state, const double *unknowns)
 {
     const size_t n = solver->matrix.n;
@@ -123,7 +124,7 @@ static bool refresh(struct gm_solver *solver, const struct gm_equations *equatio
 }
 
 /* Makes the factors that the memory names, if others or none are at hand. */
-static void restore(struct gm_solver *solver, const struct gm_equations *equations, double *memory)
+static void restore(struct gm_solver *solver, const struct gm_step_equations *equations, double *memory)
 {
     const size_t n = solver->matrix.n;
     if (memory[GM_MEMORY_STAMP] == solver->stamp) {
@@ -137,7 +138,8 @@ static void restore(struct gm_solver *solver, const struct gm_equations *equatio
 }
 
 /* unknowns -= share * change; the largest weighted relative change */
-static double move(const struct gm_equations *equations, const double *change, double share, double *unknowns)
+static double move(const struct gm_step_equations *equations, const double *change, double share,
+                   double *unknowns)
 {
     double largest = 0, sum = 0;
     const size_t width = equations->per_node;
@@ -156,8 +158,8 @@ static double move(const struct gm_equations *equations, const double *change, d
 enum outcome { SOLVED, TANGLED, DIVERGED };
 
 /* Newton's iteration with the factors at hand, from solver->unknowns. */
-static enum outcome iterate(struct gm_solver *solver, const struct gm_equations *equations, double *memory,
-                            const double *state, struct gm_progress *progress)
+static enum outcome iterate(struct gm_solver *solver, const struct gm_step_equations *equations,
+                            double *memory, const double *state, struct gm_progress *progress)
 {
     bool fresh = memory[GM_MEMORY_STAMP] == 0 || memory[GM_MEMORY_SLOW] != 0, refreshed = false;
     double before = INFINITY;
@@ -201,7 +203,7 @@ static enum outcome iterate(struct gm_solver *solver, const struct gm_equations 
 }
 
 /* Newton's iteration with a new matrix every time; a step is shortened until every cell is positive. */
-static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_equations *equations,
+static enum outcome iterate_fully(struct gm_solver *solver, const struct gm_step_equations *equations,
                                   double *memory, const double *state, struct gm_progress *progress)
 {
     const size_t n = solver->matrix.n;
@@ -255,8 +257,8 @@ static void remember(struct gm_solver *solver, double *memory)
     memory[GM_MEMORY_PAST] = fmin(PAST, memory[GM_MEMORY_PAST] + 1);
 }
 
-enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_equations *equations, double *memory,
-                               const double *state, struct gm_progress *progress)
+enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_step_equations *equations,
+                               double *memory, const double *state, struct gm_progress *progress)
 {
     const size_t n = solver->matrix.n;
     const size_t known = (size_t)memory[GM_MEMORY_PAST];

@@ -13,7 +13,7 @@
    makes the same factors again and goes on with the same bits. First guesses are extrapolated from the last
    six steps. */
 
-struct gm_equations {
+struct gm_step_equations {
     void *self;
     size_t nodes, per_node, state; /* state: numbers of the canonical state */
     double noise;                  /* change of the unknowns that round-off alone makes */
@@ -54,7 +54,7 @@ void gm_solver_start(struct gm_solver *solver, double *memory);
 
 /* Solves for the step from `state`; leaves the unknowns in solver->unknowns, the residual's by-products
    there, and remembers. Counts into progress. */
-enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_equations *equations, double *memory,
-                               const double *state, struct gm_progress *progress);
+enum gm_status gm_solver_solve(struct gm_solver *solver, const struct gm_step_equations *equations,
+                               double *memory, const double *state, struct gm_progress *progress);
 
 #endif

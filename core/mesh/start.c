@@ -41,7 +41,7 @@ static void even(const struct gm_mesh *mesh, double *x)
     }
 }
 
-static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_profile *profile,
+static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_mesh_profile *profile,
                         const void *context)
 {
     double *x = bench->stage.x;
@@ -71,7 +71,8 @@ static bool continue_to(struct bench *bench, const struct gm_mesh *mesh, gm_prof
 }
 
 /* Many nodes: start from the mesh with half as many. */
-static bool refine(struct bench *bench, const struct gm_mesh *mesh, gm_profile *profile, const void *context)
+static bool refine(struct bench *bench, const struct gm_mesh *mesh, gm_mesh_profile *profile,
+                   const void *context)
 {
     if (mesh->points <= DIRECT) {
         return continue_to(bench, mesh, profile, context);
@@ -94,7 +95,7 @@ static bool refine(struct bench *bench, const struct gm_mesh *mesh, gm_profile *
            gm_nodes_equidistribute(&bench->stage, mesh, profile, context, &bench->matrix, bench->change);
 }
 
-bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_profile *profile,
+bool gm_mesh_start(const struct gm_mesh *mesh, enum gm_mesh_kind kind, gm_mesh_profile *profile,
                    const void *context, double *state)
 {
     const size_t points = mesh->points;

@@ -3,6 +3,7 @@
 #ifndef GM_CORE_ODE_ODE_H
 #define GM_CORE_ODE_ODE_H
 
+#include "core/formula/graph.h"
 #include "core/kind.h"
 
 struct gm_loops; /* core/ode/kernel/loops.h */
@@ -15,7 +16,8 @@ enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
 
 /* H(q, p) = T(p) + V(q): exact flows of two parts; q are the first n / 2 components */
 struct gm_split {
-    bool nystrom; /* T is quadratic */
+    bool nystrom;   /* T is quadratic, */
+    bool unit_mass; /* q' = p even: it need not be asked for */
 };
 
 /* q' = w dH/dp, p' = -w dH/dq with q the first n / 2 components and w = weight(problem) (NULL: 1). So the
@@ -25,6 +27,31 @@ struct gm_hamiltonian {
     double (*weight)(const struct gm_problem *problem);
     /* `energy` is that of the first of several copies, as where tangent vectors are carried along. */
     bool partial;
+    /* The same as a formula in a graph that was opened for it, of the components alone, by number. False: out
+       of memory. NULL: it is written nowhere. */
+    bool (*formula)(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *energy);
+};
+
+/* Where values and derivatives of an action are put, half = n / 2 coordinates; matrices by rows, row i for
+   the entry i of momenta or forces. */
+struct gm_motion {
+    double *momenta, *forces;                            /* dL/dv, dL/dq + F: half */
+    double *momenta_q, *momenta_v, *forces_q, *forces_v; /* over q and v: half * half */
+};
+
+/* A regular Lagrangian L(t, q, v) with forces F(t, q, v) and constraints g(q) = 0; the state is q, p = dL/dv
+   and, where the equations hold the time, t as its last component. */
+struct gm_action {
+    /* At (q, v) or (q, v, t), n numbers. NULL: H = T(p) + V(t, q), T quadratic, and forces, so that all is
+       made of the field and the Jacobian of `free`. */
+    void (*motion)(const struct gm_problem *problem, const double *at, const struct gm_motion *motion);
+    const struct gm_loops *free; /* those without constraints; NULL: the problem's */
+    /* F = -rate p; NULL: it is not of this form */
+    double (*friction)(const struct gm_problem *problem);
+    size_t constraints; /* g; 0: none */
+    /* g (constraints), G = dg/dq (constraints * half), and d(G' multipliers)/dq (half * half) */
+    void (*constrain)(const struct gm_problem *problem, const double *q, const double *multipliers, double *g,
+                      double *slopes, double *curvature);
 };
 
 /* L(q, v) = v^2/2 - V(q), one degree of freedom: values[0..2] = V, V', V'' at q */
@@ -63,19 +90,25 @@ enum gm_ode_facet {
     GM_NEEDS_FAST_LINEAR = 1u << 3,
     GM_NEEDS_KEPLER_SPLIT = 1u << 4,
     GM_NEEDS_VOLUME = 1u << 5,
-    GM_NEEDS_QUADRATIC = 1u << 6,   /* the field is quadratic */
-    GM_NEEDS_NYSTROM = 1u << 7,     /* a split whose kinetic energy is quadratic */
-    GM_NEEDS_INSEPARABLE = 1u << 8, /* a hamiltonian without a split */
-    GM_NEEDS_ENERGY = 1u << 9,      /* a hamiltonian whose energy generates the whole field */
+    GM_NEEDS_QUADRATIC = 1u << 6,    /* the field is quadratic */
+    GM_NEEDS_NYSTROM = 1u << 7,      /* a split whose kinetic energy is quadratic */
+    GM_NEEDS_INSEPARABLE = 1u << 8,  /* a hamiltonian without a split */
+    GM_NEEDS_ENERGY = 1u << 9,       /* a hamiltonian whose energy generates the whole field */
+    GM_NEEDS_ACTION = 1u << 10,      /* an action without constraints, or a Hamiltonian that makes one, */
+    GM_NEEDS_CONSTRAINTS = 1u << 11, /* or with them */
+    GM_NEEDS_FRICTION = 1u << 12,    /* forces -rate p and no others */
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
     const char *components;
     bool stiff;     /* implicit equations are solved by Newton's method from the first iteration on */
     bool quadratic; /* f is a polynomial of degree 2 */
+    bool rough;     /* f is not smooth: no order can be told */
+    bool written;   /* it was written by somebody: core/ode/own/own.h knows more of it */
     const struct gm_split *split; /* NULL: it has none, and so on */
     const struct gm_hamiltonian *hamiltonian;
     const struct gm_lagrangian *lagrangian;
+    const struct gm_action *action; /* NULL: a quadratic T(p) makes one (core/ode/variational/action.h) */
     const struct gm_fast_linear *fast_linear;
     const struct gm_kepler_split *kepler_split;
     const struct gm_volume *volume;

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Arithmetic of balls: midpoints by MPFR in storage of our own, which it never allocates, and bounds in double,
-   each enlarged by more than what its own rounding may have lost. */
+/* Arithmetic of balls: midpoints by MPFR in storage of our own, which it never allocates, and bounds in
+   double, each enlarged by more than what its own rounding may have lost. */
 #include "core/theory/ball.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { BITS = 256, EXACT_BITS = 26, DIGITS = 15 };
+static const double LARGEST = 1e6;
 
 /* A view of the midpoint, good while the ball stays where it is. */
 static void view(mpfr_t number, const struct gm_ball *ball)
@@ -52,14 +56,66 @@ struct gm_ball gm_ball_ratio(long p, long q)
     return ball;
 }
 
+static bool is_short_dyadic(double value)
+{
+    int exponent;
+    const double scaled = ldexp(frexp(value, &exponent), EXACT_BITS);
+    return scaled == nearbyint(scaled);
+}
+
+/* Of the last digit of so many. */
+static double half_unit(double value)
+{
+    return pow(10, floor(log10(fabs(value))) + 1 - DIGITS) / 2;
+}
+
 struct gm_ball gm_ball_written(double value)
 {
     struct gm_ball ball = gm_ball_of(value);
-    int exponent;
-    const double scaled = ldexp(frexp(value, &exponent), EXACT_BITS);
-    if (scaled != nearbyint(scaled)) {
-        ball.radius = pow(10, floor(log10(fabs(value))) + 1 - DIGITS) / 2;
+    if (!is_short_dyadic(value)) {
+        ball.radius = half_unit(value);
     }
+    return ball;
+}
+
+struct gm_ball gm_ball_decimal(const char *text, size_t length, double value)
+{
+    enum { LONGEST = 400, EXACT_DIGITS = 3 };
+    char copy[LONGEST + 1];
+    int digits = 0, behind = 0; /* from the first that is not 0; behind the point */
+    bool point = false;
+    size_t i = 0;
+    for (; i < length && text[i] != 'e' && text[i] != 'E'; i++) {
+        point = point || text[i] == '.';
+        digits += text[i] != '.' && (digits > 0 || text[i] != '0');
+        behind += text[i] != '.' && point;
+    }
+    const bool whole = !point && i == length;
+    if (length > LONGEST || is_short_dyadic(value)) {
+        return gm_ball_of(value);
+    }
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    struct gm_ball ball;
+    mpfr_t number;
+    begin(number, &ball);
+    const bool rounded = mpfr_set_str(number, copy, 10, MPFR_RNDN) == 0;
+    const double unit = pow(10, (i < length ? strtod(copy + i + 1, NULL) : 0) - behind);
+    const bool printed = digits > DIGITS && digits <= DIGITS + 2;
+    finish(&ball, number, rounded,
+           whole                   ? 0
+           : printed               ? half_unit(value)
+           : digits > EXACT_DIGITS ? unit / 2
+                                   : 0);
+    return ball;
+}
+
+struct gm_ball gm_ball_pi(void)
+{
+    struct gm_ball ball;
+    mpfr_t number;
+    begin(number, &ball);
+    finish(&ball, number, mpfr_const_pi(number, MPFR_RNDN) != 0, 0);
     return ball;
 }
 
@@ -97,11 +153,104 @@ struct gm_ball gm_ball_multiply(struct gm_ball a, struct gm_ball b)
     return combine(mpfr_mul, &a, &b, size_a * b.radius + size_b * a.radius + a.radius * b.radius);
 }
 
+/* At least, and at most, the size of what is in the ball. */
+static double least_size(struct gm_ball a)
+{
+    mpfr_t x;
+    view(x, &a);
+    return fmax(0, fabs(mpfr_get_d(x, MPFR_RNDZ)) - a.radius) * (1 - 4 * DBL_EPSILON);
+}
+
+static double most_size(struct gm_ball a)
+{
+    mpfr_t x;
+    view(x, &a);
+    return fabs(mpfr_get_d(x, MPFR_RNDA)) + a.radius;
+}
+
+static struct gm_ball unknown(void)
+{
+    struct gm_ball ball = gm_ball_of(0);
+    ball.radius = INFINITY;
+    return ball;
+}
+
+/* |a / b - x / y| <= (r_a + |x / y| r_b) / |b| */
+struct gm_ball gm_ball_divide(struct gm_ball a, struct gm_ball b)
+{
+    const double least = least_size(b);
+    if (!(least > 0)) {
+        return unknown();
+    }
+    const double quotient = most_size(a) / least;
+    return combine(mpfr_div, &a, &b,
+                   a.radius == 0 && b.radius == 0 ? 0 : (a.radius + quotient * b.radius) / least);
+}
+
+typedef int function(mpfr_ptr result, mpfr_srcptr x, mpfr_rnd_t rounding);
+
+/* The midpoint's value; `slope` bounds the derivative between it and what is in the ball. Of large arguments
+   MPFR would need as many bits as they have. */
+static struct gm_ball map(function *apply, const struct gm_ball *a, double slope)
+{
+    struct gm_ball result;
+    mpfr_t x, number;
+    if (!(most_size(*a) < LARGEST)) {
+        return unknown();
+    }
+    view(x, a);
+    begin(number, &result);
+    finish(&result, number, apply(number, x, MPFR_RNDN) != 0, a->radius > 0 ? slope * a->radius : 0);
+    return result;
+}
+
+/* (sqrt a - sqrt x) (sqrt a + sqrt x) = a - x */
+struct gm_ball gm_ball_sqrt(struct gm_ball a)
+{
+    const double x = gm_ball_midpoint(a);
+    const bool zero = x == 0 && a.radius == 0;
+    return zero ? a : x >= a.radius ? map(mpfr_sqrt, &a, 1.0000001 / sqrt(x)) : unknown();
+}
+
+struct gm_ball gm_ball_exp(struct gm_ball a)
+{
+    return map(mpfr_exp, &a, exp(gm_ball_midpoint(a) + a.radius) * 1.0000001);
+}
+
+struct gm_ball gm_ball_log(struct gm_ball a)
+{
+    return gm_ball_sign(a) > 0 ? map(mpfr_log, &a, 1 / least_size(a)) : unknown();
+}
+
+struct gm_ball gm_ball_sin(struct gm_ball a)
+{
+    return map(mpfr_sin, &a, 1);
+}
+
+struct gm_ball gm_ball_cos(struct gm_ball a)
+{
+    return map(mpfr_cos, &a, 1);
+}
+
+void gm_ball_forget(void)
+{
+    mpfr_free_cache();
+}
+
 double gm_ball_midpoint(struct gm_ball a)
 {
     mpfr_t number;
     view(number, &a);
     return mpfr_get_d(number, MPFR_RNDN);
+}
+
+void gm_ball_print(struct gm_ball a, int digits, char *text, size_t size)
+{
+    mpfr_t number;
+    view(number, &a);
+    const double value = fabs(mpfr_get_d(number, MPFR_RNDN));
+    const int before = value > 0 ? (int)floor(log10(value)) + 1 : 1;
+    mpfr_snprintf(text, size, "%.*Rf", digits > before ? digits - before : 0, number);
 }
 
 int gm_ball_sign(struct gm_ball a)
@@ -110,6 +259,18 @@ int gm_ball_sign(struct gm_ball a)
     view(number, &a);
     const double least = fabs(mpfr_get_d(number, MPFR_RNDZ));
     return least > a.radius ? mpfr_sgn(number) : 0;
+}
+
+bool gm_ball_is_zero(const struct gm_ball *a)
+{
+    return abs(a->kind) == MPFR_ZERO_KIND && a->radius == 0;
+}
+
+bool gm_ball_is_same(const struct gm_ball *a, const struct gm_ball *b)
+{
+    const bool zeros = abs(a->kind) == MPFR_ZERO_KIND && abs(b->kind) == MPFR_ZERO_KIND;
+    return a->radius == b->radius && (zeros || (a->kind == b->kind && a->exponent == b->exponent &&
+                                                memcmp(a->limbs, b->limbs, sizeof a->limbs) == 0));
 }
 
 bool gm_ball_may_vanish(struct gm_ball a)

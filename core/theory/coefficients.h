@@ -7,7 +7,10 @@
 /* The coefficients of a Runge-Kutta method, plain or partitioned, for y' = f(y) or (q, p)' = (f_q, f_p):
        Y_i = y0 + h sum_j a_ij f(Y_j)            Q_i = q0 + h sum_j a_ij f_q(Q_j, P_j),   P_i with c_ij
        y1  = y0 + h sum_i b_i  f(Y_i)            q1  = q0 + h sum_i b_i  f_q(Q_i, P_i),   p1  with d_i
-   A splitting is one of the second form: each of its pieces is a stage. */
+   A splitting is one of the second form: each of its pieces is a stage. So is a Nystrom method of s stages,
+   whose Q_i need the velocity at two more stages, at p0 and at p0 + h sum b_j F_j:
+       V_i = p0 + h sum_j a_ij F(Q_j),   Q_i = q0 + h [(c_i - 1) f_q(p0) + f_q(V_i)],
+   the weights d being bv. */
 
 /* What the method is for; its order is that for all such systems. */
 enum gm_equations {
@@ -23,12 +26,23 @@ enum { GM_SIDE_Q, GM_SIDE_P, GM_SIDES };
 struct gm_coefficients {
     enum gm_equations equations;
     int stages;
-    int evaluations;                           /* of f, or of the force, in a step */
+    int evaluations; /* of f, or of the force, in a step */
+    int nystrom;     /* so many of the stages are those of a Nystrom method; 0: it is none */
     struct gm_ball *a[GM_SIDES], *b[GM_SIDES]; /* stages * stages by rows, stages; a[GM_SIDE_P]: c, d */
+    /* The same, each with one of the decimals that they are made of moved by half a unit of its last digit: a
+       decimal that occurs several times is one number, and doubts of one condition may cancel. None: balls
+       say all. */
+    struct gm_coefficients *moved;
+    int moved_count;
 };
 
 /* All zeros. False: out of memory. */
 bool gm_coefficients_open(struct gm_coefficients *coefficients, enum gm_equations equations, int stages);
+/* Opens a copy. False: out of memory. */
+bool gm_coefficients_copy(struct gm_coefficients *copy, const struct gm_coefficients *coefficients);
+/* Those of a Nystrom method with a, b, bv and c as above, as said there. False: out of memory. */
+bool gm_coefficients_open_nystrom(struct gm_coefficients *coefficients, int stages, const struct gm_ball *a,
+                                  const struct gm_ball *b, const struct gm_ball *bv, const struct gm_ball *c);
 void gm_coefficients_close(struct gm_coefficients *coefficients);
 
 static inline int gm_coefficients_sides(const struct gm_coefficients *coefficients)

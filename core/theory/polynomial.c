@@ -92,7 +92,7 @@ static double cross(const struct gm_ball *at, int degree, double low, double hig
 /* The places x > 0 where it changes its sign, from below; how many. */
 static int crossings(const struct gm_ball *at, int degree, double *places)
 {
-    while (degree > 0 && gm_ball_midpoint(at[degree]) == 0) {
+    while (degree > 0 && gm_ball_may_vanish(at[degree])) { /* what cancels leaves noise */
         degree--;
     }
     if (degree <= 0) {

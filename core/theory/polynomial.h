@@ -23,8 +23,8 @@ bool gm_polynomial_add_product(struct gm_polynomial *p, struct gm_ball factor, c
                                const struct gm_polynomial *r);
 /* Takes coefficients that may vanish for zeros, where structure says that some are. */
 void gm_polynomial_settle(struct gm_polynomial *p);
-/* Where p, on x > 0, first becomes surely negative: 0 where it is so from the start, INFINITY where it never does.
-   A zero that it only touches, within what is known of its coefficients, is no such place. */
+/* Where p, on x > 0, first becomes surely negative: 0 where it is so from the start, INFINITY where it never
+   does. A zero that it only touches, within what is known of its coefficients, is no such place. */
 double gm_polynomial_first_negative(const struct gm_polynomial *p);
 /* Whether all zeros of p surely have a negative real part; Routh's scheme. */
 bool gm_polynomial_is_hurwitz(const struct gm_polynomial *p);

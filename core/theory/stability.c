@@ -4,8 +4,8 @@
    whose coefficients are those of characteristic polynomials (Faddeev and Le Verrier). Bounded
        on the negative axis    as long as  Q(-x)^2 - P(-x)^2 >= 0
        on the imaginary axis   as long as  E(y) = |Q(iy)|^2 - |P(iy)|^2 >= 0
-   A-stable if E >= 0 everywhere and all zeros of Q lie to the right, L-stable if also deg P < deg Q. E. Hairer &
-   G. Wanner, Solving Ordinary Differential Equations II (1996), IV.3.
+   A-stable if E >= 0 everywhere and all zeros of Q lie to the right, L-stable if also deg P < deg Q. E.
+   Hairer & G. Wanner, Solving Ordinary Differential Equations II (1996), IV.3.
 
    A splitting turns the oscillator by a matrix of determinant 1, bounded as long as its trace lies within
    [-2, 2]; with x = (omega h)^2
@@ -54,31 +54,29 @@ static bool multiply_determinant(int s, const struct gm_ball *m, int stride, str
     return fits;
 }
 
-/* Whether the stages up to this one know none of those behind. */
-static bool is_closed(const struct gm_coefficients *coefficients, int last)
+/* Whether the first rows of a matrix, up to this one, have nothing in the columns behind it. */
+static bool is_closed(int s, const struct gm_ball *m, int last)
 {
-    const int s = coefficients->stages;
-    bool closed = true;
     for (int i = 0; i <= last; i++) {
         for (int j = last + 1; j < s; j++) {
-            const struct gm_ball a = coefficients->a[0][i * s + j];
-            closed = closed && a.radius == 0 && gm_ball_may_vanish(a);
+            if (!gm_ball_is_zero(&m[i * s + j])) {
+                return false;
+            }
         }
     }
-    return closed;
+    return true;
 }
 
-/* Q, block by block where A is a block triangle: a composition's digits are not lost in the whole of it. */
-static bool denominator(const struct gm_coefficients *coefficients, struct gm_ball *x, struct gm_ball *next,
-                        struct gm_polynomial *q)
+/* p := det(I - z M), block by block where M is a block triangle: a composition takes no longer than its
+   parts, and its digits are not lost in the whole of it. False where the degree is too high. */
+static bool determinant(int s, const struct gm_ball *m, struct gm_ball *x, struct gm_ball *next,
+                        struct gm_polynomial *p)
 {
-    const int s = coefficients->stages;
     bool fits = true;
-    gm_polynomial_set(q, gm_ball_of(1));
+    gm_polynomial_set(p, gm_ball_of(1));
     for (int first = 0, last = 0; last < s && fits; last++) {
-        if (is_closed(coefficients, last)) {
-            fits =
-                multiply_determinant(last + 1 - first, coefficients->a[0] + first * s + first, s, x, next, q);
+        if (is_closed(s, m, last)) {
+            fits = multiply_determinant(last + 1 - first, m + first * s + first, s, x, next, p);
             first = last + 1;
         }
     }
@@ -121,15 +119,20 @@ static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
     }
     struct gm_ball *m = room, *x = room + square, *next = room + 2 * square;
     struct gm_polynomial p, q, left_p, left_q, on_real = zero, on_imaginary = zero;
-    bool fits = denominator(coefficients, x, next, &q);
+    bool fits = determinant(s, coefficients->a[0], x, next, &q), is_explicit = true;
+    for (int i = 0; i < s; i++) {
+        is_explicit = is_explicit && gm_ball_is_zero(&coefficients->a[0][i * s + i]) &&
+                      is_closed(s, coefficients->a[0], i);
+    }
     if (fits && symmetric) {
         mirror(&q, &p);
     } else if (fits) {
+        /* transposed: the stages of a composition know the weights of those before them, which vanish here */
         for (int i = 0; i < s * s; i++) {
-            m[i] = gm_ball_subtract(coefficients->a[0][i], coefficients->b[0][i % s]);
+            const struct gm_ball *a = &coefficients->a[0][i], *b = &coefficients->b[0][i % s];
+            m[i % s * s + i / s] = gm_ball_is_same(a, b) ? gm_ball_of(0) : gm_ball_subtract(*a, *b);
         }
-        gm_polynomial_set(&p, gm_ball_of(1));
-        fits = multiply_determinant(s, m, s, x, next, &p);
+        fits = determinant(s, m, x, next, &p);
     }
     free(room);
     if (!fits) {
@@ -146,7 +149,10 @@ static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
     gm_polynomial_settle(&on_imaginary);
     stability->real = gm_polynomial_first_negative(&on_real);
     stability->imaginary = sqrt(gm_polynomial_first_negative(&on_imaginary));
-    stability->a_stable = isinf(stability->imaginary) && gm_polynomial_is_hurwitz(&left_q);
+    if (is_explicit && (isinf(stability->real) || isinf(stability->imaginary))) {
+        stability->known = false; /* R is a polynomial, of which too few digits are known */
+    }
+    stability->a_stable = !is_explicit && isinf(stability->imaginary) && gm_polynomial_is_hurwitz(&left_q);
     stability->l_stable = stability->a_stable && p.degree < q.degree;
     return true;
 }
@@ -190,7 +196,7 @@ bool gm_theory_stability_of(const struct gm_coefficients *coefficients, bool sym
         return of_plain(coefficients, symmetric, stability);
     case GM_EQUATIONS_SEPARABLE:
     case GM_EQUATIONS_NYSTROM:
-        return of_splitting(coefficients, stability);
+        return coefficients->nystrom > 0 || of_splitting(coefficients, stability);
     case GM_EQUATIONS_PARTITIONED:
         break;
     }

@@ -4,8 +4,8 @@
 
 #include "core/theory/coefficients.h"
 
-/* Where |R(z)| <= 1, for the stability function R with y1 = R(h lambda) y0 of y' = lambda y. Of splittings on the
-   oscillator: where the trace of the step lies between -2 and 2. */
+/* Where |R(z)| <= 1, for the stability function R with y1 = R(h lambda) y0 of y' = lambda y. Of splittings on
+   the oscillator: where the trace of the step lies between -2 and 2. */
 struct gm_theory_stability {
     bool known;      /* not of partitioned methods that are no splittings */
     bool oscillator; /* of a splitting: only `imaginary` is known, the largest omega h */

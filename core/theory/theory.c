@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Order, with Phi_i of a tree with branches u, v, ... (Butcher's product of weights):
        Phi_i = prod_(branches u) sum_j a_ij Phi_j(u),   condition   sum_i b_i Phi_i = 1 / gamma
-   a and b being those of the side of u, of the tree. Structure, sigma i = s + 1 - i being the stages backwards:
+   a and b being those of the side of u, of the tree. Structure, sigma i = s + 1 - i being the stages
+   backwards:
        symplectic    b_i c_ij + d_j a_ji = b_i d_j,   b = d where f_q, f_p know both
        symmetric     a_(sigma i, sigma j) + a_ij = b_j = b_(sigma j), on both sides
-   E. Hairer, C. Lubich & G. Wanner, Geometric Numerical Integration (2006), II.1, III.1, III.2, V.2, VI.4, VI.7.2,
-   IX.8. */
+   E. Hairer, C. Lubich & G. Wanner, Geometric Numerical Integration (2006), II.1, III.1, III.2, V.2, VI.4,
+   VI.7.2, IX.8. */
 #include "core/theory/theory.h"
 
 #include <math.h>
@@ -14,11 +15,49 @@
 #include "core/theory/stability.h"
 #include "core/theory/trees.h"
 
-/* Every tree's weights of the stages, stages balls, and behind them sum_j a_ij of these, where it is a branch. */
+/* Every tree's weights of the stages, stages balls, and behind them sum_j a_ij of these, where it is a
+   branch. A row of a composition begins as the one before it: their sums are one as far as that goes. */
 struct weights {
     struct gm_ball *of;
     int stages;
+    struct gm_ball *sums; /* of a row, up to each of its entries */
+    struct row {
+        int same, end; /* so many entries are those of the row before; those behind the end are 0 */
+    } * rows[GM_SIDES];
 };
+
+static void weights_close(struct weights *weights)
+{
+    free(weights->of);
+    free(weights->sums);
+    free(weights->rows[GM_SIDE_Q]);
+    free(weights->rows[GM_SIDE_P]);
+}
+
+/* False: out of memory; to be closed in both cases. */
+static bool weights_open(struct weights *weights, const struct gm_coefficients *coefficients)
+{
+    const int stages = coefficients->stages;
+    *weights = (struct weights){.stages = stages};
+    weights->sums = malloc(((size_t)stages + 1) * sizeof *weights->sums);
+    bool good = weights->sums != NULL;
+    for (int side = 0; good && side < gm_coefficients_sides(coefficients); side++) {
+        struct row *rows = calloc((size_t)stages, sizeof *rows);
+        weights->rows[side] = rows;
+        good = rows != NULL;
+        for (int i = 0; good && i < stages; i++) {
+            const struct gm_ball *row = coefficients->a[side] + i * stages, *before = row - stages;
+            while (i > 0 && rows[i].same < stages &&
+                   gm_ball_is_same(&row[rows[i].same], &before[rows[i].same])) {
+                rows[i].same++;
+            }
+            for (rows[i].end = stages; rows[i].end > 0 && gm_ball_is_zero(&row[rows[i].end - 1]);) {
+                rows[i].end--;
+            }
+        }
+    }
+    return good;
+}
 
 static struct gm_ball *inner(const struct weights *weights, int tree)
 {
@@ -50,9 +89,15 @@ static void weigh(const struct gm_coefficients *coefficients, const struct gm_tr
                                                  : gm_ball_multiply(inner(weights, this->without)[i],
                                                                     outer(weights, this->last)[i]);
     }
-    for (int i = 0; i < stages; i++) {
-        outer(weights, tree)[i] =
-            product(coefficients->a[this->side] + (size_t)i * (size_t)stages, inner(weights, tree), stages);
+    weights->sums[0] = gm_ball_of(0);
+    for (int i = 0, summed = 0; i < stages; i++) {
+        const struct row *row = &weights->rows[this->side][i];
+        const struct gm_ball *a = coefficients->a[this->side] + i * stages;
+        for (summed = row->same < summed ? row->same : summed; summed < row->end; summed++) {
+            weights->sums[summed + 1] =
+                gm_ball_add(weights->sums[summed], gm_ball_multiply(a[summed], inner(weights, tree)[summed]));
+        }
+        outer(weights, tree)[i] = weights->sums[row->end];
     }
 }
 
@@ -62,6 +107,20 @@ static struct gm_ball residual(const struct gm_coefficients *coefficients, const
     const struct gm_tree *this = &trees->trees[tree];
     return gm_ball_subtract(product(coefficients->b[this->side], inner(weights, tree), coefficients->stages),
                             gm_ball_ratio(1, (long)gm_tree_density(this)));
+}
+
+/* Whether a residual is more than the doubts of the decimals make of it together, each by what its half unit
+   moves; the moved weights stand behind the others. What vanishes but for rounding is 0. */
+static bool is_beyond_doubt(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
+                            const struct weights *weights, int tree, struct gm_ball defect)
+{
+    const double rounding = 1e-60, size = fabs(gm_ball_midpoint(defect));
+    double doubt = rounding;
+    for (int k = 0; k < coefficients->moved_count && doubt < size; k++) {
+        const struct gm_ball moved = residual(&coefficients->moved[k], trees, &weights[k + 1], tree);
+        doubt += 1.001 * fabs(gm_ball_midpoint(gm_ball_subtract(moved, defect)));
+    }
+    return coefficients->moved_count > 0 && size > doubt;
 }
 
 /* The conditions of one order; false, with what fails, where one does. */
@@ -75,7 +134,7 @@ static bool holds(const struct gm_coefficients *coefficients, const struct gm_tr
         const struct gm_ball defect = residual(coefficients, trees, weights, tree);
         const double size = fabs(gm_ball_midpoint(defect));
         norm = hypot(norm, size / trees->trees[tree].symmetry);
-        if (!gm_ball_may_vanish(defect)) {
+        if (!gm_ball_may_vanish(defect) || is_beyond_doubt(coefficients, trees, weights, tree, defect)) {
             failing++;
             if (size > fabs(theory->residual)) {
                 theory->residual = gm_ball_midpoint(defect);
@@ -94,7 +153,8 @@ static bool holds(const struct gm_coefficients *coefficients, const struct gm_tr
     return false;
 }
 
-/* b(u o v) + b(v o u) = b(u) b(v), u o v being u with the branch v, for all trees with `order` vertices together */
+/* b(u o v) + b(v o u) = b(u) b(v), u o v being u with the branch v, for all trees with `order` vertices
+   together */
 static bool is_symplectic_to(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
                              const struct weights *weights, int order)
 {
@@ -125,37 +185,52 @@ static int most_orders(enum gm_equations equations)
     return equations == GM_EQUATIONS_PARTITIONED ? 8 : GM_TREES_ORDER;
 }
 
+/* The weights of the last order's trees. False: out of memory. */
+static bool weigh_order(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
+                        struct weights *weights)
+{
+    const size_t each = 2 * (size_t)coefficients->stages * sizeof *weights->of;
+    struct gm_ball *grown = realloc(weights->of, (size_t)trees->first[trees->orders + 1] * each);
+    if (!grown) {
+        return false;
+    }
+    weights->of = grown;
+    for (int tree = trees->first[trees->orders]; tree < trees->first[trees->orders + 1]; tree++) {
+        weigh(coefficients, trees, weights, tree);
+    }
+    return true;
+}
+
 /* Order by order to the first failure. False: out of memory. */
 static bool find_order(const struct gm_coefficients *coefficients, struct gm_theory *theory)
 {
     struct gm_trees trees;
-    struct weights weights = {.stages = coefficients->stages};
-    const size_t each = 2 * (size_t)coefficients->stages * sizeof *weights.of;
     const bool plain = coefficients->equations == GM_EQUATIONS_PLAIN;
-    bool good = true, searching = true;
+    const int moved = coefficients->moved_count;
+    struct weights *weights = calloc((size_t)moved + 1, sizeof *weights);
+    bool good = weights != NULL, searching = true;
+    for (int k = 0; good && k <= moved; k++) {
+        good = weights_open(&weights[k], k == 0 ? coefficients : &coefficients->moved[k - 1]);
+    }
     theory->error_constant = NAN;
     gm_trees_open(&trees, coefficients->equations);
     for (int order = 1; good && searching && order <= most_orders(coefficients->equations); order++) {
-        good = gm_trees_grow(&trees);
-        struct gm_ball *grown =
-            good ? realloc(weights.of, (size_t)trees.first[trees.orders + 1] * each) : NULL;
-        good = grown != NULL;
-        if (!good) {
-            break;
+        good = gm_trees_grow(&trees) && weigh_order(coefficients, &trees, &weights[0]);
+        for (int k = 1; good && k <= moved; k++) {
+            good = weigh_order(&coefficients->moved[k - 1], &trees, &weights[k]);
         }
-        weights.of = grown;
-        for (int tree = trees.first[order]; tree < trees.first[order + 1]; tree++) {
-            weigh(coefficients, &trees, &weights, tree);
-        }
-        searching = holds(coefficients, &trees, &weights, theory);
+        searching = good && holds(coefficients, &trees, weights, theory);
     }
     theory->at_least = searching;
     bool symplectic = plain && !theory->symplectic;
     for (int order = 2; good && symplectic && order <= trees.orders; order++) {
-        symplectic = is_symplectic_to(coefficients, &trees, &weights, order);
+        symplectic = is_symplectic_to(coefficients, &trees, &weights[0], order);
         theory->pseudo_symplectic = symplectic ? order : theory->pseudo_symplectic;
     }
-    free(weights.of);
+    for (int k = 0; weights && k <= moved; k++) {
+        weights_close(&weights[k]);
+    }
+    free(weights);
     gm_trees_close(&trees);
     return good;
 }
@@ -165,7 +240,15 @@ static struct gm_ball at(const struct gm_coefficients *coefficients, int side, i
     return coefficients->a[side][i * coefficients->stages + j];
 }
 
-static bool is_symplectic(const struct gm_coefficients *coefficients)
+/* Takes what has to vanish; false: enough is known. */
+typedef bool taker(void *data, struct gm_ball residual);
+
+static bool may_vanish(void *data, struct gm_ball residual)
+{
+    return (void)data, gm_ball_may_vanish(residual);
+}
+
+static bool is_symplectic(const struct gm_coefficients *coefficients, taker *take, void *data)
 {
     const int s = coefficients->stages, other = gm_coefficients_sides(coefficients) - 1;
     for (int i = 0; i < s; i++) {
@@ -174,20 +257,20 @@ static bool is_symplectic(const struct gm_coefficients *coefficients)
             const struct gm_ball d = coefficients->b[other][j];
             const struct gm_ball sum = gm_ball_add(gm_ball_multiply(b, at(coefficients, other, i, j)),
                                                    gm_ball_multiply(d, at(coefficients, 0, j, i)));
-            if (!gm_ball_may_vanish(gm_ball_subtract(sum, gm_ball_multiply(b, d)))) {
+            if (!take(data, gm_ball_subtract(sum, gm_ball_multiply(b, d)))) {
                 return false;
             }
         }
         if (coefficients->equations == GM_EQUATIONS_PARTITIONED &&
-            !gm_ball_may_vanish(gm_ball_subtract(b, coefficients->b[other][i]))) {
+            !take(data, gm_ball_subtract(b, coefficients->b[other][i]))) {
             return false;
         }
     }
     return true;
 }
 
-/* Whether a stage's value on this side is ever asked for: where functions know the other side alone, only if the
-   other function is taken there. */
+/* Whether a stage's value on this side is ever asked for: where functions know the other side alone, only if
+   the other function is taken there. */
 static bool is_asked_for(const struct gm_coefficients *coefficients, int side, int stage)
 {
     if (coefficients->equations == GM_EQUATIONS_PLAIN ||
@@ -201,21 +284,73 @@ static bool is_asked_for(const struct gm_coefficients *coefficients, int side, i
     return taken;
 }
 
-static bool is_symmetric(const struct gm_coefficients *coefficients)
+static bool is_symmetric(const struct gm_coefficients *coefficients, taker *take, void *data)
 {
     const int s = coefficients->stages;
     for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
         const struct gm_ball *b = coefficients->b[side];
         for (int j = 0; j < s; j++) {
-            if (!gm_ball_may_vanish(gm_ball_subtract(b[j], b[s - 1 - j]))) {
+            if (!take(data, gm_ball_subtract(b[j], b[s - 1 - j]))) {
                 return false;
             }
             for (int i = 0; i < s; i++) {
                 const struct gm_ball sum =
                     gm_ball_add(at(coefficients, side, s - 1 - i, s - 1 - j), at(coefficients, side, i, j));
-                if (is_asked_for(coefficients, side, i) && !gm_ball_may_vanish(gm_ball_subtract(sum, b[j]))) {
+                if (is_asked_for(coefficients, side, i) && !take(data, gm_ball_subtract(sum, b[j]))) {
                     return false;
                 }
+            }
+        }
+    }
+    return true;
+}
+
+/* Of a Nystrom method (Y.B. Suris, 1989; M.P. Calvo & J.M. Sanz-Serna, 1993; sigma i = s + 1 - i):
+       symplectic    b_i = bv_i (1 - c_i),   bv_i (b_j - a_ij) = bv_j (b_i - a_ji)
+       symmetric     c_(sigma i) + c_i = 1,   bv_(sigma i) = bv_i,   b_(sigma i) + b_i = bv_i,
+                     a_(sigma i, sigma j) = a_ij + (1 - c_i) bv_j - b_j */
+static bool is_nystrom_symplectic(const struct gm_coefficients *coefficients, taker *take, void *data)
+{
+    const int s = coefficients->nystrom, end = s + 1;
+    const struct gm_ball *bv = coefficients->b[GM_SIDE_P];
+    for (int i = 0; i < s; i++) {
+        const struct gm_ball b = at(coefficients, GM_SIDE_P, end, i);
+        const struct gm_ball less = at(coefficients, GM_SIDE_Q, i, s); /* c - 1 */
+        if (!take(data, gm_ball_add(b, gm_ball_multiply(bv[i], less)))) {
+            return false;
+        }
+        for (int j = 0; j < s; j++) {
+            const struct gm_ball there =
+                gm_ball_subtract(at(coefficients, GM_SIDE_P, end, j), at(coefficients, GM_SIDE_P, i, j));
+            const struct gm_ball back = gm_ball_subtract(b, at(coefficients, GM_SIDE_P, j, i));
+            if (!take(data,
+                      gm_ball_subtract(gm_ball_multiply(bv[i], there), gm_ball_multiply(bv[j], back)))) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool is_nystrom_symmetric(const struct gm_coefficients *coefficients, taker *take, void *data)
+{
+    const int s = coefficients->nystrom, end = s + 1;
+    const struct gm_ball *bv = coefficients->b[GM_SIDE_P];
+    for (int i = 0; i < s; i++) {
+        const int k = s - 1 - i;
+        const struct gm_ball less = at(coefficients, GM_SIDE_Q, i, s); /* c - 1 */
+        const struct gm_ball both =
+            gm_ball_add(at(coefficients, GM_SIDE_P, end, i), at(coefficients, GM_SIDE_P, end, k));
+        if (!take(data, gm_ball_add(gm_ball_add(less, at(coefficients, GM_SIDE_Q, k, s)), gm_ball_of(1))) ||
+            !take(data, gm_ball_subtract(bv[i], bv[k])) || !take(data, gm_ball_subtract(both, bv[i]))) {
+            return false;
+        }
+        for (int j = 0; j < s; j++) {
+            const struct gm_ball mine = gm_ball_subtract(
+                gm_ball_subtract(at(coefficients, GM_SIDE_P, i, j), gm_ball_multiply(less, bv[j])),
+                at(coefficients, GM_SIDE_P, end, j));
+            if (!take(data, gm_ball_subtract(at(coefficients, GM_SIDE_P, k, s - 1 - j), mine))) {
+                return false;
             }
         }
     }
@@ -270,15 +405,72 @@ static bool find_simplifying(const struct gm_coefficients *coefficients, struct 
     return true;
 }
 
+bool gm_theory_is_symplectic(const struct gm_coefficients *coefficients)
+{
+    return coefficients->nystrom > 0 ? is_nystrom_symplectic(coefficients, may_vanish, NULL)
+                                     : is_symplectic(coefficients, may_vanish, NULL);
+}
+
 struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
 {
     struct gm_theory theory = {
-        .symplectic = is_symplectic(coefficients),
-        .symmetric = is_symmetric(coefficients),
+        .symplectic = gm_theory_is_symplectic(coefficients),
+        .symmetric = coefficients->nystrom > 0 ? is_nystrom_symmetric(coefficients, may_vanish, NULL)
+                                               : is_symmetric(coefficients, may_vanish, NULL),
     };
     theory.known =
         find_order(coefficients, &theory) &&
         (coefficients->equations != GM_EQUATIONS_PLAIN || find_simplifying(coefficients, &theory)) &&
         gm_theory_stability_of(coefficients, theory.symmetric, &theory.stability);
     return theory;
+}
+
+struct residuals {
+    struct gm_ball *at;
+    size_t count;
+};
+
+/* False: out of memory. */
+static bool gather(void *data, struct gm_ball residual)
+{
+    struct residuals *all = data;
+    if ((all->count & (all->count - 1)) == 0) {
+        struct gm_ball *more = realloc(all->at, (all->count ? 2 * all->count : 1) * sizeof *more);
+        if (!more) {
+            return false;
+        }
+        all->at = more;
+    }
+    all->at[all->count++] = residual;
+    return true;
+}
+
+struct gm_ball *gm_theory_residuals(const struct gm_coefficients *coefficients, int order, bool symplectic,
+                                    bool symmetric, size_t *count)
+{
+    struct residuals all = {0};
+    struct gm_trees trees;
+    struct weights weights;
+    const bool nystrom = coefficients->nystrom > 0;
+    const int most = most_orders(coefficients->equations);
+    bool good = weights_open(&weights, coefficients);
+    gm_trees_open(&trees, coefficients->equations);
+    while (good && trees.orders < (order < most ? order : most)) {
+        good = gm_trees_grow(&trees) && weigh_order(coefficients, &trees, &weights);
+        for (int tree = trees.first[trees.orders]; good && tree < trees.first[trees.orders + 1]; tree++) {
+            good = gather(&all, residual(coefficients, &trees, &weights, tree));
+        }
+    }
+    good = good &&
+           (!symplectic || (nystrom ? is_nystrom_symplectic : is_symplectic)(coefficients, gather, &all));
+    good =
+        good && (!symmetric || (nystrom ? is_nystrom_symmetric : is_symmetric)(coefficients, gather, &all));
+    weights_close(&weights);
+    gm_trees_close(&trees);
+    if (!good) {
+        free(all.at);
+        return NULL;
+    }
+    *count = all.count;
+    return all.at;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Each tree is made once: of the tree without its last branch and that branch, where branches stand in the order
-   in which trees are made. */
+/* Each tree is made once: of the tree without its last branch and that branch, where branches stand in the
+   order in which trees are made. */
 #include "core/theory/trees.h"
 
 #include <stdio.h>

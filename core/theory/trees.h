@@ -6,11 +6,11 @@
 
 #include "core/theory/coefficients.h"
 
-/* Rooted trees, order by order. Each stands for an elementary differential of the solution, so for a condition
-   of the order that it has vertices; in partitioned systems a vertex has a side, that of the function it stands
-   for. Where f_q knows p alone and f_p knows q, sides alternate; where f_q is linear, a vertex of q has at most
-   one branch. E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.2,
-   II.14, II.15. */
+/* Rooted trees, order by order. Each stands for an elementary differential of the solution, so for a
+   condition of the order that it has vertices; in partitioned systems a vertex has a side, that of the
+   function it stands for. Where f_q knows p alone and f_p knows q, sides alternate; where f_q is linear, a
+   vertex of q has at most one branch. E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential
+   Equations I (1993), II.2, II.14, II.15. */
 
 enum { GM_TREES_ORDER = 10 };
 
@@ -38,8 +38,8 @@ void gm_trees_close(struct gm_trees *trees);
 /* The density gamma: in the exact solution the tree's coefficient is 1 / gamma. */
 double gm_tree_density(const struct gm_tree *tree);
 
-/* Writes a tree: a vertex without branches is "t", or "q", "p" by its side; branches follow in brackets, as in
-   t[t,t[t]]. */
+/* Writes a tree: a vertex without branches is "t", or "q", "p" by its side; branches follow in brackets, as
+   in t[t,t[t]]. */
 void gm_tree_print(const struct gm_trees *trees, int index, char *text, size_t size);
 
 #endif

@@ -19,12 +19,6 @@ struct block {
     int count;
 };
 
-static int distance(struct gm_rgb a, struct gm_rgb b)
-{
-    int r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b;
-    return 2 * r * r + 4 * g * g + 3 * blue * blue; /* green weighs most, as in the eye */
-}
-
 static bool same(struct gm_rgb a, struct gm_rgb b)
 {
     return a.r == b.r && a.g == b.g && a.b == b.b;
@@ -136,7 +130,7 @@ static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_ce
         struct gm_rgb one = mean(block, set), other = mean(block, all & ~set);
         long off = 0;
         for (int i = 0; i < block->count; i++) {
-            off += distance(block->part[i].colour, set >> i & 1 ? one : other);
+            off += gm_rgb_distance(block->part[i].colour, set >> i & 1 ? one : other);
         }
         if (least < 0 || off < least) {
             least = off;
@@ -146,7 +140,7 @@ static void fit_two(const struct block *block, struct gm_rgb paper, struct gm_ce
     struct gm_rgb one = mean(block, best), other = mean(block, all & ~best);
     /* The set nearer to the paper is the background: a blank cell is a space, and a terminal with few colours
        still shows the ink. */
-    if (best != all && distance(one, paper) < distance(other, paper)) {
+    if (best != all && gm_rgb_distance(one, paper) < gm_rgb_distance(other, paper)) {
         best = all & ~best;
         one = mean(block, best);
         other = mean(block, all & ~best);
@@ -249,10 +243,10 @@ static void ascii(const struct block *block, struct gm_rgb paper, struct gm_rgb 
     } else {
         /* by how much of the cell is covered and how strongly */
         static const char ramp[] = " .:-+*#@";
-        long strength = 0, full = distance(ink, paper);
+        long strength = 0, full = gm_rgb_distance(ink, paper);
         for (int i = 0; i < PARTS; i++) {
             if (stencil.ground >> i & 1) {
-                strength += distance(block->part[i].colour, paper);
+                strength += gm_rgb_distance(block->part[i].colour, paper);
             }
         }
         int step = (int)(strength * 14 / (full * PARTS));

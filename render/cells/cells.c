@@ -170,7 +170,7 @@ static void paint_tips(const struct painter *painter, const struct gm_frame *fra
              column++) {
             painter->cells->cells[(size_t)row * (size_t)painter->cells->columns + (size_t)column] =
                 (struct gm_cell){.glyph = painter->ascii ? letters[end] : glyphs[end],
-                                 .foreground = gm_map_colour(field->map, painter->theme, end),
+                                 .foreground = gm_colour_map_at(field->map, painter->theme, end),
                                  .background = gm_theme_colour(painter->theme, GM_PAPER),
                                  .role = GM_INK};
         }
@@ -261,8 +261,8 @@ static void paint_texts(struct painter *painter, const struct gm_layout *layout)
         const struct gm_label *label = &layout->labels[i];
         const int row =
             label->among_marks ? row_of(label->y + 0.5 * CELL_HEIGHT) : label_row(painter, layout, label);
-        if (!label->vertical) { /* letters do not turn in a terminal; the panel's title says what the axis is
-                                 */
+        /* letters do not turn in a terminal; the panel's title says what the axis is */
+        if (!label->vertical) {
             paint_text(painter, label->x, row, label->anchor, label->text, label->role, label->bold,
                        !label->among_marks);
         }

@@ -333,7 +333,7 @@ static void mesh_triangle(struct gm_raster *raster, const struct gm_mark *mark,
                 continue;
             }
             double here = value[0] + b * (value[1] - value[0]) + c * (value[2] - value[0]);
-            set_field(raster, x, y, gm_map_colour(mark->map, raster->theme, map_position(mark, here)));
+            set_field(raster, x, y, gm_colour_map_at(mark->map, raster->theme, map_position(mark, here)));
         }
     }
 }
@@ -378,7 +378,8 @@ static void draw_image(struct gm_raster *raster, const struct gm_frame *frame, c
             size_t column = (size_t)gm_raster_clamp(u * (double)mark->columns, 0, (int)mark->columns - 1);
             double value = mark->values[row * mark->columns + column];
             if (isfinite(value)) {
-                set_field(raster, x, y, gm_map_colour(mark->map, raster->theme, map_position(mark, value)));
+                set_field(raster, x, y,
+                          gm_colour_map_at(mark->map, raster->theme, map_position(mark, value)));
             }
         }
     }
@@ -440,13 +441,13 @@ void gm_marks_rule(struct gm_raster *raster, double x0, double y0, double x1, do
     gm_raster_settle(raster, gm_theme_colour(raster->theme, role), 1, GM_LEVEL_GRID, role);
 }
 
-void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_map map)
+void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_colour_map map)
 {
     gm_raster_clip(raster, box);
     for (int y = raster->clip_top; y < raster->clip_bottom; y++) {
         double position = 1 - ((y + 0.5) * raster->unit_y - box->y) / box->height;
         for (int x = raster->clip_left; x < raster->clip_right; x++) {
-            set_field(raster, x, y, gm_map_colour(map, raster->theme, position));
+            set_field(raster, x, y, gm_colour_map_at(map, raster->theme, position));
         }
     }
 }

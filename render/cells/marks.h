@@ -16,6 +16,6 @@ void gm_marks_rule(struct gm_raster *raster, double x0, double y0, double x1, do
                    int gap);
 
 /* The colour map from bottom to top. */
-void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_map map);
+void gm_marks_bar(struct gm_raster *raster, const struct gm_box *box, enum gm_colour_map map);
 
 #endif

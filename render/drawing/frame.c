@@ -53,13 +53,13 @@ static void draw_axes(struct gm_painter *painter, const struct gm_frame *frame)
 }
 
 /* Points at the ends of the bar beyond which there are values; they have the colours of the ends. */
-static void draw_tips(struct gm_painter *painter, const struct gm_frame *frame, enum gm_map map)
+static void draw_tips(struct gm_painter *painter, const struct gm_frame *frame, enum gm_colour_map map)
 {
     const struct gm_box bar = frame->colour_bar;
     for (int end = 0; end < 2; end++) {
         const double base = end == 0 ? bar.y + bar.height : bar.y;
         const double tip = end == 0 ? base + frame->bar_tip[0] : base - frame->bar_tip[1];
-        const struct gm_rgb colour = gm_map_colour(map, painter->look.theme, end);
+        const struct gm_rgb colour = gm_colour_map_at(map, painter->look.theme, end);
         struct gm_point corners[3] = {{(float)bar.x, (float)base},
                                       {(float)(bar.x + bar.width), (float)base},
                                       {(float)(bar.x + 0.5 * bar.width), (float)tip}};
@@ -76,7 +76,7 @@ static void draw_colour_bar(struct gm_painter *painter, const struct gm_frame *f
     const struct gm_ink ink = {gm_theme_colour(painter->look.theme, GM_SECONDARY), 1.0};
     const double tick = 4.0 * painter->scale, right = bar.x + bar.width;
     const struct gm_mark *field = gm_panel_field(frame->panel);
-    if (field != NULL) {
+    if (field) {
         painter->pen->ramp(painter->self, bar, field->map);
         draw_tips(painter, frame, field->map);
     }

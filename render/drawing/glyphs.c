@@ -4,7 +4,6 @@
 
 #include <errno.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,11 +48,12 @@ struct gm_glyphs {
 
 /* The library's memory is the program's, where a refusal is noted: a letter may be missing from a picture for
    want of it. */
-/* What FreeType reports of a refusal is not always that: a module that found no room is one that is missing. */
+/* What FreeType reports of a refusal is not always that: a module that found no room is one that is
+   missing. */
 static void *noted(FT_Memory memory, void *block)
 {
     struct gm_glyphs *glyphs = memory->user;
-    glyphs->refused = glyphs->refused || block == NULL;
+    glyphs->refused = glyphs->refused || !block;
     return block;
 }
 
@@ -92,7 +92,7 @@ static char *find_in(FcConfig *config, const char *family, bool bold)
 {
     char *file = NULL;
     FcPattern *wanted = FcPatternCreate();
-    if (wanted == NULL) {
+    if (!wanted) {
         return NULL;
     }
     FcPatternAddString(wanted, FC_FAMILY, (const FcChar8 *)family);
@@ -104,10 +104,10 @@ static char *find_in(FcConfig *config, const char *family, bool bold)
     FcResult result;
     FcPattern *found = FcFontMatch(config, wanted, &result);
     FcChar8 *name = NULL;
-    if (found != NULL && FcPatternGetString(found, FC_FILE, 0, &name) == FcResultMatch) {
+    if (found && FcPatternGetString(found, FC_FILE, 0, &name) == FcResultMatch) {
         file = strdup((const char *)name);
     }
-    if (found != NULL) {
+    if (found) {
         FcPatternDestroy(found);
     }
     FcPatternDestroy(wanted);
@@ -117,16 +117,13 @@ static char *find_in(FcConfig *config, const char *family, bool bold)
 /* The file of the installed font nearest to a family; malloc'ed. NULL if no font is installed. */
 static char *find_font(const char *family, bool bold)
 {
-    /* FcFini ends what other threads may be using, so only one is inside at a time. */
-    static pthread_mutex_t inside = PTHREAD_MUTEX_INITIALIZER;
-    pthread_mutex_lock(&inside);
+    /* a configuration of our own: that of the process, and what fontconfig keeps for all, may be in use by
+       others */
     FcConfig *config = FcInitLoadConfigAndFonts();
-    char *file = config != NULL ? find_in(config, family, bold) : NULL;
-    if (config != NULL) {
+    char *file = config ? find_in(config, family, bold) : NULL;
+    if (config) {
         FcConfigDestroy(config);
     }
-    FcFini();
-    pthread_mutex_unlock(&inside);
     return file;
 }
 
@@ -141,7 +138,7 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
         [GM_FONT_MONO] = {"DejaVu Sans Mono", false},
     };
     struct gm_glyphs *glyphs = calloc(1, sizeof *glyphs);
-    if (glyphs == NULL || !start_library(glyphs)) {
+    if (!glyphs || !start_library(glyphs)) {
         snprintf(message, size, "There is not enough memory for text.");
         free(glyphs);
         return NULL;
@@ -151,7 +148,7 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
         char *file = find_font(wanted[i].family, wanted[i].bold);
         const bool missing = file == NULL && errno != ENOMEM;
         const FT_Error error =
-            file != NULL ? FT_New_Face(glyphs->library, file, 0, &glyphs->faces[i]) : FT_Err_Out_Of_Memory;
+            file ? FT_New_Face(glyphs->library, file, 0, &glyphs->faces[i]) : FT_Err_Out_Of_Memory;
         glyphs->files[i] = file;
         if (missing) {
             snprintf(message, size, "No font was found for \"%s\"; install the package fonts-dejavu-core.",
@@ -172,7 +169,7 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
 
 void gm_glyphs_close(struct gm_glyphs *glyphs)
 {
-    if (glyphs == NULL) {
+    if (!glyphs) {
         return;
     }
     for (int i = 0; i < GM_FONT_COUNT; i++) {
@@ -207,7 +204,7 @@ static bool table_grow(struct gm_glyphs *glyphs)
 {
     const size_t size = glyphs->table_size > 0 ? 2 * glyphs->table_size : 512;
     struct glyph *table = calloc(size, sizeof *table);
-    if (table == NULL) {
+    if (!table) {
         return false;
     }
     for (size_t i = 0; i < glyphs->table_size; i++) {
@@ -260,7 +257,7 @@ static bool atlas_place(struct gm_glyphs *glyphs, int width, int height, short *
         }
         unsigned char *pixels =
             taller > ATLAS_HIGHEST ? NULL : realloc(glyphs->pixels, (size_t)taller * ATLAS_WIDTH);
-        if (pixels == NULL) {
+        if (!pixels) {
             return false;
         }
         memset(pixels + (size_t)glyphs->atlas_height * ATLAS_WIDTH, 0,

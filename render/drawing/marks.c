@@ -141,7 +141,7 @@ static void draw_polygon(struct gm_painter *painter, const struct gm_frame *fram
 
 void gm_paint_marks(struct gm_painter *painter, const struct gm_frame *frame)
 {
-    for (const struct gm_mark *mark = frame->panel->first; mark != NULL; mark = mark->next) {
+    for (const struct gm_mark *mark = frame->panel->first; mark; mark = mark->next) {
         clip_to(painter, &frame->box, 2.5 * painter->scale);
         switch (mark->kind) {
         case GM_MARK_LINE:

@@ -41,11 +41,11 @@ void gm_page_close(struct gm_painter *painter)
 bool gm_page_draw(struct gm_painter *painter, struct gm_picture *picture)
 {
     const struct gm_metrics metrics = gm_painter_metrics(painter);
-    if (painter->look.title != NULL) {
+    if (painter->look.title) {
         picture->title = painter->look.title;
     }
     const struct gm_layout *layout = gm_layout_make(picture, &metrics);
-    if (layout == NULL) {
+    if (!layout) {
         return false;
     }
     for (size_t i = 0; i < layout->frame_count; i++) {

@@ -18,7 +18,7 @@ bool gm_polyline_reserve(struct gm_polyline *line, size_t count)
         capacity *= 2;
     }
     struct gm_point *points = capacity < count ? NULL : malloc(capacity * sizeof *points);
-    if (points == NULL) {
+    if (!points) {
         return false;
     }
     free(line->points);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* PNG of numbered colours in memory, the shortest that terminals are sent. */
 #ifndef GM_RENDER_FILES_PALETTE_PNG_H
 #define GM_RENDER_FILES_PALETTE_PNG_H
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* PNG files: written beside their place and moved there, and their texts read again. */
 #include "render/files/png.h"
-
-#include "render/files/png_memory.h"
-#include "render/files/temporary.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <libdeflate.h>
+#include <math.h>
 #include <png.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -14,6 +13,9 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "render/files/png_memory.h"
+#include "render/files/temporary.h"
 
 /* The structure of the file is libpng's, the image data libdeflate's. Measured on plots of 1280x720 pixels
    (curves and text; in brackets: with a field of smooth colours), one core, milliseconds and kilobytes:
@@ -118,6 +120,7 @@ static bool is_ascii(const char *text)
 
 struct image {
     int width, height;
+    double dpi; /* 0: not told */
     const unsigned char *packed;
     size_t packed_size;
     png_text *texts;
@@ -143,6 +146,10 @@ static bool write_structure(struct stream *stream, const struct image *image)
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (image->dpi > 0) {
+        const png_uint_32 per_metre = (png_uint_32)lround(image->dpi / 0.0254);
+        png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
+    }
     png_set_text(png, info, image->texts, image->text_count);
     png_write_info(png, info);
     for (size_t at = 0; at < image->packed_size; at += LONGEST_CHUNK) {
@@ -204,13 +211,13 @@ static bool write_and_rename(const char *path, struct stream *stream, const stru
     return written;
 }
 
-bool gm_png_write(const char *path, int width, int height, const unsigned char *rgb,
+bool gm_png_write(const char *path, int width, int height, double dpi, const unsigned char *rgb,
                   const struct gm_png_text *texts, size_t count, char *message)
 {
     if (width < 1 || height < 1 || (size_t)height > SIZE_MAX / 4 / (size_t)width) {
         return fail(message, path, "a picture has at least one pixel, and fits in memory");
     }
-    struct image image = {.width = width, .height = height, .text_count = (int)count};
+    struct image image = {.width = width, .height = height, .dpi = dpi, .text_count = (int)count};
     image.texts = calloc(count ? count : 1, sizeof *image.texts);
     unsigned char *packed = deflate_rows(width, height, rgb, &image.packed_size);
     if (!image.texts || !packed) {

@@ -12,8 +12,9 @@ struct gm_png_text {
 };
 
 /* Writes rgb (height rows of width * 3 bytes, top first) to path, by way of a temporary name, so that a
-   killed program leaves no half file. False on failure, with one sentence in message (GM_MESSAGE bytes). */
-bool gm_png_write(const char *path, int width, int height, const unsigned char *rgb,
+   killed program leaves no half file. It tells that it has dpi pixels an inch, 0: nothing of the kind. False
+   on failure, with one sentence in message (GM_MESSAGE bytes). */
+bool gm_png_write(const char *path, int width, int height, double dpi, const unsigned char *rgb,
                   const struct gm_png_text *texts, size_t count, char *message);
 
 /* Reads the first text of each of these keys, in one walk over the chunks that unpacks nothing else: texts[i]

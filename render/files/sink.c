@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The queue of frames and its workers. */
 #include "render/files/sink.h"
-#include "render/address_space.h"
-#include "render/files/thread.h"
 
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "render/address_space.h"
+#include "render/files/thread.h"
 
 /* A frame waits in `queue` from put until a worker takes it, and in `idle` when nobody has use for it. There
    are `limit` frames in all, made when first asked for: put never waits, gm_sink_frame does. */

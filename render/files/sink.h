@@ -15,6 +15,7 @@ struct gm_sink;
 
 struct gm_sink_settings {
     int width, height;
+    double dpi;                      /* pixels an inch, which a PNG tells; 0: it does not */
     double fps;                      /* of a movie; its last frame stands for one second */
     int threads;                     /* encoders; 0: as many as there are processors */
     const struct gm_png_text *texts; /* of every PNG; copied */

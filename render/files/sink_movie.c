@@ -10,10 +10,6 @@
               one pass: a palette for every frame             9.3   21       127
 
    The first two lose nothing that can be seen (50 dB and more), so the fast settings are the right ones. */
-#include "render/clock.h"
-#include "render/files/sink.h"
-#include "render/files/temporary.h"
-
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -29,6 +25,10 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
+
+#include "render/clock.h"
+#include "render/files/sink.h"
+#include "render/files/temporary.h"
 
 extern char **environ;
 
@@ -212,7 +212,7 @@ static void read_reason(const struct movie_sink *self, char *reason, size_t size
     ssize_t length = pread(self->log_descriptor, tail, sizeof tail - 1, start);
     tail[length > 0 ? length : 0] = '\0';
     char *rest = tail;
-    for (char *line; (line = strsep(&rest, "\r\n")) != NULL;) {
+    for (char *line; (line = strsep(&rest, "\r\n"));) {
         if (line[strspn(line, " \t")] != '\0' && strcmp(line, "Conversion failed!") != 0) {
             snprintf(reason, size, "%s", line);
         }
@@ -370,8 +370,8 @@ static int first_pass(struct movie_sink *self, int input)
     snprintf(rate, sizeof rate, "%ld/1000", lround(self->fps * 1000));
     long still = lround(self->fps) - 1;
 
-    /* 4:2:0 has even sides: the last row and column are doubled. Without a matrix players guess one by size.
-     */
+    /* 4:2:0 has even sides: the last row and column are doubled. Without a matrix players guess one by
+       size. */
     int odd_width = self->width % 2, odd_height = self->height % 2;
     int used = 0;
     if (odd_width || odd_height) {

@@ -16,6 +16,7 @@ struct png_sink {
     bool zeros;
     int digits;
     int width, height;
+    double dpi;
     struct gm_png_text *texts;
     size_t text_count;
 };
@@ -24,7 +25,7 @@ struct png_sink {
 static void find_conversion(struct png_sink *self)
 {
     const char *slash = strrchr(self->pattern, '/');
-    for (const char *at = slash ? slash : self->pattern; (at = strchr(at, '%')) != NULL; at++) {
+    for (const char *at = slash ? slash : self->pattern; (at = strchr(at, '%')); at++) {
         const char *end = at + 1;
         bool zeros = *end == '0';
         int digits = 0;
@@ -67,7 +68,7 @@ static bool write_frame(void *argument, const unsigned char *rgb, long number,
         for (size_t i = 0; i < count; i++) {
             all[self->text_count + i] = texts[i];
         }
-        written = gm_png_write(path, self->width, self->height, rgb, all, total, message);
+        written = gm_png_write(path, self->width, self->height, self->dpi, rgb, all, total, message);
     } else {
         gm_refuse(message, "not enough memory for a frame");
     }
@@ -105,6 +106,7 @@ struct gm_sink *gm_sink_open_png(const char *pattern, const struct gm_sink_setti
         .pattern = strdup(pattern),
         .width = settings->width,
         .height = settings->height,
+        .dpi = settings->dpi,
         .texts = gm_texts_copy(settings->texts, settings->text_count),
         .text_count = settings->text_count,
     };

@@ -95,7 +95,7 @@ void gm_temporary_sweep(const char *path)
     DIR *entries = folder ? opendir(folder) : NULL;
     const size_t length = strnlen(name, NAME_SHOWN);
     const struct dirent *entry = NULL;
-    while (entries && (entry = readdir(entries)) != NULL) {
+    while (entries && (entry = readdir(entries))) {
         const char *file = entry->d_name;
         if (file[0] == '.' && strncmp(file + 1, name, length) == 0 && file[1 + length] == '.' &&
             gm_temporary_is_stale(file)) {

@@ -25,8 +25,8 @@ void gm_temporary_sweep(const char *path);
 /* Whether a file's name is such a name, of a process that is gone (of this machine's processes). */
 bool gm_temporary_is_stale(const char *name);
 
-/* Makes the file of that path: `write` writes it beside its place, from there it is renamed, once it is on the
-   disk. False with errno if that could not be done; the path is then what it was, and nothing is left. */
+/* Makes the file of that path: `write` writes it beside its place, from there it is renamed, once it is on
+   the disk. False with errno if that could not be done; the path is then what it was, and nothing is left. */
 bool gm_temporary_make(const char *path, bool (*write)(FILE *file, const void *context), const void *context);
 
 #endif

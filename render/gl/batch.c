@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct gm_command {
+struct gm_draw_call {
     enum gm_program program;
     enum gm_stencil stencil;
     bool indexed;
@@ -53,12 +53,12 @@ void gm_batch_close(struct gm_batch *batch)
     }
     free(batch->vertices);
     free(batch->indices);
-    free(batch->commands);
+    free(batch->calls);
 }
 
 void gm_batch_clear(struct gm_batch *batch)
 {
-    batch->vertex_count = batch->index_count = batch->command_count = batch->join = 0;
+    batch->vertex_count = batch->index_count = batch->call_count = batch->join = 0;
     batch->once = 0;
     batch->short_of_memory = false;
     batch->program = GM_PROGRAM_INK;
@@ -109,11 +109,11 @@ static bool grow(struct gm_batch *batch, void **block, size_t *capacity, size_t 
     return true;
 }
 
-/* The command for the present state, a new one if the last differs. */
-static struct gm_command *command_for(struct gm_batch *batch, bool indexed)
+/* The call for the present state, a new one if the last differs. */
+static struct gm_draw_call *call_for(struct gm_batch *batch, bool indexed)
 {
-    if (batch->command_count > 0 && !indexed) {
-        struct gm_command *last = &batch->commands[batch->command_count - 1];
+    if (batch->call_count > 0 && !indexed) {
+        struct gm_draw_call *last = &batch->calls[batch->call_count - 1];
         if (!last->indexed && last->program == batch->program && last->stencil == batch->stencil &&
             (last->stencil != GM_STENCIL_ONCE || last->once == batch->once) &&
             last->texture == batch->texture &&
@@ -121,19 +121,19 @@ static struct gm_command *command_for(struct gm_batch *batch, bool indexed)
             return last;
         }
     }
-    if (!grow(batch, (void **)&batch->commands, &batch->command_capacity, batch->command_count, 1,
-              sizeof *batch->commands)) {
+    if (!grow(batch, (void **)&batch->calls, &batch->call_capacity, batch->call_count, 1,
+              sizeof *batch->calls)) {
         return NULL;
     }
-    struct gm_command *command = &batch->commands[batch->command_count++];
-    *command = (struct gm_command){.program = batch->program,
-                                   .stencil = batch->stencil,
-                                   .indexed = indexed,
-                                   .once = batch->once,
-                                   .texture = batch->texture,
-                                   .first = indexed ? batch->index_count : batch->vertex_count};
-    memcpy(command->scissor, batch->scissor, sizeof command->scissor);
-    return command;
+    struct gm_draw_call *call = &batch->calls[batch->call_count++];
+    *call = (struct gm_draw_call){.program = batch->program,
+                                  .stencil = batch->stencil,
+                                  .indexed = indexed,
+                                  .once = batch->once,
+                                  .texture = batch->texture,
+                                  .first = indexed ? batch->index_count : batch->vertex_count};
+    memcpy(call->scissor, batch->scissor, sizeof call->scissor);
+    return call;
 }
 
 struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count)
@@ -143,27 +143,27 @@ struct gm_vertex *gm_batch_strip(struct gm_batch *batch, size_t count)
               sizeof *batch->vertices)) {
         return NULL;
     }
-    struct gm_command *command = command_for(batch, false);
-    if (!command) {
+    struct gm_draw_call *call = call_for(batch, false);
+    if (!call) {
         return NULL;
     }
     batch->join = 0;
-    if (command->count > 0) {
+    if (call->count > 0) {
         batch->vertices[batch->vertex_count] = batch->vertices[batch->vertex_count - 1];
         batch->join = batch->vertex_count + 1;
         batch->vertex_count += joint;
-        command->count += joint;
+        call->count += joint;
     }
     struct gm_vertex *strip = batch->vertices + batch->vertex_count;
     batch->vertex_count += count;
-    command->count += count;
+    call->count += count;
     return strip;
 }
 
 void gm_batch_end(struct gm_batch *batch, size_t unused)
 {
     batch->vertex_count -= unused;
-    batch->commands[batch->command_count - 1].count -= unused;
+    batch->calls[batch->call_count - 1].count -= unused;
     if (batch->join > 0) {
         batch->vertices[batch->join] = batch->vertices[batch->join + 1];
     }
@@ -177,11 +177,11 @@ struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t ind
               sizeof *batch->indices)) {
         return NULL;
     }
-    struct gm_command *command = command_for(batch, true);
-    if (!command) {
+    struct gm_draw_call *call = call_for(batch, true);
+    if (!call) {
         return NULL;
     }
-    command->count = index_count;
+    call->count = index_count;
     *indices = batch->indices + batch->index_count;
     batch->index_count += index_count;
     struct gm_vertex *vertices = batch->vertices + batch->vertex_count;
@@ -189,17 +189,17 @@ struct gm_vertex *gm_batch_mesh(struct gm_batch *batch, size_t count, size_t ind
     return vertices;
 }
 
-static void set_stencil(const struct gm_gl *gl, const struct gm_command *command)
+static void set_stencil(const struct gm_gl *gl, const struct gm_draw_call *call)
 {
-    if (command->stencil == GM_STENCIL_NONE) {
+    if (call->stencil == GM_STENCIL_NONE) {
         gl->Disable(GL_STENCIL_TEST);
         return;
     }
     gl->Enable(GL_STENCIL_TEST);
-    switch (command->stencil) {
+    switch (call->stencil) {
     case GM_STENCIL_ONCE:
         gl->StencilMask(ONCE_BITS);
-        gl->StencilFunc(GL_NOTEQUAL, command->once % ONCE_BITS + 1, ONCE_BITS);
+        gl->StencilFunc(GL_NOTEQUAL, call->once % ONCE_BITS + 1, ONCE_BITS);
         gl->StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
         break;
     case GM_STENCIL_INVERT:
@@ -248,25 +248,25 @@ bool gm_batch_draw(struct gm_batch *batch, int width, int height)
     gl->ActiveTexture(GL_TEXTURE2);
 
     int rounds = 0;
-    for (size_t i = 0; i < batch->command_count; i++) {
-        const struct gm_command *command = &batch->commands[i];
-        if (command->stencil == GM_STENCIL_ONCE && command->once / ONCE_BITS != rounds) {
-            rounds = command->once / ONCE_BITS;
+    for (size_t i = 0; i < batch->call_count; i++) {
+        const struct gm_draw_call *call = &batch->calls[i];
+        if (call->stencil == GM_STENCIL_ONCE && call->once / ONCE_BITS != rounds) {
+            rounds = call->once / ONCE_BITS;
             forget_groups(gl);
         }
-        gl->UseProgram(batch->programs[command->program]);
-        gl->Scissor(command->scissor[0], command->scissor[1], command->scissor[2], command->scissor[3]);
-        set_stencil(gl, command);
-        const bool colour = command->stencil != GM_STENCIL_INVERT;
+        gl->UseProgram(batch->programs[call->program]);
+        gl->Scissor(call->scissor[0], call->scissor[1], call->scissor[2], call->scissor[3]);
+        set_stencil(gl, call);
+        const bool colour = call->stencil != GM_STENCIL_INVERT;
         gl->ColorMask(colour, colour, colour, colour);
-        if (command->program == GM_PROGRAM_IMAGE) {
-            gl->BindTexture(GL_TEXTURE_2D, command->texture);
+        if (call->program == GM_PROGRAM_IMAGE) {
+            gl->BindTexture(GL_TEXTURE_2D, call->texture);
         }
-        if (command->indexed) {
-            gl->DrawElements(GL_TRIANGLES, (GLsizei)command->count, GL_UNSIGNED_INT,
-                             (const void *)(command->first * sizeof *batch->indices));
+        if (call->indexed) {
+            gl->DrawElements(GL_TRIANGLES, (GLsizei)call->count, GL_UNSIGNED_INT,
+                             (const void *)(call->first * sizeof *batch->indices));
         } else {
-            gl->DrawArrays(GL_TRIANGLE_STRIP, (GLint)command->first, (GLsizei)command->count);
+            gl->DrawArrays(GL_TRIANGLE_STRIP, (GLint)call->first, (GLsizei)call->count);
         }
     }
     gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);

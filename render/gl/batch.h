@@ -29,7 +29,7 @@ enum gm_stencil {
     GM_STENCIL_INSIDE,  /* paints the inside and forgets it */
 };
 
-struct gm_command;
+struct gm_draw_call;
 
 struct gm_batch {
     const struct gm_gl *gl;
@@ -37,8 +37,8 @@ struct gm_batch {
     size_t vertex_count, vertex_capacity;
     uint32_t *indices;
     size_t index_count, index_capacity;
-    struct gm_command *commands;
-    size_t command_count, command_capacity;
+    struct gm_draw_call *calls;
+    size_t call_count, call_capacity;
     size_t join; /* where a strip's first vertex is to be doubled; 0: nowhere */
     int scissor[4];
     int once; /* number of the present group of GM_STENCIL_ONCE */

@@ -72,7 +72,7 @@ static void put_letter(struct gm_batch *batch, bool upwards, double x, double y,
                        const struct gm_letter *letter, struct gm_rgba ink)
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (strip == NULL) {
+    if (!strip) {
         return;
     }
     for (int i = 0; i < 4; i++) {
@@ -107,7 +107,8 @@ static void text(void *self, const struct gm_writing *writing, const char *text)
 
 /* ---- meshes, images and colour bars: values reach every pixel before they become colours ---- */
 
-static struct gm_vertex vertex(double x, double y, double across, double along, double alpha, enum gm_map map)
+static struct gm_vertex vertex(double x, double y, double across, double along, double alpha,
+                               enum gm_colour_map map)
 {
     const uint8_t row = map == GM_MAP_SEQUENTIAL ? 0 : 255;
     return (struct gm_vertex){(float)x,     (float)y,     (float)across,
@@ -120,7 +121,7 @@ static void paint_mesh(struct gm_brush *brush, const struct gm_frame *frame, con
     gm_batch_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
     struct gm_vertex *vertices =
         gm_batch_mesh(&brush->batch, mark->count, 3 * mark->triangle_count, &indices);
-    if (vertices == NULL) {
+    if (!vertices) {
         return;
     }
     const size_t first = (size_t)(vertices - brush->batch.vertices);
@@ -138,7 +139,7 @@ static void paint_mesh(struct gm_brush *brush, const struct gm_frame *frame, con
 static void put_quad(struct gm_batch *batch, struct gm_vertex corners[4])
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (strip == NULL) {
+    if (!strip) {
         return;
     }
     for (int i = 0; i < 4; i++) {
@@ -147,7 +148,7 @@ static void put_quad(struct gm_batch *batch, struct gm_vertex corners[4])
     gm_batch_end(batch, 0);
 }
 
-static void ramp(void *self, struct gm_box box, enum gm_map map)
+static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 {
     struct gm_brush *brush = self;
     gm_batch_state(&brush->batch, GM_PROGRAM_FIELD, GM_STENCIL_NONE);
@@ -166,7 +167,7 @@ static GLuint next_texture(struct gm_brush *brush)
     gl->ActiveTexture(GL_TEXTURE2);
     if (brush->images_used == brush->image_count) {
         GLuint *images = realloc(brush->images, (brush->image_count + 1) * sizeof *images);
-        if (images == NULL) {
+        if (!images) {
             return 0;
         }
         brush->images = images;
@@ -193,7 +194,7 @@ static void paint_image(struct gm_brush *brush, const struct gm_frame *frame, co
     const size_t rows = (mark->rows - 1) / row_stride + 1, columns = (mark->columns - 1) / column_stride + 1;
     if (brush->texel_capacity < rows * columns) {
         float *texels = realloc(brush->texels, rows * columns * sizeof *texels);
-        if (texels == NULL) {
+        if (!texels) {
             return;
         }
         brush->texels = texels;

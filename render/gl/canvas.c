@@ -80,8 +80,8 @@ static void textures_open(struct gm_canvas *canvas)
     unsigned char texels[MAP_ROWS][MAP_STEPS][4];
     for (int map = 0; map < MAP_ROWS; map++) {
         for (int i = 0; i < MAP_STEPS; i++) {
-            const struct gm_rgb rgb =
-                gm_map_colour((enum gm_map)map, canvas->painter.look.theme, (double)i / (MAP_STEPS - 1));
+            const struct gm_rgb rgb = gm_colour_map_at((enum gm_colour_map)map, canvas->painter.look.theme,
+                                                       (double)i / (MAP_STEPS - 1));
             memcpy(texels[map][i], (const unsigned char[]){rgb.r, rgb.g, rgb.b, 255}, 4);
         }
     }
@@ -100,29 +100,28 @@ static void textures_open(struct gm_canvas *canvas)
 static bool gl_open(struct gm_canvas *canvas, char *message)
 {
     canvas->context = gm_context_open(message, GM_MESSAGE);
-    if (canvas->context == NULL) {
+    if (!canvas->context) {
         return false;
     }
     const char *missing = gm_gl_load(&canvas->gl, canvas->context);
-    if (missing != NULL) {
+    if (missing) {
         return gm_refuse(message, "This OpenGL lacks the function %s.", missing);
     }
     const char *version = (const char *)canvas->gl.GetString(GL_VERSION);
     const char *renderer = (const char *)canvas->gl.GetString(GL_RENDERER);
     const char *mesa = strstr(version, "Mesa");
     snprintf(canvas->backend, sizeof canvas->backend, "%s, OpenGL %.3s, %s%s%s",
-             gm_context_name(canvas->context), version, renderer, mesa != NULL ? ", " : "",
-             mesa != NULL ? mesa : "");
+             gm_context_name(canvas->context), version, renderer, mesa ? ", " : "", mesa ? mesa : "");
     return framebuffer_open(canvas, message) &&
            gm_batch_open(&canvas->brush.batch, &canvas->gl, message, GM_MESSAGE);
 }
 
 static void close_alone(struct gm_canvas *canvas)
 {
-    if (canvas == NULL) {
+    if (!canvas) {
         return;
     }
-    if (canvas->context != NULL && canvas->gl.Viewport != NULL && gm_context_use(canvas->context)) {
+    if (canvas->context && canvas->gl.Viewport && gm_context_use(canvas->context)) {
         const struct gm_gl *gl = &canvas->gl;
         gm_batch_close(&canvas->brush.batch);
         gl->DeleteTextures(1, &canvas->atlas);
@@ -144,7 +143,7 @@ static void close_alone(struct gm_canvas *canvas)
 static struct gm_canvas *open_alone(const struct gm_appearance *look, char *message)
 {
     struct gm_canvas *canvas = calloc(1, sizeof *canvas);
-    if (canvas == NULL) {
+    if (!canvas) {
         gm_refuse(message, "There is not enough memory for a picture.");
         return NULL;
     }
@@ -158,11 +157,11 @@ static struct gm_canvas *open_alone(const struct gm_appearance *look, char *mess
     const bool page = gm_page_open(&canvas->painter, &gm_brush_pen, &canvas->brush, look, message);
     canvas->brush.glyphs = canvas->painter.glyphs;
     canvas->pixels = malloc((size_t)look->width * (size_t)look->height * 4);
-    if (page && canvas->pixels == NULL) {
+    if (page && !canvas->pixels) {
         snprintf(message, GM_MESSAGE, "There is not enough memory for a picture of %d x %d pixels.",
                  look->width, look->height);
     }
-    if (!page || canvas->pixels == NULL) {
+    if (!page || !canvas->pixels) {
         close_alone(canvas);
         return NULL;
     }
@@ -257,7 +256,7 @@ struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message
 {
     take_turn();
     struct gm_canvas *canvas = open_alone(look, message);
-    if (canvas == NULL && !gm_address_space_has(TAKEN)) {
+    if (!canvas && !gm_address_space_has(TAKEN)) {
         gm_refuse(message, "There is not enough memory to paint pictures.");
     }
     end_turn();

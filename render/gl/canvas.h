@@ -6,9 +6,9 @@
 #include "render/message.h"
 #include "render/picture/picture.h"
 
-/* The GL painter: pictures to pixels, without a screen. One canvas has one look, whose title outlives it, and is
-   used by one thread at a time; canvases of several threads take turns. The context comes from OSMesa or from EGL
-   without a surface (render/gl/context.h). */
+/* The GL painter: pictures to pixels, without a screen. One canvas has one look, whose title outlives it, and
+   is used by one thread at a time; canvases of several threads take turns. The context comes from OSMesa or
+   from EGL without a surface (render/gl/context.h). */
 
 struct gm_canvas;
 

@@ -139,8 +139,18 @@ static void make_sentence(void)
     }
 }
 
+static bool answers; /* not in somebody else's program */
+
+void gm_context_answer_crashes(void)
+{
+    answers = true;
+}
+
 void gm_context_guard(void)
 {
+    if (!answers) {
+        return;
+    }
     make_sentence();
     for (size_t i = 0; i < CRASHES; i++) {
         struct sigaction ours = {.sa_handler = end, .sa_flags = (int)SA_RESETHAND}, before;
@@ -153,7 +163,7 @@ void gm_context_guard(void)
 
 void gm_context_unguard(void)
 {
-    for (size_t i = 0; i < CRASHES; i++) {
+    for (size_t i = 0; answers && i < CRASHES; i++) {
         struct sigaction now;
         if (sigaction(crashes[i], NULL, &now) == 0 && now.sa_handler == end) {
             signal(crashes[i], SIG_DFL);

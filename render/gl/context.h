@@ -21,9 +21,10 @@ bool gm_context_use(const struct gm_context *context);
 /* A GL function; NULL if there is none of that name. */
 gm_library_function gm_context_find(const struct gm_context *context, const char *name);
 
-/* Between these two a crash ends the program with one sentence on standard error: Mesa dies of memory that it
-   is refused (exit status 5), and OSMesa of a driver that it does not know (3). Nothing changes where the
-   caller has handlers of its own. One thread at a time. */
+/* Of a program, which says so once, for all contexts: between the two others a crash ends it with one
+   sentence on standard error: Mesa dies of memory that it is refused (exit status 5), and OSMesa of a driver
+   that it does not know (3). Nothing changes where there are handlers already. One thread at a time. */
+void gm_context_answer_crashes(void);
 void gm_context_guard(void);
 void gm_context_unguard(void);
 

@@ -111,7 +111,7 @@ static void put_run(struct gm_batch *batch, const struct gm_polyline *line, size
     const float reach = half + fringe;
     const size_t n = line->count;
     struct gm_vertex *strip = gm_batch_strip(batch, 2 * (segments + 3));
-    if (strip == NULL) {
+    if (!strip) {
         return;
     }
     const struct gm_point *p = line->points, start = p[first % n], end = p[(first + segments) % n];
@@ -135,7 +135,7 @@ static void put_loop(struct gm_batch *batch, const struct gm_polyline *line, flo
 {
     const float reach = half + fringe;
     struct gm_vertex *strip = gm_batch_strip(batch, 2 * (line->count + 1));
-    if (strip == NULL) {
+    if (!strip) {
         return;
     }
     for (size_t i = 0; i <= line->count; i++) {
@@ -179,7 +179,7 @@ void gm_stroke_line(struct gm_batch *batch, const struct gm_polyline *line, floa
 void gm_stroke_disc(struct gm_batch *batch, struct gm_point centre, float radius, struct gm_rgba ink)
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (strip == NULL) {
+    if (!strip) {
         return;
     }
     const float reach = radius + fringe;
@@ -194,7 +194,7 @@ void gm_stroke_box(struct gm_batch *batch, float left, float top, float right, f
                    struct gm_rgba ink)
 {
     struct gm_vertex *strip = gm_batch_strip(batch, 4);
-    if (strip == NULL) {
+    if (!strip) {
         return;
     }
     for (int i = 0; i < 4; i++) {
@@ -267,7 +267,7 @@ static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, 
     /* First the fading rim, a ring of corners half a pixel inside and outside; then the inside. */
     const size_t n = line->count;
     struct gm_vertex *ring = gm_batch_strip(batch, 2 * (n + 1));
-    if (ring == NULL) {
+    if (!ring) {
         return;
     }
     for (size_t i = 0; i <= n; i++) {
@@ -277,7 +277,7 @@ static void fill_convex(struct gm_batch *batch, const struct gm_polyline *line, 
     }
     gm_batch_end(batch, 0);
     struct gm_vertex *strip = gm_batch_strip(batch, n);
-    if (strip == NULL) {
+    if (!strip) {
         return;
     }
     for (size_t i = 0; i < n; i++) {
@@ -291,7 +291,7 @@ static void put_polygon(struct gm_batch *batch, const struct gm_polyline *line, 
 {
     const size_t n = line->count;
     struct gm_vertex *strip = gm_batch_strip(batch, n);
-    if (strip == NULL) {
+    if (!strip) {
         return;
     }
     for (size_t i = 0; i < n; i++) {

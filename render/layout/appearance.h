@@ -4,6 +4,13 @@
 
 #include "render/layout/theme.h"
 
+/* Bounds of a side, in pixels, of the scale, and of pixels an inch, where somebody says them. */
+enum { GM_LEAST_SIDE = 64, GM_MOST_SIDE = 16384 };
+#define GM_LEAST_SCALE 0.25
+#define GM_MOST_SCALE 4.0
+#define GM_LEAST_DPI 24.0
+#define GM_MOST_DPI 2400.0
+
 /* How a picture is to look, whatever it shows. */
 struct gm_appearance {
     int width, height; /* pixels */

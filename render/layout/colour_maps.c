@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Colour maps are smooth curves through a few points of the OKLab space (B. Ottosson, A perceptual color
+   space for image processing, 2020) whose lightness is linear along the map, so that equal steps of the
+   value look equal and a printout in grey keeps their order. */
 #include <math.h>
 #include <threads.h>
 
 #include "render/layout/theme.h"
-
-/* Colour maps are smooth curves through a few points of the OKLab space (B. Ottosson, A perceptual color
-   space for image processing, 2020) whose lightness is linear along the map, so that equal steps of the
-   value look equal and a printout in grey keeps their order. */
 
 enum { TABLE_SIZE = 256, KNOTS = 7 };
 
@@ -103,7 +102,7 @@ static void make_tables(void)
     }
 }
 
-struct gm_rgb gm_map_colour(enum gm_map map, enum gm_theme theme, double x)
+struct gm_rgb gm_colour_map_at(enum gm_colour_map map, enum gm_theme theme, double x)
 {
     call_once(&tables_made, make_tables);
     const double clamped = x > 0.0 ? fmin(x, 1.0) : 0.0; /* also for a NaN */

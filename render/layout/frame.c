@@ -70,7 +70,7 @@ struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_
     if (detail < GM_DETAIL_DATA && has(panel->title)) {
         border.top += metrics->line[title_size(panel)];
     }
-    if (detail < GM_DETAIL_NO_NOTE && (has(panel->note) || panel->first_key != NULL)) {
+    if (detail < GM_DETAIL_NO_NOTE && (has(panel->note) || panel->first_key)) {
         border.top += metrics->line[GM_TEXT_LABEL];
     }
     if (border.top > 0.0) {
@@ -89,7 +89,7 @@ struct gm_border gm_border_of(const struct gm_label_list *list, const struct gm_
         }
     }
     const struct gm_mark *field = panel->colour_bar ? gm_panel_field(panel) : NULL;
-    if (field != NULL && detail < GM_DETAIL_NO_TICKS) {
+    if (field && detail < GM_DETAIL_NO_TICKS) {
         const struct gm_axis axis = bar_axis(field);
         double right = (bar_gap + bar_width + tick_gap) * scale + widest_tick(list, &axis, calm);
         if (has(panel->colour_bar_label)) {
@@ -170,19 +170,19 @@ static double key_gap(const struct gm_label_list *list, const struct gm_panel *p
 {
     const double gap = 1.2 * list->metrics->line[GM_TEXT_LABEL];
     double all = -gap;
-    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+    for (const struct gm_key *key = panel->first_key; key; key = key->next) {
         all += gm_labels_width(list, GM_TEXT_LABEL, key_text(list, key)) + gap;
     }
     return all > width ? 0.5 * gap : gap;
 }
 
-/* The key without ", blow-up at t = 3" or ", lost: ..." as far as it is wider than a line: first without when,
-   then without what; the panels that have room tell it, and in the explorer the list of lanes. */
+/* The key without ", blow-up at t = 3" or ", lost: ..." as far as it is wider than a line: first without
+   when, then without what; the panels that have room tell it, and in the explorer the list of lanes. */
 static struct gm_key without_failure(const struct gm_label_list *list, const struct gm_key *key, double width)
 {
     struct gm_key shown = *key;
     const char *when = strstr(key->name, " at t = "), *what = strstr(key->name, ", lost: ");
-    for (const char *at = key->name; when && (at = strstr(at, ", ")) != NULL && at < when; at++) {
+    for (const char *at = key->name; when && (at = strstr(at, ", ")) && at < when; at++) {
         what = at;
     }
     const char *const ends[] = {when, what};
@@ -230,7 +230,7 @@ static size_t set_keys(const struct gm_label_list *list, const struct gm_panel *
     const double gap = key_gap(list, panel, width), line = list->metrics->line[GM_TEXT_LABEL];
     double at = 0.0;
     size_t row = 0;
-    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+    for (const struct gm_key *key = panel->first_key; key; key = key->next) {
         const char *lines[GM_KEY_LINES];
         const size_t count = key_lines(list, key, width, lines);
         const double wide = count > 1 ? width : gm_labels_width(list, GM_TEXT_LABEL, count ? lines[0] : "");
@@ -240,7 +240,7 @@ static size_t set_keys(const struct gm_label_list *list, const struct gm_panel *
         }
         for (size_t i = 0; i < count; i++) {
             row += i > 0;
-            if (out != NULL) {
+            if (out) {
                 gm_labels_add(out, (struct gm_label){.text = lines[i],
                                                      .size = GM_TEXT_LABEL,
                                                      .role = key->style.role,
@@ -263,7 +263,7 @@ static double keys_width(const struct gm_label_list *list, const struct gm_panel
 {
     const double gap = key_gap(list, panel, width);
     double all = -gap;
-    for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+    for (const struct gm_key *key = panel->first_key; key; key = key->next) {
         all += gm_labels_width(list, GM_TEXT_LABEL, key_text(list, key)) + gap;
     }
     return fmin(all, width);
@@ -297,7 +297,7 @@ static void label_panel(struct gm_label_list *list, const struct gm_panel *panel
     if (fill->detail < GM_DETAIL_NO_NOTE && has(panel->note)) {
         gm_labels_add(list, (struct gm_label){
                                 .text = note, .size = GM_TEXT_LABEL, .role = GM_SECONDARY, .x = x, .y = y});
-    } else if (fill->detail < GM_DETAIL_NO_NOTE && panel->first_key != NULL) {
+    } else if (fill->detail < GM_DETAIL_NO_NOTE && panel->first_key) {
         const double width = fill->title_width;
         set_keys(list, panel, title_start(fill, keys_width(list, panel, width)), y, width, list);
     }
@@ -346,10 +346,9 @@ static void label_axes(struct gm_label_list *list, struct gm_frame *frame, enum 
 /* Whether values lie beyond the ends of the bar: those of any panel, for one bar may speak for all. */
 static void find_beyond(const struct gm_picture *picture, const struct gm_mark *field, bool beyond[2])
 {
-    for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next) {
+    for (const struct gm_panel *panel = picture->first; panel; panel = panel->next) {
         const struct gm_mark *other = gm_panel_field(panel);
-        if (other != NULL && other->map == field->map && other->low == field->low &&
-            other->high == field->high) {
+        if (other && other->map == field->map && other->low == field->low && other->high == field->high) {
             beyond[0] = beyond[0] || other->below;
             beyond[1] = beyond[1] || other->above;
         }
@@ -417,7 +416,7 @@ void gm_frame_fill(struct gm_label_list *list, struct gm_frame *frame, const str
                    gm_border_of(list, panel, fill->detail, fill->x_label, false).left);
     }
     const struct gm_mark *field = panel->colour_bar ? gm_panel_field(panel) : NULL;
-    if (field != NULL && fill->detail < GM_DETAIL_NO_TICKS && box.width > 0.0) {
+    if (field && fill->detail < GM_DETAIL_NO_TICKS && box.width > 0.0) {
         place_colour_bar(list, frame, field);
     }
 }
@@ -437,39 +436,52 @@ static bool is_free(const struct gm_frame *frames, size_t count, size_t own, con
     return is_free;
 }
 
-/* Adds a line of a note whose anchor is at (x, y), moved a little where that makes it free. False if it finds
-   no place. */
-static bool add_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
-                     const struct gm_mark *mark, const char *text, double x, double y)
+/* A line of a note, its top at y: where its anchor says, or with `within` moved into the frame. */
+static bool add_line(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
+                     const struct gm_mark *mark, const char *text, double x, double y, bool within)
 {
-    static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0}; /* in lines */
     const struct gm_metrics *metrics = list->metrics;
-    const struct gm_frame *frame = &frames[own];
-    const struct gm_box *data = &frame->box;
+    const struct gm_box *data = &frames[own].box;
     const double line = metrics->line[GM_TEXT_TICK], width = gm_labels_width(list, GM_TEXT_TICK, text);
     const double air = 0.3 * line; /* to the edge of the surface */
     const double left =
         fmax(air, fmin(x - gm_anchor_share(mark->anchor) * width, metrics->width - width - air));
-    const double within = fmax(data->x, fmin(left, data->x + data->width - width));
-    for (size_t k = 0; k < 2 * sizeof shifts / sizeof *shifts; k++) {
-        const double top = y + (shifts[k / 2] - 0.5) * line;
-        const struct gm_box box = {k % 2 == 0 ? left : within, fmax(0.0, fmin(top, metrics->height - line)),
-                                   width, line};
-        if (is_free(frames, count, own, &box) &&
-            gm_labels_add(list, (struct gm_label){.text = text,
-                                                  .size = GM_TEXT_TICK,
-                                                  .role = mark->style.role,
-                                                  .x = box.x,
-                                                  .y = box.y,
-                                                  .among_marks = true})) {
-            return true;
+    const struct gm_box box = {within ? fmax(data->x, fmin(left, data->x + data->width - width)) : left,
+                               fmax(0.0, fmin(y, metrics->height - line)), width, line};
+    return is_free(frames, count, own, &box) &&
+           gm_labels_add(list, (struct gm_label){.text = text,
+                                                 .size = GM_TEXT_TICK,
+                                                 .role = mark->style.role,
+                                                 .x = box.x,
+                                                 .y = box.y,
+                                                 .among_marks = true});
+}
+
+/* Adds the lines of a note whose anchor is at (x, y), moved together a little where that makes all of them
+   free, or none. */
+static void add_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
+                     const struct gm_mark *mark, const char *const *lines, size_t made, double x, double y)
+{
+    static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0}; /* in lines */
+    const size_t before = list->count;
+    const double line = list->metrics->line[GM_TEXT_TICK];
+    bool placed = false;
+    const size_t tries = mark->fixed ? 1 : 2 * sizeof shifts / sizeof *shifts;
+    for (size_t k = 0; k < tries && !placed; k++) {
+        double top = y - 0.5 * (double)(made - 1) * line + (shifts[k / 2] - 0.5) * line;
+        list->count = before;
+        placed = true;
+        for (size_t i = 0; i < made && placed; i++) {
+            placed = add_line(list, frames, count, own, mark, lines[i], x, top, k % 2 == 1);
+            top = placed ? list->labels[list->count - 1].y + line : top;
         }
     }
-    return false;
+    list->count = placed ? list->count : before;
 }
 
 /* A note that is wider than the room on its side of the place goes on in a second line, where all of it then
-   fits: otherwise it would stand across the frame's edge, and one that is wider than that is left out. */
+   fits there, or at least into the frame: otherwise it would stand across the frame's edge. One that is too
+   wide for that as well is left out. */
 void gm_frame_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
                    const struct gm_mark *mark)
 {
@@ -485,14 +497,15 @@ void gm_frame_note(struct gm_label_list *list, const struct gm_frame *frames, si
     const double room = mark->anchor == GM_ANCHOR_LEFT    ? metrics->width - 0.3 * line - x
                         : mark->anchor == GM_ANCHOR_RIGHT ? x - data->x
                                                           : data->width;
+    const bool fits = gm_labels_width(list, GM_TEXT_TICK, mark->text) <= data->width;
     const char *lines[2];
-    const size_t made = gm_labels_wrap(list, GM_TEXT_TICK, mark->text, room, 2, lines);
-    if (made < 2 || !gm_lines_are_whole(lines, made, mark->text)) {
-        if (gm_labels_width(list, GM_TEXT_TICK, mark->text) <= data->width) {
-            add_note(list, frames, count, own, mark, mark->text, x, y);
-        }
-    } else if (add_note(list, frames, count, own, mark, lines[0], x, y - 0.5 * line)) {
-        const double below = list->labels[list->count - 1].y + 1.5 * line;
-        add_note(list, frames, count, own, mark, lines[1], x, below);
+    size_t made = gm_labels_wrap(list, GM_TEXT_TICK, mark->text, room, 2, lines);
+    if (!fits && !gm_lines_are_whole(lines, made, mark->text)) {
+        made = gm_labels_wrap(list, GM_TEXT_TICK, mark->text, data->width, 2, lines);
+    }
+    if (made == 2 && gm_lines_are_whole(lines, made, mark->text)) {
+        add_note(list, frames, count, own, mark, lines, made, x, y);
+    } else if (fits) {
+        add_note(list, frames, count, own, mark, &mark->text, 1, x, y);
     }
 }

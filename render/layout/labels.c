@@ -31,7 +31,7 @@ static struct gm_box box_of(const struct gm_label_list *list, const struct gm_la
 
 bool gm_labels_add(struct gm_label_list *list, struct gm_label label)
 {
-    if (label.text == NULL || label.text[0] == '\0' || list->count == list->capacity) {
+    if (!label.text || label.text[0] == '\0' || list->count == list->capacity) {
         return false;
     }
     const struct gm_metrics *metrics = list->metrics;
@@ -68,6 +68,16 @@ static const char *ellipsised(const struct gm_label_list *list, const char *text
     return gm_picture_text(list->picture, "%.*s…", (int)length, text);
 }
 
+/* Half of a formula says something else: what a bracket opens is cut nowhere within. */
+static bool is_closed(const char *text)
+{
+    long open = 0;
+    for (; *text; text++) {
+        open += (*text == '(') - (*text == ')');
+    }
+    return open <= 0;
+}
+
 /* The longest front of a text that fits and says something whole: a sentence or a name before its formula, or
    up to a comma or a bracket what is at least so wide. NULL if there is none. */
 static const char *whole_front(const struct gm_label_list *list, enum gm_text_size size, const char *text,
@@ -85,8 +95,8 @@ static const char *whole_front(const struct gm_label_list *list, enum gm_text_si
             const char *front =
                 gm_picture_text(list->picture, "%.*s", (int)((size_t)(at - text) + breaks[i].kept), text);
             const double wide = gm_labels_width(list, size, front);
-            if (*front != '\0' && wide <= width && (breaks[i].short_too || wide >= least) &&
-                (longest == NULL || strlen(front) > strlen(longest))) {
+            if (*front != '\0' && is_closed(front) && wide <= width &&
+                (breaks[i].short_too || wide >= least) && (!longest || strlen(front) > strlen(longest))) {
                 longest = front;
             }
         }
@@ -136,21 +146,21 @@ static const char *cut(const struct gm_label_list *list, enum gm_text_size size,
 const char *gm_labels_shorten(const struct gm_label_list *list, enum gm_text_size size, const char *text,
                               double width)
 {
-    if (text == NULL || gm_labels_width(list, size, text) <= width) {
-        return text != NULL ? text : "";
+    if (!text || gm_labels_width(list, size, text) <= width) {
+        return text ? text : "";
     }
     const char *front = whole_front(list, size, text, 0.5 * width, width);
-    return front != NULL ? front : cut(list, size, text, width);
+    return front ? front : cut(list, size, text, width);
 }
 
 const char *gm_labels_whole(struct gm_label_list *list, enum gm_text_size size, const char *text,
                             double width)
 {
-    if (text == NULL || gm_labels_width(list, size, text) <= width) {
-        return text != NULL ? text : "";
+    if (!text || gm_labels_width(list, size, text) <= width) {
+        return text ? text : "";
     }
     const char *front = whole_front(list, size, text, 0.0, width);
-    return front != NULL ? front : "";
+    return front ? front : "";
 }
 
 /* Whether the first word of a text tells a number. */
@@ -164,16 +174,16 @@ static bool is_number(const char *text)
 const char *gm_labels_shorten_number(struct gm_label_list *list, enum gm_text_size size, const char *text,
                                      double width)
 {
-    if (text == NULL || gm_labels_width(list, size, text) <= width) {
-        return text != NULL ? text : "";
+    if (!text || gm_labels_width(list, size, text) <= width) {
+        return text ? text : "";
     }
     const char *when = strstr(text, " at t = "), *number = text;
-    while (number != NULL && !is_number(number)) {
+    while (number && !is_number(number)) {
         const char *blank = strchr(number, ' ');
-        number = blank != NULL ? blank + 1 : NULL;
+        number = blank ? blank + 1 : NULL;
     }
-    if (when != NULL || number == NULL) {
-        const size_t length = when != NULL ? (size_t)(when - text) : strlen(text);
+    if (when || !number) {
+        const size_t length = when ? (size_t)(when - text) : strlen(text);
         return gm_labels_shorten(list, size, gm_picture_text(list->picture, "%.*s", (int)length, text),
                                  width);
     }
@@ -194,13 +204,13 @@ void gm_name_without_keys(const char *name, char *text, size_t size)
     static const char equals[] = " = ", between[] = ", ";
     size_t used = 0;
     text[0] = '\0';
-    for (const char *part = name; part != NULL && used < size;) {
+    for (const char *part = name; part && used < size;) {
         const char *next = strstr(part, between), *value = strstr(part, equals);
         const bool key = value != NULL && value == part + strcspn(part, ", "); /* one word is */
         value = key ? value + strlen(equals) : part;
         used += (size_t)snprintf(text + used, size - used, "%s%.*s", part == name ? "" : between,
-                                 (int)(next != NULL ? (size_t)(next - value) : strlen(value)), value);
-        part = next != NULL ? next + strlen(between) : NULL;
+                                 (int)(next ? (size_t)(next - value) : strlen(value)), value);
+        part = next ? next + strlen(between) : NULL;
     }
 }
 
@@ -208,13 +218,13 @@ size_t gm_labels_wrap(const struct gm_label_list *list, enum gm_text_size size, 
                       double width, size_t most, const char **lines)
 {
     size_t count = 0;
-    while (text != NULL && *text != '\0' && count < most) {
+    while (text && *text != '\0' && count < most) {
         if (count + 1 == most || gm_labels_width(list, size, text) <= width) {
             lines[count++] = gm_labels_shorten(list, size, text, width);
             break;
         }
         const char *end = NULL; /* of the longest line that fits */
-        for (const char *blank = strchr(text, ' '); blank != NULL; blank = strchr(blank + 1, ' ')) {
+        for (const char *blank = strchr(text, ' '); blank; blank = strchr(blank + 1, ' ')) {
             if (blank[1] == '=' || (blank > text && blank[-1] == '=')) {
                 continue; /* a value stands beside its key */
             }
@@ -225,7 +235,7 @@ size_t gm_labels_wrap(const struct gm_label_list *list, enum gm_text_size size, 
             end = blank;
             lines[count] = line;
         }
-        if (end == NULL) {
+        if (!end) {
             lines[count++] = gm_labels_shorten(list, size, text, width);
             break;
         }

@@ -146,7 +146,7 @@ static size_t common_front(const struct group *group)
     if (group->count < 2 || group->place != GM_PLACE_STATE) {
         return 0;
     }
-    for (const char *at = strstr(first, ", "); at != NULL; at = strstr(at + 1, ", ")) {
+    for (const char *at = strstr(first, ", "); at; at = strstr(at + 1, ", ")) {
         const size_t front = (size_t)(at - first) + 2;
         bool shared = true;
         for (size_t i = 1; i < group->count; i++) {
@@ -157,8 +157,8 @@ static size_t common_front(const struct group *group)
     return length;
 }
 
-/* Whether a title of the group's states, without what all begin with, is cut in so many lines of that width.
- */
+/* Whether a title of the group's states, without what all begin with, is cut in so many lines of that
+   width. */
 static bool titles_are_cut(struct gm_label_list *list, const struct group *group, size_t most, double width)
 {
     const size_t skip = common_front(group);
@@ -337,7 +337,7 @@ static double place_caption(struct gm_label_list *list, const struct gm_picture 
     if ((double)count * metrics->line[GM_TEXT_LABEL] > 0.2 * metrics->height) {
         count = 0;
     }
-    if (count == 0 || strstr(lines[count - 1], "…") != NULL) { /* half a sentence says nothing */
+    if (count == 0 || strstr(lines[count - 1], "…")) { /* half a sentence says nothing */
         return bottom;
     }
     bottom = metrics->height - 0.6 * bottom_margin * metrics->scale;
@@ -389,7 +389,7 @@ static size_t collect(const struct gm_picture *picture, enum gm_place place, siz
                       struct gm_frame *frames)
 {
     size_t count = 0;
-    for (const struct gm_panel *panel = picture->first; panel != NULL && count < most; panel = panel->next) {
+    for (const struct gm_panel *panel = picture->first; panel && count < most; panel = panel->next) {
         if (panel->place == place) {
             frames[count++].panel = panel;
         }
@@ -526,7 +526,7 @@ static size_t terse_count(const struct group *graphs, bool beside)
 static void place_notes(struct gm_label_list *list, const struct gm_frame *frames, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        for (const struct gm_mark *mark = frames[i].panel->first; mark != NULL; mark = mark->next) {
+        for (const struct gm_mark *mark = frames[i].panel->first; mark; mark = mark->next) {
             if (mark->kind == GM_MARK_TEXT) {
                 gm_frame_note(list, frames, count, i, mark);
             }
@@ -537,19 +537,19 @@ static void place_notes(struct gm_label_list *list, const struct gm_frame *frame
 const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics)
 {
     size_t panel_count = 0, key_count = 0, note_count = 0;
-    for (const struct gm_panel *panel = picture->first; panel != NULL; panel = panel->next) {
+    for (const struct gm_panel *panel = picture->first; panel; panel = panel->next) {
         panel_count++;
-        for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
+        for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
             note_count += mark->kind == GM_MARK_TEXT;
         }
-        for (const struct gm_key *key = panel->first_key; key != NULL; key = key->next) {
+        for (const struct gm_key *key = panel->first_key; key; key = key->next) {
             key_count++;
         }
     }
     struct gm_label_list list;
     struct gm_layout *layout = gm_picture_memory(picture, sizeof *layout);
     struct gm_frame *frames = gm_picture_memory(picture, (panel_count + 1) * sizeof *frames);
-    if (layout == NULL || frames == NULL ||
+    if (!layout || !frames ||
         !gm_labels_open(&list, picture, metrics,
                         8 + MOST_TOLD + GM_KEY_LINES * key_count + 2 * note_count +
                             panel_count * (4 + GM_TITLE_LINES + 3 * GM_TICK_MAX))) {

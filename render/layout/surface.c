@@ -11,7 +11,7 @@ double gm_anchor_share(enum gm_anchor anchor)
 
 const struct gm_mark *gm_panel_field(const struct gm_panel *panel)
 {
-    for (const struct gm_mark *mark = panel->first; mark != NULL; mark = mark->next) {
+    for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
         if (mark->kind == GM_MARK_MESH || mark->kind == GM_MARK_IMAGE) {
             return mark;
         }

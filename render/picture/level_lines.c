@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Level lines of a linear function on triangles. Where a level crosses a triangle there is one segment, from
+   one of its edges to another; segments that share an edge are joined, so that a painter gets whole lines
+   (joined smoothly, dashed along their length). "Above" includes the level itself, so that a level through
+   a vertex still crosses two edges of a triangle or none. */
 #include "render/picture/picture.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-
-/* Level lines of a linear function on triangles. Where a level crosses a triangle there is one segment, from
-   one of its edges to another; segments that share an edge are joined, so that a painter gets whole lines
-   (joined smoothly, dashed along their length). "Above" includes the level itself, so that a level through
-   a vertex still crosses two edges of a triangle or none. */
 
 enum { NONE = -1 };
 

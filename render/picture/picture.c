@@ -324,7 +324,7 @@ struct gm_mark *gm_mark_text(struct gm_picture *picture, struct gm_panel *panel,
     return mark;
 }
 
-static void mark_set_map(struct gm_mark *mark, enum gm_map map, double low, double high)
+static void mark_set_map(struct gm_mark *mark, enum gm_colour_map map, double low, double high)
 {
     mark->map = map;
     mark->low = isfinite(low) ? low : 0.0;
@@ -341,9 +341,9 @@ static void mark_reach(struct gm_mark *mark, double value)
     mark->above = mark->above || value > mark->high + slack;
 }
 
-struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel, enum gm_map map, double low,
-                             double high, const double *points, const double *values, size_t count,
-                             const int *triangles, size_t triangle_count)
+struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel, enum gm_colour_map map,
+                             double low, double high, const double *points, const double *values,
+                             size_t count, const int *triangles, size_t triangle_count)
 {
     double *places = memory_of(picture, count, 2 * sizeof *places);
     double *heights = memory_of(picture, count, sizeof *heights);
@@ -382,9 +382,9 @@ struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel,
     return mark;
 }
 
-struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel, enum gm_map map, double low,
-                              double high, const double corners[4], const double *values, size_t rows,
-                              size_t columns)
+struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel, enum gm_colour_map map,
+                              double low, double high, const double corners[4], const double *values,
+                              size_t rows, size_t columns)
 {
     const size_t count = columns > 0 && rows > SIZE_MAX / columns ? SIZE_MAX : rows * columns;
     double *copy = memory_of(picture, count, sizeof *copy);

@@ -45,7 +45,7 @@ struct gm_style {
     enum gm_dash dash;
 };
 
-enum gm_map { GM_MAP_SEQUENTIAL, GM_MAP_DIVERGING }; /* perceptually uniform colour maps */
+enum gm_colour_map { GM_MAP_SEQUENTIAL, GM_MAP_DIVERGING }; /* perceptually uniform colour maps */
 
 enum gm_mark_kind {
     GM_MARK_LINE, /* points joined; closed if style says so */
@@ -68,11 +68,12 @@ struct gm_mark {
     size_t triangle_count;
     const double *values; /* mesh: count; image: rows * columns, row by row from the bottom */
     size_t rows, columns;
-    enum gm_map map;
+    enum gm_colour_map map;
     double low, high;  /* the values at the ends of the colour map */
     bool below, above; /* some values lie beyond these, by a hundredth of the range at least */
     const char *text;
     enum gm_anchor anchor;
+    bool fixed; /* a text that belongs to its place: it does not move to find room */
     struct gm_mark *next;
 };
 
@@ -149,10 +150,9 @@ struct gm_panel *gm_panel_add(struct gm_picture *picture, enum gm_place place, c
 void gm_panel_key(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                   const char *name);
 
-/* Marks. Points are copied. A line breaks where a coordinate is not finite, or not positive on a log axis;
-   so a NaN never reaches a painter. The panel's axes are set before its marks. A mark that is not shown
-   (no points, no memory) may be written to all the same; of a line with breaks the first piece is returned.
- */
+/* Marks. Points are copied. A line breaks where a coordinate is not finite, or not positive on a log axis; so
+   a NaN never reaches a painter. The panel's axes are set before its marks. A mark that is not shown (no
+   points, no memory) may be written to all the same; of a line with breaks the first piece is returned. */
 struct gm_mark *gm_mark_line(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                              const double *points, size_t count, bool closed);
 struct gm_mark *gm_mark_points(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
@@ -161,12 +161,12 @@ struct gm_mark *gm_mark_polygon(struct gm_picture *picture, struct gm_panel *pan
                                 const double *points, size_t count);
 struct gm_mark *gm_mark_text(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                              double x, double y, enum gm_anchor anchor, const char *text);
-struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel, enum gm_map map, double low,
-                             double high, const double *points, const double *values, size_t count,
-                             const int *triangles, size_t triangle_count);
-struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel, enum gm_map map, double low,
-                              double high, const double corners[4], const double *values, size_t rows,
-                              size_t columns);
+struct gm_mark *gm_mark_mesh(struct gm_picture *picture, struct gm_panel *panel, enum gm_colour_map map,
+                             double low, double high, const double *points, const double *values,
+                             size_t count, const int *triangles, size_t triangle_count);
+struct gm_mark *gm_mark_image(struct gm_picture *picture, struct gm_panel *panel, enum gm_colour_map map,
+                              double low, double high, const double corners[4], const double *values,
+                              size_t rows, size_t columns);
 /* Lines of equal value of a triangle mesh, at `levels`. */
 void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                          const double *points, const double *values, size_t count, const int *triangles,

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "render/picture/picture.h"
-
 /* The data painter: pictures as text that tests compare number by number. Its format is part of the golden
    files, so that it changes only together with them. */
+#include "render/picture/picture.h"
 
 static const char *const role_names[] = {"paper", "ink", "secondary", "grid", "initial", "exact"};
 static const char *const dash_names[GM_DASH_COUNT] = {"solid",    "long-dash",  "dots",

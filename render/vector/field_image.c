@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct gm_rgb gm_field_image_colour(enum gm_map map, enum gm_theme theme, int index)
+struct gm_rgb gm_field_image_colour(enum gm_colour_map map, enum gm_theme theme, int index)
 {
-    return gm_map_colour(map, theme, (double)index / (GM_FIELD_COLOURS - 1));
+    return gm_colour_map_at(map, theme, (double)index / (GM_FIELD_COLOURS - 1));
 }
 
 void gm_field_image_close(struct gm_field_image *field)
@@ -118,7 +118,7 @@ static bool paint(struct gm_field_image *field, const struct gm_frame *frame, co
     field->rows = fine * field->height;
     const size_t size = (size_t)field->columns * (size_t)field->rows;
     field->pixels = malloc(size);
-    if (field->pixels == NULL) {
+    if (!field->pixels) {
         return false;
     }
     memset(field->pixels, GM_FIELD_NONE, size);
@@ -130,8 +130,8 @@ static bool paint(struct gm_field_image *field, const struct gm_frame *frame, co
     return true;
 }
 
-/* A pixel of the surface is painted as a whole or not at all, by its middle, as on a screen: nothing that lies
-   under the field's edge shines through half of it. */
+/* A pixel of the surface is painted as a whole or not at all, by its middle, as on a screen: nothing that
+   lies under the field's edge shines through half of it. */
 static void keep_whole_pixels(struct gm_field_image *field, const struct gm_field_image *whole, int fine)
 {
     for (int y = 0; y < field->rows; y++) {

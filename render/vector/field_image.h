@@ -20,14 +20,14 @@ struct gm_field_image {
     uint8_t *pixels;              /* numbers of colours, top row first; malloc'ed */
 };
 
-/* Paints a mesh or an image, as far as it lies in a rectangle {left, top, width, height} of the surface, with two
-   pixels for one of the surface, as drawings are looked at from near, or one where it is large. An empty field
-   (width 0) where nothing of it does. False when memory is short. */
+/* Paints a mesh or an image, as far as it lies in a rectangle {left, top, width, height} of the surface, with
+   two pixels for one of the surface, as drawings are looked at from near, or one where it is large. An empty
+   field (width 0) where nothing of it does. False when memory is short. */
 bool gm_field_image_paint(struct gm_field_image *field, const struct gm_frame *frame,
                           const struct gm_mark *mark, const int clip[4]);
 void gm_field_image_close(struct gm_field_image *field);
 
 /* Colour `index` of a map. */
-struct gm_rgb gm_field_image_colour(enum gm_map map, enum gm_theme theme, int index);
+struct gm_rgb gm_field_image_colour(enum gm_colour_map map, enum gm_theme theme, int index);
 
 #endif

@@ -103,7 +103,8 @@ static void box(void *self, float left, float top, float right, float bottom, st
 
 /* ---- fields ---- */
 
-static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_map map, enum gm_theme theme)
+static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_colour_map map,
+                                 enum gm_theme theme)
 {
     uint32_t colours[GM_FIELD_COLOURS + 1] = {0};
     for (int i = 0; i < GM_FIELD_COLOURS; i++) {
@@ -113,7 +114,7 @@ static cairo_surface_t *image_of(const struct gm_field_image *image, enum gm_map
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image->columns, image->rows);
     unsigned char *data = cairo_image_surface_get_data(surface);
     const size_t stride = (size_t)cairo_image_surface_get_stride(surface);
-    for (size_t y = 0; data != NULL && y < (size_t)image->rows; y++) {
+    for (size_t y = 0; data && y < (size_t)image->rows; y++) {
         for (size_t x = 0; x < (size_t)image->columns; x++) {
             memcpy(data + y * stride + 4 * x, &colours[image->pixels[y * (size_t)image->columns + x]],
                    sizeof *colours);
@@ -145,12 +146,12 @@ static void field(void *self, const struct gm_frame *frame, const struct gm_mark
     gm_field_image_close(&image);
 }
 
-static void ramp(void *self, struct gm_box box, enum gm_map map)
+static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 {
     struct gm_pdf *pdf = self;
     cairo_pattern_t *pattern = cairo_pattern_create_linear(0.0, box.y + box.height, 0.0, box.y);
     for (int i = 0; i <= STOPS; i++) {
-        const struct gm_rgb rgb = gm_map_colour(map, pdf->painter.look.theme, (double)i / STOPS);
+        const struct gm_rgb rgb = gm_colour_map_at(map, pdf->painter.look.theme, (double)i / STOPS);
         cairo_pattern_add_color_stop_rgb(pattern, (double)i / STOPS, rgb.r / 255.0, rgb.g / 255.0,
                                          rgb.b / 255.0);
     }
@@ -168,7 +169,7 @@ static void ramp(void *self, struct gm_box box, enum gm_map map)
 static cairo_font_face_t *font_of(const char *file)
 {
     FcPattern *pattern = FcPatternCreate();
-    if (pattern == NULL) {
+    if (!pattern) {
         return NULL;
     }
     FcPatternAddString(pattern, FC_FILE, (const FcChar8 *)file);
@@ -232,7 +233,7 @@ static cairo_status_t take_bytes(void *closure, const unsigned char *data, unsig
     if (bytes->size + length > bytes->capacity) {
         const size_t capacity = 2 * (bytes->size + length);
         char *more = realloc(bytes->at, capacity);
-        if (more == NULL) {
+        if (!more) {
             return CAIRO_STATUS_NO_MEMORY;
         }
         bytes->at = more;
@@ -250,14 +251,14 @@ static void set_metadata(cairo_surface_t *surface, const char *title, const stru
     char *subject = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&subject, &size);
-    for (size_t i = 0; stream != NULL && i < count; i++) {
+    for (size_t i = 0; stream && i < count; i++) {
         fprintf(stream, "%s%s: %s", i > 0 ? "\n" : "", texts[i].key, texts[i].text);
     }
-    if (stream != NULL) {
+    if (stream) {
         fclose(stream);
     }
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
-    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, subject != NULL ? subject : "");
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_SUBJECT, subject ? subject : "");
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATOR, "geomint " GM_VERSION);
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
     free(subject);
@@ -296,7 +297,7 @@ static char *make_file(struct gm_pdf *pdf, const struct gm_appearance *look, str
     const double height = points * (paged ? look->page_height / mm : look->height / dpi);
     struct bytes bytes = {0};
     cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(take_bytes, &bytes, width, height);
-    set_metadata(surface, look->title != NULL ? look->title : picture->title, texts, count);
+    set_metadata(surface, look->title ? look->title : picture->title, texts, count);
     pdf->cairo = cairo_create(surface);
     cairo_scale(pdf->cairo, width / look->width, height / look->height);
     draw_page(pdf, look, picture);
@@ -324,7 +325,7 @@ bool gm_pdf_write(const char *path, const struct gm_appearance *look, struct gm_
         bytes = make_file(&pdf, look, picture, texts, count, &size);
     }
     gm_page_close(&pdf.painter);
-    const int error = bytes != NULL ? gm_temporary_write(path, bytes, size) : ENOMEM;
+    const int error = bytes ? gm_temporary_write(path, bytes, size) : ENOMEM;
     free(bytes);
     *fields = pdf.fields;
     if (error != 0 && opened) {

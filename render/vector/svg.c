@@ -273,7 +273,7 @@ static void put_base64(struct gm_svg *svg, const unsigned char *bytes, size_t si
 {
     const size_t length = gm_base64_size(size);
     char *text = malloc(length + 1);
-    if (text == NULL) {
+    if (!text) {
         svg->short_of_memory = true;
         return;
     }
@@ -283,7 +283,8 @@ static void put_base64(struct gm_svg *svg, const unsigned char *bytes, size_t si
     free(text);
 }
 
-static void put_image(struct gm_svg *svg, const struct gm_field_image *image, enum gm_map map, double alpha)
+static void put_image(struct gm_svg *svg, const struct gm_field_image *image, enum gm_colour_map map,
+                      double alpha)
 {
     uint8_t palette[GM_PALETTE][4] = {{0}};
     for (int i = 0; i < GM_FIELD_COLOURS; i++) {
@@ -293,7 +294,7 @@ static void put_image(struct gm_svg *svg, const struct gm_field_image *image, en
     size_t size = 0;
     unsigned char *png =
         gm_palette_png(image->pixels, image->columns, image->rows, (const uint8_t(*)[4])palette, &size);
-    if (png == NULL) {
+    if (!png) {
         svg->short_of_memory = true;
         return;
     }
@@ -324,14 +325,14 @@ static void field(void *self, const struct gm_frame *frame, const struct gm_mark
     gm_field_image_close(&image);
 }
 
-static void ramp(void *self, struct gm_box box, enum gm_map map)
+static void ramp(void *self, struct gm_box box, enum gm_colour_map map)
 {
     struct gm_svg *svg = self;
     end_shapes(svg);
     if (!svg->ramps[map]) {
         fprintf(svg->out, "<linearGradient id=\"m%d\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">\n", map);
         for (int i = 0; i <= STOPS; i++) {
-            const struct gm_rgb rgb = gm_map_colour(map, svg->painter.look.theme, (double)i / STOPS);
+            const struct gm_rgb rgb = gm_colour_map_at(map, svg->painter.look.theme, (double)i / STOPS);
             fputs("<stop", svg->out);
             fprintf(svg->out, " offset=\"%d.%04d\" stop-color=\"#%02x%02x%02x\"/>\n", i / STOPS,
                     i % STOPS * 10000 / STOPS, rgb.r, rgb.g, rgb.b);
@@ -419,7 +420,7 @@ static void put_head(struct gm_svg *svg, const struct gm_picture *picture, const
     fprintf(svg->out, "%s\" viewBox=\"0 0 %d %d\"", paged ? "mm" : "", look->width, look->height);
     put_family(svg, GM_FONT_SANS);
     fputs(" stroke-linecap=\"round\" stroke-linejoin=\"round\" xml:space=\"preserve\">\n<title>", svg->out);
-    put_text(svg->out, look->title != NULL ? look->title : picture->title);
+    put_text(svg->out, look->title ? look->title : picture->title);
     fputs("</title>\n<metadata xmlns:geomint=\"urn:geomint\">\n", svg->out);
     for (size_t i = 0; i < count; i++) {
         fputs("<geomint:text key=\"", svg->out);
@@ -441,18 +442,18 @@ bool gm_svg_write(const char *path, const struct gm_appearance *look, struct gm_
     struct gm_svg svg = {.out = open_memstream(&bytes, &size), .clip = {0, 0, look->width, look->height}};
     const bool opened = gm_page_open(&svg.painter, &pen, &svg, look, message);
     bool drawn = false;
-    if (svg.out != NULL && opened) {
+    if (svg.out && opened) {
         put_head(&svg, picture, texts, count);
         drawn = gm_page_draw(&svg.painter, picture) && !svg.short_of_memory;
         clip(&svg, 0, 0, look->width, look->height);
         end_shapes(&svg);
         fputs("</svg>\n", svg.out);
     }
-    if (svg.out != NULL && fclose(svg.out) != 0) {
+    if (svg.out && fclose(svg.out) != 0) {
         drawn = false;
     }
     gm_page_close(&svg.painter);
-    const int error = drawn && bytes != NULL ? gm_temporary_write(path, bytes, size) : ENOMEM;
+    const int error = drawn && bytes ? gm_temporary_write(path, bytes, size) : ENOMEM;
     free(bytes);
     *fields = svg.fields;
     if (error != 0 && opened) {

@@ -19,7 +19,7 @@ struct gm_field_look {
     double (*exact)(const struct gm_view *view, double x); /* NULL: not drawn */
     const char *name;                                      /* of the value, for axes: "u" */
     double low, high;                                      /* the values that are shown at least */
-    enum gm_map map;
+    enum gm_colour_map map;
     enum gm_scale x_scale; /* GM_PI where the ring is a circle */
 };
 

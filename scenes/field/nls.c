@@ -6,7 +6,6 @@
    kept only nearly, and dips while the solitons meet. Razafindralandy, Hamdouni & Chhay (2018), section
    "Multisymplectic integrators", which has no figure of it. */
 #include <math.h>
-#include <string.h>
 
 #include "core/field/problems/dispersive.h"
 #include "scenes/field/field.h"
@@ -86,10 +85,10 @@ static double node_charge(const struct gm_view *view)
     return gm_nls_node_charge(view->problem, view->state);
 }
 
-/* What the scheme itself keeps: the box the charge of the cells, the others that of the nodes. */
+/* What the scheme itself keeps. */
 static double own_charge(const struct gm_view *view)
 {
-    return strcmp(view->scheme->name, "box") == 0 ? charge(view) : node_charge(view);
+    return view->scheme->in_cells ? charge(view) : node_charge(view);
 }
 
 static double energy(const struct gm_view *view)

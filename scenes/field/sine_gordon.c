@@ -11,10 +11,9 @@
        figure 13   twice the time step, where the energy-conserving scheme blows up */
 #include <math.h>
 
-#include "core/field/families/wave_laws.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
-#include "scenes/field/field.h"
+#include "scenes/field/wave_observables.h"
 
 struct scene {
     struct gm_timing timing;
@@ -67,21 +66,6 @@ static double exact(const struct gm_view *view, double x)
     return gm_sine_gordon_exact(&scene->solution, scene->half_length, x, view->t);
 }
 
-static double energy(const struct gm_view *view)
-{
-    return gm_wave_energy(view->problem, view->state);
-}
-
-static double own_energy(const struct gm_view *view)
-{
-    return gm_wave_own_energy(view->problem, view->scheme, view->state);
-}
-
-static double momentum(const struct gm_view *view)
-{
-    return gm_wave_momentum(view->problem, view->state);
-}
-
 /* At the nodes as gm_sine_gordon_levels places them, so that the start has no error at all. */
 static double solution_error(const struct gm_view *view)
 {
@@ -94,45 +78,11 @@ static double solution_error(const struct gm_view *view)
     return largest;
 }
 
-static double amplitude(const struct gm_view *view)
-{
-    double largest = 0;
-    for (size_t i = 0; i < view->problem->line.points; i++) {
-        largest = fmax(largest, fabs(view->state[i]));
-    }
-    return largest;
-}
-
-static double energy_residual(const struct gm_view *view)
-{
-    return gm_wave_energy_residual(view->problem, view->scheme, view->dt, view->state);
-}
-
-static double momentum_residual(const struct gm_view *view)
-{
-    return gm_wave_momentum_residual(view->problem, view->scheme, view->dt, view->state);
-}
-
-/* A breather has none, a kink that of its mass 8 at its velocity. */
-static double natural_momentum(const void *own)
-{
-    return (void)own, 1;
-}
-
 static const struct gm_observable observables[] = {
-    GM_KEPT_OBSERVABLE("energy_error", energy, "H", "energy error"),
-    GM_KEPT_OBSERVABLE("own_energy_error", own_energy, "H", "error of the scheme’s own energy",
-                       .missing = "the scheme has no energy of its own"),
-    GM_KEPT_OBSERVABLE("momentum_error", momentum, "P", "momentum error", .scale = natural_momentum,
-                       .scale_text = "1"),
+    GM_WAVE_INVARIANTS,
     GM_LOG_OBSERVABLE("solution_error", solution_error, "largest error of u",
                       .missing = "no exact solution is known of waves whose tails meet on a short ring"),
-    GM_OBSERVABLE("amplitude", amplitude, "largest |u|"),
-    GM_LOG_OBSERVABLE("local_energy_residual", energy_residual, "residual of the local energy law",
-                      .missing = GM_NO_LAW),
-    GM_LOG_OBSERVABLE("local_momentum_residual", momentum_residual, "residual of the local momentum law",
-                      .missing = GM_NO_LAW),
-    GM_FORM_RESIDUAL,
+    GM_WAVE_LAWS,
 };
 
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(gm_surface_record_u)};
@@ -144,7 +94,7 @@ static size_t point(const void *own, double x, double u, struct gm_choice *choic
     (void)u;
     const bool one = scene->solution.initial == GM_KINK || scene->solution.initial == GM_ANTIKINK;
     gm_choose(&choices[0], "position", one ? x : -fabs(x));
-    return one || scene->solution.initial == GM_COLLISION ? 1 : 0;
+    return one || scene->solution.initial == GM_KINK_COLLISION ? 1 : 0;
 }
 
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
@@ -177,9 +127,6 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     };
     gm_draw_field(picture, lanes, count, &look, graphs, GM_COUNT(graphs));
 }
-
-static const char *const schemes[] = {"leapfrog",     "energy-conserving", "box",        "euler-box",
-                                      "midpoint-box", "gauss-box2",        "gauss-box3", NULL};
 
 static const struct gm_figure figures[] = {
     {
@@ -253,7 +200,7 @@ const struct gm_scene gm_scene_sine_gordon = {
     .size = sizeof(struct scene),
     .parameters = parameters,
     .parameter_count = GM_COUNT(parameters),
-    .schemes = schemes,
+    .schemes = gm_wave_schemes,
     .observables = observables,
     .observable_count = GM_COUNT(observables),
     .tracks = tracks,

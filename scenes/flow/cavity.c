@@ -25,8 +25,9 @@ static const struct gm_parameter parameters[] = {
     GM_TEXT_ROW(struct gm_flows, lid, "lid", "lid", "name or tag of the lid, with mesh= alone"),
     GM_TEXT_ROW(
         struct gm_flows, mesh, "mesh", "none",
-        "a Gmsh file (4.1, ASCII) of another cavity, instead of rows, columns and irregular; none: the square",
+        "a Gmsh file (2.2 or 4.1) of another cavity, instead of rows, columns and irregular; none: the square",
         .file = true),
+    GM_FLOWS_STAR,
     GM_FLOWS_TRACERS("0"),
     GM_FLOWS_LOOKS("vorticity", "yes"),
 };
@@ -48,7 +49,7 @@ static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **s
 static struct gm_flow *open_file(const struct gm_flows *own, unsigned char **sides, char *sentence)
 {
     struct gm_triangulation mesh;
-    if (!gm_flows_file(own->mesh, &mesh, sentence)) {
+    if (!gm_flows_file(own->mesh, (enum gm_star)own->star, &mesh, sentence)) {
         return NULL;
     }
     const long lid = gm_flows_group(&mesh, "lid", own->lid, sentence);
@@ -224,20 +225,13 @@ static double courant_time(const void *own)
 }
 
 static const double reynolds_numbers[] = {100, 400, 1000, 3200, 10000};
-static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
-static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
 
 static const struct gm_stability stability = {
     .arguments = "columns=32 rows=0 until=10",
-    .parameter = "reynolds",
     .values = reynolds_numbers,
     .value_count = GM_COUNT(reynolds_numbers),
-    .label = "Courant number",
     .unit = courant_time,
-    .steps = courant_numbers,
-    .step_count = GM_COUNT(courant_numbers),
-    .kept = "speed_max",
-    .schemes = marching,
+    GM_FLOWS_STABILITY,
 };
 
 const struct gm_scene gm_scene_cavity = {
@@ -258,6 +252,7 @@ const struct gm_scene gm_scene_cavity = {
     .idle = gm_flows_idle,
     .setup = setup,
     .readable = gm_flows_readable,
+    .chosen = gm_flows_chosen,
     .close = gm_flows_close,
     .start = gm_flows_start,
     .draw = draw,

@@ -10,8 +10,11 @@
 
 #include "render/files/regular_file.h"
 
-const char *const gm_flows_shows[] = {"scalar",   "vorticity",   "speed",      "pressure", "none",
-                                      "profiles", "convergence", "divergence", NULL};
+#define SHOWS "scalar", "vorticity", "speed", "pressure", "none", "profiles", "convergence", "divergence"
+const char *const gm_flows_shows[] = {SHOWS, NULL}, *const gm_flows_warm_shows[] = {SHOWS, "temperature",
+                                                                                    NULL};
+
+const char *const gm_flows_stars[] = {"auto", "circumcentric", "barycentric", NULL};
 
 /* The sentence for a mesh that was refused; `what` is "the mesh" or the file's name. */
 static void explain(const char *what, const struct gm_triangulation_fault *fault, char *sentence)
@@ -32,11 +35,13 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
     case GM_TRIANGULATION_VERSION:
         snprintf(
             sentence, GM_MESSAGE,
-            "%.100s is of version %.12s; Gmsh files of version 4.1 are read (save with Mesh.MshFileVersion = 4.1)",
+            "%.100s is of version %.12s; Gmsh files of versions 2.2 and 4.1 are read (save with Mesh.MshFileVersion = 4.1)",
             what, fault->text);
         return;
-    case GM_TRIANGULATION_BINARY:
-        snprintf(sentence, GM_MESSAGE, "%.100s is binary; save it as ASCII (Mesh.Binary = 0)", what);
+    case GM_TRIANGULATION_BYTES:
+        snprintf(sentence, GM_MESSAGE,
+                 "%.100s is binary, in the byte order of another machine; save it as ASCII (Mesh.Binary = 0)",
+                 what);
         return;
     case GM_TRIANGULATION_SYNTAX:
         snprintf(sentence, GM_MESSAGE, "%.100s%s: expected %s", what, where, fault->text);
@@ -90,7 +95,7 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
         snprintf(
             sentence, GM_MESSAGE,
             "%.80s%s: triangle %ld (nodes %ld %ld %ld) has an angle of %.1f degrees and a dual edge that is not "
-            "positive; the mesh must be Delaunay",
+            "positive; the mesh must be Delaunay, or star=barycentric",
             what, where, fault->triangle, n[0], n[1], n[2], fault->value);
         return;
     case GM_TRIANGULATION_DUAL_CELL:
@@ -129,7 +134,7 @@ struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentenc
     return flow;
 }
 
-bool gm_flows_file(const char *path, struct gm_triangulation *mesh, char *sentence)
+bool gm_flows_file(const char *path, enum gm_star star, struct gm_triangulation *mesh, char *sentence)
 {
     enum { LARGEST = 1 << 29 };
     size_t size = 0;
@@ -139,7 +144,7 @@ bool gm_flows_file(const char *path, struct gm_triangulation *mesh, char *senten
         return gm_refuse(sentence, "%.130s could not be read: %s", path, reason);
     }
     struct gm_triangulation_fault fault;
-    const bool good = gm_triangulation_read(text, size, mesh, &fault);
+    const bool good = gm_triangulation_read(text, size, star, mesh, &fault);
     free(text);
     if (!good) {
         explain(path, &fault, sentence);
@@ -154,11 +159,18 @@ bool gm_flows_readable(const void *parameters, char *sentence)
     if (strcmp(own->mesh, "none") == 0) {
         return true;
     }
-    const bool good = gm_flows_file(own->mesh, &mesh, sentence);
+    const bool good = gm_flows_file(own->mesh, (enum gm_star)own->star, &mesh, sentence);
     if (good) {
         gm_triangulation_close(&mesh);
     }
     return good;
+}
+
+void gm_flows_chosen(const struct gm_problem *problem, void *parameters)
+{
+    struct gm_flows *own = parameters;
+    const bool square = strcmp(own->mesh, "none") == 0;
+    own->star = square ? own->star : (int)gm_flow_of(problem)->complex->star;
 }
 
 long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const char *name, char *sentence)
@@ -167,15 +179,10 @@ long gm_flows_group(const struct gm_triangulation *mesh, const char *key, const 
     if (tag != 0) {
         return tag;
     }
-    char names[128] = "none";
-    size_t used = 0;
-    for (size_t i = 0; i < mesh->groups && used + 70 < sizeof names; i++) {
-        used +=
-            (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", mesh->group[i].name);
-    }
+    char names[128];
     gm_refuse(sentence,
               "the mesh has no physical group \"%.40s\" of curves; name one with %s= (there are: %s)", name,
-              key, names);
+              key, gm_triangulation_group_names(mesh, names, sizeof names));
     return 0;
 }
 
@@ -212,18 +219,24 @@ bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
         return true;
     case GM_BOUNDARY_MEMORY:
         return gm_refuse(sentence, "not enough memory");
-    case GM_BOUNDARY_LOOPS:
-        return gm_refuse(sentence, "the mesh has a hole: the flow around it is not determined by its walls");
     case GM_BOUNDARY_NO_INLET:
         return gm_refuse(sentence, "the mesh has an outlet but no inlet");
     case GM_BOUNDARY_NO_OUTLET:
         return gm_refuse(sentence, "the mesh has an inlet but no outlet");
-    case GM_BOUNDARY_SEVERAL:
-        return gm_refuse(sentence, "the inlet or the outlet is in several pieces; each must be one");
     case GM_BOUNDARY_SHORT:
-        return gm_refuse(sentence, "the inlet or the outlet is a single edge; it needs two at least");
+        return gm_refuse(sentence,
+                         "a piece of an inlet or an outlet is a single edge; it needs two at least");
     case GM_BOUNDARY_WHOLE:
         return gm_refuse(sentence, "the whole boundary is inlet or outlet");
+    case GM_BOUNDARY_IN_HOLE:
+        return gm_refuse(sentence,
+                         "an inlet or an outlet is on the wall of a hole; they must be in the outer wall");
+    case GM_BOUNDARY_UNBALANCED:
+        return gm_refuse(sentence, "all flows are given, and what enters does not leave");
+    case GM_BOUNDARY_PROFILE:
+        return gm_refuse(sentence, "no more enters by the profile of an inlet than leaves by it");
+    case GM_BOUNDARY_BACKWARDS:
+        return gm_refuse(sentence, "the outlets with a given flow take more than enters");
     }
     return false;
 }
@@ -240,6 +253,9 @@ void gm_flows_close(struct gm_problem *problem)
     problem->parameters = NULL;
 }
 
+const double gm_flows_courant_numbers[GM_FLOWS_COURANT_NUMBERS] = {0.5, 1, 2, 5, 10, 20, 50, 100};
+const char *const gm_flows_marching[] = {"semi-implicit", "crank-nicolson", NULL};
+
 double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters)
 {
     struct gm_problem problem = {0};
@@ -255,7 +271,8 @@ double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters)
 const char *gm_flows_idle(const void *parameters, const char *key)
 {
     static const char *const made[] = {"rows", "columns", "irregular", NULL}, *const named[] = {"inlet",
-                                                                                                "lid", NULL};
+                                                                                                "lid", "star",
+                                                                                                NULL};
     const bool from_file = strcmp(((const struct gm_flows *)parameters)->mesh, "none") != 0;
     for (const char *const *name = from_file ? made : named; *name; name++) {
         if (strcmp(key, *name) == 0) {

@@ -24,6 +24,7 @@ enum gm_flows_show {
     GM_SHOW_PROFILES,
     GM_SHOW_CONVERGENCE,
     GM_SHOW_DIVERGENCE,
+    GM_SHOW_TEMPERATURE, /* of flows that carry heat */
 };
 
 enum { GM_DOMAIN_TORUS, GM_DOMAIN_BOX };
@@ -34,13 +35,18 @@ struct gm_flows {
     double reynolds, schmidt, viscosity, irregular, inlet_scalar, speed;
     long rows, columns, tracers;
     char mesh[GM_TEXT_SIZE], inlet[GM_TEXT_SIZE], outlet[GM_TEXT_SIZE], lid[GM_TEXT_SIZE];
-    int show, streamlines, arrows, grid, domain;
+    int show, streamlines, arrows, grid, domain, star;
+    const struct gm_own_room *room; /* of a file's (scenes/flow/own_room.h) */
 };
 
 /* Rows that several of them have. */
 #define GM_FLOWS_IRREGULAR                                                                                   \
     GM_REAL_ROW(struct gm_flows, irregular, "irregular", "0", 0, 0.45,                                       \
                 "random shift of the vertices, as a part of their shortest edge")
+#define GM_FLOWS_STAR                                                                                        \
+    GM_CHOICE_ROW(                                                                                           \
+        struct gm_flows, star, "star", "auto", gm_flows_stars,                                               \
+        "Hodge star of a mesh=FILE: circumcentric needs Delaunay triangles, barycentric takes any")
 #define GM_FLOWS_TRACERS(count)                                                                              \
     GM_INTEGER_ROW(struct gm_flows, tracers, "tracers", count, 0, 20000,                                     \
                    "particles that the flow carries along", .logarithmic = true)
@@ -52,13 +58,16 @@ struct gm_flows {
         GM_BOOLEAN_ROW(struct gm_flows, arrows, "arrows", "no", "arrows of velocity", .live = true),         \
         GM_BOOLEAN_ROW(struct gm_flows, grid, "grid", "no", "the edges of the mesh", .live = true)
 
-extern const char *const gm_flows_shows[];
+extern const char *const gm_flows_shows[], *const gm_flows_warm_shows[], *const gm_flows_stars[];
 
 /* A flow on the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence. */
 struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence);
 
 /* The mesh of a file. False with a sentence that names the line or triangle. */
-bool gm_flows_file(const char *path, struct gm_triangulation *mesh, char *sentence);
+bool gm_flows_file(const char *path, enum gm_star star, struct gm_triangulation *mesh, char *sentence);
+
+/* Notes the star that was taken where it was left to the mesh. */
+void gm_flows_chosen(const struct gm_problem *problem, void *parameters);
 
 /* Whether the mesh of the parameters, if they name one, can be read; a sentence if not. */
 bool gm_flows_readable(const void *parameters, char *sentence);
@@ -83,6 +92,14 @@ void gm_flows_close(struct gm_problem *problem);
    it. NAN if setup refuses. */
 typedef bool gm_flows_setup(const void *parameters, struct gm_problem *problem, char *sentence);
 double gm_flows_courant_time(gm_flows_setup *setup, const void *parameters);
+
+/* Of a map over Reynolds and Courant numbers: where schemes that march through time keep the speed. */
+enum { GM_FLOWS_COURANT_NUMBERS = 8 };
+extern const double gm_flows_courant_numbers[GM_FLOWS_COURANT_NUMBERS];
+extern const char *const gm_flows_marching[];
+#define GM_FLOWS_STABILITY                                                                                   \
+    .parameter = "reynolds", .label = "Courant number", .steps = gm_flows_courant_numbers,                   \
+    .step_count = GM_FLOWS_COURANT_NUMBERS, .kept = "speed_max", .schemes = gm_flows_marching
 
 /* With a mesh file nothing makes a mesh, and without one nothing is named in it. */
 const char *gm_flows_idle(const void *parameters, const char *key);
@@ -110,6 +127,8 @@ double gm_flows_speed_max(const struct gm_view *view);
 /* how far psi moved in the last step, relative to its largest value */
 double gm_flows_change(const struct gm_view *view);
 double gm_flows_triangles(const struct gm_view *view);
+double gm_flows_obtuse_share(const struct gm_view *view);
+double gm_flows_star_least(const struct gm_view *view);
 
 #define GM_FLOWS_ENERGY GM_OBSERVABLE("kinetic_energy", gm_flows_kinetic_energy, "kinetic energy")
 #define GM_FLOWS_ENSTROPHY GM_OBSERVABLE("enstrophy", gm_flows_enstrophy, "enstrophy")
@@ -117,14 +136,23 @@ double gm_flows_triangles(const struct gm_view *view);
     GM_OBSERVABLE("speed_max", gm_flows_speed_max, "largest speed, of a triangle or of the boundary")
 #define GM_FLOWS_DIVERGENCE GM_LOG_OBSERVABLE("divergence", gm_flows_divergence, "divergence  max |d₁ d₀ ψ|")
 #define GM_FLOWS_CHANGE GM_LOG_OBSERVABLE("change", gm_flows_change, "change of ψ in a step")
+#define GM_FLOWS_OBTUSE GM_OBSERVABLE("obtuse_share", gm_flows_obtuse_share, "share of obtuse triangles")
+#define GM_FLOWS_STAR_LEAST                                                                                  \
+    GM_OBSERVABLE("star_least", gm_flows_star_least, "least entry of the circumcentric star")
 #define GM_FLOWS_TRIANGLES GM_OBSERVABLE("triangles", gm_flows_triangles, "triangles")
+/* Those of rooms. */
+#define GM_FLOWS_OF_ROOMS                                                                                    \
+    GM_OBSERVABLE("scalar_total", gm_flows_scalar_total, "pollutant in the room"),                           \
+        GM_OBSERVABLE("scalar_outflow", gm_flows_scalar_outflow, "outflow of pollutant"),                    \
+        GM_LOG_OBSERVABLE("budget_defect", gm_flows_budget_defect, "defect of the pollutant's budget"),      \
+        GM_FLOWS_DIVERGENCE, GM_FLOWS_ENERGY, GM_FLOWS_ENSTROPHY, GM_FLOWS_SPEED, GM_FLOWS_CHANGE,           \
+        GM_FLOWS_TRIANGLES
 
 double gm_flows_mean_edge(const struct gm_view *view);
 /* max |psi - exact|, of a flow along x whose stream function is known */
 double gm_flows_psi_error(const struct gm_view *view, double (*psi)(double y));
 
-/* A profile: along the line from a to b, `count` points; reference(s) where it is known, s = 0 .. 1.
- */
+/* A profile: along the line from a to b, `count` points; reference(s) where it is known, s = 0 .. 1. */
 struct gm_profile {
     const char *name;
     double a[2], b[2];
@@ -140,14 +168,17 @@ struct gm_look {
         const char *name;
         size_t offset;
     } told[2];
-    const char *remark;      /* NULL: none */
-    const char *clock_unit;  /* after the clock's time; "" */
-    const char *axes[2];     /* of the field, x and y, where one lane is shown; NULL: none are drawn */
-    double scalar_high;      /* the scalar's range; 0: inlet_scalar */
-    const char *scalar_name; /* beside its colours; NULL: "concentration θ" */
-    double vorticity_range;  /* what the colours end at */
+    const char *remark;           /* NULL: none */
+    const char *clock_unit;       /* after the clock's time; "" */
+    const char *axes[2];          /* of the field, x and y, where one lane is shown; NULL: none are drawn */
+    double scalar_high;           /* the scalar's range; 0: inlet_scalar */
+    const char *scalar_name;      /* beside its colours; NULL: "concentration θ" */
+    double temperature[2];        /* its range */
+    const char *temperature_name; /* beside its colours */
+    double vorticity_range;       /* what the colours end at */
     double speed_high;
-    const double *levels; /* of psi, where they are not chosen by the flow through; NULL */
+    const char *const *sides; /* names of openings, by the number of their side; NULL: "inlet", "outlet" */
+    const double *levels;     /* of psi, where they are not chosen by the flow through; NULL */
     size_t level_count;
     const char *graphs[2]; /* observables */
     double graph_low[2], graph_high[2];

@@ -33,9 +33,12 @@ void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel
         low = fmin(low, gm_run_state(lane->run)[v]);
         high = fmax(high, gm_run_state(lane->run)[v]);
     }
+    double base = 0;
     for (size_t b = 0; b < complex->boundary; b++) {
         through = fmax(through, flow->psi[complex->boundary_vertex[b]]);
+        base = fmin(base, flow->psi[complex->boundary_vertex[b]]);
     }
+    through -= base;
     if (look->levels) {
         gm_mark_level_lines(picture, panel, turning, sheet->points, sheet->psi, sheet->vertices,
                             sheet->triangles, sheet->count, look->levels, look->level_count);
@@ -43,7 +46,7 @@ void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel
     }
     if (through > 0) {
         for (int i = 1; i < 10; i++) {
-            levels[count++] = through * i / 10;
+            levels[count++] = base + through * i / 10;
         }
         gm_mark_level_lines(picture, panel, passing, sheet->points, sheet->psi, sheet->vertices,
                             sheet->triangles, sheet->count, levels, count);
@@ -51,8 +54,8 @@ void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel
     }
     const double apart = through > 0 ? through / 10 : (high - low) / 17;
     for (int i = 0; apart > 0 && i < MOST_LEVELS / 2; i++) {
-        const double below = (through > 0 ? 0 : (low + high) / 2) - apart * (i + 0.5);
-        const double above = (through > 0 ? through : (low + high) / 2) + apart * (i + 0.5);
+        const double below = (through > 0 ? base : (low + high) / 2) - apart * (i + 0.5);
+        const double above = (through > 0 ? base + through : (low + high) / 2) + apart * (i + 0.5);
         if (below > low) {
             levels[count++] = below;
         }
@@ -74,13 +77,8 @@ void gm_flow_draw_walls(struct gm_picture *picture, struct gm_panel *panel, cons
         const int v = complex->boundary_vertex[b];
         const int *edge = complex->edge + 2 * complex->boundary_edge[b];
         const int w = edge[0] == v ? edge[1] : edge[0];
-        bool open = false;
-        for (int k = 0; k < 2; k++) {
-            const int end = k ? w : v;
-            const bool inlet = flow->inflow.count > 0 && flow->theta_fixed[end] && flow->psi[end] > 0 &&
-                               fabs(flow->psi[end] - flow->inflow.psi[0]) > 1e-12 * flow->inflow.psi[0];
-            open |= !flow->theta_fixed[end] || inlet;
-        }
+        const bool open = flow->open[v] != GM_OPEN_NOT || flow->open[w] != GM_OPEN_NOT ||
+                          (flow->openings == 0 && (!flow->theta_fixed[v] || !flow->theta_fixed[w]));
         if (open) {
             if (count > 0) {
                 points[2 * count] = points[2 * count + 1] = NAN;
@@ -202,30 +200,43 @@ void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, con
                  false);
 }
 
-/* "inlet" and "outlet" outside the walls, where they are on the left and on the right. */
+size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_opening *opening,
+                               double outward[2])
+{
+    const struct gm_complex *complex = flow->complex;
+    size_t e = opening->first;
+    for (size_t k = 0; k < opening->count; k++) {
+        e = gm_complex_next(complex, e);
+    }
+    /* outside is on the right of the way from its beginning to its end */
+    const double *a = complex->point + 2 * complex->boundary_vertex[opening->first],
+                 *b = complex->point + 2 * complex->boundary_vertex[e];
+    outward[0] = b[1] - a[1];
+    outward[1] = a[0] - b[0];
+    return e;
+}
+
+/* Names of openings outside the walls. */
 void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow,
-                           double size)
+                           const char *const *names, double size)
 {
     const struct gm_style style = {.role = GM_INK, .alpha = 1, .width = 1};
-    const struct gm_inflow *inflow = &flow->inflow;
-    if (inflow->count == 0) {
-        return;
-    }
-    const double *a = inflow->point, *b = inflow->point + 2 * (inflow->count - 1);
-    gm_mark_text(picture, panel, style, (a[0] + b[0]) / 2 - 0.012 * size, (a[1] + b[1]) / 2, GM_ANCHOR_RIGHT,
-                 "inlet");
-    double x = 0, z = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < flow->complex->boundary; i++) {
-        const int v = flow->complex->boundary_vertex[i];
-        if (!flow->theta_fixed[v]) {
-            x += flow->complex->point[2 * v];
-            z += flow->complex->point[2 * v + 1];
-            count++;
-        }
-    }
-    if (count > 0) {
-        gm_mark_text(picture, panel, style, x / (double)count + 0.012 * size, z / (double)count,
-                     GM_ANCHOR_LEFT, "outlet");
+    for (size_t i = 0; i < flow->openings; i++) {
+        const struct gm_opening *opening = &flow->opening[i];
+        const struct gm_complex *complex = flow->complex;
+        double outward[2];
+        const size_t e = gm_flow_opening_outward(flow, opening, outward);
+        const double *a = complex->point + 2 * complex->boundary_vertex[opening->first],
+                     *b = complex->point + 2 * complex->boundary_vertex[e];
+        const double x = outward[0], z = outward[1];
+        const bool upright = fabs(x) >= fabs(z);
+        const double away = (upright ? 0.012 : 0.028) * size / hypot(x, z);
+        gm_mark_text(picture, panel, style, (a[0] + b[0]) / 2 + away * x, (a[1] + b[1]) / 2 + away * z,
+                     upright && x < 0 ? GM_ANCHOR_RIGHT
+                     : upright        ? GM_ANCHOR_LEFT
+                                      : GM_ANCHOR_CENTRE,
+                     names            ? names[opening->side]
+                     : opening->inlet ? "inlet"
+                                      : "outlet");
     }
 }

@@ -26,8 +26,12 @@ void gm_flow_draw_tracers(struct gm_picture *picture, struct gm_panel *panel, co
 /* Arrows of velocity; one of `speed` is as long as their distance. */
 void gm_flow_draw_arrows(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                          bool over, double speed);
-/* "inlet" and "outlet" outside the walls, where they are on the left and on the right. */
+/* The names of openings, or "inlet" and "outlet", outside the walls. */
 void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow,
-                           double size);
+                           const char *const *names, double size);
+
+/* The way out through an opening, as long as it; returns the boundary edge behind it. */
+size_t gm_flow_opening_outward(const struct gm_flow *flow, const struct gm_opening *opening,
+                               double outward[2]);
 
 #endif

@@ -74,6 +74,16 @@ double gm_flows_triangles(const struct gm_view *view)
     return (double)flow_of(view)->complex->triangles;
 }
 
+double gm_flows_obtuse_share(const struct gm_view *view)
+{
+    return (double)flow_of(view)->complex->obtuse / (double)flow_of(view)->complex->triangles;
+}
+
+double gm_flows_star_least(const struct gm_view *view)
+{
+    return flow_of(view)->complex->star_least;
+}
+
 double gm_flows_mean_edge(const struct gm_view *view)
 {
     return flow_of(view)->complex->mean_edge;

@@ -29,6 +29,9 @@ static const double *field_of(struct gm_picture *picture, const struct gm_lane *
     if (own->show == GM_SHOW_VORTICITY) {
         return gm_flow_block(flow, y, GM_FLOW_OMEGA);
     }
+    if (own->show == GM_SHOW_TEMPERATURE) {
+        return flow->heat ? gm_flow_block(flow, y, GM_FLOW_TEMPERATURE) : NULL;
+    }
     double *values = gm_picture_memory(picture, 3 * n * sizeof *values);
     double *scratch = gm_picture_memory(picture, 3 * n * sizeof *scratch);
     if (!values || !scratch) {
@@ -71,6 +74,10 @@ static void colour_range(struct gm_picture *picture, const struct gm_lane *const
         }
         *high = *high > 0 ? *high : 1;
     }
+    if (own->show == GM_SHOW_TEMPERATURE) {
+        *low = look->temperature[0];
+        *high = look->temperature[1];
+    }
     if (own->show == GM_SHOW_VORTICITY) {
         *high = look->vorticity_range;
         *low = -*high;
@@ -93,10 +100,8 @@ static const char *const bar_labels[] = {"concentration θ", "vorticity ω", "sp
 
 static const char *title_of(struct gm_picture *picture, const struct gm_lane *lane)
 {
-    const struct gm_shown *shown = &lane->shown;
-    return shown->panel_name[0] && shown->colour_name[0]
-               ? gm_picture_text(picture, "%s, %s", shown->panel_name, shown->colour_name)
-               : gm_lane_title(lane);
+    const char *colour = lane->shown.colour_name, *panel = gm_lane_title(lane);
+    return colour[0] ? gm_picture_text(picture, "%s, %s", panel, colour) : panel;
 }
 
 static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_lane *lane,
@@ -124,7 +129,18 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
                  edge = complex->boundary > 0 ? 0.006 * size : 0;
     const double side = flow->inflow.count > 0 && named ? 0.1 * size : edge;
     panel->x = (struct gm_axis){.label = "", .low = box[0] - side, .high = box[1] + side};
-    panel->y = (struct gm_axis){.label = "", .low = box[2] - edge, .high = box[3] + edge};
+    /* names of openings stand outside, above and below too */
+    bool stands[2] = {false, false};
+    for (size_t i = 0; named && i < flow->openings; i++) {
+        double outward[2];
+        gm_flow_opening_outward(flow, &flow->opening[i], outward);
+        if (fabs(outward[0]) < fabs(outward[1])) {
+            stands[outward[1] > 0] = true;
+        }
+    }
+    panel->y = (struct gm_axis){.label = "",
+                                .low = box[2] - (stands[0] ? 0.06 * size : edge),
+                                .high = box[3] + (stands[1] ? 0.06 * size : edge)};
     panel->equal = true;
     panel->axes = look->axes[0] && named;
     if (panel->axes) {
@@ -132,7 +148,8 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
         panel->y.label = look->axes[1];
     }
     panel->note = gm_lane_failure(picture, lane);
-    const bool coloured = own->show <= GM_SHOW_PRESSURE, over = coloured && !gm_flow_is_signed(own->show);
+    const bool coloured = own->show <= GM_SHOW_PRESSURE || own->show == GM_SHOW_TEMPERATURE,
+               over = coloured && !gm_flow_is_signed(own->show);
     const double *field = coloured ? field_of(picture, lane) : NULL;
     /* colours of fine meshes are smooth as they are, and four times the triangles cost three times the
        time */
@@ -147,8 +164,9 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
                      plain ? complex->vertices : sheet.vertices, plain ? complex->triangle : sheet.triangles,
                      plain ? complex->triangles : sheet.count);
         panel->colour_bar = true;
-        panel->colour_bar_label =
-            own->show == GM_SHOW_SCALAR && look->scalar_name ? look->scalar_name : bar_labels[own->show];
+        panel->colour_bar_label = own->show == GM_SHOW_TEMPERATURE                   ? look->temperature_name
+                                  : own->show == GM_SHOW_SCALAR && look->scalar_name ? look->scalar_name
+                                                                                     : bar_labels[own->show];
     }
     if (own->grid) {
         gm_flow_draw_grid(picture, panel, complex, over);
@@ -162,7 +180,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     gm_flow_draw_tracers(picture, panel, lane, over, size);
     gm_flow_draw_walls(picture, panel, flow);
     if (named) {
-        gm_flow_name_openings(picture, panel, flow, size);
+        gm_flow_name_openings(picture, panel, flow, look->sides, size);
     }
     return panel;
 }
@@ -177,6 +195,23 @@ static bool is_common(const struct gm_lane *const *lanes, size_t count, size_t o
     return common;
 }
 
+/* ", 2 % obtuse, circumcentric star ≥ 0.05" of a mesh that was read: its least entry. */
+static const char *told_star(struct gm_picture *picture, const struct gm_lane *lane)
+{
+    const struct gm_complex *complex = flow_of(lane)->complex;
+    const struct gm_flows *own = lane->parameters;
+    if (own->mesh[0] == '\0' || strcmp(own->mesh, "none") == 0) {
+        return "";
+    }
+    const char *star = gm_flows_stars[complex->star];
+    return complex->star == GM_STAR_CIRCUMCENTRIC
+               ? gm_picture_text(picture, ", %.2g %% obtuse, %s star ≥ %.2g",
+                                 100 * (double)complex->obtuse / (double)complex->triangles, star,
+                                 complex->star_least)
+               : gm_picture_text(picture, ", %.2g %% obtuse, %s star",
+                                 100 * (double)complex->obtuse / (double)complex->triangles, star);
+}
+
 /* "6600 triangles,  semi-implicit"; the scheme where it is the same in all lanes */
 static const char *mesh_and_scheme(struct gm_picture *picture, const struct gm_lane *const *lanes,
                                    size_t count)
@@ -189,7 +224,8 @@ static const char *mesh_and_scheme(struct gm_picture *picture, const struct gm_l
         most = triangles > most ? triangles : most;
         one_scheme &= strcmp(lanes[i]->schemes, lanes[0]->schemes) == 0;
     }
-    const char *mesh = fewest == most ? gm_picture_text(picture, "%zu triangles", most)
+    const char *mesh = fewest == most ? gm_picture_text(picture, "%zu triangles%s", most,
+                                                        count == 1 ? told_star(picture, lanes[0]) : "")
                                       : gm_picture_text(picture, "%zu to %zu triangles", fewest, most);
     return one_scheme ? gm_picture_text(picture, "%s,  %s", mesh, lanes[0]->schemes) : mesh;
 }
@@ -215,7 +251,7 @@ static bool is_steady(const struct gm_lane *const *lanes, size_t count)
 {
     bool steady = true;
     for (size_t i = 0; i < count; i++) {
-        steady &= strcmp(lanes[i]->scheme->name, "steady") == 0;
+        steady &= lanes[i]->scheme->steady;
     }
     return steady;
 }

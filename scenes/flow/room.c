@@ -30,12 +30,15 @@ static const struct gm_parameter parameters[] = {
                    "strips of triangles along x; 0: the best", .logarithmic = true),
     GM_FLOWS_IRREGULAR,
     GM_TEXT_ROW(struct gm_flows, outlet, "outlet", "soft",
-                "soft, dirichlet or free; of a mesh also GROUP or GROUP:free", .choices = gm_flows_outlets),
-    GM_TEXT_ROW(struct gm_flows, inlet, "inlet", "inlet", "name or tag of the inlet, with mesh= alone"),
+                "soft, dirichlet or free; of a mesh also GROUP,GROUP or GROUP,GROUP:free",
+                .choices = gm_flows_outlets, .names = true),
+    GM_TEXT_ROW(struct gm_flows, inlet, "inlet", "inlet", "names or tags of the inlets, with mesh= alone",
+                .names = true),
     GM_TEXT_ROW(
         struct gm_flows, mesh, "mesh", "none",
-        "a Gmsh file (4.1, ASCII) of another room, instead of rows, columns and irregular; none: the square",
+        "a Gmsh file (2.2 or 4.1) of another room, instead of rows, columns and irregular; none: the square",
         .file = true),
+    GM_FLOWS_STAR,
     GM_REAL_ROW(struct gm_flows, inlet_scalar, "inlet_scalar", "1000", -1e300, 1e300,
                 "concentration that enters"),
     GM_FLOWS_TRACERS("350"),
@@ -72,27 +75,42 @@ static struct gm_flow *open_square(const struct gm_flows *own, unsigned char **s
     return flow;
 }
 
+/* Makes edges of the groups of a list, "1,2", one side. */
+static bool name_sides(const struct gm_triangulation *mesh, const char *key, const char *list,
+                       enum gm_edge_kind kind, unsigned char *sides, char *sentence)
+{
+    for (const char *at = list; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        char name[GM_TEXT_SIZE];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
+        const long tag = gm_flows_group(mesh, key, name, sentence);
+        bool good = tag != 0;
+        for (size_t b = 0; good && b < mesh->complex->boundary; b++) {
+            if (mesh->edge_group[mesh->complex->boundary_edge[b]] == tag) {
+                good = sides[b] == GM_EDGE_WALL ||
+                       gm_refuse(sentence, "the group \"%.60s\" is named twice", name);
+                sides[b] = (unsigned char)kind;
+            }
+        }
+        if (!good) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static struct gm_flow *open_file(const struct gm_flows *own, const char *outlet, unsigned char **sides,
                                  char *sentence)
 {
     struct gm_triangulation mesh;
-    if (!gm_flows_file(own->mesh, &mesh, sentence)) {
+    if (!gm_flows_file(own->mesh, (enum gm_star)own->star, &mesh, sentence)) {
         return NULL;
     }
-    const long in = gm_flows_group(&mesh, "inlet", own->inlet, sentence);
-    long out = in ? gm_flows_group(&mesh, "outlet", outlet, sentence) : 0;
-    if (in && in == out) {
-        gm_refuse(sentence, "inlet and outlet are one group, \"%.60s\"", outlet);
-        out = 0;
-    }
     struct gm_flow *flow = NULL;
-    if (in && out) {
-        const struct gm_complex *complex = mesh.complex;
-        *sides = calloc(complex->boundary, 1);
-        for (size_t b = 0; *sides && b < complex->boundary; b++) {
-            const long group = mesh.edge_group[complex->boundary_edge[b]];
-            (*sides)[b] = group == in ? GM_EDGE_INLET : group == out ? GM_EDGE_OUTLET : GM_EDGE_WALL;
-        }
+    *sides = calloc(mesh.complex->boundary + 1, 1);
+    if (!*sides) {
+        gm_refuse(sentence, "not enough memory");
+    } else if (name_sides(&mesh, "inlet", own->inlet, GM_EDGE_INLET, *sides, sentence) &&
+               name_sides(&mesh, "outlet", outlet, GM_EDGE_OUTLET, *sides, sentence)) {
         flow = gm_flow_open(mesh.complex);
         mesh.complex = NULL;
     }
@@ -127,15 +145,11 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
         return false;
     }
     const struct gm_complex *complex = flow->complex;
-    double perimeter = 0, inlet = 0;
+    double perimeter = 0;
     for (size_t b = 0; b < complex->boundary; b++) {
         perimeter += complex->length[complex->boundary_edge[b]];
     }
-    for (size_t i = 0; i + 1 < flow->inflow.count; i++) {
-        const double *p = flow->inflow.point + 2 * i;
-        inlet += hypot(p[2] - p[0], p[3] - p[1]);
-    }
-    flow->viscosity = inlet / own->reynolds;
+    flow->viscosity = flow->inlet_length / own->reynolds;
     flow->diffusivity = flow->viscosity / own->schmidt;
     flow->reynolds = own->reynolds;
     flow->time_unit = perimeter;
@@ -146,15 +160,7 @@ static bool setup(const void *parameters_of, struct gm_problem *problem, char *s
 }
 
 static const struct gm_observable observables[] = {
-    GM_OBSERVABLE("scalar_total", gm_flows_scalar_total, "pollutant in the room"),
-    GM_OBSERVABLE("scalar_outflow", gm_flows_scalar_outflow, "outflow of pollutant"),
-    GM_LOG_OBSERVABLE("budget_defect", gm_flows_budget_defect, "defect of the pollutant's budget"),
-    GM_FLOWS_DIVERGENCE,
-    GM_FLOWS_ENERGY,
-    GM_FLOWS_ENSTROPHY,
-    GM_FLOWS_SPEED,
-    GM_FLOWS_CHANGE,
-    GM_FLOWS_TRIANGLES,
+    GM_FLOWS_OF_ROOMS,
 };
 
 static void profile(const struct gm_view *view, const char *front, FILE *stream)
@@ -226,20 +232,13 @@ static double courant_time(const void *own)
 }
 
 static const double reynolds_numbers[] = {10, 30, 100, 300, 1000};
-static const double courant_numbers[] = {0.5, 1, 2, 5, 10, 20, 50, 100};
-static const char *const marching[] = {"semi-implicit", "crank-nicolson", NULL};
 
 static const struct gm_stability stability = {
     .arguments = "rows=30 columns=0 tracers=0 until=2",
-    .parameter = "reynolds",
     .values = reynolds_numbers,
     .value_count = GM_COUNT(reynolds_numbers),
-    .label = "Courant number",
     .unit = courant_time,
-    .steps = courant_numbers,
-    .step_count = GM_COUNT(courant_numbers),
-    .kept = "speed_max",
-    .schemes = marching,
+    GM_FLOWS_STABILITY,
 };
 
 const struct gm_scene gm_scene_room = {
@@ -262,6 +261,7 @@ const struct gm_scene gm_scene_room = {
     .idle = gm_flows_idle,
     .setup = setup,
     .readable = gm_flows_readable,
+    .chosen = gm_flows_chosen,
     .close = gm_flows_close,
     .start = gm_flows_start,
     .draw = draw,

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Flow between two walls in a unit square, u = U(y) and theta = y: that of Couette, between a wall at rest and
-   one that moves, and that of Poiseuille, which a pressure drives,
+/* Flow between two walls in a unit square, u = U(y) and theta = y: that of Couette, between a wall at rest
+   and one that moves, and that of Poiseuille, which a pressure drives,
        couette   u = y,   psi = y^2/2        poiseuille   u = 4 y (1 - y),   psi = 2 y^2 - 4 y^3/3
-   Lengths in H, velocities in the U of the moving wall or of the centreline, time in H^2 / nu; kappa = nu. What
-   to look at: the errors over meshes, from which the convergence of discrete exterior calculus is read off, and
-   the divergence, which is zero on every mesh.
+   Lengths in H, velocities in the U of the moving wall or of the centreline, time in H^2 / nu; kappa = nu.
+   What to look at: the errors over meshes, from which the convergence of discrete exterior calculus is read
+   off, and the divergence, which is zero on every mesh.
 
    Razafindralandy, Hamdouni & Chhay (2018):
        figures 32, 33   the orders of both        figure 34   the divergence */
@@ -158,7 +158,7 @@ static void dual_end(const struct gm_complex *complex, size_t e, int side, doubl
 {
     const int t = complex->edge_triangle[2 * e + (size_t)side];
     if (t >= 0) {
-        gm_complex_circumcentre(complex, (size_t)t, p);
+        gm_complex_centre(complex, (size_t)t, p);
         return;
     }
     for (int c = 0; c < 2; c++) {
@@ -221,7 +221,7 @@ static double pressure_error_within(const struct gm_view *view, double margin)
     double mean = 0, exact_mean = 0, total = 0, error = 0, size = 0;
     for (size_t t = 0; t < complex->triangles; t++) {
         double centre[2];
-        gm_complex_circumcentre(complex, t, centre);
+        gm_complex_centre(complex, t, centre);
         const double to_wall = fmin(fmin(centre[0], 1 - centre[0]), fmin(centre[1], 1 - centre[1]));
         exact[t] = total_pressure(shear, centre, gm_flow_of(view->problem)->viscosity);
         area[t] = to_wall >= margin ? complex->area[t] : 0;

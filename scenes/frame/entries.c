@@ -7,28 +7,55 @@
 #include <string.h>
 
 #include "core/ode/kernel/loops.h"
+#include "core/run.h"
+#include "scenes/frame/crossing.h"
 
 size_t gm_active_count(const struct gm_problem *problem)
 {
     return (problem->n - 2 * problem->passive) * problem->m;
 }
 
+bool gm_behind_open(struct gm_behind *behind, const struct gm_problem *problem)
+{
+    if (!behind->state) {
+        /* the state before, slopes at both ends, a state between */
+        behind->state = calloc(4 * gm_active_count(problem), sizeof *behind->state);
+    }
+    return behind->state != NULL;
+}
+
+bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view)
+{
+    const struct gm_run *run = view->run;
+    return behind->state && behind->t != view->t && run->problem->passive == 0 && gm_run_repeats(run) &&
+           memcmp(behind->state, gm_run_before(run), gm_active_count(run->problem) * sizeof *behind->state) ==
+               0;
+}
+
+/* What the step before was is not known; it is again after the next one. */
+static void forget_before(struct gm_entries *entries)
+{
+    for (size_t i = 0; i < entries->sections; i++) {
+        entries->before[i] = NAN;
+    }
+}
+
 bool gm_entries_open(struct gm_entries *entries, const struct gm_track *track, const struct gm_view *view,
                      struct gm_behind *behind)
 {
-    *entries = (struct gm_entries){.every = 1, .before = NAN};
-    if (track->section && !behind->state) {
-        /* the state before, slopes at both ends, a state between */
-        behind->state = calloc(4 * gm_active_count(view->problem), sizeof *behind->state);
-        if (!behind->state) {
-            return false;
-        }
+    *entries = (struct gm_entries){.every = 1, .sections = track->each ? view->problem->m : 1};
+    if (track->section && !gm_behind_open(behind, view->problem)) {
+        return false;
     }
     entries->width = track->numbers > 0 ? track->numbers : track->width(view);
     entries->times = malloc(track->bound * sizeof *entries->times);
     entries->steps = malloc(track->bound * sizeof *entries->steps);
     entries->values = malloc(track->bound * entries->width * sizeof *entries->values);
-    return entries->times && entries->steps && entries->values;
+    entries->before = malloc(entries->sections * sizeof *entries->before);
+    if (entries->before) {
+        forget_before(entries);
+    }
+    return entries->times && entries->steps && entries->values && entries->before;
 }
 
 void gm_entries_close(struct gm_entries *entries)
@@ -36,6 +63,7 @@ void gm_entries_close(struct gm_entries *entries)
     free(entries->times);
     free(entries->steps);
     free(entries->values);
+    free(entries->before);
 }
 
 static double *entry_values(const struct gm_entries *entries, size_t index)
@@ -79,35 +107,37 @@ static double intervals(const struct gm_view *view, double interval, double t)
     return floor(fabs(t - view->t0) / interval * (1 + 1e-12) + 1e-9);
 }
 
-/* Makes an entry if the section was passed upwards in the step that ended in `view`. Between the two states
-   the cubic is taken that has the field's slopes at both ends; its error is of order 4 in the step. */
-static void record_crossing(struct gm_entries *entries, const struct gm_track *track,
-                            const struct gm_view *view, const struct gm_behind *behind)
+/* The slopes at both ends of the step that ended in `view`. */
+static void find_slopes(const struct gm_view *view, const struct gm_behind *behind)
 {
-    const double after = track->section(view), before = entries->before;
-    entries->before = after;
-    if (!(before < 0 && after >= 0 && behind->t != view->t)) {
-        return;
-    }
     const size_t active = gm_active_count(view->problem);
-    double *slopes = behind->state + active, *between = slopes + 2 * active;
-    const double h = view->t - behind->t;
+    double *slopes = behind->state + active;
     const struct gm_loops *loops = gm_ode_of(view->problem)->loops[gm_isa_best()];
     loops->field(view->problem, behind->state, slopes, view->problem->m);
     loops->field(view->problem, view->state, slopes + active, view->problem->m);
-    struct gm_view there = *view;
-    there.state = between;
-    double low = 0, high = 1, below = before, above = after;
+}
+
+/* Where a section, of the member that `there` says if members have their own, was passed in a step: the cubic
+   is taken that has the field's slopes at both ends; its error is of order 4 in the step. */
+static void find_crossing(const struct gm_track *track, const struct gm_view *view,
+                          const struct gm_behind *behind, double before, double after, struct gm_view *there)
+{
+    const size_t active = gm_active_count(view->problem);
+    const size_t from = track->each ? there->member : 0, stride = track->each ? view->problem->m : 1;
+    double *slopes = behind->state + active, *between = slopes + 2 * active;
+    const double h = view->t - behind->t, sign = after >= 0 ? 1 : -1;
+    double low = 0, high = 1, below = sign * before, above = sign * after;
+    there->state = between;
     /* regula falsi with bisection in between, so that neither end stands still */
     for (int i = 0; i < 60 && high - low > 1e-15; i++) {
         const double secant = low - below * (high - low) / (above - below);
         const double s = i % 3 < 2 && secant > low && secant < high ? secant : (low + high) / 2, r = 1 - s;
-        for (size_t c = 0; c < active; c++) {
+        for (size_t c = from; c < active; c += stride) {
             between[c] = r * r * (1 + 2 * s) * behind->state[c] + s * s * (3 - 2 * s) * view->state[c] +
                          h * s * r * (r * slopes[c] - s * slopes[active + c]);
         }
-        there.t = behind->t + s * h;
-        const double value = track->section(&there);
+        there->t = behind->t + s * h;
+        const double value = sign * track->section(there);
         if (value == 0) {
             break;
         }
@@ -119,16 +149,53 @@ static void record_crossing(struct gm_entries *entries, const struct gm_track *t
             below = value;
         }
     }
-    if (entries->count == track->bound) {
-        thin(entries);
-        entries->skipped = 0;
+}
+
+/* Makes an entry for every section that was passed in the step that ended in `view`. */
+static void record_crossings(struct gm_entries *entries, const struct gm_track *track,
+                             const struct gm_view *view, const struct gm_behind *behind)
+{
+    bool known = false; /* the slopes */
+    /* an ensemble would make the steps of all its members again for each of them */
+    const bool again = track->again && view->problem->m == 1;
+    for (size_t member = 0; member < entries->sections; member++) {
+        struct gm_view there = *view;
+        there.member = member;
+        const double after = track->section(&there), before = entries->before[member];
+        /* what begins on the section has not passed it, whichever way it goes */
+        entries->before[member] = isnan(before) && after == 0 ? NAN : after;
+        const bool upwards = before < 0 && after >= 0, downwards = track->admits && before >= 0 && after < 0;
+        if (!(upwards || downwards) || behind->t == view->t) {
+            continue;
+        }
+        double *between = behind->state + 3 * gm_active_count(view->problem), share = NAN;
+        if (again && gm_behind_is_before(behind, view)) {
+            share = gm_crossing_find(view, track->section, between);
+        }
+        if (!isnan(share)) {
+            there.state = between;
+            there.t = behind->t + share * (view->t - behind->t);
+        } else {
+            if (!known) {
+                find_slopes(view, behind);
+                known = true;
+            }
+            find_crossing(track, view, behind, before, after, &there);
+        }
+        if (track->admits && !track->admits(&there)) {
+            continue;
+        }
+        if (entries->count == track->bound) {
+            thin(entries);
+            entries->skipped = 0;
+        }
+        if (entries->skipped > 0) {
+            entries->skipped--;
+            continue;
+        }
+        entries->skipped = entries->every - 1;
+        add_entry(entries, track, &there);
     }
-    if (entries->skipped > 0) {
-        entries->skipped--;
-        return;
-    }
-    entries->skipped = entries->every - 1;
-    add_entry(entries, track, &there);
 }
 
 /* While time runs backwards, a record of all the past unwinds: what is later than t is not shown, but for the
@@ -161,7 +228,7 @@ void gm_entries_record(struct gm_entries *entries, const struct gm_track *track,
     }
     entries->kept = entries->count; /* the run goes on from here */
     if (track->section) {
-        record_crossing(entries, track, view, behind);
+        record_crossings(entries, track, view, behind);
         return;
     }
     if (!is_due(entries, track, view)) {
@@ -195,6 +262,5 @@ void gm_entries_show(struct gm_entries *entries, const struct gm_track *track, c
     if (run->dt < 0 && !track->section && !track->recent) {
         unwind(entries, run->t);
     }
-    /* what the step before was is not known; it is again after the next one */
-    entries->before = NAN;
+    forget_before(entries);
 }

@@ -14,14 +14,21 @@ struct gm_entries { /* the record of one track */
     long *steps;    /* count: after how many steps each was made */
     double *values; /* count * width */
     long skipped;   /* of a section: so many crossings more go unrecorded (after thinning) */
-    double before;  /* of a section: its value after the step before; NAN: not known */
+    /* of a section: its value after the step before, for each of so many members that have their own; NAN: not
+       known */
+    double *before;
+    size_t sections;
 };
 
 /* Where a run was a step before: what tells that a section was passed. */
 struct gm_behind {
-    double *state; /* the active components, and room for what is made of them; NULL: no sections */
+    double
+        *state; /* the active components, and room for what is made of them; NULL: no sections, and no stop */
     double t;
 };
+bool gm_behind_open(struct gm_behind *behind, const struct gm_problem *problem);
+/* Whether the last step of a view's run began there. */
+bool gm_behind_is_before(const struct gm_behind *behind, const struct gm_view *view);
 
 /* False if memory is short; gm_entries_close releases what is there. `behind` gets its memory with the first
    section. */

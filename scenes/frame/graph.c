@@ -96,7 +96,7 @@ const char *gm_lane_failure(struct gm_picture *picture, const struct gm_lane *la
 const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                            size_t series)
 {
-    const struct gm_observable *observable = &lanes[0]->scene->observables[series];
+    const struct gm_observable *observable = gm_scene_observable_at(lanes[0]->scene, series);
     const double divisor = gm_lane_divisor(lanes[0], series);
     for (size_t i = 1; i < count; i++) {
         if (gm_lane_divisor(lanes[i], series) != divisor) {
@@ -104,7 +104,7 @@ const char *gm_error_title(struct gm_picture *picture, const struct gm_lane *con
             return gm_picture_text(picture, "%s", gm_observable_title(observable, text, sizeof text));
         }
     }
-    const double scale = observable->scale ? observable->scale(lanes[0]->parameters) : 0;
+    const double scale = gm_observable_scale(observable, lanes[0]->parameters);
     const char *x = observable->symbol;
     const char *front = gm_picture_text(picture, "%s  |%s − %s₀|", observable->title, x, x);
     return divisor == 1      ? front
@@ -349,14 +349,14 @@ int gm_asked_series(struct gm_picture *picture, const struct gm_scene *scene, co
 
 static double divisor_of(const struct gm_lane *lane, size_t series, bool relative)
 {
-    const struct gm_observable *observable = &lane->scene->observables[series];
+    const struct gm_observable *observable = gm_scene_observable_at(lane->scene, series);
     if (!relative) {
         return 1;
     }
     struct gm_view view = gm_lane_view(lane);
     view.state = view.start;
     view.t = view.t0;
-    return observable->evaluate(&view);
+    return gm_observe(observable, &view);
 }
 
 /* The only lane of its panel: nothing to be told from. */
@@ -424,6 +424,35 @@ static void name_dashes(struct gm_picture *picture, struct gm_panel *panel,
     }
 }
 
+/* A line where round-off is, if the panel's range comes near it. */
+static void mark_roundoff(struct gm_picture *picture, struct gm_panel *panel)
+{
+    const double roundoff = 2.220446049250313e-16, high = panel->y.high;
+    if (panel->y.scale == GM_LOG && panel->y.low < roundoff && high > roundoff) {
+        /* the word stands under the line, where no errors are */
+        const double low = fmin(panel->y.low, roundoff * pow(high / roundoff, -0.16));
+        panel->y.low = low;
+        const double line[] = {panel->x.low, roundoff, panel->x.high, roundoff};
+        gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.6, 1, GM_SHORT_DASH}, line, 2, false);
+        gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
+                     panel->x.high, roundoff * pow(high / low, -0.07), GM_ANCHOR_RIGHT, "round-off");
+    }
+}
+
+/* The end of a curve's range: of what has blown up so much that one sees that it has, and all of a curve that
+   would not be seen at all. */
+static double most_shown(const double *points, size_t made, double usual)
+{
+    double least = INFINITY, highest = usual;
+    for (size_t k = 0; k < made; k++) {
+        if (points[2 * k + 1] > 0) {
+            least = fmin(least, points[2 * k + 1]);
+            highest = fmax(highest, points[2 * k + 1]);
+        }
+    }
+    return least > usual && isfinite(highest) ? highest : usual;
+}
+
 static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                        const struct gm_graph *graph)
 {
@@ -433,11 +462,11 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
         return;
     }
     const size_t series = (size_t)asked;
-    const char *title = graph->title                       ? graph->title
-                        : scene->observables[series].error ? gm_error_title(picture, lanes, count, series)
-                        : graph->magnitude
-                            ? gm_picture_text(picture, "|%s|", scene->observables[series].title)
-                            : scene->observables[series].title;
+    const struct gm_observable *observable = gm_scene_observable_at(scene, series);
+    const char *title = graph->title        ? graph->title
+                        : observable->error ? gm_error_title(picture, lanes, count, series)
+                        : graph->magnitude  ? gm_picture_text(picture, "|%s|", observable->title)
+                                            : observable->title;
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, title);
     panel->axes = true;
     panel->title_role = GM_INK;
@@ -449,6 +478,8 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
         return;
     }
     double low = 1, high = 0;
+    bool exact =
+        scene->observables[series].error; /* kept to the last bit: an error of 0, which has no logarithm */
     if (graph->calm_low != graph->calm_high) {
         low = graph->calm_low;
         high = graph->calm_high;
@@ -459,10 +490,11 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
         if (graph->floor > 0) {
             cut(points, made, graph->floor);
         }
+        exact = exact && made > 1;
+        const double most = graph->highest ? most_shown(points, made, fmax(graph->calm_high, 100)) : INFINITY;
         for (size_t k = 0; k < made; k++) {
+            exact = exact && points[2 * k + 1] == 0;
             if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
-                /* of what has blown up, enough to see that it has */
-                const double most = graph->highest ? fmax(graph->calm_high, 100) : INFINITY;
                 gm_range_add(&low, &high, fmin(points[2 * k + 1], most));
             }
         }
@@ -471,16 +503,11 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
     panel->y.low = low;
     panel->y.high = high;
 
-    const double roundoff = 2.220446049250313e-16;
-    if (graph->scale == GM_LOG && low < roundoff && high > roundoff) {
-        /* the word stands under the line, where no errors are */
-        low = fmin(low, roundoff * pow(high / roundoff, -0.16));
-        panel->y.low = low;
-        const double line[] = {panel->x.low, roundoff, panel->x.high, roundoff};
-        gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.6, 1, GM_SHORT_DASH}, line, 2, false);
+    if (exact && graph->scale == GM_LOG) {
         gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
-                     panel->x.high, roundoff * pow(high / low, -0.07), GM_ANCHOR_RIGHT, "round-off");
+                     (panel->x.low + panel->x.high) / 2, sqrt(low * high), GM_ANCHOR_CENTRE, "exactly kept");
     }
+    mark_roundoff(picture, panel);
     if (!graph->panel_of && !graph->named) {
         name_dashes(picture, panel, lanes, count);
     }
@@ -511,5 +538,66 @@ void gm_draw_graphs(struct gm_picture *picture, const struct gm_lane *const *lan
 {
     for (size_t i = 0; i < graph_count; i++) {
         draw_graph(picture, lanes, count, &graphs[i]);
+    }
+}
+
+/* The greatest values of an error, where there are too many to tell apart. */
+static const struct gm_graph greatest = {.highest = true, .scale = GM_LOG};
+
+static void draw_lane_together(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                               const struct gm_lane *lane, const struct gm_together *together,
+                               size_t together_count, const double range[2], double *points)
+{
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, gm_lane_title(lane));
+    panel->axes = true;
+    panel->title_role = GM_INK;
+    gm_time_axis(&panel->x, lanes, count);
+    panel->y = (struct gm_axis){.label = "", .scale = GM_LOG, .low = range[0], .high = range[1]};
+    mark_roundoff(picture, panel);
+    const char *missing = NULL;
+    for (size_t i = 0; i < together_count; i++) {
+        const int series = gm_scene_observable(lane->scene, together[i].observable);
+        const size_t made = series < 0 ? 0 : history_points(lane, (size_t)series, 1, &greatest, points);
+        size_t values = 0;
+        for (size_t k = 0; k < made; k++) {
+            values += points[2 * k + 1] >= 0;
+        }
+        if (values == 0) {
+            missing = missing || series < 0 ? missing : gm_lane_missing(lane, (size_t)series);
+            continue;
+        }
+        const struct gm_style style = {gm_lane_role(i), 1, 2.4, gm_lane_dash(i)};
+        gm_mark_line(picture, panel, style, points, made, false);
+        if (!missing) {
+            gm_panel_key(picture, panel, style, together[i].name);
+        }
+    }
+    gm_mark_switches(picture, panel, lane, false);
+    const char *failure = gm_lane_failure(picture, lane);
+    if (failure[0] || missing) {
+        panel->note = failure[0] ? failure : gm_picture_text(picture, "%s", missing);
+        panel->first_key = panel->last_key = NULL;
+    }
+}
+
+void gm_draw_together(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                      const struct gm_together *together, size_t together_count)
+{
+    double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
+    double low = 1e-4, high = 1e-3;
+    for (size_t i = 0; points && i < count * together_count; i++) {
+        const struct gm_lane *lane = lanes[i / together_count];
+        const int series = gm_scene_observable(lane->scene, together[i % together_count].observable);
+        const size_t made = series < 0 ? 0 : history_points(lane, (size_t)series, 1, &greatest, points);
+        for (size_t k = 0; k < made; k++) {
+            if (points[2 * k + 1] > 0) {
+                gm_range_add(&low, &high, fmin(points[2 * k + 1], 100));
+            }
+        }
+    }
+    gm_range_round(&low, &high, GM_LOG);
+    const double range[2] = {low, high};
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; points && gm_walk_next(&walk);) {
+        draw_lane_together(picture, lanes, count, walk.lane, together, together_count, range, points);
     }
 }

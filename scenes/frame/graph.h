@@ -88,6 +88,16 @@ struct gm_graph {
     bool named;                     /* lanes are named under the title, where no panel carries their names */
 };
 
+/* Observables of one lane that are drawn in one graph, each in a colour of its own. */
+struct gm_together {
+    const char *observable; /* its key */
+    const char *name;       /* in the graph */
+};
+/* Adds a graph for each lane, on logarithmic axes that are the same for all; where an observable has no value
+   its name is left out, and the note under the graph's title says why. */
+void gm_draw_together(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                      const struct gm_together *together, size_t together_count);
+
 /* The number of the observable that a picture asks for, -1 where the scene has none of that key: then an
    empty graph says so in its title, which begins with GM_NO_OBSERVABLE. */
 #define GM_NO_OBSERVABLE "no observable "

@@ -9,8 +9,7 @@
 
 #include "core/kind.h"
 #include "core/memory.h"
-
-enum { MOST_OBSERVABLES = 64 };
+#include "scenes/frame/crossing.h"
 
 static const struct gm_timing *timing(const struct gm_lane *lane)
 {
@@ -20,6 +19,7 @@ static const struct gm_timing *timing(const struct gm_lane *lane)
 struct gm_view gm_lane_view(const struct gm_lane *lane)
 {
     return (struct gm_view){
+        .scene = lane->scene,
         .parameters = lane->parameters,
         .problem = &lane->problem,
         .scheme = lane->scheme,
@@ -31,6 +31,8 @@ struct gm_view gm_lane_view(const struct gm_lane *lane)
         .memory = gm_run_memory(lane->run),
         .tracks = lane->entries,
         .run = lane->run,
+        .worked = lane->worked,
+        .side = lane->side,
     };
 }
 
@@ -42,15 +44,15 @@ static double divisor_of(const struct gm_observable *observable, const struct gm
     struct gm_view before = *view;
     before.state = view->start;
     before.t = view->t0;
-    *initial = observable->evaluate(&before);
-    const double divisor = fmax(fabs(*initial), observable->scale ? observable->scale(view->parameters) : 0);
+    *initial = gm_observe(observable, &before);
+    const double divisor = fmax(fabs(*initial), gm_observable_scale(observable, view->parameters));
     return divisor > 0 ? divisor : 1;
 }
 
 /* `near`: where an angle was when it was last looked at */
 static double observe(const struct gm_observable *observable, const struct gm_view *view, double near)
 {
-    const double value = observable->evaluate(view);
+    const double value = gm_observe(observable, view);
     if (observable->period > 0) {
         return value + observable->period * round((near - value) / observable->period);
     }
@@ -62,12 +64,26 @@ static double observe(const struct gm_observable *observable, const struct gm_vi
     return fabs(value - initial) / divisor;
 }
 
+/* Those that are asked for are no angles. */
+static double near_of(const struct gm_lane *lane, size_t observable)
+{
+    return observable < lane->scene->observable_count ? lane->angles[observable] : 0;
+}
+
 double gm_lane_observe(const struct gm_lane *lane, size_t observable)
 {
     const struct gm_view view = gm_lane_view(lane);
     const unsigned long refusals = gm_memory_refusals();
-    const double value = observe(&lane->scene->observables[observable], &view, lane->angles[observable]);
+    const double value =
+        observe(gm_scene_observable_at(lane->scene, observable), &view, near_of(lane, observable));
     return gm_memory_refusals() == refusals ? value : NAN;
+}
+
+const char *gm_lane_missing(const struct gm_lane *lane, size_t observable)
+{
+    const struct gm_observable *row = gm_scene_observable_at(lane->scene, observable);
+    const struct gm_view view = gm_lane_view(lane);
+    return row->why ? row->why(&view) : row->missing;
 }
 
 double gm_lane_divisor(const struct gm_lane *lane, size_t observable)
@@ -88,7 +104,7 @@ long gm_lane_lost(const struct gm_lane *lane)
             continue;
         }
         double initial = 0;
-        const double divisor = divisor_of(observable, &view, &initial), value = observable->evaluate(&view);
+        const double divisor = divisor_of(observable, &view, &initial), value = gm_observe(observable, &view);
         const double error = fabs(value - initial) / divisor;
         /* against a scale above it, what was small at the start may be smaller and no less right */
         const bool decayed = divisor == fabs(initial) && fabs(value) < GM_LOST_BELOW * divisor;
@@ -116,7 +132,7 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size)
         double initial = 0;
         divisor_of(observable, &view, &initial);
         snprintf(text, size, "%s is %.3g: of what the exact motion keeps a part of %.1e is left",
-                 observable->key, error, observable->evaluate(&view) / initial);
+                 observable->key, error, gm_observe(observable, &view) / initial);
     }
 }
 
@@ -148,38 +164,105 @@ static void settle(struct gm_lane *lane, unsigned long refusals)
     }
 }
 
-void gm_lane_follow(struct gm_lane *lane)
+static int side_of(double value)
+{
+    return (value > 0) - (value < 0);
+}
+
+bool gm_lane_stopped(const struct gm_lane *lane)
+{
+    if (!lane->scene->stop) {
+        return false;
+    }
+    const struct gm_view view = gm_lane_view(lane);
+    return lane->side != 0 && (lane->scene->stop(&view) < 0) != (lane->side < 0);
+}
+
+/* Whether it has stopped: then the last step ends where that was. */
+static bool land(struct gm_lane *lane)
 {
     const struct gm_view view = gm_lane_view(lane);
+    const double least = 1e-6; /* of the first step: it began on the surface, but for round-off */
+    const bool stopped = gm_lane_stopped(lane);
+    if (lane->scene->stop && lane->side == 0) {
+        lane->side = side_of(lane->scene->stop(&view));
+    }
+    if (stopped && gm_behind_is_before(&lane->behind, &view)) {
+        double *there = lane->behind.state + 3 * gm_active_count(&lane->problem);
+        const double share = gm_crossing_find(&view, lane->scene->stop, there);
+        if (share < least && lane->run->steps == 1) {
+            lane->side = -lane->side;
+            return false;
+        }
+        if (!isnan(share)) {
+            gm_run_shorten(lane->run, share);
+        }
+    }
+    return stopped;
+}
+
+/* Takes the present state into tracks only, and follows angles: after every scene->follow steps that are not
+   recorded. Whether the lane has stopped. */
+static bool follow(struct gm_lane *lane)
+{
     const unsigned long refusals = gm_memory_refusals();
+    const bool stopped = land(lane);
+    const struct gm_view view = gm_lane_view(lane);
+    lane->followed = lane->run->steps;
     follow_angles(lane, &view);
     record_tracks(lane, &view);
     settle(lane, refusals);
+    return stopped;
 }
 
 enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until)
 {
-    if (lane->scene->follow == 0) {
+    if (lane->scene->follow == 0 || lane->unfollowed) {
         return gm_run_to(lane->run, steps, until);
     }
     /* steps that the scheme chooses may each be as long as many */
-    const long follow = lane->scheme->family->own_time ? 1 : lane->scene->follow;
-    while (gm_run_goes_on(lane->run, steps, until)) {
-        const long left = steps - lane->run->steps;
-        gm_run_to(lane->run, lane->run->steps + (follow < left ? follow : left), until);
-        gm_lane_follow(lane);
+    const long most = lane->scheme->family->own_time ? 1 : lane->scene->follow;
+    bool stopped = gm_lane_stopped(lane);
+    if (lane->followed > lane->run->steps) { /* it was set back */
+        lane->followed = lane->run->steps;
+    }
+    while (!stopped && gm_run_goes_on(lane->run, steps, until)) {
+        const long due = lane->followed + most;
+        gm_run_to(lane->run, due < steps ? due : steps, until);
+        if (lane->run->steps >= due || lane->run->status != GM_OK) {
+            stopped = follow(lane);
+        }
     }
     return lane->run->status;
 }
 
+/* How many of the observables that are asked for its picture shows. */
+static size_t asked_shown(const struct gm_lane *lane)
+{
+    return lane->scene->asked_shown ? lane->scene->asked_shown(lane->scene, lane->parameters) : 0;
+}
+
+void gm_lanes_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct gm_scene *scene = lanes[0]->scene;
+    (asked_shown(lanes[0]) > 0 ? scene->draw_asked : scene->draw)(lanes, count, picture);
+}
+
 void gm_lane_record(struct gm_lane *lane)
 {
-    const struct gm_view view = gm_lane_view(lane);
-    double values[MOST_OBSERVABLES];
+    double values[GM_MOST_OBSERVABLES];
     const unsigned long refusals = gm_memory_refusals();
+    land(lane);
+    const struct gm_view view = gm_lane_view(lane);
+    lane->followed = lane->run->steps;
     follow_angles(lane, &view);
     for (size_t i = 0; i < lane->scene->observable_count; i++) {
         values[i] = observe(&lane->scene->observables[i], &view, lane->angles[i]);
+    }
+    const struct gm_scene *scene = lane->scene;
+    const size_t shown = asked_shown(lane);
+    for (size_t i = 0; i < scene->asked_count; i++) {
+        values[scene->observable_count + i] = i < shown ? observe(&scene->asked[i], &view, 0) : NAN;
     }
     gm_history_add(&lane->history, view.t, view.run->steps, values);
     record_tracks(lane, &view);
@@ -321,6 +404,12 @@ void gm_lane_close(struct gm_lane *lane)
     free(lane->angles);
     free(lane->behind.state);
     gm_history_close(&lane->history);
+    for (size_t i = 0; lane->worked && i < GM_WORKED; i++) {
+        if (lane->worked[i].data) {
+            lane->worked[i].forget(lane->worked[i].data);
+        }
+    }
+    free(lane->worked);
     gm_run_close(lane->run);
     if (lane->scene->close) {
         lane->scene->close(&lane->problem);
@@ -375,12 +464,19 @@ static bool prepare(struct gm_lane *lane, char *sentence)
     if (!lane->parameters) {
         return gm_refuse(sentence, "not enough memory");
     }
+    if (scene->observable_count + scene->asked_count > GM_MOST_OBSERVABLES) {
+        return gm_refuse(sentence, "%zu observables, and a scene has at most %d",
+                         scene->observable_count + scene->asked_count, GM_MOST_OBSERVABLES);
+    }
     if (scene->resolve) {
         scene->resolve(lane->parameters);
     }
     if (!scene->setup(lane->parameters, &lane->problem, sentence) ||
         !check_fit(scene, &lane->problem, lane->scheme, sentence)) {
         return false;
+    }
+    if (scene->chosen) {
+        scene->chosen(&lane->problem, lane->parameters);
     }
     lane->t0 = gm_scene_t0(scene, lane->parameters);
     lane->start = malloc(lane->problem.n * lane->problem.m * sizeof *lane->start);
@@ -394,8 +490,16 @@ static bool prepare(struct gm_lane *lane, char *sentence)
     }
     lane->run =
         gm_run_open(&lane->problem, lane->scheme, &lane->settings, lane->t0, timing(lane)->dt, lane->start);
-    if (!lane->run || !gm_history_open(&lane->history, scene->observable_count) || !open_tracks(lane)) {
+    lane->worked = calloc(GM_WORKED, sizeof *lane->worked);
+    if (!lane->run || !lane->worked ||
+        !gm_history_open(&lane->history, scene->observable_count + scene->asked_count) ||
+        !open_tracks(lane)) {
         return gm_refuse(sentence, "not enough memory");
+    }
+    if (scene->stop) {
+        const struct gm_view view = gm_lane_view(lane);
+        lane->side = side_of(scene->stop(&view));
+        return gm_behind_open(&lane->behind, &lane->problem) || gm_refuse(sentence, "not enough memory");
     }
     return true;
 }

@@ -41,7 +41,11 @@ struct gm_lane {
     struct gm_history history;  /* one series per observable */
     struct gm_entries *entries; /* one per track */
     double *angles;             /* per observable, where it was when last looked at: what unwraps an angle */
-    struct gm_behind behind;    /* of sections */
+    struct gm_worked *worked;   /* GM_WORKED */
+    struct gm_behind behind;    /* of sections, and of the stop */
+    int side; /* of the scene's stop at the start: -1 below 0, 1; 0: on it, until the first step leaves it */
+    long followed;   /* after how many steps it was looked at last */
+    bool unfollowed; /* nobody asks what lies on the way: gm_lane_to makes its steps at once */
 };
 
 /* Opens a lane at its start, with the start recorded. NULL with a sentence (GM_MESSAGE bytes) if the
@@ -55,6 +59,9 @@ struct gm_view gm_lane_view(const struct gm_lane *lane);
 
 /* The value of an observable now. */
 double gm_lane_observe(const struct gm_lane *lane, size_t observable);
+
+/* Why an observable that was looked at is no number; NULL: there is nothing to be told. */
+const char *gm_lane_missing(const struct gm_lane *lane, size_t observable);
 
 /* What an error is divided by in this lane. */
 double gm_lane_divisor(const struct gm_lane *lane, size_t observable);
@@ -72,10 +79,14 @@ void gm_lane_warning(const struct gm_lane *lane, char *text, size_t size);
 /* Takes the present state into history and tracks: once after every step that is looked at. */
 void gm_lane_record(struct gm_lane *lane);
 
-/* Takes it into tracks only, and follows angles: after every scene->follow steps that are not recorded. */
-void gm_lane_follow(struct gm_lane *lane);
+/* Draws the picture of lanes of one scene: what is asked for, or the scene's own. */
+void gm_lanes_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
 
-/* Advances to an end (gm_run_to), following on the way as the scene asks; records nothing. */
+/* Whether the run has ended where its scene says so (gm_scene.stop). */
+bool gm_lane_stopped(const struct gm_lane *lane);
+
+/* Advances to an end (gm_run_to), or to where it is stopped, following on the way as the scene asks; records
+   nothing. */
 enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until);
 
 /* How the lane is called, and its panel and colour. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A lane as bytes, for checkpoints and copies. What comes from a file is believed only if a lane can be so. */
+/* A lane as bytes, for checkpoints and copies. What comes from a file is believed only if a lane can be
+   so. */
 #include "scenes/frame/lane_pack.h"
 
 #include <limits.h>
@@ -108,7 +109,7 @@ static void pass_entries(struct walk *walk, struct gm_entries *entries, const st
     pass_count(walk, &entries->count, track->bound);
     pass(walk, &entries->every, sizeof entries->every);
     pass(walk, &entries->skipped, sizeof entries->skipped);
-    pass(walk, &entries->before, sizeof entries->before);
+    pass(walk, entries->before, entries->sections * sizeof *entries->before);
     pass(walk, entries->times, entries->count * sizeof *entries->times);
     pass(walk, entries->steps, entries->count * sizeof *entries->steps);
     pass(walk, entries->values, entries->count * entries->width * sizeof *entries->values);
@@ -124,6 +125,8 @@ static void walk_lane(struct walk *walk, struct gm_lane *lane)
 {
     pass_run(walk, lane->run);
     const long last = lane->run->steps;
+    pass(walk, &lane->side, sizeof lane->side);
+    walk->damaged |= lane->side < -1 || lane->side > 1;
     pass_history(walk, &lane->history, last);
     for (size_t i = 0; i < lane->scene->track_count; i++) {
         pass_entries(walk, &lane->entries[i], &lane->scene->tracks[i], last);

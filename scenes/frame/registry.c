@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All scenes there are, from the list scenes.def, and what is looked up in a scene by its key. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/memory.h"
 #include "scenes/frame/scene.h"
 
 #define GM_SCENE(name) extern const struct gm_scene gm_scene_##name;
@@ -47,6 +49,35 @@ const char *gm_observable_title(const struct gm_observable *observable, char *te
     return text;
 }
 
+double gm_observe(const struct gm_observable *observable, const struct gm_view *view)
+{
+    struct gm_view asked = *view;
+    asked.observable = observable;
+    return observable->evaluate(&asked);
+}
+
+double gm_observable_scale(const struct gm_observable *observable, const void *parameters)
+{
+    return observable->scale ? observable->scale(parameters) : observable->least;
+}
+
+void *gm_scene_defaults(const struct gm_scene *scene)
+{
+    const unsigned long refusals = gm_memory_refusals();
+    void *parameters = calloc(1, scene->size);
+    if (parameters) {
+        if (scene->initial) {
+            memcpy(parameters, scene->initial, scene->size);
+        }
+        gm_parameters_reset(scene->parameters, scene->parameter_count, parameters);
+    }
+    if (gm_memory_refusals() != refusals) { /* a default that could not be read is another number */
+        free(parameters);
+        return NULL;
+    }
+    return parameters;
+}
+
 double gm_scene_t0(const struct gm_scene *scene, const void *parameters)
 {
     return scene->t0 ? scene->t0(parameters) : 0;
@@ -69,12 +100,26 @@ const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, cons
 
 int gm_scene_observable(const struct gm_scene *scene, const char *key)
 {
-    for (size_t i = 0; i < scene->observable_count; i++) {
-        if (strcmp(scene->observables[i].key, key) == 0) {
+    for (size_t i = 0; gm_scene_observable_at(scene, i); i++) {
+        if (strcmp(gm_scene_observable_at(scene, i)->key, key) == 0) {
             return (int)i;
         }
     }
     return -1;
+}
+
+const struct gm_observable *gm_scene_observable_at(const struct gm_scene *scene, size_t number)
+{
+    if (number < scene->observable_count) {
+        return &scene->observables[number];
+    }
+    number -= scene->observable_count;
+    return number < scene->asked_count ? &scene->asked[number] : NULL;
+}
+
+const char *gm_scene_observable_key(size_t number, const void *scene)
+{
+    return gm_scene_observable_at(scene, number)->key;
 }
 
 void gm_choose(struct gm_choice *choice, const char *key, double value)

@@ -10,6 +10,7 @@
 #include "scenes/frame/rows.h"
 
 struct gm_lane;
+struct gm_scene;
 struct gm_entries;
 
 /* Every scene's own struct of parameters begins with this. */
@@ -21,17 +22,30 @@ struct gm_timing {
 /* The end of a run that is told by its steps alone. */
 #define GM_NEVER 1e12
 
+/* What a lane's observables have worked out for it, and how it is freed; NULL at first. Each kind has a
+   place. */
+enum { GM_WORKED_ENERGY, GM_WORKED_GROWTH, GM_WORKED };
+struct gm_worked {
+    void *data;
+    void (*forget)(void *data);
+};
+
 /* What may be looked at of one lane. */
 struct gm_view {
+    const struct gm_scene *scene;
     const void *parameters; /* the scene's own struct */
     const struct gm_problem *problem;
     const struct gm_scheme *scheme;
     const double *start; /* the state at t0, [component * m + member] */
     const double *state; /* the present state */
     double t0, t, dt;
-    const double *memory;            /* the scheme's own; NULL if it has none */
-    const struct gm_entries *tracks; /* the scene's, as recorded so far; NULL while a lane is opened */
-    const struct gm_run *run;        /* for what a scheme says of itself */
+    const double *memory;                   /* the scheme's own; NULL if it has none */
+    const struct gm_entries *tracks;        /* the scene's, as recorded so far; NULL while a lane is opened */
+    const struct gm_run *run;               /* for what a scheme says of itself */
+    size_t member;                          /* that a track with `each` is asked of */
+    const struct gm_observable *observable; /* the one that is evaluated (gm_observe) */
+    struct gm_worked *worked;               /* the lane's, GM_WORKED of them */
+    int side;                               /* of the scene's stop at the start: struct gm_lane */
 };
 
 /* A number per step. With `error` the number printed is |x - x0| / max(|x0|, scale), x = evaluate, and
@@ -44,24 +58,34 @@ struct gm_observable {
     bool error;
     const char *symbol;                      /* of x, in the formula of an error: "H" */
     double (*scale)(const void *parameters); /* natural scale of an error; NULL: 0 */
+    double least;                            /* such a scale, where it is a number; else 0 */
     const char *scale_text;                  /* as it is written: "1 for the pendulum" */
     bool kept;                               /* the exact motion keeps x */
-    const char *missing;                     /* why there may be no value (NaN); NULL: there always is one */
-    double period;                           /* of an angle, which is printed unwrapped; 0: none */
-    bool logarithmic;                        /* drawn on a log axis */
+    /* Why there may be no value (NaN), NULL: there always is one; or what tells why there was none, if
+       anything. */
+    const char *missing;
+    const char *(*why)(const struct gm_view *view);
+    double period;    /* of an angle, which is printed unwrapped; 0: none */
+    bool recalls;     /* it is made of what was recorded on the way */
+    bool logarithmic; /* drawn on a log axis */
 };
 
-/* A bounded record of the past: an entry of so many numbers every so much of model time; or, with
-   `section`, one wherever that function of the state passes zero upwards between two steps, at the state
-   interpolated there. When `bound` entries are full every other one is dropped, or, of a `recent` track, the
-   older half. Entry 0 of a track by intervals that is not recent is the start. */
+/* A bounded record of the past: an entry of so many numbers every so much of model time; or, with `section`,
+   one wherever that function of the state passes zero upwards between two steps, at the state interpolated
+   there (with `again`: that the scheme finds there, where it can make the step again, shorter), or, with
+   `admits`, in either direction wherever that holds of it. When `bound` entries are full every other one is
+   dropped, or, of a `recent` track, the older half. Entry 0 of a track by intervals that is not recent is the
+   start. */
 struct gm_track {
     const char *key;
     size_t numbers;                                /* of an entry; 0: */
     size_t (*width)(const struct gm_view *view);   /* as many as that says */
     double every;                                  /* model time; 0: after each step that is looked at, or */
     double (*interval)(const void *parameters);    /* what that says, where it is there */
-    double (*section)(const struct gm_view *view); /* looks at active components only; m is 1 */
+    double (*section)(const struct gm_view *view); /* looks at active components only */
+    bool (*admits)(const struct gm_view *view);
+    bool again; /* the crossing is where the scheme puts it, if it can make the step again, of one member */
+    bool each;  /* members have sections of their own: these three look at that of view->member alone */
     size_t bound;
     bool recent;
     void (*record)(const struct gm_view *view, double *entry);
@@ -97,9 +121,11 @@ struct gm_stability {
     size_t value_count;
     const char *label;                      /* of the time step in units of `unit`: "h ω" */
     double (*unit)(const void *parameters); /* of the time step: the shortest time there is */
+    const char *told;                       /* what 1 / that is, where it is found numerically; NULL */
     const double *steps;                    /* step_count of them, in that unit */
     size_t step_count;
-    const char *kept; /* key of the observable that is lost below half of its start, gained above twice */
+    const char *
+        kept; /* key of the observable that is lost below half of its start, gained above twice; NULL: none */
     long settle; /* where that swings by itself: the largest value of so many first steps is compared to that
                     of so many last ones; 0: the end to the start */
     const char *error;          /* key of the observable that is wrong above 0.1; NULL: none */
@@ -120,10 +146,19 @@ struct gm_choice {
 };
 enum { GM_CHOICES = 4 };
 
+/* Of a scene, with those that are asked for. */
+enum { GM_MOST_OBSERVABLES = 128 };
+
 struct gm_scene {
     const char *name, *title, *blurb, *watch;
-    const char *time; /* what a time of 1 is: "H²/ν" */
-    size_t size;      /* of the scene's own struct, which begins with struct gm_timing */
+    const char *time;    /* what a time of 1 is: "H²/ν" */
+    size_t size;         /* of the scene's own struct, which begins with struct gm_timing */
+    const void *initial; /* that struct before its parameters are set; NULL: zeros */
+    /* Of a scene that was made of words: these, NULL-terminated, the first instead of a name. */
+    const char *const *words;
+    const char *source; /* the text of the file that it was made of, if it was; NULL */
+    const char *text;   /* the text that it was made of, also of one that was typed; NULL */
+    const char *mark;   /* its name and a checksum of that text; NULL: its name tells all */
     const struct gm_parameter *parameters;
     size_t parameter_count;
     const char *const *schemes; /* in preferred order, NULL-terminated; further ones may fit */
@@ -131,6 +166,14 @@ struct gm_scene {
     const char *lanes;
     const struct gm_observable *observables;
     size_t observable_count;
+    /* Further ones, numbered behind those: they cost something, and are computed where they are asked for by
+       their key, or while a picture shows them. */
+    const struct gm_observable *asked;
+    size_t asked_count;
+    /* How many of the first of them its picture shows; NULL: none. */
+    size_t (*asked_shown)(const struct gm_scene *scene, const void *parameters);
+    /* The picture that shows them, in the place of `draw`. */
+    void (*draw_asked)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
     const struct gm_track *tracks;
     size_t track_count;
     const struct gm_figure *figures;
@@ -151,6 +194,8 @@ struct gm_scene {
     void (*resolve)(void *parameters);
     /* Fills the problem (n, m, facets) for these parameters; false with a sentence if they contradict. */
     bool (*setup)(const void *parameters, struct gm_problem *problem, char *sentence);
+    /* Notes, in the lane's own copy, what was chosen while the problem was made; NULL: nothing is. */
+    void (*chosen)(const struct gm_problem *problem, void *parameters);
     /* Whether the files that the parameters name can be read; a sentence if not. NULL: they name none. */
     bool (*readable)(const void *parameters, char *sentence);
     /* Frees what setup made for the problem; NULL if it makes nothing. */
@@ -161,6 +206,13 @@ struct gm_scene {
        then. */
     bool (*start_with)(const void *parameters, const struct gm_problem *problem,
                        const struct gm_scheme *scheme, double *y, char *sentence);
+    /* Where it has another sign than at the start the run ends, and ends well: just beyond that place, if the
+       scheme can make its last step again, shorter, else after that step. With it, `follow` is 1. NULL: it
+       does not. */
+    double (*stop)(const struct gm_view *view);
+    /* Writes one sentence on the step that would follow a view, where that led to no number; "": there is
+       nothing to say. NULL: there never is. */
+    void (*failure)(const struct gm_view *view, char *text, size_t size);
     /* Draws the lanes, count >= 1, into an empty picture; looks only. */
     void (*draw)(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
     /* The parameters, at most GM_CHOICES, with which a run starts at the point (x, y) of a state's panel; 0
@@ -176,6 +228,14 @@ struct gm_scene {
 /* Writes the title, of an error with its formula: "energy error  |H − H₀| / max(|H₀|, 1/2)". */
 const char *gm_observable_title(const struct gm_observable *observable, char *text, size_t size);
 
+/* The value of an observable in a view. */
+double gm_observe(const struct gm_observable *observable, const struct gm_view *view);
+/* The natural scale of an error. */
+double gm_observable_scale(const struct gm_observable *observable, const void *parameters);
+
+/* The scene's own struct with every parameter at its default; malloc'ed, NULL when memory is short. */
+void *gm_scene_defaults(const struct gm_scene *scene);
+
 /* For settle: whether the key is among those that were given. */
 bool gm_is_given(const char *key, const char *const *keys, size_t count);
 
@@ -186,10 +246,14 @@ size_t gm_scene_count(void);
 const struct gm_scene *gm_scene_at(size_t index);
 const struct gm_scene *gm_scene_find(const char *name);
 double gm_scene_t0(const struct gm_scene *scene, const void *parameters);
-/* The number of the observable of that key; -1 if there is none. */
+/* The number of the observable of that key, of all there are; -1 if there is none. */
 int gm_scene_observable(const struct gm_scene *scene, const char *key);
-/* Why the parameter of that key has no effect with these: "the mesh comes from a file"; NULL if it has one.
- */
+/* The observable of that number; NULL behind the last. */
+const struct gm_observable *gm_scene_observable_at(const struct gm_scene *scene, size_t number);
+/* Its key, for proposals (core/formula/nearest.h); `scene` is a struct gm_scene. */
+const char *gm_scene_observable_key(size_t number, const void *scene);
+/* Why the parameter of that key has no effect with these: "the mesh comes from a file"; NULL if it has
+   one. */
 const char *gm_scene_idle(const struct gm_scene *scene, const void *parameters, const char *key);
 /* NULL if there is none of that key */
 const struct gm_parameter *gm_scene_parameter(const struct gm_scene *scene, const char *key);

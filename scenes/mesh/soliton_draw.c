@@ -250,7 +250,7 @@ static double largest_change(const struct gm_lane *lane, size_t series)
     const struct gm_history *history = &lane->history;
     struct gm_view view = gm_lane_view(lane);
     view.state = view.start;
-    const double initial = lane->scene->observables[series].evaluate(&view);
+    const double initial = gm_observe(&lane->scene->observables[series], &view);
     double largest = 0;
     for (size_t b = 0; b < history->count; b++) {
         const struct gm_bin *bin = &history->bins[b * history->series + series];

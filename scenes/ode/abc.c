@@ -13,6 +13,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/asked.h"
 
 enum { ABC, LINEAR };
 enum { X, Y, Z, DIMENSION, MEMBERS = 1 + 4 * DIMENSION, CROSSINGS = 1 << 14 };
@@ -237,6 +238,7 @@ const struct gm_scene gm_scene_abc = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = GM_COUNT(observables),
+    GM_ASKED_OF_EQUATIONS,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .work = &work,

@@ -17,6 +17,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/asked.h"
 
 enum { Q, XI_1, XI_2, P, ETA_1, ETA_2, COMPONENTS };
 enum { OSCILLATOR, PENDULUM };
@@ -37,7 +38,7 @@ struct disc {
 };
 
 static const char *const systems[] = {"oscillator", "pendulum", NULL};
-static const char *const shows[] = {"all", "disc", "energy", NULL};
+static const char *const shows[] = {"all", "disc", "energy", GM_SHOW_MODIFIED, NULL};
 
 static const struct gm_parameter parameters[] = {
     GM_DT("pi/12", 1e-6, 100),
@@ -49,7 +50,9 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct disc, q0, "q0", "0", -100, 100, "position of its centre"),
     GM_REAL_ROW(struct disc, p0, "p0", "1", -100, 100, "momentum of its centre"),
     GM_CHOICE_ROW(struct disc, show, "show", "all", shows,
-                  "what the picture shows: all, the disc alone, or the energy error alone", .live = true),
+                  "what the picture shows: all, the disc alone, the energy error alone, or errors of the "
+                  "modified energy",
+                  .live = true),
 };
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
@@ -438,6 +441,7 @@ const struct gm_scene gm_scene_disc = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = GM_COUNT(observables),
+    GM_ASKED_OF_HAMILTONIAN,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .figures = figures,

@@ -9,6 +9,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
 enum { Q1, Q2, P1, P2 };
@@ -17,6 +18,7 @@ enum { CROSSINGS = 1 << 14 };
 struct henon_heiles {
     struct gm_timing timing;
     double energy, q2, p2;
+    int show;
 };
 
 static const struct gm_parameter parameters[] = {
@@ -27,6 +29,7 @@ static const struct gm_parameter parameters[] = {
     GM_REAL_ROW(struct henon_heiles, q2, "q2", "0.1", -0.5, 1,
                 "start in the section: q1 = 0, p1 > 0 follows from the energy"),
     GM_REAL_ROW(struct henon_heiles, p2, "p2", "0.1", -0.6, 0.6, "start in the section"),
+    GM_SHOW_ROW(struct henon_heiles),
 };
 
 static double potential(double q1, double q2)
@@ -215,6 +218,7 @@ const struct gm_scene gm_scene_henon_heiles = {
     .lanes = "scheme=verlet q2=0,.1,.2,.3 energy=1/8 overlay=yes",
     .observables = observables,
     .observable_count = GM_COUNT(observables),
+    GM_ASKED_OF_HAMILTONIAN,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .work = &work,

@@ -14,6 +14,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
 enum { Q1, Q2, P1, P2 };
@@ -21,6 +22,7 @@ enum { Q1, Q2, P1, P2 };
 struct kepler {
     struct gm_timing timing;
     double eccentricity, perturbation;
+    int show;
 };
 
 static const struct gm_parameter parameters[] = {
@@ -30,6 +32,7 @@ static const struct gm_parameter parameters[] = {
                 "of the orbit, which starts at the pericentre"),
     GM_REAL_ROW(struct kepler, perturbation, "perturbation", "0", -0.1, 0.1,
                 "the potential is −1/r − perturbation/r²"),
+    GM_SHOW_ROW(struct kepler),
 };
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
@@ -330,6 +333,7 @@ const struct gm_scene gm_scene_kepler = {
     .lanes = "scheme=rk2,rk4,verlet,rk4sym",
     .observables = observables,
     .observable_count = GM_COUNT(observables),
+    GM_ASKED_OF_HAMILTONIAN,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .figures = figures,

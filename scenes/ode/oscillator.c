@@ -10,11 +10,12 @@
        figure 16   q against the sine        figure 17   the energy error */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
+#include "core/ode/families/families.h"
 #include "core/ode/families/variational_time.h"
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
 enum { HARMONIC, PENDULUM };
@@ -25,6 +26,7 @@ struct oscillator {
     struct gm_timing timing;
     int system;
     double q0, p0;
+    int show;
 };
 
 static const char *const systems[] = {"harmonic", "pendulum", NULL};
@@ -37,6 +39,7 @@ static const struct gm_parameter parameters[] = {
     /* sin 0.3 and cos 0.3 */
     GM_REAL_ROW(struct oscillator, q0, "q0", "0.29552020666133957", -100, 100, "position at the start"),
     GM_REAL_ROW(struct oscillator, p0, "p0", "0.955336489125606", -100, 100, "momentum at the start"),
+    GM_SHOW_ROW(struct oscillator),
 };
 
 static void turn(const struct gm_problem *problem, double t, const double *y0, double *y, size_t m)
@@ -68,7 +71,7 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
 
 static bool varies_time(const struct gm_view *view)
 {
-    return strncmp(view->scheme->name, "variational-", 12) == 0;
+    return view->scheme->family == &gm_family_variational_time;
 }
 
 static double tau(const struct gm_view *view)
@@ -243,6 +246,7 @@ const struct gm_scene gm_scene_oscillator = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = GM_COUNT(observables),
+    GM_ASKED_OF_HAMILTONIAN,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .figures = figures,

@@ -13,6 +13,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
+#include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
 enum { FPU, SPRING_PENDULUM };
@@ -24,6 +25,7 @@ struct stiff {
     int system;
     double omega, stiffness;
     long springs;
+    int show;
 };
 
 static const char *const systems[] = {"fpu", "spring-pendulum", NULL};
@@ -39,6 +41,7 @@ static const struct gm_parameter parameters[] = {
                    "number of stiff springs; their energies are told of the first three (fpu)"),
     GM_REAL_ROW(struct stiff, stiffness, "stiffness", "1e4", 1, 1e12,
                 "of the spring, the square of its frequency (spring-pendulum)", .logarithmic = true),
+    GM_SHOW_ROW(struct stiff),
 };
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
@@ -361,6 +364,7 @@ const struct gm_scene gm_scene_stiff = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = GM_COUNT(observables),
+    GM_ASKED_OF_HAMILTONIAN,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .work = &work,

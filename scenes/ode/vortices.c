@@ -17,6 +17,7 @@
 
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/entries.h"
+#include "scenes/ode/asked.h"
 #include "scenes/ode/hamiltonian.h"
 
 extern const struct gm_scene gm_scene_vortices;
@@ -49,6 +50,7 @@ static const struct gm_parameter parameters[] = {
     GM_INTEGER_ROW(struct gm_vortices, tracers, "tracers", "0", 0, 1e6,
                    "passive particles, half of them dyed", .logarithmic = true),
     GM_INTEGER_ROW(struct gm_vortices, seed, "seed", "1", 0, 1e9, "of the random start"),
+    GM_SHOW_ROW(struct gm_vortices),
 };
 
 /* A regular polygon turns as a whole. */
@@ -78,8 +80,8 @@ static bool settle(void *parameters_, const char *const *keys, size_t count, cha
     for (size_t i = 0; i < GM_COUNT(follow) && gm_is_given("configuration", keys, count); i++) {
         const struct gm_parameter *row = gm_scene_parameter(&gm_scene_vortices, follow[i].key);
         if (!gm_is_given(row->key, keys, count)) {
-            gm_parameter_set(row, own,
-                             own->configuration == GM_COLLISION ? follow[i].in_collision : row->standard);
+            gm_parameter_set(
+                row, own, own->configuration == GM_VORTEX_COLLISION ? follow[i].in_collision : row->standard);
         }
     }
     return true;
@@ -99,7 +101,7 @@ static bool setup(const void *parameters_, struct gm_problem *problem, char *sen
     }
     if (gm_vortices_coincide(own)) {
         return gm_refuse(sentence, "two vortices coincide at the start: another %s is needed",
-                         own->configuration == GM_COLLISION ? "distance" : "angle");
+                         own->configuration == GM_VORTEX_COLLISION ? "distance" : "angle");
     }
     if (own->configuration == GM_REDUCED) {
         *problem = tracers == 0 ? gm_problem_vortices_reduced : gm_problem_vortices_reduced_carrying;
@@ -156,7 +158,7 @@ static double pair_distance(const struct gm_view *view)
 {
     const struct gm_vortices *own = view->parameters;
     const size_t count = gm_vortices_carried(own);
-    if (own->configuration != GM_COLLISION) {
+    if (own->configuration != GM_VORTEX_COLLISION) {
         return NAN;
     }
     return hypot(view->state[0] - view->state[1], view->state[count] - view->state[count + 1]);
@@ -230,7 +232,7 @@ static size_t point(const void *parameters_of, double x, double y, struct gm_cho
     case GM_ONE_TURNED:
         gm_choose(&choices[0], "angle", remainder(turned, 2 * M_PI));
         return 1;
-    case GM_COLLISION:
+    case GM_VORTEX_COLLISION:
         gm_choose(&choices[0], "distance", fmin(2 * hypot(x, y), 1));
         return 1;
     default:
@@ -396,6 +398,7 @@ const struct gm_scene gm_scene_vortices = {
     .schemes = schemes,
     .observables = observables,
     .observable_count = GM_COUNT(observables),
+    GM_ASKED_OF_HAMILTONIAN,
     .tracks = tracks,
     .track_count = GM_COUNT(tracks),
     .figures = figures,

@@ -208,7 +208,7 @@ static const char *caption_of(const struct gm_vortices *own)
                    : "The symmetric motion is stable at this angle; what sets schemes apart is the angular impulse.";
     case GM_ONE_TURNED:
         return "This motion is chaotic itself: only its invariants tell schemes apart.";
-    case GM_COLLISION:
+    case GM_VORTEX_COLLISION:
         return "A pair this close turns faster than the rest: a step that is too long for it goes wrong without a sound.";
     default:
         return "";
@@ -251,7 +251,7 @@ void gm_vortices_draw(const struct gm_lane *const *lanes, size_t count, struct g
     if (own->configuration == GM_TWO_TURNED) {
         draw_log(picture, lanes, count, "symmetry_defect");
     }
-    if (own->configuration == GM_COLLISION) {
+    if (own->configuration == GM_VORTEX_COLLISION) {
         draw_log(picture, lanes, count, "pair_distance_error");
     }
     if (own->configuration == GM_SQUARE && own->tracers == 0) {

@@ -40,7 +40,7 @@ static void place(const struct gm_vortices *own, size_t count, double *x, double
         }
         x[i] = radius * cos(turn);
         y[i] = radius * sin(turn);
-        if (own->configuration == GM_COLLISION) {
+        if (own->configuration == GM_VORTEX_COLLISION) {
             x[i] = i < 2 ? own->distance * pair_x[i] : pair_x[i];
             y[i] = pair_y[i];
         }

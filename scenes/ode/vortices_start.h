@@ -6,13 +6,14 @@
 
 /* Point vortices as the parameters of scenes/ode/vortices.c arrange them. */
 
-enum { GM_REDUCED, GM_SQUARE, GM_TWO_TURNED, GM_ONE_TURNED, GM_RANDOM, GM_COLLISION };
+enum { GM_REDUCED, GM_SQUARE, GM_TWO_TURNED, GM_ONE_TURNED, GM_RANDOM, GM_VORTEX_COLLISION };
 
 struct gm_vortices {
     struct gm_timing timing;
     int configuration;
     double angle, strength, distance;
     long count, tracers, seed;
+    int show;
 };
 
 /* How many vortices the state holds: of the reduced system two, and their images are z -> -z. */

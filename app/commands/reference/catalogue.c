@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What fits what, in words: shared by `list`, the manual, the pages and completion, so that they agree. */
 #include "app/commands/reference/catalogue.h"
-#include "core/schemes.h"
 
 #include <stdio.h>
 #include <string.h>
+
+#include "core/schemes.h"
 
 bool gm_catalogue_shares_name(const struct gm_scheme *scheme)
 {

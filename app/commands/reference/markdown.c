@@ -131,14 +131,16 @@ static void put_scene(const struct gm_scene *scene)
         put_parameter(&scene->parameters[i]);
     }
     printf("\n| observable | meaning |\n|---|---|\n");
-    for (size_t i = 0; i < scene->observable_count; i++) {
-        printf("| `%s` | ", scene->observables[i].key);
+    const struct gm_observable *observable;
+    for (size_t i = 0; (observable = gm_scene_observable_at(scene, i)) != NULL; i++) {
+        printf("| `%s` | ", observable->key);
         char title[GM_MESSAGE];
-        put_cell(gm_observable_title(&scene->observables[i], title, sizeof title));
-        if (scene->observables[i].unit[0]) {
+        put_cell(gm_observable_title(observable, title, sizeof title));
+        if (observable->unit[0]) {
             printf(", in ");
-            put_cell(scene->observables[i].unit);
+            put_cell(observable->unit);
         }
+        fputs(i < scene->observable_count ? "" : "; when asked for", stdout);
         printf(" |\n");
     }
     printf("\nSchemes at the defaults:");

@@ -71,39 +71,3 @@ void gm_theory_print(const struct gm_theory *theory, const char *indent)
         print_stability(&theory->stability);
     }
 }
-
-void gm_theory_print_json(const struct gm_theory *theory)
-{
-    if (!theory->known) {
-        printf("null");
-        return;
-    }
-    printf("{\"order\":%d,", theory->order);
-    if (theory->condition[0]) {
-        gm_json_pair("failing_condition", theory->condition);
-    } else {
-        printf("\"failing_condition\":null");
-    }
-    printf(",");
-    gm_json_number_pair("residual", theory->condition[0] ? theory->residual : NAN);
-    printf(",\"symplectic\":%s,\"symmetric\":%s,", theory->symplectic ? "true" : "false",
-           theory->symmetric ? "true" : "false");
-    gm_json_number_pair("error_constant", theory->error_constant);
-    printf(",\"stability\":");
-    const struct gm_theory_stability *stability = &theory->stability;
-    if (!stability->known) {
-        printf("null}");
-        return;
-    }
-    printf("{");
-    gm_json_pair("of", stability->oscillator ? "oscillator" : "y' = lambda y");
-    printf(",");
-    gm_json_number_pair("real", stability->real);
-    printf(",");
-    gm_json_number_pair("imaginary", stability->imaginary);
-    if (!stability->oscillator) {
-        printf(",\"a_stable\":%s,\"l_stable\":%s", stability->a_stable ? "true" : "false",
-               stability->l_stable ? "true" : "false");
-    }
-    printf("}}");
-}

@@ -4,9 +4,7 @@
 
 #include "core/theory/theory.h"
 
-/* What theory says of a scheme, on standard output: as lines that begin with `indent`; as the value of a JSON
-   key, null where nothing is known. */
+/* What theory says of a scheme, on standard output, as lines that begin with `indent`. */
 void gm_theory_print(const struct gm_theory *theory, const char *indent);
-void gm_theory_print_json(const struct gm_theory *theory);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* geomint --version: the program, what paints its pictures, and the libraries it runs with. */
+/* geomint --version: the program, what it can do here, and the libraries it runs with. What paints its
+   pictures is loaded only to paint, and told by `geomint terminal`. */
 #include <curses.h>
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
@@ -11,25 +12,12 @@
 #include <suitesparse/cholmod.h>
 
 #include "app/commands/reference/version.h"
-#include "app/request/drive.h"
+#include "app/native/compiler.h"
+#include "app/output/say.h"
+#include "app/request/share.h"
 #include "core/memory.h"
-#include "render/gl/canvas.h"
-#include "render/message.h"
+#include "core/ode/kernel/loops.h"
 #include "render/vector/pdf.h"
-
-static void print_painter(void)
-{
-    char message[GM_MESSAGE];
-    enum { SMALL = 64 }; /* any size tells */
-    struct gm_canvas *canvas =
-        gm_canvas_open(&(struct gm_appearance){.width = SMALL, .height = SMALL}, message);
-    if (canvas && !gm_memory_was_short()) {
-        printf("%s\n", gm_canvas_backend(canvas));
-    } else if (!canvas) {
-        printf("no pictures: %s\n", message);
-    }
-    gm_canvas_close(canvas);
-}
 
 static void print_libraries(void)
 {
@@ -49,10 +37,27 @@ static void print_libraries(void)
     printf("%s, GSL %s, CHOLMOD %d.%d.%d\n", curses_version(), gsl_version, sparse[0], sparse[1], sparse[2]);
 }
 
+/* What depends on programs of others is looked for, and started only when it is wanted. */
+static void print_features(void)
+{
+    char path[GM_CACHE_PATH], kernels[GM_CACHE_PATH];
+    struct stat about;
+    struct gm_digest unused = gm_digest_open();
+    gm_say("pictures: PNG, SVG, PDF; states: NPZ, CSV, VTK; movies: %s",
+           gm_program_find("ffmpeg", path, &about) ? path : "none, as there is no ffmpeg");
+    gm_share_folder("kernel", "GEOMINT_KERNEL", kernels, sizeof kernels);
+    const bool sources = stat(kernels, &about) == 0, compiler = sources && gm_compiler_find(path, &unused);
+    gm_say("loops: %s; systems of one's own: interpreted%s%s", gm_isa_name(gm_isa_best()),
+           compiler  ? ", or compiled by "
+           : sources ? ", as there is no C compiler"
+                     : ", as the sources of their loops are not there",
+           compiler ? path : "");
+}
+
 int gm_version(void)
 {
     printf("geomint %s\n", GM_VERSION);
-    print_painter();
+    print_features();
     print_libraries();
     return gm_finish(GM_EXIT_OK);
 }

@@ -2,7 +2,7 @@
 #ifndef GM_APP_COMMANDS_REFERENCE_VERSION_H
 #define GM_APP_COMMANDS_REFERENCE_VERSION_H
 
-/* --version: the program, the OpenGL context and the libraries. Returns the exit status. */
+/* --version: the program and the libraries. Returns the exit status. */
 int gm_version(void);
 
 #endif

@@ -187,7 +187,7 @@ static bool open_table(struct gm_study *study, char *message)
     if (!gm_arguments_split(&study->arguments, study->words)) {
         return gm_refuse(message, "There is not enough memory.");
     }
-    return gm_study_rows[study->kind].open(&study->table, &study->arguments, message);
+    return gm_study_rows[study->kind].open(&study->table, &study->arguments, NULL, message);
 }
 
 static void free_study(struct gm_study *study)

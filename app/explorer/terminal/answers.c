@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A terminal's answers told from keys, byte by byte, whether they come whole, late or never. */
 #include "app/explorer/terminal/answers.h"
 
 #include <ctype.h>

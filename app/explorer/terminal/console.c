@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "app/explorer/terminal/mouse.h"
-#include "app/request/drive.h"
+#include "app/request/interrupt.h"
 #include "app/request/request.h"
 #include "render/clock.h"
 
@@ -277,8 +277,7 @@ static void close_input(void)
 }
 
 /* keypad() makes terminals send other sequences for these than before; what was typed ahead are the ordinary
- * ones.
- */
+   ones. */
 static void define_ordinary_arrows(void)
 {
     define_key("\033[A", KEY_UP);
@@ -385,6 +384,9 @@ static void feed(void)
 {
     char bytes[1024], typed[sizeof bytes + GM_ANSWER_LONGEST];
     size_t size = 0;
+    if (poll(&(struct pollfd){.fd = feed_fd, .events = POLLOUT}, 1, 0) <= 0) {
+        return; /* what was pasted waits until there is room: none of it is lost */
+    }
     if (poll(&(struct pollfd){.fd = STDIN_FILENO, .events = POLLIN}, 1, 0) > 0) {
         ssize_t count = read(STDIN_FILENO, bytes, sizeof bytes);
         if (count > 0) {

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "app/explorer/terminal/terminal.h"
+#include "app/request/interrupt.h"
 
 /* The terminal as a device: taken over by ncurses at the start, given back on every way out, its keys and
    signals read. Answers among the keys go to the terminal's answers. */
@@ -13,8 +14,8 @@
    False with a sentence (GM_MESSAGE bytes). */
 bool gm_console_open(int wake, struct gm_terminal *terminal, char *message);
 /* Gives it back. Harmless if it was given back before. Signals are still noted, so that what the explorer has
-   to finish is not cut off: SIGINT, SIGTERM and SIGQUIT count as gm_interrupted, the third ends the process.
- */
+   to finish is not cut off: SIGINT, SIGTERM and SIGQUIT count as gm_interrupted, the third ends the
+   process. */
 void gm_console_close(void);
 /* Signals do what they did before. */
 void gm_console_release(void);

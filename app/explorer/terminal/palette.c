@@ -2,12 +2,6 @@
 /* The colours of a picture in terminals of 256 and of 16 colours. */
 #include "app/explorer/terminal/palette.h"
 
-static int distance(struct gm_rgb a, struct gm_rgb b)
-{
-    int r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b;
-    return 2 * r * r + 4 * g * g + 3 * blue * blue;
-}
-
 /* Distance that counts a shift of hue four times as much as one of brightness: otherwise every faded colour
    would end among the greys. */
 static int shift(struct gm_rgb a, struct gm_rgb b)
@@ -49,7 +43,7 @@ static int nearest_16(struct gm_rgb colour)
 {
     int best = 0;
     for (int i = 1; i < 16; i++) {
-        if (distance(colour, sixteen[i]) < distance(colour, sixteen[best])) {
+        if (gm_rgb_distance(colour, sixteen[i]) < gm_rgb_distance(colour, sixteen[best])) {
             best = i;
         }
     }
@@ -90,14 +84,14 @@ int gm_palette_16(enum gm_theme theme, struct gm_rgb colour, enum gm_role role)
 {
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
     /* distances are squares: below a third of the square is below .58 of the way */
-    bool faded = 3 * distance(colour, paper) < distance(gm_theme_colour(theme, role), paper);
+    bool faded = 3 * gm_rgb_distance(colour, paper) < gm_rgb_distance(gm_theme_colour(theme, role), paper);
     return roles[theme][role][faded];
 }
 
 int gm_palette_ground(enum gm_theme theme, struct gm_rgb colour)
 {
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER);
-    if (distance(colour, paper) < 4000) {
+    if (gm_rgb_distance(colour, paper) < 4000) {
         return roles[theme][GM_PAPER][0];
     }
     return nearest_16(colour);
@@ -106,5 +100,5 @@ int gm_palette_ground(enum gm_theme theme, struct gm_rgb colour)
 bool gm_palette_is_ink(enum gm_theme theme, struct gm_rgb colour)
 {
     struct gm_rgb paper = gm_theme_colour(theme, GM_PAPER), ink = gm_theme_colour(theme, GM_INK);
-    return 16 * distance(colour, paper) > distance(ink, paper);
+    return 16 * gm_rgb_distance(colour, paper) > gm_rgb_distance(ink, paper);
 }

@@ -18,8 +18,8 @@ struct gm_pixels_job {
     bool whole;                  /* the terminal may have lost what was sent before */
 };
 
-/* `wake` is an eventfd that is written to when a picture is ready. NULL with a sentence (GM_MESSAGE bytes).
- */
+/* `wake` is an eventfd that is written to when a picture is ready. NULL with a sentence (GM_MESSAGE
+   bytes). */
 struct gm_pixels *gm_pixels_open(int wake, char *message);
 void gm_pixels_close(struct gm_pixels *pixels);
 
@@ -28,8 +28,8 @@ void gm_pixels_paint(struct gm_pixels *pixels, struct gm_picture *picture, const
 /* Whether a picture was begun and not yet taken. */
 bool gm_pixels_busy(const struct gm_pixels *pixels);
 
-/* The panel of a state that a pixel of the picture painted last is in, as gm_canvas_locate. Not while busy.
- */
+/* The panel of a state that a pixel of the picture painted last is in, as gm_canvas_locate. Not while
+   busy. */
 const struct gm_panel *gm_pixels_locate(struct gm_pixels *pixels, struct gm_picture *picture, double across,
                                         double down, double *x, double *y);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What to show pictures with, by option, environment, answers and terminfo, and a word on why. */
 #include "app/explorer/terminal/terminal.h"
 
 #include <curses.h>
@@ -12,7 +13,10 @@
 #include <term.h>
 #include <unistd.h>
 
-#include "app/request/drive.h"
+#include "app/output/say.h"
+#include "core/memory.h"
+#include "render/gl/canvas.h"
+#include "render/message.h"
 
 #undef columns /* term.h defines these short names as macros */
 #undef lines
@@ -419,6 +423,19 @@ static void report_ladder(const struct gm_terminal *terminal)
     printf("  %-12s %s\n", "key b", text);
 }
 
+/* What paints here: any picture tells. */
+static void report_painter(void)
+{
+    char message[GM_MESSAGE];
+    enum { SMALL = 64 };
+    struct gm_canvas *canvas =
+        gm_canvas_open(&(struct gm_appearance){.width = SMALL, .height = SMALL}, message);
+    if (!gm_memory_was_short()) {
+        line("painter", canvas ? gm_canvas_backend(canvas) : "none", canvas ? "" : message);
+    }
+    gm_canvas_close(canvas);
+}
+
 int gm_terminal_report(const struct gm_overrides *overrides)
 {
     struct gm_terminal terminal;
@@ -437,6 +454,7 @@ int gm_terminal_report(const struct gm_overrides *overrides)
          *environment("TMUX") ? "its own terminal settings decide what arrives outside" : "");
     line("input", terminal.input ? "terminal" : "no terminal", "");
     line("output", terminal.output ? "terminal" : "no terminal", "");
+    report_painter();
     report_answers(&terminal);
     printf("Therefore\n");
     snprintf(text, sizeof text, "%d x %d", terminal.columns, terminal.rows);

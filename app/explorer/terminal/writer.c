@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The bytes to a terminal: what differs from the last screen, in pieces that the line takes at once. */
 #include "app/explorer/terminal/writer.h"
 
 #include <curses.h>

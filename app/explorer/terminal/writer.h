@@ -54,8 +54,7 @@ bool gm_writer_idle(const struct gm_writer *writer);
    terminal at the end of a long line is asked after each screen whether it has read it, because otherwise
    seconds of frames would pile up in the line, and keys be answered behind them. Where answers come much
    later than the way there and back takes, less is sent, down to one screen at a time. `ready` counts the
-   answers.
- */
+   answers. */
 bool gm_writer_takes(struct gm_writer *writer, unsigned long ready);
 /* How long to wait for such an answer before it is given up, in milliseconds; -1: none is awaited. */
 int gm_writer_patience(const struct gm_writer *writer);

@@ -11,6 +11,13 @@
 
 enum { PAGE = 10 };
 
+const struct gm_scheme gm_chooser_own = {
+    .name = "own",
+    .title = "your own scheme",
+    .formula = "composition(verlet; 1/2, 1/2), adjoint(rk4)\nrunge-kutta(a; b), partitioned(a; b; ah; bh)\n"
+               "splitting(drifts; kicks), or a file: ./my.scheme",
+};
+
 /* The schemes that fit and in which everything typed is found: what is called so comes first, then those of
    the scene. Returns how many. */
 static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
@@ -33,6 +40,10 @@ static size_t find_all(const struct gm_face *face, const struct gm_shot *shot,
         const size_t at = gm_search_place(ranks, 0, count, rank);
         memmove(&found[at + 1], &found[at], (count++ - at) * sizeof *found);
         found[at] = scheme;
+    }
+    const char *own[] = {gm_chooser_own.name, gm_chooser_own.title, gm_chooser_own.formula, NULL};
+    if (count < GM_SHOT_SCHEMES && gm_search_rank(face->typed, own) >= 0) {
+        found[count++] = &gm_chooser_own;
     }
     return count;
 }
@@ -57,7 +68,7 @@ static const struct gm_scheme *first_choice(const struct gm_shot *shot)
     return shot->schemes[own];
 }
 
-enum gm_key_result gm_chooser_open(const struct gm_press *press, enum gm_choosing choosing)
+enum gm_key_result gm_chooser_open(const struct gm_keystroke *press, enum gm_choosing choosing)
 {
     press->face->choosing = choosing;
     press->face->typed[0] = '\0';
@@ -94,7 +105,7 @@ static void choose_best(struct gm_face *face, const struct gm_shot *shot)
     }
 }
 
-enum gm_key_result gm_chooser_press(const struct gm_press *press)
+enum gm_key_result gm_chooser_press(const struct gm_keystroke *press)
 {
     struct gm_face *face = press->face;
     if (gm_key_is_escape(press->key) || (gm_key_is_erase(press->key) && !face->typed[0])) {
@@ -102,12 +113,12 @@ enum gm_key_result gm_chooser_press(const struct gm_press *press)
         return GM_KEY_DONE;
     }
     if (gm_key_is_enter(press->key)) {
-        if (!face->choice) {
-            return GM_KEY_DONE;
+        if (!face->choice || face->choice == &gm_chooser_own) {
+            return face->choice ? GM_KEY_OWN : GM_KEY_DONE;
         }
         enum gm_order_kind kind = face->choosing == GM_CHOOSE_FORK ? GM_ORDER_FORK : GM_ORDER_SWITCH;
         face->choosing = GM_CHOOSE_NOTHING;
-        return gm_press_order(press, (struct gm_order){.kind = kind, .scheme = face->choice});
+        return gm_keystroke_order(press, (struct gm_order){.kind = kind, .scheme = face->choice});
     }
     switch (press->key) {
     case KEY_UP:
@@ -125,7 +136,8 @@ enum gm_key_result gm_chooser_press(const struct gm_press *press)
         move_choice(face, press->shot, PAGE);
         return GM_KEY_DONE;
     case '?':
-        return face->choice ? gm_press_scheme_page(press, face->choice) : GM_KEY_DONE;
+        return face->choice && face->choice != &gm_chooser_own ? gm_keystroke_scheme_page(press, face->choice)
+                                                               : GM_KEY_DONE;
     default:
         if (gm_typed_key(face->typed, press->key)) {
             choose_best(face, press->shot);
@@ -166,7 +178,11 @@ void gm_chooser_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
             }
         }
         gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_SCHEME, .scheme = found[i]});
-        gm_schemes_row(sheet, 4, row, found[i], columns, role, chosen);
+        if (found[i] == &gm_chooser_own) {
+            gm_sheet_text(sheet, 4, row, found[i]->title, role, chosen);
+        } else {
+            gm_schemes_row(sheet, 4, row, found[i], columns, role, chosen);
+        }
     }
     if (face->choice && sheet->height - row >= below) {
         gm_schemes_formula(sheet, row + 1, face->choice);

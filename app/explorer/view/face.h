@@ -2,6 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_FACE_H
 #define GM_APP_EXPLORER_VIEW_FACE_H
 
+#include "app/explorer/worker/orders.h"
 #include "core/scheme.h"
 #include "render/cells/cells.h"
 #include "render/files/inline_image.h"
@@ -9,6 +10,7 @@
 /* What the user has set about the screen itself. */
 
 struct gm_guide;
+struct gm_own_prompt;
 struct gm_studies;
 
 enum gm_page {
@@ -26,7 +28,7 @@ enum gm_choosing { GM_CHOOSE_NOTHING, GM_CHOOSE_SWITCH, GM_CHOOSE_FORK };
 enum gm_prompt { GM_PROMPT_NONE, GM_PROMPT_AHEAD, GM_PROMPT_VALUE };
 
 /* What the side panel gives room to. */
-enum gm_side {
+enum gm_side_panel {
     GM_SIDE_ALL,
     GM_SIDE_SCHEMES,
     GM_SIDE_PARAMETERS,
@@ -34,8 +36,6 @@ enum gm_side {
     GM_SIDE_NONE, /* the picture has the whole screen */
     GM_SIDE_COUNT,
 };
-
-enum { GM_TYPED = 40 };
 
 struct gm_face {
     enum gm_blocks blocks;
@@ -45,6 +45,7 @@ struct gm_face {
     bool monochrome;      /* ink and paper alone */
     bool only_monochrome; /* the terminal has no more */
     enum gm_page page;
+    bool awaited; /* a page that the worker's next words open: keys typed ahead are for it */
     const struct gm_scheme *explained; /* by its page */
     const char *measured;              /* what certify says of it, line by line; NULL: not yet */
     int scroll;                        /* lines of the page above the screen */
@@ -54,11 +55,12 @@ struct gm_face {
     enum gm_prompt prompt;
     char typed[GM_TYPED]; /* a search, or an answer */
     size_t parameter;     /* the one that left and right change */
-    enum gm_side side;
-    bool explaining;              /* the status line says what that parameter is */
-    unsigned long read;           /* the last message that was seen and dismissed */
-    const struct gm_guide *guide; /* through a tour; NULL: there is none */
-    struct gm_studies *studies;   /* in the background; NULL: none can be */
+    enum gm_side_panel side;
+    bool explaining;                 /* the status line says what that parameter is */
+    unsigned long read;              /* the last message that was seen and dismissed */
+    const struct gm_guide *guide;    /* through a tour; NULL: there is none */
+    const struct gm_own_prompt *own; /* that may be open; NULL: there is none */
+    struct gm_studies *studies;      /* in the background; NULL: none can be */
 };
 
 #endif

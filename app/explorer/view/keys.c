@@ -7,83 +7,84 @@
 #include "app/explorer/view/chooser.h"
 #include "app/explorer/view/prompt.h"
 
-static enum gm_key_result order(const struct gm_press *press, enum gm_order_kind kind, int amount)
+static enum gm_key_result order(const struct gm_keystroke *press, enum gm_order_kind kind, int amount)
 {
-    return gm_press_order(press, (struct gm_order){.kind = kind, .amount = amount});
+    return gm_keystroke_order(press, (struct gm_order){.kind = kind, .amount = amount});
 }
 
 /* ---- time ---- */
 
-static enum gm_key_result press_pause(const struct gm_press *press)
+static enum gm_key_result press_pause(const struct gm_keystroke *press)
 {
     return order(press, GM_ORDER_PAUSE, 0);
 }
 
-static enum gm_key_result press_step(const struct gm_press *press)
+static enum gm_key_result press_step(const struct gm_keystroke *press)
 {
     return order(press, press->key == '.' ? GM_ORDER_FORWARD : GM_ORDER_BACK, 0);
 }
 
-static enum gm_key_result press_speed(const struct gm_press *press)
+static enum gm_key_result press_speed(const struct gm_keystroke *press)
 {
     return order(press, GM_ORDER_SPEED, press->key == ']' ? 1 : -1);
 }
 
-static enum gm_key_result press_past(const struct gm_press *press)
+static enum gm_key_result press_past(const struct gm_keystroke *press)
 {
     bool ends = press->key == KEY_HOME || press->key == KEY_END;
-    return gm_press_order(press, (struct gm_order){.kind = GM_ORDER_VISIT,
-                                                   .amount = ends                      ? 0
-                                                             : press->key == KEY_PPAGE ? -1
-                                                                                       : 1,
-                                                   .value = press->key == KEY_END ? press->shot->reach : 0});
+    return gm_keystroke_order(press,
+                              (struct gm_order){.kind = GM_ORDER_VISIT,
+                                                .amount = ends                      ? 0
+                                                          : press->key == KEY_PPAGE ? -1
+                                                                                    : 1,
+                                                .value = press->key == KEY_END ? press->shot->reach : 0});
 }
 
-static enum gm_key_result press_turn(const struct gm_press *press)
+static enum gm_key_result press_turn(const struct gm_keystroke *press)
 {
     return order(press, GM_ORDER_TURN, 0);
 }
 
-static enum gm_key_result press_ahead(const struct gm_press *press)
+static enum gm_key_result press_ahead(const struct gm_keystroke *press)
 {
     return gm_prompt_open(press, GM_PROMPT_AHEAD);
 }
 
-static enum gm_key_result press_restart(const struct gm_press *press)
+static enum gm_key_result press_restart(const struct gm_keystroke *press)
 {
     return order(press, GM_ORDER_RESTART, 0);
 }
 
 /* ---- lanes and schemes ---- */
 
-static enum gm_key_result press_select(const struct gm_press *press)
+static enum gm_key_result press_select(const struct gm_keystroke *press)
 {
     return order(press, GM_ORDER_SELECT, press->key == KEY_BTAB ? -1 : 1);
 }
 
-static enum gm_key_result press_switch(const struct gm_press *press)
+static enum gm_key_result press_switch(const struct gm_keystroke *press)
 {
     return gm_chooser_open(press, GM_CHOOSE_SWITCH);
 }
 
-static enum gm_key_result press_fork(const struct gm_press *press)
+static enum gm_key_result press_fork(const struct gm_keystroke *press)
 {
     return gm_chooser_open(press, GM_CHOOSE_FORK);
 }
 
-static enum gm_key_result press_lanes(const struct gm_press *press)
+static enum gm_key_result press_lanes(const struct gm_keystroke *press)
 {
     return order(press, press->key == 'c' ? GM_ORDER_ADD : GM_ORDER_REMOVE, 0);
 }
 
-static enum gm_key_result press_overlay(const struct gm_press *press)
+static enum gm_key_result press_overlay(const struct gm_keystroke *press)
 {
     return order(press, GM_ORDER_OVERLAY, 0);
 }
 
 /* ---- parameters ---- */
 
-static enum gm_key_result press_choose(const struct gm_press *press)
+static enum gm_key_result press_choose(const struct gm_keystroke *press)
 {
     size_t count = press->shot->parameter_count;
     if (count > 0) {
@@ -93,7 +94,8 @@ static enum gm_key_result press_choose(const struct gm_press *press)
     return GM_KEY_DONE;
 }
 
-static enum gm_key_result order_parameter(const struct gm_press *press, enum gm_order_kind kind, int amount)
+static enum gm_key_result order_parameter(const struct gm_keystroke *press, enum gm_order_kind kind,
+                                          int amount)
 {
     size_t chosen = press->face->parameter;
     press->face->explaining = true;
@@ -101,41 +103,41 @@ static enum gm_key_result order_parameter(const struct gm_press *press, enum gm_
         return GM_KEY_DONE;
     }
     const struct gm_shot_parameter *parameter = &press->shot->parameters[chosen];
-    return gm_press_order(
+    return gm_keystroke_order(
         press, (struct gm_order){
                    .kind = kind, .amount = amount, .row = parameter->row, .of_scheme = parameter->of_scheme});
 }
 
-static enum gm_key_result press_change(const struct gm_press *press)
+static enum gm_key_result press_change(const struct gm_keystroke *press)
 {
     return order_parameter(press, GM_ORDER_MOVE, press->key == KEY_LEFT ? -1 : 1);
 }
 
-static enum gm_key_result press_nudge(const struct gm_press *press)
+static enum gm_key_result press_nudge(const struct gm_keystroke *press)
 {
     bool down = press->key == KEY_SLEFT || press->key == '-';
     return order_parameter(press, GM_ORDER_NUDGE, down ? -1 : 1);
 }
 
-static enum gm_key_result press_type(const struct gm_press *press)
+static enum gm_key_result press_type(const struct gm_keystroke *press)
 {
     return gm_prompt_open(press, GM_PROMPT_VALUE);
 }
 
-static enum gm_key_result press_default(const struct gm_press *press)
+static enum gm_key_result press_default(const struct gm_keystroke *press)
 {
     return order_parameter(press, GM_ORDER_STANDARD, 0);
 }
 
 /* ---- the screen ---- */
 
-static enum gm_key_result press_side(const struct gm_press *press)
+static enum gm_key_result press_side(const struct gm_keystroke *press)
 {
-    press->face->side = (enum gm_side)((press->face->side + 1) % GM_SIDE_COUNT);
+    press->face->side = (enum gm_side_panel)((press->face->side + 1) % GM_SIDE_COUNT);
     return GM_KEY_DONE;
 }
 
-static enum gm_key_result press_theme(const struct gm_press *press)
+static enum gm_key_result press_theme(const struct gm_keystroke *press)
 {
     struct gm_face *face = press->face;
     if (face->monochrome) {
@@ -150,31 +152,32 @@ static enum gm_key_result press_theme(const struct gm_press *press)
     return GM_KEY_THEME;
 }
 
-static enum gm_key_result press_save(const struct gm_press *press)
+static enum gm_key_result press_save(const struct gm_keystroke *press)
 {
     return order(press, GM_ORDER_SAVE, (int)press->face->theme);
 }
 
-static enum gm_key_result press_record(const struct gm_press *press)
+static enum gm_key_result press_record(const struct gm_keystroke *press)
 {
     return order(press, GM_ORDER_RECORD, (int)press->face->theme);
 }
 
-static enum gm_key_result press_tell(const struct gm_press *press)
+static enum gm_key_result press_tell(const struct gm_keystroke *press)
 {
+    press->face->awaited = true;
     return order(press, GM_ORDER_TELL, (int)press->face->theme);
 }
 
-static enum gm_key_result press_help(const struct gm_press *press)
+static enum gm_key_result press_help(const struct gm_keystroke *press)
 {
     press->face->page = GM_PAGE_HELP;
     press->face->scroll = 0;
     return GM_KEY_DONE;
 }
 
-static enum gm_key_result press_formula(const struct gm_press *press)
+static enum gm_key_result press_formula(const struct gm_keystroke *press)
 {
-    return gm_press_scheme_page(press, press->shot->lanes[press->shot->selected].scheme);
+    return gm_keystroke_scheme_page(press, press->shot->lanes[press->shot->selected].scheme);
 }
 
 /* In the order of the help. A further key is a further row. */
@@ -250,13 +253,19 @@ const struct gm_key_row gm_key_rows[] = {
      17,
      "pixels, braille, quadrants, half blocks, ASCII: what the terminal has",
      .result = GM_KEY_BLOCKS},
+    {{'e'},
+     "e",
+     "formula",
+     6,
+     "a system of your own: edit the formula of this one, or type another",
+     .result = GM_KEY_OWN},
     {{'p'}, "p", "save", 11, "save the picture as PNG; `geomint again` redoes it", .press = press_save},
     {{'R'}, "R", "record", 20, "begin a movie of what is seen; again: end it", .press = press_record},
     {{'y'},
      "y",
      "command",
      21,
-     "command lines: of this view as a picture, and of the explorer; copied too",
+     "command lines: of this view as a picture, and of the explorer; copied too; s there saves your own system",
      .press = press_tell},
     {{'w', 'm'},
      "w m",
@@ -282,7 +291,7 @@ const struct gm_key_row gm_key_rows[] = {
 };
 const size_t gm_key_row_count = sizeof gm_key_rows / sizeof *gm_key_rows;
 
-enum gm_key_result gm_key_press(const struct gm_press *press)
+enum gm_key_result gm_key_press(const struct gm_keystroke *press)
 {
     press->face->explaining = false;
     for (size_t i = 0; i < gm_key_row_count; i++) {

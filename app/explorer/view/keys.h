@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_KEYS_H
 #define GM_APP_EXPLORER_VIEW_KEYS_H
 
-#include "app/explorer/view/press.h"
+#include "app/explorer/view/keystroke.h"
 
 /* The keys while a scene is open, and nothing else takes them: one table. */
 
@@ -16,13 +16,13 @@ struct gm_key_row {
     const char *hint;        /* a word for the status line; NULL: none */
     int rank;                /* of the hint: the smallest comes first */
     const char *text;        /* for the help; NULL: another row says it */
-    enum gm_key_result (*press)(const struct gm_press *press);
+    enum gm_key_result (*press)(const struct gm_keystroke *press);
     enum gm_key_result result; /* without `press`: it is for the explorer */
 };
 extern const struct gm_key_row gm_key_rows[];
 extern const size_t gm_key_row_count;
 
 /* What a key does while a scene is open. */
-enum gm_key_result gm_key_press(const struct gm_press *press);
+enum gm_key_result gm_key_press(const struct gm_keystroke *press);
 
 #endif

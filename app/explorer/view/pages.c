@@ -162,6 +162,9 @@ static int draw_commands(const struct gm_sheet *sheet, int scroll, const struct 
         put_wrapped(&page, 2, shot->commands[i] ? shot->commands[i] : "There is not enough memory.", GM_INK);
     }
     page.row++;
+    if (shot->scene->text) {
+        put_wrapped(&page, 0, "s saves the system, with the values that it has now, as a file.", GM_INK);
+    }
     put_wrapped(&page, 0, "▸ was copied too, if the terminal lets programs do that.", GM_SECONDARY);
     return page.row;
 }
@@ -172,7 +175,8 @@ static int draw_start_help(const struct gm_sheet *sheet, int scroll)
         {"letters", "search names, titles and what is told of scenes and tours; ⌫ takes one back"},
         {"↑ ↓", "choose; Home, End: the first, the last"},
         {"tab", "from the scenes to the tours and back"},
-        {"enter", "open what is chosen; what was open goes on where it was left"},
+        {"enter",
+         "open what is chosen; what was open goes on where it was left; “your own system” asks for a formula"},
         {"esc", "search for nothing: all scenes and tours"},
         {"?", "this page"},
         {"q", "quit, while nothing is typed"},
@@ -222,6 +226,9 @@ static void draw_page(const struct gm_sheet *sheet, struct gm_face *face, const 
 
 static const struct gm_hint page_hints[] = {
     {"?", "back", '?'}, {"↑↓", "scroll", 0}, {"q", "quit", 'q'}, {NULL, NULL, 0}};
+static const struct gm_hint own_hints[] = {
+    {"esc", "back", 27}, {"y", "copy the other", 'y'}, {"s", "save the system", 's'},
+    {"↑↓", "scroll", 0}, {"q", "quit", 'q'},           {NULL, NULL, 0}};
 static const struct gm_hint command_hints[] = {{"esc", "back", 27},
                                                {"y", "copy the other", 'y'},
                                                {"↑↓", "scroll", 0},
@@ -238,7 +245,10 @@ void gm_screen_draw_page(const struct gm_sheet *whole, struct gm_face *face, con
     }
     if (below > 0) {
         const struct gm_sheet last = gm_sheet_part(whole, 0, whole->height - 1, whole->width, 1);
-        gm_sheet_hints(&last, 1, face->page == GM_PAGE_COMMAND ? command_hints : page_hints);
+        gm_sheet_hints(&last, 1,
+                       face->page != GM_PAGE_COMMAND ? page_hints
+                       : shot->scene->text           ? own_hints
+                                                     : command_hints);
     }
 }
 
@@ -266,6 +276,12 @@ enum gm_key_result gm_pages_press(int key, struct gm_face *face)
         if (face->page == GM_PAGE_COMMAND) {
             face->command = (face->command + 1) % GM_COMMANDS;
             return GM_KEY_COPY;
+        }
+        break;
+    case 's':
+        if (face->page == GM_PAGE_COMMAND) {
+            face->page = GM_PAGE_SCENE;
+            return GM_KEY_FILE;
         }
         break;
     default:

@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_PAGES_H
 #define GM_APP_EXPLORER_VIEW_PAGES_H
 
-#include "app/explorer/view/press.h"
+#include "app/explorer/view/keystroke.h"
 #include "app/explorer/view/screen.h"
 
 /* Pages that explain: the scene with the keys and claims, a scheme, the command lines, the list of scenes. */

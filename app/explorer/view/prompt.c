@@ -3,6 +3,7 @@
 #include "app/explorer/view/prompt.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* Where running ahead goes if no time is typed. */
 static void ahead_text(const struct gm_shot *shot, char *text, size_t size)
@@ -10,7 +11,7 @@ static void ahead_text(const struct gm_shot *shot, char *text, size_t size)
     snprintf(text, size, "%.6g", shot->ahead);
 }
 
-enum gm_key_result gm_prompt_open(const struct gm_press *press, enum gm_prompt prompt)
+enum gm_key_result gm_prompt_open(const struct gm_keystroke *press, enum gm_prompt prompt)
 {
     struct gm_face *face = press->face;
     if (prompt == GM_PROMPT_VALUE && face->parameter >= press->shot->parameter_count) {
@@ -21,7 +22,7 @@ enum gm_key_result gm_prompt_open(const struct gm_press *press, enum gm_prompt p
     return GM_KEY_DONE;
 }
 
-enum gm_key_result gm_prompt_press(const struct gm_press *press)
+enum gm_key_result gm_prompt_press(const struct gm_keystroke *press)
 {
     struct gm_face *face = press->face;
     if (gm_key_is_escape(press->key)) {
@@ -47,17 +48,27 @@ enum gm_key_result gm_prompt_press(const struct gm_press *press)
         order.row = press->shot->parameters[face->parameter].row;
         order.of_scheme = press->shot->parameters[face->parameter].of_scheme;
     }
-    return gm_press_order(press, order);
+    return gm_keystroke_order(press, order);
+}
+
+/* As much of the end of what was typed as leaves room for the help, where keys are added. */
+static const char *end_of(const char *typed, const char **before)
+{
+    enum { SHOWN = 40 };
+    const size_t length = strlen(typed);
+    *before = length > SHOWN ? "…" : "";
+    return length > SHOWN ? typed + length - SHOWN : typed;
 }
 
 void gm_prompt_text(const struct gm_face *face, const struct gm_shot *shot, char *text, size_t size)
 {
+    const char *before, *typed = end_of(face->typed, &before);
     if (face->prompt == GM_PROMPT_AHEAD) {
         char standard[32] = "";
         ahead_text(shot, standard, sizeof standard);
-        snprintf(text, size, "Run ahead to t = %s_   (enter alone: %s)", face->typed, standard);
+        snprintf(text, size, "Run ahead to t = %s%s_   (enter alone: %s)", before, typed, standard);
     } else {
         const struct gm_parameter *row = shot->parameters[face->parameter].row;
-        snprintf(text, size, "%s = %s_   (%s)", row->key, face->typed, row->help);
+        snprintf(text, size, "%s = %s%s_   (%s)", row->key, before, typed, row->help);
     }
 }

@@ -6,6 +6,7 @@
 
 #include "app/explorer/view/chooser.h"
 #include "app/explorer/view/guide.h"
+#include "app/explorer/view/own.h"
 #include "app/explorer/view/pages.h"
 #include "app/explorer/view/side.h"
 #include "app/explorer/view/status.h"
@@ -104,7 +105,14 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
         gm_screen_draw_page(&whole, face, shot);
         return;
     }
-    if (face->guide) {
+    const int asked = gm_own_prompt_rows(face->own, cells->rows);
+    if (asked) {
+        const struct gm_sheet panel =
+            gm_sheet_part(&whole, 0, cells->rows - 1 - asked, cells->columns, asked);
+        gm_own_prompt_draw(&panel, face->own);
+        rows = cells->rows - 1 - asked;
+    }
+    if (face->guide && !asked) {
         const int told = gm_guide_rows(&whole, face->guide);
         const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows - told, cells->columns, told);
         gm_guide_draw(&panel, face->guide);
@@ -120,7 +128,7 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
     for (int row = 0; row < rows; row++) {
         gm_sheet_hit(&whole, 0, row, width, (struct gm_hit){.kind = GM_HIT_PICTURE});
     }
-    if (below == 2) {
+    if (below == 2 && !asked) {
         gm_screen_rule(&whole, face->guide ? 0 : side);
         draw_past(&whole, shot, width);
         draw_news(&whole);
@@ -135,7 +143,10 @@ void gm_screen_draw_scene(struct gm_screen *screen, struct gm_face *face, const 
             gm_side_draw(&body, shot);
         }
     }
-    if (below > 0) {
+    if (asked) {
+        const struct gm_sheet last = gm_sheet_part(&whole, 0, cells->rows - 1, cells->columns, 1);
+        gm_own_prompt_keys(&last, face->own);
+    } else if (below > 0) {
         gm_status_draw(&whole, shot, side);
     }
 }

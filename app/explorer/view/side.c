@@ -45,7 +45,7 @@ static int observable_rows(const struct gm_shot *shot)
 }
 
 /* One section alone. */
-static struct plan plan_one(int rows, enum gm_side side, const struct gm_shot *shot)
+static struct plan plan_one(int rows, enum gm_side_panel side, const struct gm_shot *shot)
 {
     struct plan plan = {.lanes = side != GM_SIDE_PARAMETERS};
     int left = rows - 1, lanes = (int)shot->lane_count, unused = count_unused(shot);
@@ -266,7 +266,7 @@ static int value_column(const struct gm_shot *shot)
 static void parameter_row(const struct gm_sheet *sheet, int row, const struct gm_shot_parameter *parameter,
                           size_t index, int values, bool chosen)
 {
-    char text[64];
+    char text[GM_TEXT_SIZE + 8];
     enum gm_role ink = chosen ? GM_INK : GM_SECONDARY;
     int bar = values + VALUE_LETTERS + 1;
     if (chosen) {
@@ -496,7 +496,7 @@ static int draw_observables(const struct gm_sheet *sheet, int row, const struct 
 
 void gm_side_draw(const struct gm_sheet *sheet, const struct gm_shot *shot)
 {
-    enum gm_side side = sheet->face->side;
+    enum gm_side_panel side = sheet->face->side;
     struct plan plan =
         side == GM_SIDE_ALL ? plan_all(sheet->height, shot) : plan_one(sheet->height, side, shot);
     int row = draw_schemes(sheet, plan.gap, shot, &plan);

@@ -3,26 +3,41 @@
 #include "app/explorer/view/start.h"
 
 #include <stdio.h>
+#include <string.h>
 
+#include "app/explorer/view/own.h"
 #include "app/explorer/view/pages.h"
+#include "app/request/system.h"
+#include "render/cells/text.h"
 
 enum {
     NAME_COLUMNS = 17,
     TITLE_COLUMNS = 38,
     LOOK_FROM_COLUMNS = 64,
     LOOK_FROM_ROWS = 14,
-    TITLES_FROM = 120
+    TITLES_FROM = 120,
+    NAMES = 512
 };
+
+static const char *name_of(const struct gm_start_entry *entry)
+{
+    return entry->tour ? entry->tour->name : entry->scene ? entry->scene->name : GM_START_OWN;
+}
+
+static const char *title_of(const struct gm_start_entry *entry)
+{
+    return entry->tour    ? entry->tour->title
+           : entry->scene ? entry->scene->title
+                          : "A formula that you type, or a file";
+}
 
 static void draw_entry(const struct gm_sheet *sheet, int row, const struct gm_start_entry *entry,
                        size_t index, bool chosen, bool titles)
 {
     gm_sheet_text(sheet, 0, row, chosen ? "▸" : " ", GM_LANE, true);
-    gm_sheet_text(sheet, 2, row, entry->tour ? entry->tour->name : entry->scene->name,
-                  chosen ? GM_LANE : GM_INK, chosen);
+    gm_sheet_text(sheet, 2, row, name_of(entry), chosen ? GM_LANE : GM_INK, chosen);
     if (titles) {
-        gm_sheet_text(sheet, NAME_COLUMNS + 1, row, entry->tour ? entry->tour->title : entry->scene->title,
-                      GM_SECONDARY, chosen);
+        gm_sheet_text(sheet, NAME_COLUMNS + 1, row, title_of(entry), GM_SECONDARY, chosen);
     }
     gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_SCENE, .index = index});
 }
@@ -106,6 +121,44 @@ static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
                      "enter begins it. A step may ask for a prediction before it shows.", GM_SECONDARY);
 }
 
+static void add_name(const char *name, const void *data)
+{
+    char *names = *(char *const *)data;
+    const size_t used = strlen(names);
+    snprintf(names + used, NAMES - used, "%s%s", used ? ", " : "", name);
+}
+
+/* A system of one's own: what can be typed. */
+static void draw_own(const struct gm_sheet *sheet)
+{
+    char names[NAMES] = "", *list = names;
+    static const char *const examples[][2] = {
+        {"H=p^2/2 - cos(q) q=2 p=0", "a Hamiltonian, and where it starts"},
+        {"H=p^2/2 + q^4/4 - k*q^2 q=1.5 p=0 k=0.5", "with a parameter: each is a slider"},
+        {"rate=x = y rate=y = -x - c*y x=1 y=0 c=0.1", "any differential equation"},
+        {"./my.system dt=0.01", "a file; docs/systems.md"},
+    };
+    int row = 0;
+    gm_sheet_text(sheet, 0, row++, "Your own system", GM_INK, true);
+    row += gm_sheet_wrapped(
+        sheet, 0, row, 4,
+        "A formula, typed as on the command line, runs a tenth of a second later, with every "
+        "scheme that fits.",
+        GM_SECONDARY);
+    row++;
+    for (size_t i = 0; i < sizeof examples / sizeof *examples; i++) {
+        row += gm_sheet_wrapped(sheet, 0, row, 2, examples[i][0], GM_INK);
+        row += gm_sheet_wrapped(sheet, 2, row, 1, examples[i][1], GM_SECONDARY);
+    }
+    gm_system_each(add_name, &list);
+    if (names[0]) {
+        gm_text_tame(names);
+        row += gm_sheet_wrapped(sheet, 0, row + 1, 1, "Or by name:", GM_SECONDARY) + 1;
+        row += gm_sheet_wrapped(sheet, 0, row, 7, names, GM_INK);
+    }
+    gm_sheet_wrapped(sheet, 0, row + 1, 2, "enter opens the line to type in.", GM_SECONDARY);
+}
+
 /* The last row: what was typed, or that one can, and the keys. */
 static void draw_keys(const struct gm_sheet *sheet, const struct gm_start *start)
 {
@@ -136,7 +189,9 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
                           const struct gm_shot *shot, bool fresh, const char *said)
 {
     const struct gm_sheet whole = gm_screen_clear(screen, face);
-    int below = gm_screen_rows_below(&screen->cells), rows = whole.height - below, at = 0;
+    const int asked = gm_own_prompt_rows(face->own, whole.height);
+    const int below = gm_screen_rows_below(&screen->cells), rows = whole.height - (asked ? asked + 1 : below);
+    int at = 0;
     if (fresh) {
         screen->picture.fresh = false;
     }
@@ -160,9 +215,18 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
         const struct gm_sheet right = gm_sheet_part(&whole, list + 3, at, whole.width - list - 4, rows - at);
         if (chosen->tour) {
             draw_tour(&right, chosen->tour);
+        } else if (!chosen->scene) {
+            draw_own(&right);
         } else {
             draw_look(screen, &right, chosen->scene, shot, said);
         }
+    }
+    if (asked) {
+        const struct gm_sheet panel = gm_sheet_part(&whole, 0, rows, whole.width, asked),
+                              last = gm_sheet_part(&whole, 0, whole.height - 1, whole.width, 1);
+        gm_own_prompt_draw(&panel, face->own);
+        gm_own_prompt_keys(&last, face->own);
+        return;
     }
     if (below == 2) {
         gm_screen_rule(&whole, 0);

@@ -8,14 +8,15 @@
 /* The screen at the start: the scenes found, and behind them the tours. */
 
 struct gm_start_entry {
-    const struct gm_scene *scene; /* one of the two is NULL */
+    const struct gm_scene *scene; /* one of the two is NULL; both: a system of one's own */
     const struct gm_tour *tour;
 };
+#define GM_START_OWN "your own system"
 enum { GM_START_ENTRIES = 128 };
 struct gm_start {
     struct gm_start_entry found[GM_START_ENTRIES];
     size_t count, choice;
-    size_t scenes;               /* so many of them are scenes */
+    size_t scenes;               /* so many of them are scenes, or one's own system */
     int ranks[GM_START_ENTRIES]; /* how well each answers what was typed */
     char typed[GM_TYPED];
 };

@@ -8,8 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/explorer/view/press.h"
+#include "app/explorer/view/keystroke.h"
+#include "app/request/arguments.h"
 
+/* 0: a tour alone shows it */
 static const char keys[GM_STUDY_COUNT] = {[GM_STUDY_WORK] = 'w', [GM_STUDY_STABILITY] = 'm'};
 
 void gm_studies_close(struct gm_studies *studies)
@@ -54,27 +56,37 @@ static bool is_standard(const struct gm_scene *scene, const struct gm_shot_param
     return standard;
 }
 
-/* The scene, with what the user has set; the step is the study's own matter. */
-static void present_words(const struct gm_shot *shot, char *words, size_t size)
+/* The scene, with what the user has set; the step is the study's own matter. malloc'ed; NULL: no memory. */
+static char *present_words(const struct gm_shot *shot)
 {
-    size_t used = (size_t)snprintf(words, size, "%s", shot->scene->name);
+    char *words = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&words, &size);
+    if (!stream) {
+        return NULL;
+    }
+    gm_arguments_put_scene(stream, shot->scene);
     for (size_t i = 0; i < shot->parameter_count; i++) {
         const struct gm_shot_parameter *parameter = &shot->parameters[i];
-        if (strcmp(parameter->row->key, "dt") == 0 || is_standard(shot->scene, parameter)) {
+        if (strcmp(parameter->row->key, "dt") == 0 ||
+            (is_standard(shot->scene, parameter) && !parameter->row->required)) {
             continue;
         }
-        used += (size_t)snprintf(words + used, size - used, " %s=%s", parameter->row->key, parameter->value);
-        if (used >= size) {
-            return;
-        }
+        char word[64 + GM_TEXT_SIZE];
+        snprintf(word, sizeof word, "%s=%s", parameter->row->key, parameter->value);
+        fputc(' ', stream);
+        gm_arguments_put(stream, word);
     }
+    return fclose(stream) == 0 ? words : NULL;
 }
 
 void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot *shot, int wake)
 {
-    char words[1024];
-    present_words(shot, words, sizeof words);
-    gm_studies_open(studies, key == 'w' ? GM_STUDY_WORK : GM_STUDY_STABILITY, words, wake);
+    char *words = present_words(shot);
+    if (words) {
+        gm_studies_open(studies, key == 'w' ? GM_STUDY_WORK : GM_STUDY_STABILITY, words, wake);
+    }
+    free(words);
 }
 
 bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)
@@ -180,7 +192,8 @@ void gm_studies_news(const struct gm_studies *studies, char *text, size_t size)
             continue;
         }
         if (look && look->finished) {
-            used += (size_t)snprintf(text + used, size - used, "%s is finished: %c shows it",
+            used += (size_t)snprintf(text + used, size - used,
+                                     keys[i] ? "%s is finished: %c shows it" : "%s is finished",
                                      gm_study_name((enum gm_study_kind)i), keys[i]);
         } else {
             used += (size_t)snprintf(text + used, size - used, "%s %d %%",

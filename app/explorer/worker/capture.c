@@ -2,6 +2,7 @@
 /* What is kept of a session: a picture, a movie, the words that redo it. */
 #include "app/explorer/worker/capture.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +11,7 @@
 #include "app/output/folder.h"
 #include "app/output/still.h"
 #include "app/request/arguments.h"
+#include "app/request/system.h"
 #include "render/clock.h"
 
 /* 300 dots an inch on 32 cm, 600 on the 16 cm of a text column. */
@@ -33,6 +35,27 @@ void gm_capture_save(struct gm_play *play, enum gm_theme theme)
                              .look = {.width = PRINT_WIDTH, .height = PRINT_HEIGHT, .theme = theme}};
     bool ok = gm_still_write(&print, &session->log, (const struct gm_lane *const *)session->lanes, message);
     snprintf(sentence, sizeof sentence, ok ? "Saved %.400s." : "Not saved: %.400s", ok ? path : message);
+    gm_play_say(play, sentence);
+}
+
+void gm_capture_save_system(struct gm_play *play)
+{
+    const struct gm_session *session = &play->session;
+    char path[128], sentence[GM_MESSAGE];
+    if (!session->scene->text) {
+        return;
+    }
+    char *text = gm_system_text(session->scene, gm_session_owner(session, play->selected, false));
+    gm_folder_free_file(session->scene->name, ".system", path, sizeof path);
+    FILE *file = text ? fopen(path, "wx") : NULL;
+    bool good = file && fputs(text, file) >= 0;
+    good = file && fclose(file) == 0 && good;
+    snprintf(sentence, sizeof sentence,
+             good ? "Saved %.400s: geomint ./%.60s runs it." : "Not saved: %.400s: %.60s", path,
+             good   ? path
+             : text ? strerror(errno)
+                    : "not enough memory");
+    free(text);
     gm_play_say(play, sentence);
 }
 
@@ -80,7 +103,7 @@ void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *
     }
     struct gm_picture *picture = gm_recorder_due(capture->recorder, gm_clock_seconds());
     if (picture) {
-        session->scene->draw((const struct gm_lane *const *)session->lanes, session->count, picture);
+        gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, picture);
         gm_recorder_put(capture->recorder);
         capture->unrecorded = false;
     }
@@ -88,16 +111,16 @@ void gm_capture_take_frame(struct gm_capture *capture, const struct gm_session *
 
 /* ---- the command lines ---- */
 
-/* The words of the arguments but those that say when it ends. */
-static void put_arguments(FILE *stream, const char *text)
+/* The words of the arguments as a shell reads them, but, of a view, those that say when it ends. */
+static void put_arguments(FILE *stream, const char *text, bool view)
 {
     struct gm_arguments arguments = {0};
     gm_arguments_split(&arguments, text);
     for (int i = 0; i < arguments.count; i++) {
         const char *word = arguments.words[i];
-        if (strncmp(word, "until=", 6) != 0 && strncmp(word, "steps=", 6) != 0) {
+        if (!view || (strncmp(word, "until=", 6) != 0 && strncmp(word, "steps=", 6) != 0)) {
             fputc(' ', stream);
-            gm_arguments_put(stream, word);
+            gm_arguments_put_shell(stream, word);
         }
     }
     gm_arguments_close(&arguments);
@@ -116,6 +139,22 @@ static void put_end(FILE *stream, const struct gm_session *session)
     fprintf(stream, " steps=%ld", steps);
 }
 
+static void put_changes(FILE *stream, const struct gm_request *log)
+{
+    char *list = NULL;
+    size_t size = 0;
+    FILE *changes = log->change_count > 0 ? open_memstream(&list, &size) : NULL;
+    for (size_t i = 0; changes && i < log->change_count; i++) {
+        const struct gm_change *change = &log->changes[i];
+        fprintf(changes, "%s%zu:%ld:%s", i == 0 ? "" : ",", change->lane, change->step, change->text);
+    }
+    if (changes && fclose(changes) == 0) {
+        fputs(" --changes ", stream);
+        gm_arguments_put_shell(stream, list);
+    }
+    free(list);
+}
+
 static char *tell_picture(const struct gm_session *session, enum gm_theme theme)
 {
     const struct gm_request *log = &session->log;
@@ -124,13 +163,9 @@ static char *tell_picture(const struct gm_session *session, enum gm_theme theme)
     FILE *stream = arguments ? open_memstream(&text, &size) : NULL;
     if (stream) {
         fputs("geomint render", stream);
-        put_arguments(stream, arguments);
+        put_arguments(stream, arguments, true);
         put_end(stream, session);
-        for (size_t i = 0; i < log->change_count; i++) {
-            const struct gm_change *change = &log->changes[i];
-            fprintf(stream, "%s%zu:%ld:%s", i == 0 ? " --changes " : ",", change->lane, change->step,
-                    change->text);
-        }
+        put_changes(stream, log);
         fprintf(stream, " --theme %s", theme == GM_THEME_DARK ? "dark" : "light");
         fclose(stream);
     }
@@ -159,8 +194,12 @@ static char *tell_explorer(const struct gm_session *session)
         }
     }
     char *text = NULL, *arguments = good ? gm_request_format(&present) : NULL;
-    if (arguments && asprintf(&text, "geomint %s", arguments) < 0) {
-        text = NULL;
+    size_t size = 0;
+    FILE *stream = arguments ? open_memstream(&text, &size) : NULL;
+    if (stream) {
+        fputs("geomint", stream);
+        put_arguments(stream, arguments, false);
+        fclose(stream);
     }
     free(arguments);
     for (size_t i = 0; i < session->count; i++) {

@@ -18,6 +18,8 @@ struct gm_capture {
 /* Ends without a movie: gm_capture_stop_recording comes first. */
 void gm_capture_close(struct gm_capture *capture);
 
+/* Writes the system that is played, if it is somebody's own, to a file. */
+void gm_capture_save_system(struct gm_play *play);
 /* Saves the picture. */
 void gm_capture_save(struct gm_play *play, enum gm_theme theme);
 /* Begins the movie, or ends it. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the orders do. */
+/* Orders carried out on a session, in the thread that steps; what cannot be done is said in the next shot. */
 #include <math.h>
 #include <stdio.h>
 
@@ -7,7 +7,7 @@
 
 static void move_parameter(struct gm_play *play, const struct gm_order *order)
 {
-    char text[GM_VALUE_TEXT], message[GM_MESSAGE];
+    char text[GM_TYPED], message[GM_MESSAGE];
     const struct gm_parameter *row = order->row;
     const void *owner = gm_session_owner(&play->session, play->selected, order->of_scheme);
     if (order->kind == GM_ORDER_STANDARD) {
@@ -81,12 +81,15 @@ static bool start_from(struct gm_play *play, double x, double y, char *message)
 {
     struct gm_session *session = &play->session;
     struct gm_choice choices[GM_CHOICES];
-    if (!session->scene->point) {
+    const struct gm_scene *scene = session->scene;
+    const void *parameters = gm_session_owner(session, play->selected, false);
+    const bool errors = scene->asked_shown && scene->asked_shown(scene, parameters) > 0;
+    if (!scene->point || errors) { /* a picture of errors has no starts */
         return true;
     }
-    size_t count = session->scene->point(gm_session_owner(session, play->selected, false), x, y, choices);
+    size_t count = scene->point(parameters, x, y, choices);
     for (size_t i = 0; i < count; i++) {
-        const struct gm_parameter *row = gm_scene_parameter(session->scene, choices[i].key);
+        const struct gm_parameter *row = gm_scene_parameter(scene, choices[i].key);
         if (!gm_session_set(session, play->selected, row, false, choices[i].value, &play->restart, message)) {
             return false;
         }
@@ -195,6 +198,9 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         break;
     case GM_ORDER_SAVE:
         gm_capture_save(play, (enum gm_theme)order->amount);
+        break;
+    case GM_ORDER_SYSTEM:
+        gm_capture_save_system(play);
         break;
     case GM_ORDER_TOUR:
         gm_play_tour_step(play, order->tour, order->step, order->amount != 0);

@@ -16,6 +16,7 @@ enum gm_order_kind {
     GM_ORDER_AHEAD,  /* run ahead to the time `text`, without shots */
     GM_ORDER_HALT,   /* no longer */
     GM_ORDER_SAVE,   /* the picture as a PNG; amount: its theme, also of GM_ORDER_RECORD and GM_ORDER_TELL */
+    GM_ORDER_SYSTEM, /* the system of one's own to a file */
     GM_ORDER_RECORD, /* begin a movie of what is seen, or end it */
     GM_ORDER_TOUR,   /* a step's agenda; amount: whether it waits at its begin */
     GM_ORDER_RUN,    /* go on if paused */
@@ -38,11 +39,14 @@ enum gm_order_kind {
     GM_ORDER_RESTART,
 };
 
+/* A line that is typed: one byte more than a value may have, so that a longer one is refused, not cut. */
+enum { GM_TYPED = GM_TEXT_SIZE + 1 };
+
 struct gm_order {
     enum gm_order_kind kind;
     int amount;
     double value, x, y;
-    char text[GM_VALUE_TEXT];
+    char text[GM_TYPED];
     const struct gm_parameter *row;
     bool of_scheme; /* the row is one of the schemes' parameters */
     const struct gm_scheme *scheme;

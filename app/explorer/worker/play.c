@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "app/native/engine.h"
 #include "render/clock.h"
 
 /* A simulation that is later than this lets the clock wait for it. */
@@ -166,11 +167,8 @@ static void stop_at_home(struct gm_play *play)
     }
 }
 
-bool gm_play_step(struct gm_play *play)
+static bool step_along(struct gm_play *play)
 {
-    if (play->ahead) {
-        return step_ahead(play);
-    }
     double begun = gm_clock_seconds(), due = gm_play_due(play);
     bool worked = false;
     while (gm_clock_seconds() - begun < SLICE && gm_session_advance(&play->session, due)) {
@@ -192,6 +190,19 @@ bool gm_play_step(struct gm_play *play)
             play->behind = false;
         }
     }
+    return worked;
+}
+
+bool gm_play_step(struct gm_play *play)
+{
+    static const double often = 0.25; /* seconds of steps: then they may be worth compiling */
+    const double begun = gm_clock_seconds();
+    const bool worked = play->ahead ? step_ahead(play) : step_along(play);
+    play->stepped += worked ? gm_clock_seconds() - begun : 0;
+    for (size_t i = 0; play->stepped > often && i < play->session.count; i++) {
+        gm_engine_look(play->session.lanes[i], play->stepped / (double)play->session.count, 0);
+    }
+    play->stepped = play->stepped > often ? 0 : play->stepped;
     return worked;
 }
 

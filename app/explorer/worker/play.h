@@ -19,6 +19,7 @@ struct gm_play {
     double ahead_from, ahead_to, ahead_told;
     bool restart; /* is due */
     double restarted;
+    double stepped;             /* seconds of steps since an engine was last looked for */
     int speed;                  /* number of the speed */
     double clock_t, clock_wall; /* model time and wall time at the last change of pace */
     size_t frozen;              /* lanes that are */

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "app/explorer/background/job.h"
-#include "app/request/drive.h"
+#include "app/request/interrupt.h"
 #include "render/files/sink.h"
 #include "render/gl/canvas.h"
 #include "render/message.h"

@@ -97,7 +97,7 @@ static bool open_named(struct gm_worker *worker, char *message)
 {
     struct gm_request request;
     char *words[] = {(char *)worker->scene->name};
-    if (!gm_request_parse(&request, 1, words, worker->schemes, message)) {
+    if (!gm_request_parse_for(&request, worker->scene, 1, words, worker->schemes, message)) {
         return false;
     }
     bool ok = gm_session_open(&worker->play.session, &request, message);

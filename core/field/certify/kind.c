@@ -88,10 +88,7 @@ static double return_defect(struct subject *subject, const double *y)
         gm_run_advance(subject->run, 7);
         gm_run_set_step(subject->run, -subject->dt);
         if (gm_run_advance(subject->run, 7) == GM_OK) {
-            largest = 0;
-            for (size_t i = 0; i < points; i++) {
-                largest = fmax(largest, fabs(gm_run_state(subject->run)[i] - first[i]));
-            }
+            largest = gm_distance(gm_run_state(subject->run), first, points);
         }
         gm_run_close(subject->run);
     }
@@ -327,15 +324,6 @@ static bool front_after(const struct gm_scheme *scheme, double lambda, double dt
     return good;
 }
 
-static double distance(const double *a, const double *b)
-{
-    double largest = 0;
-    for (size_t j = 0; j < FRONT; j++) {
-        largest = fmax(largest, fabs(a[j] - b[j]));
-    }
-    return largest;
-}
-
 static void certify_burgers(struct gm_certificate *certificate, double *farthest)
 {
     const struct gm_scheme *scheme = certificate->scheme;
@@ -349,11 +337,13 @@ static void certify_burgers(struct gm_certificate *certificate, double *farthest
         good &= front_after(scheme, 0, ldexp(0.002, -k), 0.2, level[k]);
     }
     note_order(certificate, farthest,
-               good ? log2(distance(level[0], level[1]) / distance(level[1], level[2])) : NAN, name);
+               good ? log2(gm_distance(level[0], level[1], FRONT) / gm_distance(level[1], level[2], FRONT))
+                    : NAN,
+               name);
     static const double u[3] = {0.4, 0.3, 0.15};
     const double projection = gm_burgers_projection_defect(scheme, 0.005, 0.01, 0.01, 0.5, 0.3, u);
     good &= front_after(scheme, 2, 0.002, 0.2, boosted);
-    const double boost = good ? distance(boosted, level[0]) : INFINITY;
+    const double boost = good ? gm_distance(boosted, level[0], FRONT) : INFINITY;
     /* three nodes do not determine an implicit step: its claim is of boosts alone */
     gm_certificate_note(certificate, GM_EQUIVARIANT, isnan(projection) ? boost : fmax(boost, projection),
                         name);

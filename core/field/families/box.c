@@ -91,7 +91,8 @@ static void residual_at(void *context, const double *u, double *residual)
     memcpy(closed, u, points * sizeof *u);
     gm_line_close(closed, points, equations->problem->line.jump);
     cell_means(equations->now - 1, closed - 1, work->cells - 1, points + 1);
-    gm_field_of(equations->problem)->wave->slopes(work->cells - 1, work->force - 1, points + 1);
+    gm_field_of(equations->problem)
+        ->wave->slopes(equations->problem, work->cells - 1, work->force - 1, points + 1);
     for (size_t i = 0; i < points; i++) {
         /* the right side holds the jumps */
         const double left = u[i ? i - 1 : points - 1], right = u[i + 1 < points ? i + 1 : 0];
@@ -104,10 +105,11 @@ static void jacobian(void *context, struct gm_ring_band *matrix)
 {
     const struct equations *equations = context;
     const double *cells = equations->work->cells, off = equations->off;
-    double (*const curvature)(double) = gm_field_of(equations->problem)->wave->curvature;
-    double before = curvature(cells[-1]) / 16;
+    const struct gm_problem *problem = equations->problem;
+    double (*const curvature)(const struct gm_problem *, double) = gm_field_of(problem)->wave->curvature;
+    double before = curvature(problem, cells[-1]) / 16;
     for (size_t i = 0; i < equations->work->points; i++) {
-        const double after = curvature(cells[i]) / 16;
+        const double after = curvature(problem, cells[i]) / 16;
         gm_ring_band_add(matrix, i, 0, -1, 0, off + before);
         gm_ring_band_add(matrix, i, 0, 0, 0, equations->diagonal + before + after);
         gm_ring_band_add(matrix, i, 0, 1, 0, off + after);
@@ -129,7 +131,7 @@ static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_pr
 
     /* cell i lies between the nodes i and i + 1; the first is -1 */
     cell_means(past - 1, now - 1, work->cells - 1, points + 1);
-    wave->slopes(work->cells - 1, work->force - 1, points + 1);
+    wave->slopes(problem, work->cells - 1, work->force - 1, points + 1);
     linear_part(past - 1, now - 1, work->force - 1, work->right - 1, points, in_time, in_space);
     work->right[0] += off * jump;
     work->right[points - 1] -= off * jump;
@@ -143,7 +145,7 @@ static enum gm_status box_step(struct gm_two_step_work *work, const struct gm_pr
     for (int k = 0; k < MOST; k++) {
         gm_line_close(guess, points, jump);
         cell_means(now - 1, guess - 1, work->cells - 1, points + 1);
-        wave->slopes(work->cells - 1, work->force - 1, points + 1);
+        wave->slopes(problem, work->cells - 1, work->force - 1, points + 1);
         subtract_force(work->right - 1, work->force - 1, next - 1, points);
         gm_ring_solve(&work->ring, next);
         progress->evaluations++;
@@ -210,6 +212,7 @@ static const struct gm_scheme schemes[] = {
         .order = 2,
         .needs = GM_NEEDS_FORM,
         .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
+        .in_cells = true,
     },
 };
 

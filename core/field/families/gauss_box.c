@@ -103,8 +103,9 @@ static enum gm_status start(const struct gm_task *task)
     } else {
         for (size_t at = 0; at < count; at++) {
             const double slant = gm_gauss_slant(line, tableau, at / points, at % points);
-            const double here = second[at] - gm_field_of(problem)->wave->slope(u[at] + slant);
-            const double there = second_other[at] - gm_field_of(problem)->wave->slope(other[at] + slant);
+            const double here = second[at] - gm_field_of(problem)->wave->slope(problem, u[at] + slant);
+            const double there =
+                second_other[at] - gm_field_of(problem)->wave->slope(problem, other[at] + slant);
             v[at] = (other[at] - u[at]) / gap - gap * (2 * here + there) / 6;
         }
         gm_gauss_share_mean(v, points);
@@ -299,7 +300,7 @@ static double form(const struct gm_problem *problem, const struct gm_scheme *sch
         good = gm_gauss_step(work, problem, dt, NULL, &uncounted) == GM_OK;
         for (size_t at = 0; at < q * points; at++) {
             const double slant = gm_gauss_slant(&problem->line, tableau, at / points % r, at % points);
-            curvature[at] = gm_field_of(problem)->wave->curvature(work->stages[at] + slant);
+            curvature[at] = gm_field_of(problem)->wave->curvature(problem, work->stages[at] + slant);
         }
         for (size_t k = 0; good && k < 2; k++) {
             for (size_t m = 0; m < 2 * r; m++) {

@@ -193,7 +193,7 @@ void gm_gauss_forces(struct gm_gauss_work *work, const struct gm_problem *proble
         for (size_t i = 0; i < points; i++) {
             force[i] = stage[i] + gm_gauss_slant(&problem->line, tableau, row % r, i);
         }
-        gm_field_of(problem)->wave->slopes(force, force, points);
+        gm_field_of(problem)->wave->slopes(problem, force, force, points);
     }
 }
 

@@ -71,10 +71,12 @@ static enum gm_status start(const struct gm_task *task)
     for (size_t i = 0; i < points; i++) {
         const double quotient = (other[i] - u[i]) / gap;
         task->memory_out[i] =
-            quotient - gap / 2 * acceleration(problem, u, i, 1, gm_field_of(problem)->wave->slope(u[i]));
+            quotient -
+            gap / 2 * acceleration(problem, u, i, 1, gm_field_of(problem)->wave->slope(problem, u[i]));
         task->memory_out[points + i] =
             quotient +
-            gap / 2 * acceleration(problem, other, i, 1, gm_field_of(problem)->wave->slope(other[i]));
+            gap / 2 *
+                acceleration(problem, other, i, 1, gm_field_of(problem)->wave->slope(problem, other[i]));
     }
     return GM_OK;
 }
@@ -83,12 +85,12 @@ static enum gm_status start(const struct gm_task *task)
 static void first_level(struct work *work, const struct gm_problem *problem, double dt)
 {
     double *const *u = work->u, *const *v = work->v;
-    gm_field_of(problem)->wave->slopes(u[1], work->force, work->points);
+    gm_field_of(problem)->wave->slopes(problem, u[1], work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
         v[2][i] = acceleration(problem, u[1], i, 1, work->force[i]);
         u[2][i] = u[1][i] + dt * (v[1][i] + dt / 2 * v[2][i]);
     }
-    gm_field_of(problem)->wave->slopes(u[2], work->force, work->points);
+    gm_field_of(problem)->wave->slopes(problem, u[2], work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
         v[2][i] = v[1][i] + dt / 2 * (v[2][i] + acceleration(problem, u[2], i, 1, work->force[i]));
     }
@@ -97,7 +99,7 @@ static void first_level(struct work *work, const struct gm_problem *problem, dou
 static void centred_step(struct work *work, const struct gm_problem *problem, double dt)
 {
     double *const *u = work->u, *const *v = work->v;
-    gm_field_of(problem)->wave->slopes(u[1], work->force, work->points);
+    gm_field_of(problem)->wave->slopes(problem, u[1], work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
         u[2][i] = u[0][i] + 2 * dt * v[1][i];
         v[2][i] = v[0][i] + 2 * dt * acceleration(problem, u[1], i, 2, work->force[i]);

@@ -54,7 +54,7 @@ void gm_wave_start(struct gm_two_step_work *work, const struct gm_problem *probl
                    const double *now, const double *other, double *next)
 {
     const double over = 1 / (problem->line.dx * problem->line.dx);
-    gm_field_of(problem)->wave->slopes(now, work->force, work->points);
+    gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     for (size_t i = 0; i < work->points; i++) {
         const double acceleration = over * ((now + i)[1] - 2 * now[i] + (now + i)[-1]) - work->force[i];
         const double velocity = (other[i] - now[i]) / gap - gap / 2 * acceleration;

@@ -79,11 +79,12 @@ static void linearised_nodes(const struct base *base, const struct tangent *a)
         const double change = a->now[right_of(i, points)] - 2 * a->now[i] + a->now[left_of(i, points)];
         const double free_motion = 2 * a->now[i] + ratio * ratio * change;
         if (row->average) {
-            const double in_next = wave->quotient_slope(levels->next[i], levels->past[i]);
-            const double in_past = wave->quotient_slope(levels->past[i], levels->next[i]);
+            const double in_next = wave->quotient_slope(base->problem, levels->next[i], levels->past[i]);
+            const double in_past = wave->quotient_slope(base->problem, levels->past[i], levels->next[i]);
             a->next[i] = (free_motion - (1 + dt * dt * in_past) * a->past[i]) / (1 + dt * dt * in_next);
         } else {
-            a->next[i] = free_motion - a->past[i] - dt * dt * wave->curvature(levels->now[i]) * a->now[i];
+            a->next[i] = free_motion - a->past[i] -
+                         dt * dt * wave->curvature(base->problem, levels->now[i]) * a->now[i];
         }
     }
 }
@@ -96,7 +97,8 @@ static void linearised_centred(const struct base *base, const struct tangent *a)
         const size_t right = right_of(right_of(i, points), points),
                      left = left_of(left_of(i, points), points);
         const double second = (a->now[right] - 2 * a->now[i] + a->now[left]) / (4 * dx * dx);
-        const double force = gm_field_of(base->problem)->wave->curvature(base->levels.now[i]) * a->now[i];
+        const double force =
+            gm_field_of(base->problem)->wave->curvature(base->problem, base->levels.now[i]) * a->now[i];
         a->next[i] = a->past[i] + 2 * dt * a->v_now[i];
         a->v_next[i] = a->v_past[i] + 2 * dt * (second - force);
     }
@@ -329,7 +331,8 @@ static void cell_curvatures(const struct gm_problem *problem, const double *p, c
     for (size_t i = 0; i < line->points; i++) {
         const size_t r = right_of(i, line->points);
         const double jump = r == 0 ? line->jump : 0;
-        curvature[i] = gm_field_of(problem)->wave->curvature((p[i] + p[r] + q[i] + q[r] + 2 * jump) / 4);
+        curvature[i] =
+            gm_field_of(problem)->wave->curvature(problem, (p[i] + p[r] + q[i] + q[r] + 2 * jump) / 4);
     }
 }
 

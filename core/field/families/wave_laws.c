@@ -43,14 +43,15 @@ double gm_wave_energy(const struct gm_problem *problem, const double *y)
 {
     const struct gm_line *line = &problem->line;
     const double *u = y, *o = y + line->points, gap = y[2 * line->points];
-    const double zero = gm_field_of(problem)->wave->potential(0);
+    const double zero = gm_field_of(problem)->wave->potential(problem, 0);
     struct exact_sum total = {0};
     for (size_t i = 0; i < line->points; i++) {
         const double rate = (u[i] - o[i]) / gap;
         const double slope = (at(line, u, i, 1) - u[i]) * (at(line, o, i, 1) - o[i]) / (line->dx * line->dx);
-        add(&total, (rate * rate + slope) / 2 + (gm_field_of(problem)->wave->potential(u[i]) - zero +
-                                                 gm_field_of(problem)->wave->potential(o[i]) - zero) /
-                                                    2);
+        add(&total,
+            (rate * rate + slope) / 2 + (gm_field_of(problem)->wave->potential(problem, u[i]) - zero +
+                                         gm_field_of(problem)->wave->potential(problem, o[i]) - zero) /
+                                            2);
     }
     return line->dx * (total.sum + total.lost);
 }
@@ -59,14 +60,14 @@ double gm_wave_cell_energy(const struct gm_problem *problem, const double *y)
 {
     const struct gm_line *line = &problem->line;
     const double *u = y, *o = y + line->points, gap = y[2 * line->points];
-    const double zero = gm_field_of(problem)->wave->potential(0);
+    const double zero = gm_field_of(problem)->wave->potential(problem, 0);
     double sum = 0;
     for (size_t i = 0; i < line->points; i++) {
         const double u_next = at(line, u, i, 1), o_next = at(line, o, i, 1);
         const double rate = (u[i] + u_next - o[i] - o_next) / (2 * gap);
         const double slope = (u_next - u[i] + o_next - o[i]) / (2 * line->dx);
         sum += (rate * rate + slope * slope) / 2 +
-               (gm_field_of(problem)->wave->potential((u[i] + u_next + o[i] + o_next) / 4) - zero);
+               (gm_field_of(problem)->wave->potential(problem, (u[i] + u_next + o[i] + o_next) / 4) - zero);
     }
     return line->dx * sum;
 }
@@ -104,12 +105,13 @@ static double node_law(const struct gm_problem *problem, const struct gm_levels 
                        double a, double b)
 {
     return (levels->next[i] - 2 * levels->now[i] + levels->past[i]) / (dt * dt) -
-           d2(&problem->line, levels->now, i) + gm_field_of(problem)->wave->quotient(a, b);
+           d2(&problem->line, levels->now, i) + gm_field_of(problem)->wave->quotient(problem, a, b);
 }
 
-static double cell_law(const struct gm_wave *wave, double a, double b, double step)
+static double cell_law(const struct gm_problem *problem, double a, double b, double step)
 {
-    return (b - a) / step * (wave->quotient(a, b) - wave->slope((a + b) / 2));
+    const struct gm_wave *wave = gm_field_of(problem)->wave;
+    return (b - a) / step * (wave->quotient(problem, a, b) - wave->slope(problem, (a + b) / 2));
 }
 
 double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
@@ -125,7 +127,7 @@ double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm
         const double *u = y, *o = y + line->points;
         for (size_t i = 0; i < line->points; i++) {
             const double a = (o[i] + at(line, o, i, 1)) / 2, b = (u[i] + at(line, u, i, 1)) / 2;
-            largest = fmax(largest, fabs(cell_law(gm_field_of(problem)->wave, a, b, dt)));
+            largest = fmax(largest, fabs(cell_law(problem, a, b, dt)));
         }
         return largest;
     }
@@ -155,7 +157,7 @@ double gm_wave_momentum_residual(const struct gm_problem *problem, const struct 
         const double *u = y, *o = y + line->points;
         for (size_t i = 0; i < line->points; i++) {
             const double a = (o[i] + u[i]) / 2, b = (at(line, o, i, 1) + at(line, u, i, 1)) / 2;
-            largest = fmax(largest, fabs(cell_law(gm_field_of(problem)->wave, a, b, line->dx)));
+            largest = fmax(largest, fabs(cell_law(problem, a, b, line->dx)));
         }
         return largest;
     }

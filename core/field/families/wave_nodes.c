@@ -34,22 +34,23 @@ static enum gm_status leapfrog(struct gm_two_step_work *work, const struct gm_pr
                                struct gm_progress *progress)
 {
     const double dx = problem->line.dx;
-    gm_field_of(problem)->wave->slopes(now, work->force, work->points);
+    gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     explicit_step(past - 1, now - 1, work->force - 1, next - 1, work->points, dt * dt / (dx * dx), dt * dt);
     progress->evaluations++;
     return GM_OK;
 }
 
 /* c + dt^2 Q(now + c, past) = right, from the guess c; NaN if Newton's method does not settle */
-static double solve_node(const struct gm_wave *wave, double square, double past, double now, double right,
-                         double c, unsigned long *iterations)
+static double solve_node(const struct gm_problem *problem, double square, double past, double now,
+                         double right, double c, unsigned long *iterations)
 {
     enum { MOST = 50 };
+    const struct gm_wave *wave = gm_field_of(problem)->wave;
     double last = INFINITY;
     for (int k = 0; k < MOST; k++) {
         const double x = now + c;
-        const double change =
-            (c + square * wave->quotient(x, past) - right) / (1 + square * wave->quotient_slope(x, past));
+        const double change = (c + square * wave->quotient(problem, x, past) - right) /
+                              (1 + square * wave->quotient_slope(problem, x, past));
         const double size = fabs(change);
         ++*iterations;
         if (size >= last && size <= 1e-14 * fmax(1, fabs(x))) {
@@ -75,8 +76,7 @@ static enum gm_status energy_conserving(struct gm_two_step_work *work, const str
         const double before = work->change[i];
         const double curvature = ((now + i)[1] - now[i]) - (now[i] - (now + i)[-1]);
         const double right = before + ratio * curvature;
-        work->change[i] = solve_node(gm_field_of(problem)->wave, square, past[i], now[i], right, before,
-                                     &progress->iterations);
+        work->change[i] = solve_node(problem, square, past[i], now[i], right, before, &progress->iterations);
         next[i] = now[i] + work->change[i];
         if (isnan(next[i])) {
             return isfinite(right) ? GM_NO_CONVERGENCE : GM_BLOW_UP;
@@ -94,7 +94,7 @@ static enum gm_status euler_box(struct gm_two_step_work *work, const struct gm_p
 {
     const double dx = problem->line.dx;
     double *v = work->right, *w = work->guess;
-    gm_field_of(problem)->wave->slopes(now, work->force, work->points);
+    gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
     for (size_t i = 0; i <= work->points; i++) {
         w[i] = (now[i] - (now + i)[-1]) / dx;
     }
@@ -134,6 +134,20 @@ static const struct gm_two_step_row rows[] = {
     {.step = euler_box, .start = gm_wave_start, .law = GM_LAW_NODES},
 };
 
+/* 4/dt^2 >= 4/dx^2 + V'' wherever u is */
+static double longest_explicit(const struct gm_problem *problem, const double *y)
+{
+    const struct gm_line *line = &problem->line;
+    const struct gm_wave *wave = gm_field_of(problem)->wave;
+    double most = 0;
+    for (size_t i = 0; i < line->points; i++) {
+        most = fmax(most, wave->curvature(problem, y[i]));
+    }
+    return 2 / sqrt(4 / (line->dx * line->dx) + most);
+}
+
+static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", longest_explicit};
+
 static const struct gm_scheme schemes[] = {
     {
         .name = "leapfrog",
@@ -147,6 +161,7 @@ static const struct gm_scheme schemes[] = {
         .order = 2,
         .needs = GM_NEEDS_WAVE,
         .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        .limit = &explicit_limit,
     },
     {
         .name = "energy-conserving",
@@ -170,6 +185,7 @@ static const struct gm_scheme schemes[] = {
         .order = 2,
         .needs = GM_NEEDS_WAVE,
         .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        .limit = &explicit_limit,
     },
 };
 

@@ -22,7 +22,7 @@ double gm_sine_gordon_jump(const struct gm_sine_gordon *solution)
 static double met_at(const struct gm_sine_gordon *solution)
 {
     const double x0 = fabs(solution->position), c = fabs(solution->velocity);
-    return solution->initial != GM_COLLISION ? 0 : c == 0 ? x0 : x0 / c;
+    return solution->initial != GM_KINK_COLLISION ? 0 : c == 0 ? x0 : x0 / c;
 }
 
 /* Of one meeting, at x = 0 and t = 0, on the line. */
@@ -70,7 +70,7 @@ bool gm_sine_gordon_is_known(const struct gm_sine_gordon *solution, double half_
 {
     const double c = fabs(solution->velocity), w = solution->frequency;
     const double g = solution->initial == GM_BREATHER ? sqrt((1 - w) * (1 + w)) : 1 / sqrt((1 - c) * (1 + c));
-    if (solution->initial != GM_KINK_ANTIKINK && solution->initial != GM_COLLISION) {
+    if (solution->initial != GM_KINK_ANTIKINK && solution->initial != GM_KINK_COLLISION) {
         return t == 0 || 4 * exp(-g * half_length) <= 1e-3;
     }
     /* the images' pull goes with exp(-g half_length) and is compared with what moves the kinks */

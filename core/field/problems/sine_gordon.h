@@ -7,11 +7,11 @@
 /* Exact solutions of u_tt - u_xx + sin u = 0 on the line, and on a ring as long as their tails are small. */
 
 enum gm_sine_gordon_initial {
-    GM_BREATHER,      /* 4 atan [g sin(w t) / (w cosh(g x))], g = sqrt(1 - w^2) */
-    GM_KINK,          /* 4 atan exp[g (x - x0 - c t)], g = 1 / sqrt(1 - c^2) */
-    GM_ANTIKINK,      /* 4 atan exp[-g (x - x0 - c t)] */
-    GM_KINK_ANTIKINK, /* 4 atan [sinh(c g t) / (c cosh(g x))]: they leave x = 0 at t = 0 */
-    GM_COLLISION,     /* the same from t = -|x0| / c on: an antikink and a kink meet, and part */
+    GM_BREATHER,       /* 4 atan [g sin(w t) / (w cosh(g x))], g = sqrt(1 - w^2) */
+    GM_KINK,           /* 4 atan exp[g (x - x0 - c t)], g = 1 / sqrt(1 - c^2) */
+    GM_ANTIKINK,       /* 4 atan exp[-g (x - x0 - c t)] */
+    GM_KINK_ANTIKINK,  /* 4 atan [sinh(c g t) / (c cosh(g x))]: they leave x = 0 at t = 0 */
+    GM_KINK_COLLISION, /* the same from t = -|x0| / c on: an antikink and a kink meet, and part */
 };
 
 struct gm_sine_gordon {

@@ -11,8 +11,8 @@
 #include "core/field/problems/wave.h"
 #include "core/linear/sine.h"
 
-static const double m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
-static const double k[9] = {0, 0, 1, 0, 0, 0, -1, 0, 0};
+const double gm_wave_m[9] = {0, -1, 0, 1, 0, 0, 0, 0, 0};
+const double gm_wave_k[9] = {0, 0, 1, 0, 0, 0, -1, 0, 0};
 
 static void gradient_sine_gordon(const void *parameters, const double *s, double *gradient)
 {
@@ -41,35 +41,57 @@ static double sinc_slope(double x)
     return fabs(x) < 1e-3 ? -x / 3 + x * x * x / 30 : (cos(x) - sin(x) / x) / x;
 }
 
-static double potential(double u)
+static double potential(const struct gm_problem *problem, double u)
 {
+    (void)problem;
     return -cos(u);
 }
 
-/* -(cos a - cos b) / (a - b) */
-static double quotient(double a, double b)
+static double slope(const struct gm_problem *problem, double u)
 {
+    (void)problem;
+    return sin(u);
+}
+
+static double curvature(const struct gm_problem *problem, double u)
+{
+    (void)problem;
+    return cos(u);
+}
+
+static void slopes(const struct gm_problem *problem, const double *u, double *slope, size_t count)
+{
+    (void)problem;
+    gm_sines(u, slope, count);
+}
+
+/* -(cos a - cos b) / (a - b) */
+static double quotient(const struct gm_problem *problem, double a, double b)
+{
+    (void)problem;
     return sin((a + b) / 2) * sinc((a - b) / 2);
 }
 
-static double quotient_slope(double a, double b)
+static double quotient_slope(const struct gm_problem *problem, double a, double b)
 {
+    (void)problem;
     const double mean = (a + b) / 2, half = (a - b) / 2;
     return (cos(mean) * sinc(half) + sin(mean) * sinc_slope(half)) / 2;
 }
 
-static double none(double u)
+static double none(const struct gm_problem *problem, double u)
 {
-    return (void)u, 0;
+    return (void)problem, (void)u, 0;
 }
 
-static double none_between(double a, double b)
+static double none_between(const struct gm_problem *problem, double a, double b)
 {
-    return (void)a, (void)b, 0;
+    return (void)problem, (void)a, (void)b, 0;
 }
 
-static void no_slopes(const double *u, double *slope, size_t count)
+static void no_slopes(const struct gm_problem *problem, const double *u, double *slope, size_t count)
 {
+    (void)problem;
     (void)u;
     for (size_t i = 0; i < count; i++) {
         slope[i] = 0;
@@ -78,13 +100,13 @@ static void no_slopes(const double *u, double *slope, size_t count)
 
 static const struct gm_wave sine_gordon = {
     .potential = potential,
-    .slope = sin,
-    .curvature = cos,
-    .slopes = gm_sines,
+    .slope = slope,
+    .curvature = curvature,
+    .slopes = slopes,
     .quotient = quotient,
     .quotient_slope = quotient_slope,
 };
-static const struct gm_form sine_gordon_form = {3, m, k, gradient_sine_gordon};
+static const struct gm_form sine_gordon_form = {3, gm_wave_m, gm_wave_k, gradient_sine_gordon};
 
 static const struct gm_wave linear = {
     .potential = none,
@@ -94,7 +116,7 @@ static const struct gm_wave linear = {
     .quotient = none_between,
     .quotient_slope = none_between,
 };
-static const struct gm_form linear_form = {3, m, k, gradient_linear};
+static const struct gm_form linear_form = {3, gm_wave_m, gm_wave_k, gradient_linear};
 
 const struct gm_problem gm_problem_sine_gordon = {
     .name = "sine-Gordon",

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wing of flows on complexes as the hall sees it: the families of schemes, and how those are certified. */
+/* The wing of flows on complexes as the hall sees it: the families of schemes, and how those are
+   certified. */
 #include "core/flow/flow.h"
 
 #include <math.h>
@@ -159,6 +160,11 @@ static void measure_order(const struct gm_scheme *scheme, struct gm_certificate 
         gm_run_close(run);
     }
     gm_flow_close(flow);
+    for (int i = 0; good && i < LADDER; i++) {
+        certificate->ladder.dt[i] = until / (64 << i);
+        certificate->ladder.error[i] = error[i];
+        certificate->ladder.count++;
+    }
     certificate->order = good ? log(error[0] / error[2]) / log(4) : NAN;
     certificate->order_problem = "torus";
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;

@@ -76,6 +76,7 @@ size_t gm_flow_quantities(const struct gm_run *run, struct gm_quantity *quantiti
         {true, {"stream_function", "", GM_ON_NODES, v, 1, .first = GM_FLOW_PSI * v}},
         {true, {"vorticity", "", GM_ON_NODES, v, 1, .first = GM_FLOW_OMEGA * v}},
         {flow->scalar, {"scalar", "", GM_ON_NODES, v, 1, .first = GM_FLOW_THETA * v}},
+        {flow->heat, {"temperature", "", GM_ON_NODES, v, 1, .first = GM_FLOW_TEMPERATURE * v}},
         {true, {"velocity", "", GM_ON_CELLS, t, 2, .derive = velocity}},
         {flow->complex->boundary > 0, {"pressure", "", GM_ON_CELLS, t, 1, .derive = pressure}},
         {count > 0, {"tracer_x", "", GM_ON_TRACERS, count, 1, .axis = 1, .derive = tracer_x}},

@@ -7,9 +7,10 @@
        flow        star0 (omega' - omega)/dt + [C(F*) + nu K] (s omega' + (1 - s) omega) = 0
                    K psi' + sheet = star0 omega'
        scalar      star0 (theta' - theta)/dt + [-d0' diag(F*) A + diag(q) + kappa K] theta' = 0
-   with F and F* the fluxes of psi and psi*. Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175;
-   Razafindralandy et al. (2018), eqs. 153-155. The steady scheme takes C(F) omega + nu K omega = 0 by
-   Newton's method, a correction a step. */
+   with F and F* the fluxes of psi and psi*. Temperature is carried like the scalar, before the flow, which
+   takes the new one's buoyancy: waves of a layered fluid do not grow by that. Mohamed, Hirani & Samtaney, J.
+   Comput. Phys. 312 (2016) 175; Razafindralandy et al. (2018), eqs. 153-155. The steady scheme takes C(F)
+   omega + nu K omega = 0 by Newton's method, a correction a step. */
 #include <math.h>
 #include <string.h>
 
@@ -68,6 +69,18 @@ static void fluxes(struct gm_flow_solver *solver, const double *psi)
     gm_flow_fluxes(solver->flow->complex, psi, solver->centre, solver->flux);
 }
 
+/* Between walls without friction, where steps are made for omega, the circulation around a hole stays what it
+   is (Kelvin): K psi of its wall, into solver->rate. */
+static void keep_circulations(struct gm_flow_solver *solver, const double *psi)
+{
+    const struct gm_flow *flow = solver->flow;
+    for (size_t v = 0; solver->vorticity_form && flow->holes > 0 && v < flow->complex->vertices; v++) {
+        if (flow->hole[v] > 0) {
+            solver->rate[v] = gm_flow_row(flow->complex, psi, v);
+        }
+    }
+}
+
 /* psi* of the fluxes, from the present vorticity. */
 static void half_step(struct gm_flow_solver *solver, double dt, double *y)
 {
@@ -81,6 +94,10 @@ static void half_step(struct gm_flow_solver *solver, double dt, double *y)
     for (size_t v = 0; v < complex->vertices; v++) {
         solver->rate[v] = complex->star0[v] * omega[v] - dt / 2 * solver->rate[v] - flow->sheet[v];
     }
+    if (flow->heat) {
+        gm_flow_add_lift(flow, block(flow, y, GM_FLOW_TEMPERATURE), dt / 2, solver->rate);
+    }
+    keep_circulations(solver, y);
     memcpy(psi_half, flow->psi, complex->vertices * sizeof *psi_half);
     if (solver->unknowns.count > 0) {
         gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
@@ -90,9 +107,9 @@ static void half_step(struct gm_flow_solver *solver, double dt, double *y)
 
 /* star0 omega / dt less what the old time contributes, into solver->rate. Leaves the matrix of the step
    assembled. */
-static void make_equation(struct gm_flow_solver *solver, const struct row *row, double dt,
-                          const double *omega)
+static void make_equation(struct gm_flow_solver *solver, const struct row *row, double dt, double *y)
 {
+    const double *omega = block(solver->flow, y, GM_FLOW_OMEGA);
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
     struct gm_transport *transport = &solver->transport;
@@ -105,6 +122,9 @@ static void make_equation(struct gm_flow_solver *solver, const struct row *row, 
     for (size_t v = 0; v < complex->vertices; v++) {
         solver->rate[v] = complex->star0[v] * omega[v] / dt - solver->rate[v];
     }
+    if (flow->heat) {
+        gm_flow_add_lift(flow, block(solver->flow, y, GM_FLOW_TEMPERATURE), 1, solver->rate);
+    }
     gm_transport_assemble(transport, solver->flux, 1 / dt, row->share, flow->viscosity, GM_BACKFLOW_ZERO);
 }
 
@@ -115,7 +135,7 @@ static bool advance_vorticity(struct gm_flow_solver *solver, const struct row *r
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
     double *omega = block(flow, y, GM_FLOW_OMEGA);
-    make_equation(solver, row, dt, omega);
+    make_equation(solver, row, dt, y);
     memcpy(solver->field, omega, complex->vertices * sizeof *omega);
     if (!gm_transport_solve(&solver->transport, solver->held, solver->rate, solver->field, solver->bicgstab,
                             &progress->iterations)) {
@@ -127,6 +147,7 @@ static bool advance_vorticity(struct gm_flow_solver *solver, const struct row *r
         omega[v] = solver->field[v];
         solver->rate[v] = complex->star0[v] * omega[v];
     }
+    keep_circulations(solver, y);
     if (solver->unknowns.count > 0) {
         gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
                                   solver->x, y);
@@ -142,10 +163,16 @@ static double residual(struct gm_flow_solver *solver, const double *omega)
     double *product = solver->field, sum = 0, size = 0;
     gm_transport_apply(&solver->transport, omega, product);
     for (size_t i = 0; i < unknowns->count + solver->soft; i++) {
-        const int v = i < unknowns->count ? unknowns->vertex[i] : solver->soft_vertex[i - unknowns->count];
-        solver->b[i] = solver->rate[v] - product[v];
+        const bool soft = i >= unknowns->count;
+        const int *vertex =
+            soft ? solver->soft_vertex + (i - unknowns->count) : unknowns->vertex + unknowns->start[i];
+        const int vertices = soft ? 1 : unknowns->start[i + 1] - unknowns->start[i];
+        solver->b[i] = 0;
+        for (int k = 0; k < vertices; k++) {
+            solver->b[i] += solver->rate[vertex[k]] - product[vertex[k]];
+            size += solver->rate[vertex[k]] * solver->rate[vertex[k]];
+        }
         sum += solver->b[i] * solver->b[i];
-        size += solver->rate[v] * solver->rate[v];
     }
     return sqrt(fmax(sum, size));
 }
@@ -157,7 +184,9 @@ static void correct(const struct gm_flow_solver *solver, double *y)
     const struct gm_unknowns *unknowns = &solver->unknowns;
     double *omega = block(flow, y, GM_FLOW_OMEGA);
     for (size_t i = 0; i < unknowns->count; i++) {
-        y[unknowns->vertex[i]] += solver->x[i];
+        for (int k = unknowns->start[i]; k < unknowns->start[i + 1]; k++) {
+            y[unknowns->vertex[k]] += solver->x[i];
+        }
     }
     for (size_t i = 0; i < solver->soft; i++) {
         omega[solver->soft_vertex[i]] += solver->x[unknowns->count + i];
@@ -174,9 +203,9 @@ static bool advance_stream(struct gm_flow_solver *solver, const struct row *row,
     const struct gm_complex *complex = flow->complex;
     double *omega = block(flow, y, GM_FLOW_OMEGA), *used = block(flow, y, GM_FLOW_OMEGA_USED);
     const double last = gm_flow_step(flow, y), ratio = last != 0 ? dt / last : 0;
-    make_equation(solver, row, dt, omega);
+    make_equation(solver, row, dt, y);
     memcpy(used, omega, complex->vertices * sizeof *used);
-    for (size_t i = 0; i < solver->unknowns.count; i++) {
+    for (int i = 0; i < solver->unknowns.start[solver->unknowns.count]; i++) {
         const int v = solver->unknowns.vertex[i];
         y[v] += ratio * (y[v] - psi_before[v]);
     }
@@ -194,22 +223,42 @@ static bool advance_stream(struct gm_flow_solver *solver, const struct row *row,
     return true;
 }
 
-static bool advance_scalar(struct gm_flow_solver *solver, double dt, double *y, struct gm_progress *progress)
+/* The scalar, or temperature, by the fluxes in solver->flux; source: per unit of time, NULL: none. */
+static bool advance_carried(struct gm_flow_solver *solver, double dt, double *theta, double *before,
+                            const bool *fixed, const double *source, struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
-    double *theta = block(flow, y, GM_FLOW_THETA);
-    memcpy(block(flow, y, GM_FLOW_THETA_BEFORE), theta, complex->vertices * sizeof *theta);
+    memcpy(before, theta, complex->vertices * sizeof *theta);
     const double shift = dt > 0 || dt < 0 ? 1 / dt : 0;
     gm_transport_assemble(&solver->transport, solver->flux, shift, 1, flow->diffusivity, GM_BACKFLOW_OWN);
     for (size_t v = 0; v < complex->vertices; v++) {
         solver->rate[v] = shift * complex->star0[v] * theta[v];
+        if (source) {
+            solver->rate[v] += source[v];
+        }
     }
     progress->solves++;
-    return shift != 0
-               ? gm_transport_solve(&solver->transport, flow->theta_fixed, solver->rate, theta,
-                                    solver->bicgstab, &progress->iterations)
-               : gm_transport_solve_directly(&solver->transport, flow->theta_fixed, solver->rate, theta);
+    return shift != 0 ? gm_transport_solve(&solver->transport, fixed, solver->rate, theta, solver->bicgstab,
+                                           &progress->iterations)
+                      : gm_transport_solve_directly(&solver->transport, fixed, solver->rate, theta);
+}
+
+static bool advance_scalar(struct gm_flow_solver *solver, double dt, double *y, struct gm_progress *progress)
+{
+    const struct gm_flow *flow = solver->flow;
+    return !flow->scalar ||
+           advance_carried(solver, dt, block(flow, y, GM_FLOW_THETA), block(flow, y, GM_FLOW_THETA_BEFORE),
+                           flow->theta_fixed, flow->source, progress);
+}
+
+static bool advance_temperature(struct gm_flow_solver *solver, double dt, double *y,
+                                struct gm_progress *progress)
+{
+    const struct gm_flow *flow = solver->flow;
+    return !flow->heat || advance_carried(solver, dt, block(flow, y, GM_FLOW_TEMPERATURE),
+                                          block(flow, y, GM_FLOW_TEMPERATURE_BEFORE), flow->temperature_fixed,
+                                          NULL, progress);
 }
 
 static enum gm_status step(struct gm_flow_solver *solver, const struct row *row, double dt, long number,
@@ -222,9 +271,10 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
     memcpy(before, y, n * sizeof *before);
     half_step(solver, dt, y);
     fluxes(solver, block(flow, y, GM_FLOW_PSI_HALF));
-    const bool moved = solver->vorticity_form ? advance_vorticity(solver, row, dt, y, progress)
-                                              : advance_stream(solver, row, dt, y, psi_before, progress);
-    if (!moved || (flow->scalar && !advance_scalar(solver, dt, y, progress))) {
+    const bool moved = advance_temperature(solver, dt, y, progress) &&
+                       (solver->vorticity_form ? advance_vorticity(solver, row, dt, y, progress)
+                                               : advance_stream(solver, row, dt, y, psi_before, progress));
+    if (!moved || !advance_scalar(solver, dt, y, progress)) {
         return GM_NO_CONVERGENCE;
     }
     if (!(gm_flow_kinetic_energy(flow, y) <= solver->energy_limit)) {
@@ -234,7 +284,7 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
         gm_flow_vertex_velocities(flow->complex, block(flow, y, GM_FLOW_PSI_HALF), solver->velocities);
         gm_tracers_carry(flow, solver->velocities, dt, number, y, y);
     }
-    y[GM_FLOW_BLOCKS * n] = dt;
+    y[gm_flow_block_numbers(flow)] = dt;
     progress->evaluations += 2;
     return GM_OK;
 }
@@ -250,20 +300,35 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
     const size_t n = flow->complex->vertices;
     double *omega = block(flow, y, GM_FLOW_OMEGA);
     memcpy(block(flow, y, GM_FLOW_PSI_BEFORE), y, n * sizeof *y);
+    if (flow->heat) {
+        memcpy(block(flow, y, GM_FLOW_TEMPERATURE_BEFORE), block(flow, y, GM_FLOW_TEMPERATURE),
+               n * sizeof *y);
+    }
     if (carried[DONE] != 0) {
         return GM_OK;
     }
     const double ratio = flow->reynolds > 0 ? flow->reynolds / carried[LEVEL] : 1;
     if (solver->unknowns.count > 0) {
         fluxes(solver, y);
+        if (flow->heat) {
+            gm_transport_assemble(&solver->heat, solver->flux, 0, 1, ratio * flow->diffusivity,
+                                  GM_BACKFLOW_OWN);
+        }
         gm_transport_assemble(&solver->transport, solver->flux, 0, 1, ratio * flow->viscosity,
                               GM_BACKFLOW_ZERO);
         memset(solver->rate, 0, n * sizeof *solver->rate);
+        double *temperature = flow->heat ? block(flow, y, GM_FLOW_TEMPERATURE) : NULL;
+        if (temperature) {
+            gm_flow_add_lift(flow, temperature, 1, solver->rate);
+        }
         residual(solver, omega);
-        if (!gm_flow_solver_newton(solver, omega)) {
+        if (!gm_flow_solver_newton(solver, omega, temperature)) {
             return GM_NO_CONVERGENCE;
         }
         correct(solver, y);
+        for (size_t i = 0; i < solver->warm; i++) {
+            temperature[solver->warm_vertex[i]] += solver->x[solver->unknowns.count + solver->soft + i];
+        }
     }
     double change = 0, size = 0;
     for (size_t v = 0; v < n; v++) {
@@ -272,9 +337,9 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
     }
     memcpy(block(flow, y, GM_FLOW_PSI_HALF), y, n * sizeof *y);
     memcpy(block(flow, y, GM_FLOW_OMEGA_USED), omega, n * sizeof *y);
-    y[GM_FLOW_BLOCKS * n] = 0;
+    y[gm_flow_block_numbers(flow)] = 0;
     fluxes(solver, y);
-    if (flow->scalar && !advance_scalar(solver, 0, y, progress)) {
+    if (!advance_scalar(solver, 0, y, progress)) {
         return GM_NO_CONVERGENCE;
     }
     progress->evaluations++;
@@ -360,6 +425,7 @@ static const struct gm_scheme schemes[] = {
         .coefficients = &steady,
         .order = 0,
         .claims = EXACT_CALCULUS,
+        .steady = true,
         FLOW,
     },
 };

@@ -18,20 +18,11 @@ enum { POINTS = 3, FINE_POINTS = GM_MESH_SUBJECT_POINTS, MOST = GM_MESH_SUBJECT_
 
 static const struct gm_settings settings = {0};
 
-static double distance(const double *a, const double *b, size_t n)
-{
-    double largest = 0;
-    for (size_t i = 0; i < n; i++) {
-        largest = fmax(largest, fabs(a[i] - b[i]));
-    }
-    return largest;
-}
-
 /* Differences of the field and nodes. A scheme that chooses its steps ends at times that differ in second
    order; what that makes is taken off with the velocities. */
-static double measure_order(const struct gm_scheme *scheme)
+static double measure_order(const struct gm_scheme *scheme, struct gm_ladder *ladder)
 {
-    enum { LADDER = 7 };
+    enum { STEPS = 7 };
     const double until = 1, round_off = 1e-10;
     struct gm_mesh_subject subject;
     if (!gm_mesh_subject_open(&subject, scheme, FINE_POINTS)) {
@@ -39,7 +30,7 @@ static double measure_order(const struct gm_scheme *scheme)
     }
     const size_t half = subject.problem.n / 2;
     double before[MOST] = {0}, previous = 0, order = NAN, t_before = 0;
-    for (int i = 0; i < LADDER; i++) {
+    for (int i = 0; i < STEPS; i++) {
         const long steps = 5L << i;
         struct gm_run *run =
             gm_run_open(&subject.problem, scheme, &settings, 0, until / (double)steps, subject.start);
@@ -52,8 +43,10 @@ static double measure_order(const struct gm_scheme *scheme)
         for (size_t k = 0; k < half; k++) {
             change = fmax(change, fabs(state[k] + (t_before - run->t) * state[half + k] - before[k]));
         }
-        if (i > 1 && change > round_off) {
-            order = log2(previous / change);
+        if (i > 0 && change > round_off) {
+            order = i > 1 ? log2(previous / change) : NAN;
+            ladder->dt[ladder->count] = until / (double)steps;
+            ladder->error[ladder->count++] = change;
         }
         previous = change;
         memcpy(before, state, subject.problem.n * sizeof *state);
@@ -81,7 +74,7 @@ static double return_defect(const struct gm_mesh_subject *subject, const struct 
     if (good && turned) {
         memcpy(state, gm_run_state(run), subject->problem.n * sizeof *state);
         turn(state, subject->mesh.points);
-        gm_run_set_state(run, state);
+        gm_run_set_state(run, state, NULL);
     } else if (good) {
         gm_run_set_step(run, -dt);
     }
@@ -91,7 +84,7 @@ static double return_defect(const struct gm_mesh_subject *subject, const struct 
         if (turned) {
             turn(state, subject->mesh.points);
         }
-        defect = distance(state, subject->start, subject->problem.n);
+        defect = gm_distance(state, subject->start, subject->problem.n);
     }
     gm_run_close(run);
     return defect;
@@ -179,7 +172,7 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
 {
     const double dt = 0.2;
     struct gm_mesh_subject subject;
-    certificate->order = measure_order(scheme);
+    certificate->order = measure_order(scheme, &certificate->ladder);
     certificate->order_problem = "soliton";
     certificate->order_holds = fabs(certificate->order - scheme->order) < 0.15;
     const bool open = gm_mesh_subject_open(&subject, scheme, POINTS);

@@ -16,7 +16,7 @@ static enum gm_status check(const double *state, size_t count, double limit)
 }
 
 struct gm_progress gm_mesh_advance(const struct gm_task *task, struct gm_solver *solver,
-                                   const struct gm_equations *equations,
+                                   const struct gm_step_equations *equations,
                                    enum gm_status (*finish)(void *self, double *state, double *multiplier))
 {
     const size_t count = equations->state;

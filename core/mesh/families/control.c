@@ -51,7 +51,7 @@ static size_t unknowns_at_node(const struct gm_control *row)
     return width(row) * row->tableau->stages;
 }
 
-/* The equations at the stages, and their derivative, as struct gm_equations asks for them. */
+/* The equations at the stages, and their derivative, as struct gm_step_equations asks for them. */
 
 static void place(void *self, const double *state, double step)
 {
@@ -372,7 +372,7 @@ static struct gm_progress loop(const struct gm_task *task)
 {
     struct work *work = task->workspace;
     const size_t points = work->mesh.points, per_node = unknowns_at_node(work->row);
-    const struct gm_equations equations = {
+    const struct gm_step_equations equations = {
         .self = work,
         .nodes = points,
         .per_node = per_node,

@@ -341,7 +341,7 @@ struct gm_progress gm_multiplier_advance(const struct gm_task *task)
     for (size_t i = 0; i < per_node; i++) {
         work->weights[i] = i > 2 * stages ? fabs(task->dt) : 1;
     }
-    const struct gm_equations equations = {
+    const struct gm_step_equations equations = {
         .self = work,
         .nodes = points,
         .per_node = per_node,

@@ -215,7 +215,7 @@ static struct gm_progress loop(const struct gm_task *task)
        schemes: it takes that for 200 steps to be undone to 1e-11 */
     work->weights[0] = work->weights[1] = 10 / fabs(task->dt);
     work->weights[2] = 10;
-    const struct gm_equations equations = {
+    const struct gm_step_equations equations = {
         .self = work,
         .nodes = points,
         .per_node = PER_NODE,

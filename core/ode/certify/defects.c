@@ -1,23 +1,68 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What of the geometry a scheme breaks in a step or a short run: the defects of symplecticity, volume,
    symmetry, reversibility, energy and other invariants. The derivative of a step is found by extrapolated
-   differences between members of an ensemble, so it asks nothing of the scheme. */
+   differences between members of an ensemble, so it asks nothing of the scheme. A defect refutes a claim only
+   where it stands clear of the error of the measurement: steps that stretch phase space a millionfold stretch
+   round-off too. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/ode/certify/measure.h"
-#include "core/ode/families/members.h"
+#include "core/ode/kernel/members.h"
+#include "core/ode/variational/manifold.h"
 #include "core/run.h"
 
 enum { MOST = 2 * GM_SUBJECT_COMPONENTS, LEVELS = 4 };
 
-/* The derivative of one step at the start. */
-static bool differentiate(const struct gm_subject *subject, const struct gm_scheme *scheme,
-                          double tangent[MOST][MOST])
+/* The derivative of one step at the start; the error of its entries is what the last extrapolation still
+   changes. Under constraints the members begin on the manifold, as close as may be to where they would
+   without; `start` is the derivative of where they begin, else the identity. */
+struct derivative {
+    double at[MOST][MOST], start[MOST][MOST];
+    double error, largest;
+};
+
+/* by Romberg's scheme; returns the last change */
+static double extrapolate(double table[LEVELS])
+{
+    double power = 4, last = 0;
+    for (size_t done = 1; done < LEVELS; done++, power *= 4) {
+        for (size_t level = LEVELS - 1; level >= done; level--) {
+            last = (table[level] - table[level - 1]) / (power - 1);
+            table[level] += last;
+        }
+    }
+    return fabs(last);
+}
+
+/* Every member of a start onto the manifold of the constraints. */
+static bool project(const struct gm_problem *problem, size_t members, double *start)
+{
+    double y[MOST];
+    bool good = true;
+    for (size_t member = 0; good && member < members; member++) {
+        for (size_t c = 0; c < problem->n; c++) {
+            y[c] = start[c * members + member];
+        }
+        good = gm_manifold_project(problem, y);
+        for (size_t c = 0; c < problem->n; c++) {
+            start[c * members + member] = y[c];
+        }
+    }
+    return good;
+}
+
+static bool differentiate(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                          double widest, struct derivative *derivative)
 {
     const size_t n = gm_subject_components(subject, scheme), members = n * LEVELS * 2;
-    double from[MOST], start[MOST * MOST * LEVELS * 2], end[MOST * MOST * LEVELS * 2];
-    const double widest = 0.02;
+    double from[MOST], *start = malloc(2 * n * members * sizeof *start),
+                       *end = start ? start + n * members : NULL;
+    if (!start) {
+        return false;
+    }
+    derivative->error = derivative->largest = 0;
     gm_subject_start(subject, scheme, from);
     for (size_t column = 0; column < n; column++) {
         for (size_t level = 0; level < LEVELS; level++) {
@@ -30,57 +75,160 @@ static bool differentiate(const struct gm_subject *subject, const struct gm_sche
             }
         }
     }
-    if (!gm_subject_advance(subject, scheme, subject->dt, 1, members, start, end)) {
-        return false;
-    }
-    for (size_t row = 0; row < n; row++) {
+    const bool held = gm_action_constraints(&subject->problem) > 0;
+    const bool made = (!held || project(&subject->problem, members, start)) &&
+                      gm_subject_advance(subject, scheme, dt, 1, members, start, end);
+    for (size_t row = 0; made && row < n; row++) {
         for (size_t column = 0; column < n; column++) {
-            double table[LEVELS];
+            double table[LEVELS], begun[LEVELS];
             for (size_t level = 0; level < LEVELS; level++) {
                 const size_t at = row * members + (column * LEVELS + level) * 2;
                 const size_t below = column * members + (column * LEVELS + level) * 2;
-                table[level] = (end[at] - end[at + 1]) / (start[below] - start[below + 1]);
+                const double apart = held ? ldexp(2 * widest, -(int)level) : start[below] - start[below + 1];
+                table[level] = (end[at] - end[at + 1]) / apart;
+                begun[level] = (start[at] - start[at + 1]) / apart;
             }
-            double power = 4;
-            for (size_t done = 1; done < LEVELS; done++, power *= 4) {
-                for (size_t level = LEVELS - 1; level >= done; level--) {
-                    table[level] += (table[level] - table[level - 1]) / (power - 1);
-                }
-            }
-            tangent[row][column] = table[LEVELS - 1];
+            derivative->error = fmax(derivative->error, extrapolate(table));
+            derivative->error = held ? fmax(derivative->error, extrapolate(begun)) : derivative->error;
+            derivative->start[row][column] = held ? begun[LEVELS - 1] : row == column;
+            derivative->at[row][column] = table[LEVELS - 1];
+            derivative->largest = fmax(derivative->largest, fabs(table[LEVELS - 1]));
         }
     }
-    return true;
+    free(start);
+    return made && isfinite(derivative->largest) && isfinite(derivative->error);
 }
 
-double gm_symplecticity_defect(const struct gm_subject *subject, const struct gm_scheme *scheme)
+/* A defect of one step: NaN where it fails; clear where it stands clear of the error of its measurement. */
+struct defect {
+    double size;
+    bool clear;
+};
+
+typedef struct defect defect_at(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                                double tolerance);
+
+/* What steps of length dt, dt / 4, dt / 16 tell. The defect of a scheme falls like a power of dt: one that is
+   gone all of a sudden was that of a solver that found another solution, or of a step beyond all measure. */
+static double decide(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                     double tolerance, defect_at *measure)
 {
-    double tangent[MOST][MOST];
-    if (!differentiate(subject, scheme, tangent)) {
-        return INFINITY;
+    enum { SHORTER = 2, POWERS = 5 };
+    const double steepest = pow(4, (scheme->order ? scheme->order : 8) + POWERS), roundoff = 1e-15;
+    for (int shorter = 0; shorter <= SHORTER; shorter++, dt /= 4) {
+        const struct defect here = measure(subject, scheme, dt, tolerance);
+        if (here.size <= tolerance) {
+            return here.size;
+        }
+        if (here.clear) {
+            const struct defect next = measure(subject, scheme, dt / 4, tolerance);
+            if (!(next.size <= tolerance) || here.size <= steepest * fmax(next.size, roundoff)) {
+                return here.size;
+            }
+        }
     }
-    const size_t all = gm_subject_components(subject, scheme), n = subject->problem.n, half = n / 2;
+    return NAN;
+}
+
+typedef double defect_of(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                         const struct derivative *derivative);
+
+/* Of a polynomial of this degree in the entries of the derivative, which has to be the same between closer
+   members. */
+static struct defect of_derivative(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                                   double dt, double tolerance, int degree, defect_of *defect)
+{
+    const size_t n = gm_subject_components(subject, scheme);
+    struct derivative derivative, closer;
+    struct defect found = {.size = NAN};
+    const double scale = subject->scale > 0 ? subject->scale : 1;
+    for (double distance = 0.02 * scale;
+         distance > 1e-4 * scale && !found.clear && !(found.size <= tolerance); distance /= 4) {
+        if (!differentiate(subject, scheme, dt, distance, &derivative)) {
+            continue;
+        }
+        found.size = defect(subject, scheme, dt, &derivative);
+        if (found.size > tolerance && differentiate(subject, scheme, dt, distance / 4, &closer)) {
+            double error = derivative.error;
+            for (size_t row = 0; row < n; row++) {
+                error = fmax(error, gm_distance(derivative.at[row], closer.at[row], n));
+            }
+            const double stretch = degree * (double)n * pow(fmax(1, derivative.largest), degree - 1);
+            found.clear = found.size > 10 * stretch * error;
+        }
+    }
+    return found;
+}
+
+/* form + dq ^ dp, summed over the copies of phase space, of two columns */
+static double add_form(double form, const double (*tangent)[MOST], size_t all, size_t n, size_t a, size_t b)
+{
+    for (size_t copy = 0; copy < all; copy += n) {
+        for (size_t q = copy; q < copy + n / 2; q++) {
+            form += tangent[q][a] * tangent[q + n / 2][b] - tangent[q + n / 2][a] * tangent[q][b];
+        }
+    }
+    return form;
+}
+
+/* Every area is to be `area` times what it was. */
+static double areas_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                           const struct derivative *derivative, double area)
+{
+    const size_t all = gm_subject_components(subject, scheme), n = subject->problem.n;
     double defect = 0;
     for (size_t a = 0; a < all; a++) {
         for (size_t b = 0; b < all; b++) {
-            double form = b == a + half && a % n < half ? -1 : a == b + half && b % n < half ? 1 : 0;
-            for (size_t copy = 0; copy < all; copy += n) {
-                for (size_t q = copy; q < copy + half; q++) {
-                    form += tangent[q][a] * tangent[q + half][b] - tangent[q + half][a] * tangent[q][b];
-                }
-            }
-            defect = fmax(defect, fabs(form));
+            const double wanted = area * add_form(0, derivative->start, all, n, a, b);
+            defect = fmax(defect, fabs(add_form(-wanted, derivative->at, all, n, a, b)));
         }
     }
     return defect;
 }
 
-double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme *scheme)
+static double form_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                          const struct derivative *derivative)
 {
-    double tangent[MOST][MOST];
-    if (subject->problem.n != 3 || !differentiate(subject, scheme, tangent)) {
-        return INFINITY;
-    }
+    (void)dt;
+    return areas_defect(subject, scheme, derivative, 1);
+}
+
+static double conformal_form_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                                    double dt, const struct derivative *derivative)
+{
+    return areas_defect(subject, scheme, derivative, exp(-subject->friction * dt));
+}
+
+static struct defect of_form(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                             double tolerance)
+{
+    return of_derivative(subject, scheme, dt, tolerance, 2, form_defect);
+}
+
+double gm_symplecticity_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                               double tolerance)
+{
+    return decide(subject, scheme, subject->dt, tolerance, of_form);
+}
+
+static struct defect of_conformal_form(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                                       double dt, double tolerance)
+{
+    return of_derivative(subject, scheme, dt, tolerance, 2, conformal_form_defect);
+}
+
+double gm_conformal_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
+{
+    return decide(subject, scheme, subject->dt, tolerance, of_conformal_form);
+}
+
+static double determinant_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                                 const struct derivative *derivative)
+{
+    const double(*tangent)[MOST] = derivative->at;
+    (void)subject;
+    (void)scheme;
+    (void)dt;
     double determinant = 0;
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -89,45 +237,107 @@ double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme
     return fabs(determinant - 1);
 }
 
+static struct defect of_determinant(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                                    double dt, double tolerance)
+{
+    return of_derivative(subject, scheme, dt, tolerance, 3, determinant_defect);
+}
+
+double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
+{
+    return subject->problem.n == 3 ? decide(subject, scheme, subject->dt, tolerance, of_determinant) : NAN;
+}
+
 /* How far a run that turns round ends from its start. Where the scheme chooses its steps, a few of them, so
    that it has chosen some. */
-static double return_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, bool reflected)
+static struct defect of_way_back(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                                 bool reflected)
 {
-    const bool own_time = scheme->family->own_time;
-    double start[MOST], back[MOST];
+    const long steps = scheme->family->own_time ? 3 : 1;
+    const size_t n = gm_subject_components(subject, scheme);
+    const double scale = subject->scale > 0 ? subject->scale : 1, push = 1e-12 * scale;
+    double start[MOST], back[MOST], pushed[MOST];
     gm_subject_start(subject, scheme, start);
-    if (!gm_subject_turn(subject, scheme, own_time ? subject->dt / 4 : subject->dt, own_time ? 3 : 1,
-                         reflected, back)) {
-        return INFINITY;
+    if (!gm_subject_turn(subject, scheme, dt, steps, reflected, 0, back)) {
+        return (struct defect){.size = NAN};
     }
-    return gm_distance(back, start, gm_subject_components(subject, scheme));
+    const double size = gm_distance(back, start, n) / scale;
+    /* so many times round-off is stretched on the way back */
+    const bool told = gm_subject_turn(subject, scheme, dt, steps, reflected, push, pushed);
+    return (struct defect){size, told && size > 1e-14 * gm_distance(pushed, back, n) / push};
 }
 
-double gm_symmetry_defect(const struct gm_subject *subject, const struct gm_scheme *scheme)
+static struct defect of_return(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                               double tolerance)
 {
-    return return_defect(subject, scheme, false);
+    return (void)tolerance, of_way_back(subject, scheme, dt, false);
 }
 
-double gm_reversibility_defect(const struct gm_subject *subject, const struct gm_scheme *scheme)
+static struct defect of_reflection(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                                   double dt, double tolerance)
 {
-    return return_defect(subject, scheme, true);
+    return (void)tolerance, of_way_back(subject, scheme, dt, true);
+}
+
+static double step_of(const struct gm_subject *subject, const struct gm_scheme *scheme)
+{
+    return scheme->family->own_time ? subject->dt / 4 : subject->dt;
+}
+
+double gm_symmetry_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
+{
+    return decide(subject, scheme, step_of(subject, scheme), tolerance, of_return);
+}
+
+double gm_reversibility_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                               double tolerance)
+{
+    return decide(subject, scheme, step_of(subject, scheme), tolerance, of_reflection);
+}
+
+/* The state after many smaller steps; false: they fail. */
+static bool go_on(const struct gm_subject *subject, const struct gm_scheme *scheme, double *end)
+{
+    /* A scheme that chooses its step may end for want of one: what it has done counts. */
+    const bool own_time = scheme->family->own_time;
+    const double dt = own_time ? subject->dt / 200 : subject->dt / 12;
+    double whole[MOST];
+    gm_subject_start(subject, scheme, whole);
+    return gm_subject_advance(subject, scheme, dt, own_time ? 1000 : 100, 1, whole, end) || own_time;
+}
+
+struct gm_manifold_defects gm_constraint_defects(const struct gm_subject *subject,
+                                                 const struct gm_scheme *scheme)
+{
+    double end[MOST];
+    return go_on(subject, scheme, end) ? gm_manifold_defects(&subject->problem, end)
+                                       : (struct gm_manifold_defects){NAN, NAN};
+}
+
+static double change_of(double before, double after)
+{
+    return fabs(after - before) / fmax(1, fabs(before));
+}
+
+double gm_drift_of(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                   const struct gm_kept *kept)
+{
+    double end[MOST];
+    return go_on(subject, scheme, end)
+               ? change_of(kept->value(kept->data, subject->start), kept->value(kept->data, end))
+               : NAN;
 }
 
 double gm_drift(const struct gm_subject *subject, const struct gm_scheme *scheme,
                 gm_invariant *const *quantities, size_t count)
 {
-    /* A scheme that chooses its step may end for want of one: what it has done counts. */
-    const bool own_time = scheme->family->own_time;
-    const double dt = own_time ? subject->dt / 200 : subject->dt / 12;
-    double whole[MOST], end[MOST], largest = 0;
-    gm_subject_start(subject, scheme, whole);
-    if (!gm_subject_advance(subject, scheme, dt, own_time ? 1000 : 100, 1, whole, end) && !own_time) {
-        return INFINITY;
+    double end[MOST], largest = 0;
+    if (!go_on(subject, scheme, end)) {
+        return NAN;
     }
     for (size_t i = 0; i < count && quantities[i]; i++) {
-        const double before = quantities[i](&subject->problem, subject->start);
-        const double after = quantities[i](&subject->problem, end);
-        largest = fmax(largest, fabs(after - before) / fmax(1, fabs(before)));
+        largest = fmax(largest, change_of(quantities[i](&subject->problem, subject->start),
+                                          quantities[i](&subject->problem, end)));
     }
     return largest;
 }

@@ -10,21 +10,32 @@
 #include "core/ode/certify/quantities.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+#include "core/ode/variational/manifold.h"
 
 static unsigned facets(const struct gm_problem *problem)
 {
     const struct gm_ode *ode = gm_ode_of(problem);
     const struct gm_split *split = ode->split;
-    const struct gm_hamiltonian *hamiltonian = ode->hamiltonian;
+    const bool held = gm_action_constraints(problem) > 0; /* its energy generates another motion, */
+    const struct gm_hamiltonian *hamiltonian = held ? NULL : ode->hamiltonian;
+    const bool action = gm_has_action(problem);
     return (split ? GM_NEEDS_SPLIT : 0) | (hamiltonian ? GM_NEEDS_HAMILTONIAN : 0) |
            (ode->lagrangian ? GM_NEEDS_LAGRANGIAN : 0) | (ode->fast_linear ? GM_NEEDS_FAST_LINEAR : 0) |
            (ode->kepler_split ? GM_NEEDS_KEPLER_SPLIT : 0) | (ode->volume ? GM_NEEDS_VOLUME : 0) |
            (ode->quadratic ? GM_NEEDS_QUADRATIC : 0) | (split && split->nystrom ? GM_NEEDS_NYSTROM : 0) |
            (hamiltonian && !split ? GM_NEEDS_INSEPARABLE : 0) |
-           (hamiltonian && !hamiltonian->partial ? GM_NEEDS_ENERGY : 0);
+           (hamiltonian && !hamiltonian->partial ? GM_NEEDS_ENERGY : 0) |
+           (action && !held ? GM_NEEDS_ACTION : 0) | (action && held ? GM_NEEDS_CONSTRAINTS : 0) |
+           (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0);
 }
 
 static const struct gm_facet_words words[] = {
+    {GM_NEEDS_CONSTRAINTS, "constraints", "systems with constraints"},
+    {GM_NEEDS_FRICTION, "a friction -c p, of the same c for all momenta and beside which no other force acts",
+     "systems with a friction -c p"},
+    {GM_NEEDS_ACTION, "a Lagrangian, or a Hamiltonian T(p) + V(q) with a quadratic T, without constraints",
+     "Lagrangian systems, and Hamiltonian ones of quadratic kinetic energy T(p)"},
     {GM_NEEDS_VOLUME, "parts without divergence that can be solved", "fields without divergence, in pieces"},
     {GM_NEEDS_KEPLER_SPLIT, "a Kepler part with a perturbation", "perturbed Kepler problems"},
     {GM_NEEDS_FAST_LINEAR, "a stiff part that is linear", "systems with a stiff linear part"},
@@ -48,42 +59,201 @@ static gm_loop *loop(const struct gm_scheme *scheme, const struct gm_problem *pr
     return loops ? loops->over_kernels[scheme->family->over_kernels] : NULL;
 }
 
+static void note(struct gm_certificate *certificate, enum gm_claim claim, double defect, const char *problem)
+{
+    if (isnan(defect)) {
+        gm_certificate_undecided(certificate, claim, problem);
+    } else {
+        gm_certificate_note(certificate, claim, defect, problem);
+    }
+}
+
+static double tolerance(struct gm_certificate *certificate, enum gm_claim claim)
+{
+    return gm_certificate_claim(certificate, claim)->tolerance;
+}
+
 static void measure(struct gm_certificate *certificate, const struct gm_subject *subject)
 {
     const struct gm_scheme *scheme = certificate->scheme;
     const char *name = subject->problem.name;
-    const double order = gm_measure_order(subject, scheme);
-    /* what counts is the lowest: before the asymptotic regime an order may look higher than it is */
-    if (!certificate->order_problem[0] || !(order >= certificate->order)) {
+    struct gm_ladder ladder;
+    const double order = gm_measure_order(subject, scheme, &ladder);
+    /* what counts is the lowest of those that are settled: before the asymptotic regime an order may look
+       higher than it is, and where errors cancel, lower */
+    const bool first = !certificate->order_problem[0] || isnan(certificate->order);
+    if (first ||
+        (ladder.settled == certificate->ladder.settled ? order < certificate->order : ladder.settled)) {
         certificate->order = order;
+        certificate->ladder = ladder;
         certificate->order_problem = name;
     }
-    gm_certificate_note(certificate, GM_SYMMETRIC, gm_symmetry_defect(subject, scheme), name);
-    if (subject->hamiltonian) {
-        gm_certificate_note(certificate, GM_REVERSIBLE, gm_reversibility_defect(subject, scheme), name);
+    note(certificate, GM_SYMMETRIC, gm_symmetry_defect(subject, scheme, tolerance(certificate, GM_SYMMETRIC)),
+         name);
+    if (subject->hamiltonian && !subject->uneven) {
+        note(certificate, GM_REVERSIBLE,
+             gm_reversibility_defect(subject, scheme, tolerance(certificate, GM_REVERSIBLE)), name);
     }
     if (!scheme->family->own_time) {
         if (subject->hamiltonian) {
-            gm_certificate_note(certificate, GM_SYMPLECTIC, gm_symplecticity_defect(subject, scheme), name);
+            note(certificate, GM_SYMPLECTIC,
+                 gm_symplecticity_defect(subject, scheme, tolerance(certificate, GM_SYMPLECTIC)), name);
+        }
+        if (subject->friction != 0) {
+            note(certificate, GM_CONFORMAL,
+                 gm_conformal_defect(subject, scheme, tolerance(certificate, GM_CONFORMAL)), name);
         }
         if (subject->volume) {
-            gm_certificate_note(certificate, GM_KEEPS_VOLUME, gm_volume_defect(subject, scheme), name);
+            note(certificate, GM_KEEPS_VOLUME,
+                 gm_volume_defect(subject, scheme, tolerance(certificate, GM_KEEPS_VOLUME)), name);
         }
     }
+    const struct {
+        enum gm_claim claim;
+        gm_invariant *const *quantities;
+    } kept[] = {{GM_KEEPS_LINEAR, subject->linear},
+                {GM_KEEPS_QUADRATIC, subject->quadratic},
+                {GM_KEEPS_BILINEAR, subject->bilinear},
+                {GM_KEEPS_MOMENTUM_MAPS, subject->momentum}};
     if (subject->hamiltonian) {
-        gm_certificate_note(certificate, GM_KEEPS_ENERGY, gm_energy_drift(subject, scheme), name);
+        note(certificate, GM_KEEPS_ENERGY, gm_energy_drift(subject, scheme), name);
     }
-    if (subject->linear[0]) {
-        gm_certificate_note(certificate, GM_KEEPS_LINEAR,
-                            gm_drift(subject, scheme, subject->linear, GM_SUBJECT_INVARIANTS), name);
+    if (gm_action_constraints(&subject->problem) > 0) {
+        const struct gm_manifold_defects defects = gm_constraint_defects(subject, scheme);
+        note(certificate, GM_KEEPS_CONSTRAINTS, defects.constraint, name);
+        note(certificate, GM_KEEPS_HIDDEN, defects.hidden, name);
     }
-    if (subject->quadratic[0]) {
-        gm_certificate_note(certificate, GM_KEEPS_QUADRATIC,
-                            gm_drift(subject, scheme, subject->quadratic, GM_SUBJECT_INVARIANTS), name);
+    for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++) {
+        if (kept[i].quantities[0]) {
+            note(certificate, kept[i].claim,
+                 gm_drift(subject, scheme, kept[i].quantities, GM_SUBJECT_INVARIANTS), name);
+        }
     }
-    if (subject->bilinear[0]) {
-        gm_certificate_note(certificate, GM_KEEPS_BILINEAR,
-                            gm_drift(subject, scheme, subject->bilinear, GM_SUBJECT_INVARIANTS), name);
+}
+
+static void withhold(struct gm_certificate *certificate, enum gm_claim claim, const char *reason)
+{
+    struct gm_verdict *verdict = gm_certificate_claim(certificate, claim);
+    verdict->reason = verdict->measured || verdict->undecided ? NULL : reason;
+}
+
+/* A polynomial's differences of this many steps along a direction, beside the size of its values. */
+static double differences(const struct gm_subject *subject, const struct gm_kept *kept, int steps,
+                          const double *direction)
+{
+    static const double weights[][4] = {{0}, {-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
+    double y[GM_SUBJECT_COMPONENTS], sum = 0, size = 0;
+    for (int i = 0; i <= steps; i++) {
+        for (size_t c = 0; c < subject->problem.n; c++) {
+            y[c] = subject->start[c] + i * direction[c];
+        }
+        const double value = weights[steps][i] * kept->value(kept->data, y);
+        sum += value;
+        size += fabs(value);
+    }
+    return size > 0 ? fabs(sum) / size : 0;
+}
+
+/* Which claim a kept quantity tells of: whether it is linear, of the form q' A p, quadratic; of the form p'
+   x(q), x affine, it is the momentum map of the symmetry whose generator is x (Noether's theorem, read
+   backwards). 0: none. */
+static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept *kept)
+{
+    enum { DIRECTIONS = 4 };
+    const double none = 1e-11;
+    const size_t n = subject->problem.n, half = n / 2;
+    bool varies = false, linear = true, quadratic = true, bilinear = true, of_momenta = true;
+    for (int k = 1; k <= DIRECTIONS; k++) {
+        double all[GM_SUBJECT_COMPONENTS], q[GM_SUBJECT_COMPONENTS] = {0}, p[GM_SUBJECT_COMPONENTS] = {0};
+        for (size_t c = 0; c < n; c++) {
+            all[c] = subject->scale * sin(k * (double)(3 * c + 1)); /* any direction */
+            *(c < half ? &q[c] : &p[c]) = all[c];
+        }
+        varies = varies || !(differences(subject, kept, 1, all) < none);
+        linear = linear && differences(subject, kept, 2, all) < none;
+        quadratic = quadratic && differences(subject, kept, 3, all) < none;
+        bilinear =
+            bilinear && differences(subject, kept, 2, q) < none && differences(subject, kept, 2, p) < none;
+        of_momenta =
+            of_momenta && fabs(kept->value(kept->data, q)) <= none * fabs(kept->value(kept->data, all));
+    }
+    const unsigned map = bilinear && of_momenta && 2 * half == n ? GM_KEEPS_MOMENTUM_MAPS : 0;
+    return !varies      ? 0
+           : linear     ? GM_KEEPS_LINEAR | map
+           : !quadratic ? 0
+           : bilinear   ? GM_KEEPS_BILINEAR | GM_KEEPS_QUADRATIC | map
+                        : GM_KEEPS_QUADRATIC;
+}
+
+/* Whether the energy is that of the momenta turned round. */
+static bool is_even(const struct gm_subject *subject)
+{
+    double y[GM_SUBJECT_COMPONENTS], turned[GM_SUBJECT_COMPONENTS];
+    for (int k = 1; k <= 4; k++) {
+        for (size_t c = 0; c < subject->problem.n; c++) {
+            y[c] = subject->start[c] + 0.1 * subject->scale * sin(k * (double)(3 * c + 1));
+            turned[c] = c < subject->problem.n / 2 ? y[c] : -y[c];
+        }
+        const double there = gm_energy(&subject->problem, y), back = gm_energy(&subject->problem, turned);
+        if (!(fabs(there - back) <= 1e-12 * (fabs(there) + fabs(back)))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void certify_on(const struct gm_scheme *scheme, const struct gm_certified_system *system,
+                       struct gm_certificate *certificate)
+{
+    const struct gm_ode *ode = gm_ode_of(system->problem);
+    const size_t n = system->problem->n;
+    struct gm_subject subject = {
+        .problem = *system->problem, .dt = system->dt, .unit = 16 * fabs(system->dt)};
+    for (size_t c = 0; c < n; c++) {
+        subject.start[c] = system->start[c];
+        subject.scale = fmax(subject.scale, fabs(system->start[c]));
+    }
+    subject.scale = subject.scale > 0 ? subject.scale : 1;
+    subject.hamiltonian = ode->hamiltonian && !ode->hamiltonian->partial && n % 2 == 0;
+    subject.friction = ode->action && ode->action->friction ? ode->action->friction(system->problem) : 0;
+    subject.volume = ode->volume && n == 3;
+    subject.uneven = subject.hamiltonian && !is_even(&subject);
+    measure(certificate, &subject);
+    certificate->order_problem = system->problem->name;
+    for (size_t i = 0; i < system->kept_count; i++) {
+        const unsigned claims = claims_of(&subject, &system->kept[i]);
+        for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+            if (claims >> bit & 1) {
+                note(certificate, (enum gm_claim)(1u << bit), gm_drift_of(&subject, scheme, &system->kept[i]),
+                     system->kept[i].name);
+            }
+        }
+    }
+    if (ode->rough) {
+        certificate->order = NAN;
+        certificate->ladder.settled = false;
+        certificate->order_reason = "the system is not smooth, so that no order can be told";
+    } else if (isnan(certificate->order)) {
+        certificate->order_reason = "no errors of these steps stand clear of round-off: take another dt";
+    }
+    certificate->order_holds = !(certificate->order <= 0.95 * scheme->order) || !certificate->ladder.settled;
+    const char *const no_energy = "the system has no Hamiltonian of the whole state";
+    withhold(certificate, GM_SYMPLECTIC, subject.hamiltonian ? "the scheme chooses its steps" : no_energy);
+    withhold(certificate, GM_REVERSIBLE,
+             subject.hamiltonian ? "its Hamiltonian changes where the momenta turn round" : no_energy);
+    withhold(certificate, GM_KEEPS_ENERGY, no_energy);
+    withhold(certificate, GM_KEEPS_VOLUME, "the system is not of three components without divergence");
+    withhold(certificate, GM_KEEPS_LINEAR, "the system names no linear invariant");
+    withhold(certificate, GM_KEEPS_QUADRATIC, "the system names no quadratic invariant");
+    withhold(certificate, GM_KEEPS_BILINEAR, "the system names no invariant of the form q' A p");
+    withhold(certificate, GM_KEEPS_MOMENTUM_MAPS, "the system names no symmetry that moves q by affine maps");
+    withhold(certificate, GM_CONFORMAL, "the system has no friction -c p");
+    withhold(certificate, GM_KEEPS_CONSTRAINTS, "the system has no constraints");
+    withhold(certificate, GM_KEEPS_HIDDEN, "the system has no constraints");
+    for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+        withhold(certificate, (enum gm_claim)(1u << bit),
+                 certificate->claims[bit].reason ? certificate->claims[bit].reason
+                                                 : "it means nothing of ordinary differential equations");
     }
 }
 
@@ -115,6 +285,8 @@ const struct gm_kind gm_kind_ode = {
     .facets = facets,
     .loop = loop,
     .certify = certify,
+    .certify_on = certify_on,
+    .most_certified = GM_SUBJECT_COMPONENTS,
     .families = families,
     .quantities = gm_ode_quantities,
 };

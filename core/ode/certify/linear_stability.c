@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/ode/families/composition.h"
 #include "core/ode/families/explicit_runge_kutta.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/implicit_runge_kutta.h"
@@ -16,7 +17,8 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 
-enum { STAGES = 8 };
+enum { STAGES = GM_IMPLICIT_STAGES };
+_Static_assert((int)GM_EXPLICIT_STAGES <= (int)STAGES, "room for every tableau");
 
 enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme)
 {
@@ -156,8 +158,7 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
 {
     const double complex z = re + im * I;
     if (scheme->family == &gm_family_explicit_runge_kutta) {
-        const struct gm_explicit_tableau *tableau =
-            gm_explicit_tableau_of(*(const enum gm_explicit_row *)scheme->coefficients);
+        const struct gm_explicit_tableau *tableau = gm_explicit_tableau_of(scheme->coefficients);
         return cabs(stability_function(tableau->stages, tableau->a[0], GM_EXPLICIT_STAGES, tableau->b, z));
     }
     if (scheme->family == &gm_family_implicit_runge_kutta) {
@@ -168,6 +169,15 @@ double gm_linear_growth_known(const struct gm_scheme *scheme, double re, double 
                                           gm_composition_fraction(row->composition, i) * z);
         }
         return cabs(product);
+    }
+    if (scheme->family == &gm_family_composition || scheme->family == &gm_family_composition_carrying) {
+        const struct gm_substeps *substeps = scheme->coefficients;
+        double product = gm_linear_test_of(scheme) == GM_TEST_PLANE ? 1 : NAN;
+        for (int i = 0; i < substeps->count; i++) {
+            const double fraction = substeps->at[i].fraction;
+            product *= gm_linear_growth_known(substeps->at[i].scheme, fraction * re, fraction * im);
+        }
+        return product;
     }
     return scheme->family == &gm_family_splitting ? splitting_radius(scheme->coefficients, im) : NAN;
 }

@@ -97,7 +97,7 @@ static double slope(const double *x, const double *y, int count)
 static double measure_by_tolerance(const struct gm_subject *subject, const struct gm_scheme *scheme)
 {
     enum { LADDER = 4 };
-    const double until = 10;
+    const double until = 10 * (subject->unit > 0 ? subject->unit : 1);
     double exact[TIMES][GM_SUBJECT_COMPONENTS], x[LADDER], e[LADDER];
     if (!solve_at_times(subject, until, exact)) {
         return NAN;
@@ -110,26 +110,38 @@ static double measure_by_tolerance(const struct gm_subject *subject, const struc
     return slope(x, e, LADDER);
 }
 
-double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme *scheme)
+double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme *scheme,
+                        struct gm_ladder *ladder)
 {
-    enum { PER_OCTAVE = 4, LADDER = 9 * PER_OCTAVE, FITTED = PER_OCTAVE + 1 };
+    enum { PER_OCTAVE = 4, COARSER = 2 * PER_OCTAVE, FITTED = PER_OCTAVE + 1 };
+    *ladder = (struct gm_ladder){.count = 0};
     if (scheme->order == 0) {
-        return measure_by_tolerance(subject, scheme);
+        const double order = measure_by_tolerance(subject, scheme);
+        ladder->settled = !isnan(order);
+        return order;
     }
     /* The higher the order, the longer the time until round-off is small beside the error. The variational
        schemes that choose their step may not reach a turning point. */
     const bool own_time = scheme->family->own_time;
-    const double until = scheme->needs & GM_NEEDS_LAGRANGIAN ? 0.4 : scheme->order < 5 ? 2 : 10;
-    const double plateau = 1e-12, ceiling = 0.1;
+    const double unit = subject->unit > 0 ? subject->unit : 1,
+                 scale = subject->scale > 0 ? subject->scale : 1;
+    const double span = scheme->needs & GM_NEEDS_LAGRANGIAN ? 0.4 : scheme->order < 5 ? 2 : 10;
+    const double plateau = 1e-12 * scale, ceiling = 0.1 * scale, until = span * unit;
     double exact[TIMES][GM_SUBJECT_COMPONENTS];
     if (!own_time && !solve_at_times(subject, until, exact)) {
         return NAN;
     }
     /* the finest steps, a factor of two apart, whose error stands clear of round-off */
-    double x[LADDER], e[LADDER];
+    double x[GM_LADDER], e[GM_LADDER];
     int count = 0;
-    for (int i = 0; i < LADDER; i++) {
-        const long between = lround((own_time ? 8 : until) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE));
+    long between = 0;
+    /* of the highest orders that is where steps are large */
+    for (int i = scheme->order > 8 ? -COARSER : 0; i < GM_LADDER - COARSER; i++) {
+        const long before = between;
+        between = lround((own_time ? 8 : span) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE));
+        if (between == before) {
+            continue;
+        }
         const double dt = until / (double)(TIMES * between);
         const struct gm_settings settings = {.compensated = 1, .binding = 5, .tau0 = dt};
         const double error = own_time ? error_at_own_time(subject, scheme, &settings, dt, until)
@@ -138,10 +150,18 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
             break;
         }
         if (error < ceiling) {
-            x[count] = log(dt);
-            e[count] = log(error);
-            count++;
+            x[count] = log(ladder->dt[count] = dt);
+            e[count] = log(ladder->error[count] = error);
+            ladder->count = (size_t)++count;
         }
     }
-    return count < FITTED ? NAN : slope(x + count - FITTED, e + count - FITTED, FITTED);
+    if (count < FITTED) {
+        return NAN;
+    }
+    const double finest = slope(x + count - FITTED, e + count - FITTED, FITTED);
+    const int earlier = count - FITTED - PER_OCTAVE;
+    /* errors that do not fall at all are settled, too */
+    ladder->settled =
+        earlier >= 0 && fabs(slope(x + earlier, e + earlier, FITTED) - finest) < 0.05 * fmax(finest, 1);
+    return finest;
 }

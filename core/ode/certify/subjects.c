@@ -8,7 +8,7 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 
-static const double well = 0.3, no_well = 0, perturbation = 0.05, omega = 5, strength = 2;
+static const double well = 0.3, no_well = 0, friction = 0.4, perturbation = 0.05, omega = 5, strength = 2;
 static const double abc_constants[] = {1, 0.8, 0.6};
 static const double trace_free[] = {0.4, 1.1, -0.3, -0.7, 0.5, 0.2, 0.9, -0.6, -0.9};
 
@@ -34,6 +34,12 @@ static double angular_momentum(const struct gm_problem *problem, const double *y
 {
     (void)problem;
     return y[0] * y[3] - y[1] * y[2];
+}
+
+static double vertical_momentum(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    return y[0] * y[4] - y[1] * y[3];
 }
 
 static double impulse_x(const struct gm_problem *problem, const double *y)
@@ -67,14 +73,29 @@ static const struct {
     {&gm_problem_particles, &well, {.start = {0.5, -0.4, 0.3, 0.8}, .dt = 0.6, .hamiltonian = true}},
     {&gm_problem_particles,
      &no_well,
-     {.start = {0.7, -0.2, 0.4, -0.9}, .dt = 0.6, .hamiltonian = true, .linear = {momentum}}},
+     {.start = {0.7, -0.2, 0.4, -0.9},
+      .dt = 0.6,
+      .hamiltonian = true,
+      .linear = {momentum},
+      .momentum = {momentum}}},
     {&gm_problem_kepler,
      NULL,
      {.start = {0.8, 0.1, -0.2, 1.2},
       .dt = 0.3,
       .hamiltonian = true,
       .quadratic = {angular_momentum},
-      .bilinear = {angular_momentum}}},
+      .bilinear = {angular_momentum},
+      .momentum = {angular_momentum}}},
+    {&gm_problem_damped_pendulum,
+     &friction,
+     {.start = {0.6, 1.1}, .dt = 0.6, .only = GM_NEEDS_FRICTION, .friction = friction}},
+    {&gm_problem_spherical_pendulum,
+     NULL,
+     {.start = {0.6, 0, -0.8, 0.4, 0.7, 0.3},
+      .dt = 0.3,
+      .only = GM_NEEDS_CONSTRAINTS,
+      .hamiltonian = true,
+      .momentum = {vertical_momentum}}},
     {&gm_problem_henon_heiles, NULL, {.start = {0.1, -0.1, 0.3, 0.2}, .dt = 0.6, .hamiltonian = true}},
     {&gm_problem_product, NULL, {.start = {0.5, -0.6}, .dt = 0.3, .hamiltonian = true}},
     {&gm_problem_vortices_four,
@@ -208,7 +229,7 @@ static void reflect(const struct gm_subject *subject, const struct gm_scheme *sc
 
 /* Two copies of phase space remember nothing else. */
 static bool turn_doubled(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
-                         long steps, bool reflected, double *end)
+                         long steps, bool reflected, double push, double *end)
 {
     double start[2 * GM_SUBJECT_COMPONENTS], there[2 * GM_SUBJECT_COMPONENTS];
     gm_subject_start(subject, scheme, start);
@@ -218,6 +239,7 @@ static bool turn_doubled(const struct gm_subject *subject, const struct gm_schem
     if (reflected) {
         reflect(subject, scheme, there);
     }
+    there[0] += push;
     const bool good = gm_subject_advance(subject, scheme, reflected ? dt : -dt, steps, 1, there, end);
     if (reflected) {
         reflect(subject, scheme, end);
@@ -226,20 +248,24 @@ static bool turn_doubled(const struct gm_subject *subject, const struct gm_schem
 }
 
 bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt, long steps,
-                     bool reflected, double *end)
+                     bool reflected, double push, double *end)
 {
     if (scheme->family->doubled) {
-        return turn_doubled(subject, scheme, dt, steps, reflected, end);
+        return turn_doubled(subject, scheme, dt, steps, reflected, push, end);
     }
     const struct gm_settings settings = settings_for(dt);
     struct gm_run *run = gm_run_open(&subject->problem, scheme, &settings, 0, dt, subject->start);
     const size_t bytes = subject->problem.n * sizeof *end;
     bool good = run && gm_run_advance(run, steps) == GM_OK;
-    if (good && reflected) {
+    if (good && (reflected || push != 0)) {
         memcpy(end, gm_run_state(run), bytes);
-        reflect(subject, scheme, end);
-        gm_run_set_state(run, end);
-    } else if (good) {
+        if (reflected) {
+            reflect(subject, scheme, end);
+        }
+        end[0] += push;
+        gm_run_set_state(run, end, NULL);
+    }
+    if (good && !reflected) {
         gm_run_set_step(run, -dt);
     }
     good = good && gm_run_advance(run, steps) == GM_OK;
@@ -251,13 +277,4 @@ bool gm_subject_turn(const struct gm_subject *subject, const struct gm_scheme *s
     }
     gm_run_close(run);
     return good;
-}
-
-double gm_distance(const double *a, const double *b, size_t n)
-{
-    double largest = 0;
-    for (size_t i = 0; i < n; i++) {
-        largest = fmax(largest, fabs(a[i] - b[i]));
-    }
-    return largest;
 }

@@ -16,8 +16,8 @@
 
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/members.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 
 enum { NODES = 8, PICARD_ITERATIONS = 100, NEWTON_ITERATIONS = 60 };
 

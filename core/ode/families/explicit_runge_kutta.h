@@ -6,7 +6,8 @@
 #ifndef GM_CORE_ODE_FAMILIES_EXPLICIT_RUNGE_KUTTA_H
 #define GM_CORE_ODE_FAMILIES_EXPLICIT_RUNGE_KUTTA_H
 
-enum { GM_EXPLICIT_STAGES = 4 };
+/* Of a row of the list, and of any scheme. */
+enum { GM_EXPLICIT_LISTED_STAGES = 4, GM_EXPLICIT_STAGES = 16 };
 
 struct gm_explicit_tableau {
     int stages;
@@ -26,10 +27,17 @@ enum gm_explicit_row {
 #define GM_EXPLICIT(identifier, ...) GM_EXPLICIT_##identifier,
 #include "core/ode/families/explicit_runge_kutta.def"
 #undef GM_EXPLICIT
-    GM_EXPLICIT_COUNT
+    GM_EXPLICIT_COUNT,
+    GM_EXPLICIT_OWN = GM_EXPLICIT_COUNT /* none of it: a struct gm_explicit_own */
 };
 
-/* The row's tableau. */
-const struct gm_explicit_tableau *gm_explicit_tableau_of(enum gm_explicit_row row);
+/* A method that is brought along, whose tableau is known at run time alone. */
+struct gm_explicit_own {
+    enum gm_explicit_row row; /* GM_EXPLICIT_OWN */
+    struct gm_explicit_tableau tableau;
+};
+
+/* The tableau of a scheme's coefficients: of a row of the list, or of one's own. */
+const struct gm_explicit_tableau *gm_explicit_tableau_of(const enum gm_explicit_row *row);
 
 #endif

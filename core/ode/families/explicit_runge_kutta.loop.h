@@ -6,7 +6,7 @@ GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struc
                                 struct K(counts) * counts)
 {
     (void)stiff;
-    real k[GM_EXPLICIT_STAGES][GM_COMPONENTS];
+    real k[GM_EXPLICIT_LISTED_STAGES][GM_COMPONENTS];
 #pragma GCC unroll 8
     for (int i = 0; i < tableau->stages; i++) {
         real stage[GM_COMPONENTS];
@@ -39,18 +39,96 @@ GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struc
 #define GM_ABREAST K(ABREAST)
 #include "core/ode/kernel/drive.h"
 
+/* A tableau that is known at run time alone, without its zeros, multiplied by h: stage i adds entries
+   from[i] .. from[i + 1), the last row being b. */
+struct K(explicit_terms) {
+    int stages, from[GM_EXPLICIT_STAGES + 2];
+    struct {
+        int of; /* stage */
+        double factor;
+    } terms[GM_EXPLICIT_STAGES * (GM_EXPLICIT_STAGES + 1)];
+};
+
+GM_INLINE mask K(explicit_own_step)(const struct K(explicit_terms) * table, struct K(block) * block, double h,
+                                    const void *parameters, bool compensated, bool stiff,
+                                    struct K(counts) * counts)
+{
+    (void)h;
+    (void)stiff;
+    real k[GM_EXPLICIT_STAGES][GM_COMPONENTS];
+    for (int i = 0; i < table->stages; i++) {
+        real stage[GM_COMPONENTS];
+        for (int c = 0; c < GM_COMPONENTS; c++) {
+            stage[c] = block->y[c];
+        }
+        for (int t = table->from[i]; t < table->from[i + 1]; t++) {
+            for (int c = 0; c < GM_COMPONENTS; c++) {
+                stage[c] += table->terms[t].factor * k[table->terms[t].of][c];
+            }
+        }
+        K(field)(stage, k[i], parameters);
+    }
+    real increment[GM_COMPONENTS];
+    int t = table->from[table->stages];
+    for (int c = 0; c < GM_COMPONENTS; c++) {
+        increment[c] = table->terms[t].factor * k[0][c];
+    }
+    for (t++; t < table->from[table->stages + 1]; t++) {
+        for (int c = 0; c < GM_COMPONENTS; c++) {
+            increment[c] += table->terms[t].factor * k[table->terms[t].of][c];
+        }
+    }
+    for (int c = 0; c < GM_COMPONENTS; c++) {
+        K(add)(&block->y[c], &block->carry[c], increment[c], compensated);
+    }
+    counts->evaluations += (unsigned long)(table->stages * counts->lanes);
+    return K(all)();
+}
+
+#define GM_DRIVE K(explicit_own_drive)
+#define GM_ROW struct K(explicit_terms)
+#define GM_STEP K(explicit_own_step)
+#define GM_ABREAST 1
+#include "core/ode/kernel/drive.h"
+
+/* The weights are all there, as in the loops of the list. */
+static struct gm_progress K(explicit_own_run)(const struct gm_task *task,
+                                              const struct gm_explicit_tableau *tableau)
+{
+    struct K(explicit_terms) table = {.stages = tableau->stages};
+    int count = 0;
+    for (int i = 0; i <= tableau->stages; i++) {
+        const bool weights = i == tableau->stages;
+        const double *row = weights ? tableau->b : tableau->a[i];
+        for (int j = 0; j < i; j++) {
+            if (weights || row[j] != 0) {
+                table.terms[count].of = j;
+                table.terms[count++].factor = task->dt * row[j];
+            }
+        }
+        table.from[i + 1] = count;
+    }
+    return K(explicit_own_drive)(task, &table, task->carry != NULL);
+}
+
 __attribute__((unused)) static struct gm_progress K(explicit_runge_kutta_run)(const struct gm_task *task)
 {
     const enum gm_explicit_row *row = task->scheme->coefficients;
+    const struct gm_explicit_tableau *tableau =
+        NULL; /* that has no loop of its own, as compensated ones have none */
     switch (*row) {
 #define GM_EXPLICIT(identifier, ...)                                                                         \
     case GM_EXPLICIT_##identifier:                                                                           \
-        return task->carry ? K(explicit_drive)(task, &gm_explicit_##identifier, true)                        \
-                           : K(explicit_drive)(task, &gm_explicit_##identifier, false);
+        if (!task->carry) {                                                                                  \
+            return K(explicit_drive)(task, &gm_explicit_##identifier, false);                                \
+        }                                                                                                    \
+        tableau = &gm_explicit_##identifier;                                                                 \
+        break;
 #include "core/ode/families/explicit_runge_kutta.def"
 #undef GM_EXPLICIT
-    case GM_EXPLICIT_COUNT:
+    case GM_EXPLICIT_OWN:
+        tableau = &((const struct gm_explicit_own *)row)->tableau;
         break;
     }
-    return (struct gm_progress){.status = GM_NO_CONVERGENCE};
+    return K(explicit_own_run)(task, tableau);
 }

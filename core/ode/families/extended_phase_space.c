@@ -20,8 +20,8 @@
 
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
-#include "core/ode/families/members.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 
 /* One copy moves by f = (H_p, -H_q) taken at (q of one, p of the other): q of the second, p of the first. */
 static void shear(const struct gm_problem *problem, double h, double *first, double *second, double *scratch)

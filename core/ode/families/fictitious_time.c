@@ -22,8 +22,8 @@
 #include <stdlib.h>
 
 #include "core/ode/families/families.h"
-#include "core/ode/families/members.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 
 /* One step of the state (q1, q2, p1, p2) and of the time; it evaluates the force once. */
 typedef void fictitious_step(const struct gm_problem *problem, double ds, double binding, double *y,

@@ -12,9 +12,9 @@
 #include <string.h>
 
 #include "core/ode/families/families.h"
-#include "core/ode/families/members.h"
-#include "core/ode/families/runge_kutta_any.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+#include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
 #define SQRT2 1.4142135623730950488016887242097
@@ -68,75 +68,229 @@ static const struct gm_implicit_row sdirk2 = {.stages = 2,
                                               .b = {SQRT2 / 2, 1 - SQRT2 / 2},
                                               ONE_STEP};
 
-/* The loop where n is chosen at run time, through the problem's field: by fixed-point iteration, and by
-   Newton's method for a passive particle where that does not contract, because a vortex turns it too fast. */
+/* The loop where n is chosen at run time, through the problem's field, by the rules of the loop over kernels:
+   a member's bits depend neither on the others nor on which of the two loops it is. A passive particle whose
+   iteration does not contract, because a vortex turns it too fast, is solved by Newton's method. */
 
 enum { STAGES = GM_IMPLICIT_STAGES, BLOCK = GM_PASSIVE_BLOCK, FIXED_POINT = 150, NEWTON = 50 };
 
 #define EPSILON 2.220446049250313e-16
 
-struct workspace {
-    double *stages, *z, *slopes; /* of the active components, STAGES * active each */
-    double *increment;           /* active */
-    double room[];
+/* A tile's scratch; of arrays over stages that of stage i begins at i * n * members. */
+struct stages {
+    double *at, *z, *slopes; /* states, increments, f: stages * n * members */
+    double *state;           /* n * members */
+    double *change, *part, *previous, *negligible, *norm, *row; /* members */
+    double *going, *solved;                                     /* members: 1 or 0 */
 };
+
+enum { OVER_MEMBERS = 8 }; /* of these arrays */
+
+static struct stages stages_of(double *scratch, size_t stages, size_t n, size_t members)
+{
+    const size_t all = stages * n * members;
+    double *rows = scratch + 3 * all + n * members;
+    return (struct stages){
+        .at = scratch,
+        .z = scratch + all,
+        .slopes = scratch + 2 * all,
+        .state = scratch + 3 * all,
+        .change = rows,
+        .part = rows + members,
+        .previous = rows + 2 * members,
+        .negligible = rows + 3 * members,
+        .norm = rows + 4 * members,
+        .row = rows + 5 * members,
+        .going = rows + 6 * members,
+        .solved = rows + 7 * members,
+    };
+}
+
+/* What Newton's method needs of one member, beside a matrix of all stages: state, z, f, right side,
+   Jacobian. */
+static size_t newton_room(size_t stages, size_t n)
+{
+    return (1 + 3 * stages) * n + n * n + stages * n * stages * n;
+}
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    (void)scheme;
-    const size_t active = gm_active_count(problem);
-    struct workspace *workspace = malloc(sizeof *workspace + (3 * STAGES + 1) * active * sizeof(double));
-    if (workspace) {
-        workspace->stages = workspace->room;
-        workspace->z = workspace->stages + STAGES * active;
-        workspace->slopes = workspace->z + STAGES * active;
-        workspace->increment = workspace->slopes + STAGES * active;
-    }
-    return workspace;
+    const struct gm_implicit_row *row = scheme->coefficients;
+    const size_t n = gm_tile_components(problem), stages = (size_t)row->stages;
+    return gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
+                         gm_matrix_size(problem) > 0 ? newton_room(stages, n) : 0);
 }
 
-/* Solves for the stages of the active components; false if the iteration does not contract. */
-static bool solve(const struct gm_task *task, const struct gm_implicit_row *row, double h, const double *y,
-                  struct gm_progress *progress)
+/* Components [from, to) of the increments, z := h a f, of the members that go on, and the sum of the changes:
+   a sum, because it hands a NaN on where a maximum may lose it. */
+GM_OF_TILE void update(const struct gm_implicit_row *row, double h, size_t n, size_t members, size_t from,
+                       size_t to, const struct stages *s, double *change)
 {
-    const struct gm_problem *problem = task->problem;
-    const struct workspace *workspace = task->workspace;
-    const struct gm_loops *loops = gm_ode_of(problem)->loops[gm_isa_best()];
-    const size_t active = gm_active_count(problem), stages = (size_t)row->stages;
-    double size = 0, previous = INFINITY;
-    for (size_t c = 0; c < active; c++) {
-        size += fabs(y[c]);
-    }
-    const double roundoff = 8 * (double)stages * EPSILON * size;
-    memset(workspace->z, 0, stages * active * sizeof(double));
-    for (int iteration = 0; iteration < FIXED_POINT; iteration++) {
-        for (size_t i = 0; i < stages; i++) {
-            double *stage = workspace->stages + i * active;
-            const double *z = workspace->z + i * active;
-            for (size_t c = 0; c < active; c++) {
-                stage[c] = y[c] + z[c];
-            }
-            loops->field(problem, stage, workspace->slopes + i * active, problem->m);
-        }
-        progress->evaluations += stages * problem->m;
-        progress->iterations += problem->m;
-        double change = 0;
-        for (size_t i = 0; i < stages; i++) {
-            double *z = workspace->z + i * active;
-            for (size_t c = 0; c < active; c++) {
-                double next = h * row->a[i][0] * workspace->slopes[c];
-                for (size_t j = 1; j < stages; j++) {
-                    next += h * row->a[i][j] * workspace->slopes[j * active + c];
+    memset(change, 0, members * sizeof *change);
+    for (size_t i = 0; i < (size_t)row->stages; i++) {
+        for (size_t c = from; c < to; c++) {
+            double *z = s->z + (i * n + c) * members;
+            for (size_t j = 0; j < (size_t)row->stages; j++) {
+                const double a = h * row->a[i][j], *slope = s->slopes + (j * n + c) * members;
+                for (size_t l = 0; l < members; l++) {
+                    s->row[l] = j == 0 ? a * slope[l] : s->row[l] + a * slope[l];
                 }
-                change += fabs(next - z[c]);
-                z[c] = next;
+            }
+            for (size_t l = 0; l < members; l++) {
+                change[l] += fabs(s->row[l] - z[l]);
+                z[l] = s->going[l] != 0 ? s->row[l] : z[l];
             }
         }
-        if (change == 0 || (change >= previous && change <= roundoff)) {
-            return true;
+    }
+}
+
+/* Components [from, to) of the slope of stage i, of the members that go on. */
+GM_OF_TILE void take(const struct stages *s, size_t n, size_t members, size_t i, size_t from, size_t to)
+{
+    for (size_t c = from; c < to; c++) {
+        double *slope = s->slopes + (i * n + c) * members;
+        const double *now = s->state + (c - from) * members;
+        for (size_t l = 0; l < members; l++) {
+            slope[l] = s->going[l] != 0 ? now[l] : slope[l];
         }
-        if (!(change < 1e100)) {
+    }
+}
+
+GM_OF_TILE void find_state(const struct stages *s, size_t n, size_t members, size_t i, const double *y)
+{
+    for (size_t c = 0; c < n * members; c++) {
+        s->at[i * n * members + c] = y[c] + s->z[i * n * members + c];
+    }
+}
+
+/* One iteration: new slopes at y + z, and new z from them. Where q' depends on p alone and p' on q alone, p'
+   is taken at the new q, which doubles the order in h that an iteration gains. */
+GM_OF_TILE void iterate(const struct gm_problem *problem, const struct gm_loops *loops,
+                        const struct gm_implicit_row *row, double h, const double *y, size_t members,
+                        const struct stages *s)
+{
+    const size_t n = gm_tile_components(problem), half = n / 2, stages = (size_t)row->stages;
+    if (!loops->force || n % 2 != 0) {
+        for (size_t i = 0; i < stages; i++) {
+            find_state(s, n, members, i, y);
+            loops->field(problem, s->at + i * n * members, s->state, members);
+            take(s, n, members, i, 0, n);
+        }
+        update(row, h, n, members, 0, n, s, s->change);
+        return;
+    }
+    for (size_t i = 0; i < stages; i++) {
+        find_state(s, n, members, i, y);
+        loops->velocity(problem, s->at + i * n * members, s->state, members);
+        take(s, n, members, i, 0, half);
+    }
+    update(row, h, n, members, 0, half, s, s->change);
+    for (size_t i = 0; i < stages; i++) {
+        find_state(s, n, members, i, y);
+        loops->force(problem, s->at + i * n * members, s->state, members);
+        take(s, n, members, i, half, n);
+    }
+    update(row, h, n, members, half, n, s, s->part);
+    for (size_t l = 0; l < members; l++) {
+        s->change[l] += s->part[l];
+    }
+}
+
+/* Solves for the slopes of the tile's members by fixed-point iteration, from z = 0, until the change of z is
+   zero or, at the level of round-off, no longer decreases, or the next one, changes being in geometric
+   progression, would be far below round-off: 2^-60 of the first change; with more, invariants drift. */
+GM_OF_TILE void by_fixed_point(const struct gm_problem *problem, const struct gm_tile *tile, double h,
+                               size_t members, const struct stages *s, struct gm_progress *progress)
+{
+    const struct gm_implicit_row *row = tile->row;
+    const double *y = tile->y;
+    const size_t n = gm_tile_components(problem), stages = (size_t)row->stages;
+    memset(s->z, 0, stages * n * members * sizeof *s->z);
+    memset(s->norm, 0, members * sizeof *s->norm);
+    for (size_t c = 0; c < n; c++) {
+        for (size_t l = 0; l < members; l++) {
+            s->norm[l] += fabs(y[c * members + l]);
+        }
+    }
+    for (size_t l = 0; l < members; l++) {
+        s->previous[l] = 1e300;
+    }
+    size_t left = members;
+    for (int iteration = 0; iteration < FIXED_POINT && left > 0; iteration++) {
+        progress->evaluations += stages * left;
+        progress->iterations += left;
+        iterate(problem, tile->loops, row, h, y, members, s);
+        left = 0;
+        for (size_t l = 0; l < members; l++) {
+            const double change = s->change[l], roundoff = 8 * (double)stages * EPSILON * s->norm[l];
+            s->negligible[l] = iteration == 0 ? 8.673617379884035e-19 * change : s->negligible[l];
+            const bool last = change * change <= s->negligible[l] * s->previous[l];
+            const bool stagnant = (change >= s->previous[l] || last) && change <= roundoff;
+            const bool done = s->going[l] != 0 && (change == 0 || stagnant);
+            s->solved[l] = done ? 1 : s->solved[l];
+            s->going[l] = s->going[l] != 0 && !done && change < 1e100 ? 1 : 0;
+            s->previous[l] = change;
+            left += s->going[l] != 0 ? 1 : 0;
+        }
+    }
+}
+
+/* The same equations by Newton's method with the Jacobian of every stage, for member l. */
+static bool by_newton(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t l,
+                      const struct stages *s, struct gm_progress *progress)
+{
+    const struct gm_loops *loops = tile->loops;
+    const struct gm_implicit_row *row = tile->row;
+    const double *y = tile->y;
+    const size_t n = problem->n, stages = (size_t)row->stages, size = stages * n, members = tile->members;
+    double *state = tile->shared, *z = state + n, *f = z + size, *right = f + size, *jacobian = right + size,
+           *matrix = jacobian + n * n;
+    double previous = INFINITY;
+    memset(z, 0, size * sizeof *z);
+    for (int iteration = 0; iteration < NEWTON; iteration++) {
+        double scale = 0;
+        for (size_t j = 0; j < stages; j++) {
+            for (size_t c = 0; c < n; c++) {
+                state[c] = y[c * members + l] + z[j * n + c];
+                scale += fabs(y[c * members + l]) + fabs(z[j * n + c]);
+            }
+            loops->field(problem, state, f + j * n, 1);
+            loops->jacobian(problem, state, jacobian);
+            for (size_t i = 0; i < stages; i++) {
+                for (size_t r = 0; r < n; r++) {
+                    for (size_t c = 0; c < n; c++) {
+                        const double unit = i == j && r == c ? 1 : 0;
+                        matrix[(i * n + r) * size + j * n + c] =
+                            unit - h * row->a[i][j] * jacobian[r * n + c];
+                    }
+                }
+            }
+        }
+        for (size_t i = 0; i < size; i++) {
+            right[i] = -z[i];
+            for (size_t j = 0; j < stages; j++) {
+                right[i] += h * row->a[i / n][j] * f[j * n + i % n];
+            }
+        }
+        progress->evaluations += stages;
+        progress->iterations++;
+        progress->solves++;
+        if (!gm_eliminate(size, matrix, right)) {
             return false;
+        }
+        double change = 0;
+        for (size_t i = 0; i < size; i++) {
+            change += fabs(right[i]);
+            z[i] += right[i];
+        }
+        if (!isfinite(change)) {
+            return false;
+        }
+        if (change == 0 || (change >= previous && change <= 64 * EPSILON * scale)) {
+            for (size_t i = 0; i < size; i++) {
+                s->slopes[i * members + l] = f[i];
+            }
+            return true;
         }
         previous = change;
     }
@@ -150,10 +304,9 @@ struct block {
     double z[STAGES][2][BLOCK], slopes[STAGES][2][BLOCK];
 };
 
-static void block_slopes(const struct gm_task *task, size_t stages, struct block *block)
+static void block_slopes(const struct gm_problem *problem, const double *states, size_t stages,
+                         struct block *block)
 {
-    const struct gm_problem *problem = task->problem;
-    const struct workspace *workspace = task->workspace;
     for (size_t i = 0; i < stages; i++) {
         double stage[2][BLOCK];
         for (int side = 0; side < 2; side++) {
@@ -161,18 +314,16 @@ static void block_slopes(const struct gm_task *task, size_t stages, struct block
                 stage[side][k] = block->start[side][k] + block->z[i][side][k];
             }
         }
-        gm_ode_of(problem)->loops[gm_isa_best()]->passive(
-            problem, workspace->stages + i * gm_active_count(problem), stage[0], stage[1],
-            block->slopes[i][0], block->slopes[i][1], NULL, block->count);
+        gm_ode_of(problem)->loops[gm_isa_best()]->passive(problem, states + i * gm_tile_components(problem),
+                                                          stage[0], stage[1], block->slopes[i][0],
+                                                          block->slopes[i][1], NULL, block->count);
     }
 }
 
 /* One particle by Newton's method, from z = 0; leaves its slopes in the block. */
-static bool solve_one(const struct gm_task *task, const struct gm_implicit_row *row, double h,
-                      struct block *block, size_t k)
+static bool solve_one(const struct gm_problem *problem, const double *states,
+                      const struct gm_implicit_row *row, double h, struct block *block, size_t k)
 {
-    const struct gm_problem *problem = task->problem;
-    const struct workspace *workspace = task->workspace;
     const size_t stages = (size_t)row->stages, size = 2 * stages;
     double z[2 * STAGES] = {0}, previous = INFINITY;
     for (int iteration = 0; iteration < NEWTON; iteration++) {
@@ -182,7 +333,7 @@ static bool solve_one(const struct gm_task *task, const struct gm_implicit_row *
             double strain[2];
             scale += fabs(x) + fabs(y);
             gm_ode_of(problem)->loops[gm_isa_best()]->passive(
-                problem, workspace->stages + j * gm_active_count(problem), &x, &y, &block->slopes[j][0][k],
+                problem, states + j * gm_tile_components(problem), &x, &y, &block->slopes[j][0][k],
                 &block->slopes[j][1][k], strain, 1);
             for (size_t i = 0; i < stages; i++) {
                 const double a = h * row->a[i][j], unit = i == j ? 1 : 0;
@@ -220,22 +371,22 @@ static bool solve_one(const struct gm_task *task, const struct gm_implicit_row *
 
 /* The particles of a block, each frozen where it is solved, so that its bits do not depend on its neighbours.
    Those without a solution get NaN for slopes. */
-static void solve_block(const struct gm_task *task, const struct gm_implicit_row *row, double h,
-                        struct block *block)
+static void solve_block(const struct gm_problem *problem, const double *states,
+                        const struct gm_implicit_row *row, double h, struct block *block)
 {
     const size_t stages = (size_t)row->stages;
     double previous[BLOCK];
     double kept[STAGES][2][BLOCK];
     bool solved[BLOCK] = {false}, diverged[BLOCK] = {false};
     size_t left = block->count;
-    memset(block->z, 0, sizeof block->z);
+    memset(block->z, 0, stages * sizeof block->z[0]);
     for (size_t k = 0; k < block->count; k++) {
         previous[k] = INFINITY;
         diverged[k] = !isfinite(block->start[0][k] + block->start[1][k]);
         left -= diverged[k];
     }
     for (int iteration = 0; iteration < FIXED_POINT && left > 0; iteration++) {
-        block_slopes(task, stages, block);
+        block_slopes(problem, states, stages, block);
         for (size_t k = 0; k < block->count; k++) {
             if (solved[k] || diverged[k]) {
                 continue;
@@ -265,7 +416,7 @@ static void solve_block(const struct gm_task *task, const struct gm_implicit_row
     }
     for (size_t k = 0; k < block->count; k++) {
         const bool by_newton =
-            !solved[k] && isfinite(block->start[0][k]) && solve_one(task, row, h, block, k);
+            !solved[k] && isfinite(block->start[0][k]) && solve_one(problem, states, row, h, block, k);
         for (size_t i = 0; i < stages && !by_newton; i++) {
             block->slopes[i][0][k] = solved[k] ? kept[i][0][k] : NAN;
             block->slopes[i][1][k] = solved[k] ? kept[i][1][k] : NAN;
@@ -273,18 +424,19 @@ static void solve_block(const struct gm_task *task, const struct gm_implicit_row
     }
 }
 
-static void carry_along(const struct gm_task *task, const struct gm_implicit_row *row, double h,
-                        const double *from, const double *carry)
+static void carry_along(const struct gm_problem *problem, double h, const double *states,
+                        struct gm_tile *tile)
 {
-    const struct gm_problem *problem = task->problem;
-    const size_t active = gm_active_count(problem), passive = problem->passive;
+    const struct gm_implicit_row *row = tile->row;
+    const size_t active = gm_tile_components(problem), passive = problem->passive;
     for (size_t first = 0; first < passive; first += BLOCK) {
-        struct block block = {.count = passive - first < BLOCK ? passive - first : BLOCK};
+        struct block block; /* of it as much is filled as there are stages and particles */
+        block.count = passive - first < BLOCK ? passive - first : BLOCK;
         const size_t at[2] = {active + first, active + passive + first};
         for (int side = 0; side < 2; side++) {
-            memcpy(block.start[side], from + at[side], block.count * sizeof(double));
+            memcpy(block.start[side], tile->y + at[side], block.count * sizeof(double));
         }
-        solve_block(task, row, h, &block);
+        solve_block(problem, states, row, h, &block);
         for (int side = 0; side < 2; side++) {
             double increment[BLOCK];
             for (size_t k = 0; k < block.count; k++) {
@@ -293,44 +445,68 @@ static void carry_along(const struct gm_task *task, const struct gm_implicit_row
                     increment[k] += h * row->b[i] * block.slopes[i][side][k];
                 }
             }
-            gm_add_increments(from + at[side], increment, carry ? carry + at[side] : NULL,
-                              task->out + at[side], carry ? task->carry_out + at[side] : NULL, block.count);
+            gm_tile_add(tile->y + at[side], 1, increment, tile->carry ? tile->carry + at[side] : NULL,
+                        block.count);
         }
     }
 }
 
-static struct gm_progress advance(const struct gm_task *task)
+GM_OF_TILE bool solve(const struct gm_problem *problem, const struct gm_tile *tile, double h, size_t members,
+                      const struct stages *s, struct gm_progress *progress)
+{
+    bool all = true;
+    for (size_t l = 0; l < members; l++) {
+        s->going[l] = 1;
+        s->solved[l] = 0;
+    }
+    if (!gm_ode_of(problem)->stiff) {
+        by_fixed_point(problem, tile, h, members, s, progress);
+    }
+    for (size_t l = 0; l < members && all; l++) {
+        all =
+            s->solved[l] != 0 || (gm_matrix_size(problem) > 0 && by_newton(problem, tile, h, l, s, progress));
+    }
+    return all;
+}
+
+GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *tile,
+                                  struct gm_progress *progress, size_t members)
 {
     const struct gm_problem *problem = task->problem;
-    const struct gm_implicit_row *row = task->scheme->coefficients;
-    const struct workspace *workspace = task->workspace;
-    const size_t active = gm_active_count(problem);
-    struct gm_progress progress = {.status = GM_OK};
-    const double *from = task->y, *carry = task->carry;
-    for (; progress.done < task->steps; progress.done++) {
-        for (int substep = 0; substep < row->composition->steps; substep++) {
-            const double h = task->dt * gm_composition_fraction(row->composition, substep);
-            if (!solve(task, row, h, from, &progress)) {
-                progress.status = GM_NO_CONVERGENCE;
-                return progress;
-            }
-            carry_along(task, row, h, from, carry);
-            for (size_t c = 0; c < active; c++) {
-                workspace->increment[c] = 0;
-                for (int i = 0; i < row->stages; i++) {
-                    workspace->increment[c] += h * row->b[i] * workspace->slopes[(size_t)i * active + c];
-                }
-            }
-            gm_add_increments(from, workspace->increment, carry, task->out, task->carry_out, active);
-            from = task->out;
-            carry = task->carry_out;
+    const struct gm_implicit_row *row = tile->row;
+    const size_t n = gm_tile_components(problem), count = n * members;
+    const struct stages s = stages_of(tile->scratch, (size_t)row->stages, n, members);
+    for (int substep = 0; substep < row->composition->steps; substep++) {
+        const double h = task->dt * gm_composition_fraction(row->composition, substep);
+        if (!solve(problem, tile, h, members, &s, progress)) {
+            return GM_NO_CONVERGENCE;
         }
-        if (!gm_all_within(task->out, active, task->limit)) {
-            progress.status = GM_BLOW_UP;
-            return progress;
+        carry_along(problem, h, s.at, tile);
+        for (int i = 0; i < row->stages; i++) {
+            const double b = h * row->b[i], *slope = s.slopes + (size_t)i * count;
+            for (size_t c = 0; c < count; c++) {
+                s.state[c] = i == 0 ? b * slope[c] : s.state[c] + b * slope[c];
+            }
         }
+        gm_tile_add(tile->y, 1, s.state, tile->carry, count);
     }
-    return progress;
+    return GM_OK;
+}
+
+static enum gm_status step_one(const struct gm_task *task, struct gm_tile *tile, struct gm_progress *progress)
+{
+    return step_of(task, tile, progress, 1);
+}
+
+static enum gm_status step_many(const struct gm_task *task, struct gm_tile *tile,
+                                struct gm_progress *progress)
+{
+    return step_of(task, tile, progress, tile->members);
+}
+
+static struct gm_progress advance(const struct gm_task *task)
+{
+    return gm_tiles_advance(task, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
 }
 
 #define MIDPOINTS(name)                                                                                      \
@@ -480,8 +656,8 @@ static const struct gm_scheme schemes[] = {
     },
 };
 
-/* A composition of steps g_k h is a method too, whose stages are those of all steps: a_ij of a step is g_k a_ij,
-   and g_l b_j of each earlier one. */
+/* A composition of steps g_k h is a method too, whose stages are those of all steps: a_ij of a step is g_k
+   a_ij, and g_l b_j of each earlier one. */
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
     const struct gm_implicit_row *row = scheme->coefficients;

@@ -5,7 +5,8 @@
 
 #include "core/ode/families/compositions.h"
 
-enum { GM_IMPLICIT_STAGES = 4 };
+/* For up to so many stages there is a loop that knows how many they are; and the most. */
+enum { GM_IMPLICIT_KNOWN_STAGES = 4, GM_IMPLICIT_STAGES = 16 };
 
 /* An implicit Runge-Kutta method, or a composition of one with itself. */
 struct gm_implicit_row {

@@ -75,9 +75,8 @@ GM_INLINE real K(implicit_iterate)(const struct gm_implicit_row *row, int stages
    depend on the others. Returns the lanes that were solved. */
 GM_INLINE mask K(implicit_fixed_point)(const struct gm_implicit_row *row, int stages, const real *y, double h,
                                        const void *parameters, real f[][GM_COMPONENTS],
-                                       struct K(counts) * counts)
+                                       real z[][GM_COMPONENTS], struct K(counts) * counts)
 {
-    real z[GM_IMPLICIT_STAGES][GM_COMPONENTS];
     for (int c = 0; c < GM_COMPONENTS; c++) {
         for (int i = 0; i < stages; i++) {
             z[i][c] = K(constant)(0);
@@ -160,9 +159,10 @@ static bool implicit_newton(const struct gm_implicit_row *row, const double *y, 
 {
     enum { NEWTON_ITERATIONS = 50, N = GM_COMPONENTS };
     const int stages = row->stages, size = stages * N;
-    double z[GM_IMPLICIT_STAGES][N] = {{0}};
+    double z[GM_IMPLICIT_STAGES][N];
     double matrix[GM_IMPLICIT_STAGES * N * GM_IMPLICIT_STAGES * N], right[GM_IMPLICIT_STAGES * N];
     double previous = INFINITY;
+    memset(z, 0, (size_t)stages * sizeof z[0]);
     for (int iteration = 0; iteration < NEWTON_ITERATIONS; iteration++) {
         double scale = 0;
         for (int j = 0; j < stages; j++) {
@@ -248,15 +248,15 @@ static __attribute__((noinline)) mask K(implicit_by_newton)(const struct gm_impl
 
 GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int stages, struct K(block) * block,
                                        double dt, const void *parameters, bool compensated, bool stiff,
+                                       real f[][GM_COMPONENTS], real z[][GM_COMPONENTS],
                                        struct K(counts) * counts)
 {
     mask good = K(all)();
     for (int substep = 0; substep < row->composition->steps; substep++) {
         const double h = dt * gm_composition_fraction(row->composition, substep);
-        real f[GM_IMPLICIT_STAGES][GM_COMPONENTS];
         mask solved = K(other)(K(all)());
         if (!stiff) {
-            solved = K(implicit_fixed_point)(row, stages, block->y, h, parameters, f, counts);
+            solved = K(implicit_fixed_point)(row, stages, block->y, h, parameters, f, z, counts);
         }
         if (!K(everywhere)(solved)) {
             solved |= K(implicit_by_newton)(row, K(other)(solved), block->y, h, parameters, f, counts);
@@ -273,18 +273,21 @@ GM_INLINE mask K(implicit_step_stages)(const struct gm_implicit_row *row, int st
     return good;
 }
 
-/* The number of stages as a constant, so that the small loops unroll. */
-#define GM_IMPLICIT_STEP(count)                                                                              \
-    GM_INLINE mask K(implicit_step_##count)(const struct gm_implicit_row *row, struct K(block) * block,      \
-                                            double dt, const void *parameters, bool compensated, bool stiff, \
-                                            struct K(counts) * counts)                                       \
+/* The number of stages as a constant, so that the small loops unroll; of more stages there are fewer
+   schemes. */
+#define GM_IMPLICIT_STEP(name, count, room)                                                                  \
+    GM_INLINE mask K(implicit_step_##name)(const struct gm_implicit_row *row, struct K(block) * block,       \
+                                           double dt, const void *parameters, bool compensated, bool stiff,  \
+                                           struct K(counts) * counts)                                        \
     {                                                                                                        \
-        return K(implicit_step_stages)(row, count, block, dt, parameters, compensated, stiff, counts);       \
+        real f[room][GM_COMPONENTS], z[room][GM_COMPONENTS];                                                 \
+        return K(implicit_step_stages)(row, count, block, dt, parameters, compensated, stiff, f, z, counts); \
     }
-GM_IMPLICIT_STEP(1)
-GM_IMPLICIT_STEP(2)
-GM_IMPLICIT_STEP(3)
-GM_IMPLICIT_STEP(4)
+GM_IMPLICIT_STEP(1, 1, 1)
+GM_IMPLICIT_STEP(2, 2, 2)
+GM_IMPLICIT_STEP(3, 3, 3)
+GM_IMPLICIT_STEP(4, 4, 4)
+GM_IMPLICIT_STEP(any, row->stages, GM_IMPLICIT_STAGES)
 #undef GM_IMPLICIT_STEP
 
 #define GM_ROW struct gm_implicit_row
@@ -307,6 +310,11 @@ GM_IMPLICIT_STEP(4)
 #define GM_STEP K(implicit_step_4)
 #define GM_ABREAST 1
 #include "core/ode/kernel/drive.h"
+#define GM_ROW struct gm_implicit_row
+#define GM_DRIVE K(implicit_drive_any)
+#define GM_STEP K(implicit_step_any)
+#define GM_ABREAST 1
+#include "core/ode/kernel/drive.h"
 
 __attribute__((unused)) static struct gm_progress K(implicit_runge_kutta_run)(const struct gm_task *task)
 {
@@ -319,7 +327,9 @@ __attribute__((unused)) static struct gm_progress K(implicit_runge_kutta_run)(co
         return K(implicit_drive_2)(task, row, compensated);
     case 3:
         return K(implicit_drive_3)(task, row, compensated);
-    default:
+    case 4:
         return K(implicit_drive_4)(task, row, compensated);
+    default:
+        return K(implicit_drive_any)(task, row, compensated);
     }
 }

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "core/ode/families/families.h"
-#include "core/ode/families/members.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)

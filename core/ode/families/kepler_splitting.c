@@ -15,7 +15,7 @@
 #include <stdlib.h>
 
 #include "core/ode/families/families.h"
-#include "core/ode/families/members.h"
+#include "core/ode/kernel/members.h"
 
 /* s^k c_k(alpha s^2), k = 0..3, c_k(z) = 1/k! - z/(k + 2)! + z^2/(k + 4)! - ... (K. Stumpff) */
 static void stumpff(double alpha, double s, double G[4])

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every family's loop over one problem's kernels, for single runs and for ensembles. The build compiles this
    file once for each problem and instruction set, with
-       GM_KERNELS   the problem's kernels ("core/ode/problems/pendulum.kernel.h")
+       GM_KERNELS   the problem's kernels ("core/ode/problems/fpu.kernel.h")
        GM_PROBLEM   its name (pendulum)
        GM_ISA       the instruction set's name (baseline, avx2, avx512); the flags are set to match
-   The kernel file is included for each pass, over the lane type `real`. It defines
+       GM_BASELINE  with the loops of a single run, or
+       GM_ALONE     with no others
+   and, where not all families are wanted, one of GM_LOOP_EXPLICIT, GM_LOOP_IMPLICIT, GM_LOOP_SPLITTING and
+   GM_LOOP_NONE. The kernel file is included for each pass, over the lane type `real`. It defines
        GM_COMPONENTS   n, a constant
        GM_SEPARABLE    if H = T(p) + V(q)
    and the kernels
@@ -28,6 +31,13 @@
 /* Steps between two looks at whether they succeeded. */
 enum { GM_BURST = 16 };
 
+#if !defined(GM_LOOP_EXPLICIT) && !defined(GM_LOOP_IMPLICIT) && !defined(GM_LOOP_SPLITTING) &&               \
+    !defined(GM_LOOP_NONE)
+#define GM_LOOP_EXPLICIT
+#define GM_LOOP_IMPLICIT
+#define GM_LOOP_SPLITTING
+#endif
+
 #define GM_PASS_SCALAR
 #include "core/ode/families/pass.h"
 #undef GM_PASS_SCALAR
@@ -35,7 +45,13 @@ enum { GM_BURST = 16 };
 
 /* One run takes the scalar loops, an ensemble the loops over lanes. A single run gains nothing from wide
    registers, so its loops are those of the baseline alone. */
-#ifdef GM_BASELINE
+#ifdef GM_ALONE
+#define GM_DISPATCH(family)                                                                                  \
+    static struct gm_progress family##_loop(const struct gm_task *task)                                      \
+    {                                                                                                        \
+        return family##_run_scalar(task);                                                                    \
+    }
+#elif defined(GM_BASELINE)
 #define GM_DISPATCH(family)                                                                                  \
     static struct gm_progress family##_loop(const struct gm_task *task)                                      \
     {                                                                                                        \
@@ -48,9 +64,13 @@ enum { GM_BURST = 16 };
         return family##_run_lanes(task);                                                                     \
     }
 #endif
+#ifdef GM_LOOP_EXPLICIT
 GM_DISPATCH(explicit_runge_kutta)
+#endif
+#ifdef GM_LOOP_IMPLICIT
 GM_DISPATCH(implicit_runge_kutta)
-#ifdef GM_SEPARABLE
+#endif
+#if defined(GM_LOOP_SPLITTING) && defined(GM_SEPARABLE)
 GM_DISPATCH(splitting)
 #endif
 
@@ -80,9 +100,14 @@ const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, GM_ISA) = {
     .jacobian = jacobian,
     .over_kernels =
         {
+            [GM_OVER_NONE] = NULL,
+#ifdef GM_LOOP_EXPLICIT
             [GM_OVER_EXPLICIT] = explicit_runge_kutta_loop,
+#endif
+#ifdef GM_LOOP_IMPLICIT
             [GM_OVER_IMPLICIT] = implicit_runge_kutta_loop,
-#ifdef GM_SEPARABLE
+#endif
+#if defined(GM_LOOP_SPLITTING) && defined(GM_SEPARABLE)
             [GM_OVER_SPLITTING] = splitting_loop,
 #endif
         },

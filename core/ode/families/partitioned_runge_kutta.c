@@ -1,25 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Partitioned Runge-Kutta methods for Hamiltonians that do not separate, (q, p)' = (f_q, f_p):
        Q_i = q0 + h sum_j a_ij f_q(Q_j, P_j),   P_i = p0 + h sum_j c_ij f_p(Q_j, P_j)
-       q1  = q0 + h sum_i b_i  f_q(Q_i, P_i),   p1  = p0 + h sum_i b_i  f_p(Q_i, P_i)
-   symplectic if b_i c_ij + b_j a_ji = b_i b_j: the Lobatto IIIA-IIIB pairs, the symplectic Euler methods.
-   Solved to round-off by fixed-point iteration, and where that does not contract by Newton's method. Hairer,
-   Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
+       q1  = q0 + h sum_i b_i  f_q(Q_i, P_i),   p1  = p0 + h sum_i d_i  f_p(Q_i, P_i)
+   symplectic if b = d and b_i c_ij + b_j a_ji = b_i b_j: the Lobatto IIIA-IIIB pairs, the symplectic Euler
+   methods. Solved to round-off by fixed-point iteration, and where that does not contract by Newton's method.
+   Hairer, Lubich & Wanner (2006), sections VI.3, VI.4, II.2. */
+#include "core/ode/families/partitioned_runge_kutta.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/ode/families/families.h"
-#include "core/ode/families/members.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 #include "core/theory/coefficients.h"
 
-enum { STAGES = 3, PICARD_ITERATIONS = 150, NEWTON_ITERATIONS = 50 };
-
-struct tableau {
-    size_t stages;
-    double a[STAGES][STAGES], c[STAGES][STAGES], b[STAGES];
-};
+enum { PICARD_ITERATIONS = 150, NEWTON_ITERATIONS = 50 };
 
 /* The scratch: increments z and slopes f of the stages, one stage, then the right-hand side and the
    matrix. */
@@ -27,17 +24,17 @@ struct scratch {
     double *z, *f, *stage, *right, *matrix, *jacobian;
 };
 
-static struct scratch scratch_of(const struct gm_members *members)
+static struct scratch scratch_of(const struct gm_members *members, size_t stages)
 {
     const size_t n = members->n;
     double *at = members->scratch;
     return (struct scratch){
         .z = at,
-        .f = at + STAGES * n,
-        .stage = at + 2 * STAGES * n,
-        .right = at + (2 * STAGES + 1) * n,
-        .jacobian = at + (3 * STAGES + 1) * n,
-        .matrix = at + (3 * STAGES + 1) * n + n * n,
+        .f = at + stages * n,
+        .stage = at + 2 * stages * n,
+        .right = at + (2 * stages + 1) * n,
+        .jacobian = at + (3 * stages + 1) * n,
+        .matrix = at + (3 * stages + 1) * n + n * n,
     };
 }
 
@@ -59,13 +56,14 @@ static double slopes(const struct gm_task *task, const struct gm_members *member
     return size;
 }
 
-static double coefficient(const struct tableau *tableau, size_t i, size_t j, bool momentum)
+static double coefficient(const struct gm_partitioned_row *tableau, size_t i, size_t j, bool momentum)
 {
     return momentum ? tableau->c[i][j] : tableau->a[i][j];
 }
 
 /* right := h (a | c) f - z; returns its 1-norm */
-static double residual(const struct tableau *tableau, const struct scratch *scratch, size_t n, double h)
+static double residual(const struct gm_partitioned_row *tableau, const struct scratch *scratch, size_t n,
+                       double h)
 {
     double change = 0;
     for (size_t i = 0; i < tableau->stages; i++) {
@@ -82,9 +80,9 @@ static double residual(const struct tableau *tableau, const struct scratch *scra
 }
 
 static bool by_fixed_point(const struct gm_task *task, struct gm_members *members,
-                           const struct tableau *tableau, struct gm_progress *progress)
+                           const struct gm_partitioned_row *tableau, struct gm_progress *progress)
 {
-    const struct scratch scratch = scratch_of(members);
+    const struct scratch scratch = scratch_of(members, tableau->stages);
     const size_t size = tableau->stages * members->n;
     double previous = INFINITY;
     memset(scratch.z, 0, size * sizeof(double));
@@ -104,10 +102,10 @@ static bool by_fixed_point(const struct gm_task *task, struct gm_members *member
     return false;
 }
 
-static bool by_newton(const struct gm_task *task, struct gm_members *members, const struct tableau *tableau,
-                      struct gm_progress *progress)
+static bool by_newton(const struct gm_task *task, struct gm_members *members,
+                      const struct gm_partitioned_row *tableau, struct gm_progress *progress)
 {
-    const struct scratch scratch = scratch_of(members);
+    const struct scratch scratch = scratch_of(members, tableau->stages);
     const size_t n = members->n, size = tableau->stages * n;
     double previous = INFINITY;
     memset(scratch.z, 0, size * sizeof(double));
@@ -153,17 +151,17 @@ static bool by_newton(const struct gm_task *task, struct gm_members *members, co
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
                            struct gm_progress *progress)
 {
-    const struct tableau *tableau = task->scheme->coefficients;
+    const struct gm_partitioned_row *tableau = task->scheme->coefficients;
     if ((gm_ode_of(task->problem)->stiff || !by_fixed_point(task, members, tableau, progress)) &&
         !by_newton(task, members, tableau, progress)) {
         return GM_NO_CONVERGENCE;
     }
     const size_t n = members->n;
-    const double *f = scratch_of(members).f;
+    const double *f = scratch_of(members, tableau->stages).f;
     for (size_t c = 0; c < n; c++) {
         double increment = 0;
         for (size_t i = 0; i < tableau->stages; i++) {
-            increment += task->dt * tableau->b[i] * f[i * n + c];
+            increment += task->dt * (c < n / 2 ? tableau->b : tableau->d)[i] * f[i * n + c];
         }
         members->y[c] += increment;
     }
@@ -177,20 +175,23 @@ static struct gm_progress loop(const struct gm_task *task)
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    (void)scheme;
-    const size_t matrices = (1 + STAGES * STAGES) * gm_matrix_size(problem);
-    return gm_members_open(problem, 0, (3 * STAGES + 1) * problem->n + matrices);
+    const size_t stages = ((const struct gm_partitioned_row *)scheme->coefficients)->stages;
+    const size_t matrices = (1 + stages * stages) * gm_matrix_size(problem);
+    return gm_members_open(problem, 0, (3 * stages + 1) * problem->n + matrices);
 }
 
-static const struct tableau symplectic_euler = {.stages = 1, .a = {{0}}, .c = {{1}}, .b = {1}};
-static const struct tableau symplectic_euler_adjoint = {.stages = 1, .a = {{1}}, .c = {{0}}, .b = {1}};
-static const struct tableau lobatto2 = {
-    .stages = 2, .a = {{0, 0}, {0.5, 0.5}}, .c = {{0.5, 0}, {0.5, 0}}, .b = {0.5, 0.5}};
-static const struct tableau lobatto4 = {
+static const struct gm_partitioned_row symplectic_euler = {
+    .stages = 1, .a = {{0}}, .c = {{1}}, .b = {1}, .d = {1}};
+static const struct gm_partitioned_row symplectic_euler_adjoint = {
+    .stages = 1, .a = {{1}}, .c = {{0}}, .b = {1}, .d = {1}};
+static const struct gm_partitioned_row lobatto2 = {
+    .stages = 2, .a = {{0, 0}, {0.5, 0.5}}, .c = {{0.5, 0}, {0.5, 0}}, .b = {0.5, 0.5}, .d = {0.5, 0.5}};
+static const struct gm_partitioned_row lobatto4 = {
     .stages = 3,
     .a = {{0, 0, 0}, {5. / 24, 1. / 3, -1. / 24}, {1. / 6, 2. / 3, 1. / 6}},
     .c = {{1. / 6, -1. / 6, 0}, {1. / 6, 1. / 3, 0}, {1. / 6, 5. / 6, 0}},
     .b = {1. / 6, 2. / 3, 1. / 6},
+    .d = {1. / 6, 2. / 3, 1. / 6},
 };
 
 #define PARTITIONED .family = &gm_family_partitioned_runge_kutta
@@ -243,7 +244,7 @@ static const struct gm_scheme schemes[] = {
 
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)
 {
-    const struct tableau *tableau = scheme->coefficients;
+    const struct gm_partitioned_row *tableau = scheme->coefficients;
     const size_t stages = tableau->stages;
     if (!gm_coefficients_open(coefficients, GM_EQUATIONS_PARTITIONED, (int)stages)) {
         return false;
@@ -253,7 +254,8 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
             coefficients->a[GM_SIDE_Q][i * stages + j] = gm_ball_written(tableau->a[i][j]);
             coefficients->a[GM_SIDE_P][i * stages + j] = gm_ball_written(tableau->c[i][j]);
         }
-        coefficients->b[GM_SIDE_Q][i] = coefficients->b[GM_SIDE_P][i] = gm_ball_written(tableau->b[i]);
+        coefficients->b[GM_SIDE_Q][i] = gm_ball_written(tableau->b[i]);
+        coefficients->b[GM_SIDE_P][i] = gm_ball_written(tableau->d[i]);
     }
     return true;
 }

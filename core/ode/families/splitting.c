@@ -9,8 +9,11 @@
    II.5. */
 #include "core/ode/families/splitting.h"
 
+#include <stdlib.h>
+
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/tiles.h"
 #include "core/theory/coefficients.h"
 
 #define DRIFT(c)                                                                                             \
@@ -307,6 +310,68 @@ static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coeffici
     return true;
 }
 
+/* The loop where n is chosen at run time, as that over kernels: the force is kept from the last kick of a
+   step to the first of the next. A last component that is the time moves with q. */
+GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *tile,
+                                  struct gm_progress *progress, size_t members)
+{
+    const struct gm_problem *problem = task->problem;
+    const struct gm_splitting *table = tile->row;
+    const size_t half = problem->n / 2 * members;
+    const bool ends_with_kick = table->pieces[table->count - 1].piece == GM_KICK;
+    const double *velocity = gm_ode_of(problem)->split->unit_mass ? tile->y + half : tile->scratch;
+    double *force = tile->scratch + half;
+    for (int i = 0; i < table->count; i++) {
+        const double c = table->pieces[i].fraction * task->dt;
+        if (table->pieces[i].piece == GM_DRIFT) {
+            if (velocity == tile->scratch) {
+                tile->loops->velocity(problem, tile->y, tile->scratch, members);
+            }
+            gm_tile_add(tile->y, c, velocity, tile->carry, half);
+            if (problem->n % 2 != 0) {
+                static const double one = 1;
+                for (size_t l = 2 * half; l < 2 * half + members; l++) {
+                    gm_tile_add(tile->y + l, c, &one, tile->carry ? tile->carry + l : NULL, 1);
+                }
+            }
+            tile->known = false;
+            continue;
+        }
+        if (!tile->known) {
+            tile->loops->force(problem, tile->y, force, members);
+            tile->known = true;
+            const bool counted = i == 0 && ends_with_kick && task->steps_before > 0;
+            progress->evaluations += counted ? 0 : members;
+        }
+        gm_tile_add(tile->y + half, c, force, tile->carry ? tile->carry + half : NULL, half);
+    }
+    return GM_OK;
+}
+
+static enum gm_status step_one(const struct gm_task *task, struct gm_tile *tile, struct gm_progress *progress)
+{
+    return step_of(task, tile, progress, 1);
+}
+
+static enum gm_status step_many(const struct gm_task *task, struct gm_tile *tile,
+                                struct gm_progress *progress)
+{
+    return step_of(task, tile, progress, tile->members);
+}
+
+static struct gm_progress advance(const struct gm_task *task)
+{
+    struct gm_splitting made;
+    const struct gm_splitting *table = gm_splitting_of(task->scheme->coefficients, &made);
+    return gm_tiles_advance(task, table, task->problem->m == 1 ? step_one : step_many);
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return gm_tiles_open(problem, problem->n, 0);
+}
+
 const struct gm_family gm_family_splitting = {
     .kind = &gm_kind_ode,
     .over_kernels = GM_OVER_SPLITTING,
@@ -315,4 +380,7 @@ const struct gm_family gm_family_splitting = {
     .schemes = schemes,
     .count = sizeof schemes / sizeof schemes[0],
     .parameters = gm_settings_of_sums,
+    .loop = advance,
+    .workspace_open = workspace_open,
+    .workspace_close = free,
 };

@@ -7,7 +7,7 @@
 
 #include "core/ode/families/compositions.h"
 
-enum { GM_SPLITTING_PIECES = 2 * GM_COMPOSITION_STEPS + 1 };
+enum { GM_SPLITTING_PIECES = 255 };
 
 enum gm_piece { GM_DRIFT, GM_KICK };
 

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 #include "core/ode/families/families.h"
-#include "core/ode/families/members.h"
+#include "core/ode/kernel/members.h"
 
 enum filter { IMPULSE, MOLLIFIED, GAUTSCHI };
 static const enum filter impulse = IMPULSE, mollified = MOLLIFIED, gautschi = GAUTSCHI;

@@ -21,7 +21,7 @@
 #include <stdlib.h>
 
 #include "core/ode/families/families.h"
-#include "core/ode/families/members.h"
+#include "core/ode/kernel/members.h"
 
 enum rule { RECTANGLE, RECTANGLE_RESTART, MIDPOINT };
 static const enum rule rectangle = RECTANGLE, rectangle_restart = RECTANGLE_RESTART, midpoint = MIDPOINT;

@@ -12,7 +12,11 @@ enum { GM_OVER_NONE, GM_OVER_EXPLICIT, GM_OVER_IMPLICIT, GM_OVER_SPLITTING, GM_O
 struct gm_loops {
     /* f(y) of the active components of m members */
     void (*field)(const struct gm_problem *problem, const double *y, double *f, size_t m);
-    /* the Jacobian of one member, n * n row by row; NULL where n is chosen at run time */
+    /* Where n is chosen at run time and H = T(p) + V(q): q' and p' (n / 2 * m each) of the whole state y,
+       whose last component may be t. NULL otherwise. */
+    void (*velocity)(const struct gm_problem *problem, const double *y, double *velocity, size_t m);
+    void (*force)(const struct gm_problem *problem, const double *y, double *force, size_t m);
+    /* the Jacobian of one member, n * n row by row; NULL: there is none */
     void (*jacobian)(const struct gm_problem *problem, const double *y, double *jacobian);
     /* The velocities of `count` passive particles at (x, y), carried by the active components `active`; if
        strain is not NULL also their derivatives, [a, b; b, -a] with a = strain[i], b = strain[count + i]. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ABC flow; see abc.kernel.h. Its three components are shears, whose flows are exact. */
+/* The ABC flow; see abc.system. Its three components are shears, whose flows are exact. */
 #include <math.h>
 
 #include "core/ode/kernel/loops.h"

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The chain of Fermi, Pasta & Ulam with stiff springs; see fpu.kernel.h. */
+#include <stdio.h>
+
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -67,12 +70,25 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
     }
 }
 
+static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    char text[320];
+    const int springs = (int)springs_of(problem);
+    snprintf(
+        text, sizeof text,
+        "sum(i = 1 .. %d, p_x[i]^2 + p_y[i]^2 + %.17g*y[i]^2)/2"
+        " + ((x[1] - y[1])^4 + sum(i = 2 .. %d, (x[i] - y[i] - x[i-1] - y[i-1])^4) + (x[%d] + y[%d])^4)/4",
+        springs, frequency(problem, (size_t)springs) * frequency(problem, (size_t)springs), springs, springs,
+        springs);
+    return gm_hamiltonian_read(problem, text, graph, node);
+}
+
 #define CHAIN(springs, its_loops)                                                                            \
     .name = "fpu", .kind = &gm_kind_ode, .n = 4 * (springs), .m = 1, .facets = &(const struct gm_ode)        \
     {                                                                                                        \
         .components = "x[] y[] p_x[] p_y[]", .stiff = true,                                                  \
         .split = &(const struct gm_split){.nystrom = true},                                                  \
-        .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},                                     \
+        .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},                 \
         .fast_linear = &(const struct gm_fast_linear){.frequency = frequency, .slow_force = slow_force},     \
         .loops = GM_LOOPS(its_loops)                                                                         \
     }

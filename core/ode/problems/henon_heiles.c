@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Henon & Heiles, (q1, q2, p1, p2), H = (|p|^2 + |q|^2)/2 + q1^2 q2 - q2^3/3. Astron. J. 69 (1964) 73. */
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -14,6 +15,11 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
     }
 }
 
+static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    return gm_hamiltonian_read(problem, "(p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3", graph, node);
+}
+
 const struct gm_problem gm_problem_henon_heiles = {
     .name = "henon-heiles",
     .n = 4,
@@ -23,8 +29,8 @@ const struct gm_problem gm_problem_henon_heiles = {
         &(const struct gm_ode){
             .components = "q1 q2 p1 p2",
             .quadratic = true,
-            .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+            .split = &(const struct gm_split){.nystrom = true, .unit_mass = true},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},
             .loops = GM_LOOPS(henon_heiles),
         },
 };

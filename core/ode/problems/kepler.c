@@ -4,7 +4,9 @@
    for Engineering Students, sections 2.11, 3.7; R. Battin, An Introduction to the Mathematics and Methods of
    Astrodynamics, section 4.3). */
 #include <math.h>
+#include <stdio.h>
 
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -40,6 +42,14 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
     for (size_t i = 0; i < m; i++) {
         value[i] += (y[2 * m + i] * y[2 * m + i] + y[3 * m + i] * y[3 * m + i]) / 2;
     }
+}
+
+static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    char text[128];
+    snprintf(text, sizeof text, "(p1^2 + p2^2)/2 - 1/sqrt(q1^2 + q2^2) - (%.17g)/(q1^2 + q2^2)",
+             strength(problem));
+    return gm_hamiltonian_read(problem, text, graph, node);
 }
 
 /* The root E of E - c sin E + s (1 - cos E) = anomaly in [-pi, pi]; its left side grows, for c^2 + s^2 <
@@ -95,7 +105,7 @@ static void solution(const struct gm_problem *problem, double t, const double *y
     .kind = &gm_kind_ode, .n = 4, .m = 1, .facets = &(const struct gm_ode)                                   \
     {                                                                                                        \
         .components = "q1 q2 p1 p2", .split = &(const struct gm_split){.nystrom = true},                     \
-        .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},                                     \
+        .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},                 \
         .kepler_split =                                                                                      \
             &(const struct gm_kepler_split){.potential = potential, .perturbing_force = perturbing_force},   \
         .loops = GM_LOOPS(its_loops)                                                                         \

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The harmonic oscillator, H = p^2/2 + q^2/2, with and without two tangent vectors. */
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -13,6 +14,11 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
         const double q = y[i], p = momentum[i];
         value[i] = 0.5 * p * p + 0.5 * q * q;
     }
+}
+
+static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    return gm_hamiltonian_read(problem, "(p^2 + q^2)/2", graph, node);
 }
 
 static void potential(const struct gm_problem *problem, double q, double values[3])
@@ -33,7 +39,7 @@ const struct gm_problem gm_problem_oscillator = {
             .components = "q p",
             .quadratic = true,
             .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},
             .lagrangian = &(const struct gm_lagrangian){.potential = potential},
             .loops = GM_LOOPS(oscillator),
         },
@@ -49,7 +55,8 @@ const struct gm_problem gm_problem_oscillator_tangent = {
             .components = "q xi1 xi2 p eta1 eta2",
             .quadratic = true,
             .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .partial = true},
+            .hamiltonian =
+                &(const struct gm_hamiltonian){.energy = energy, .partial = true, .formula = formula},
             .loops = GM_LOOPS(oscillator_tangent),
         },
 };

@@ -2,6 +2,7 @@
 /* The pendulum, H = p^2/2 - cos q, with and without two tangent vectors. */
 #include <math.h>
 
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -15,6 +16,11 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
         const double q = y[i], p = momentum[i];
         value[i] = 0.5 * p * p - cos(q);
     }
+}
+
+static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    return gm_hamiltonian_read(problem, "p^2/2 - cos(q)", graph, node);
 }
 
 static void potential(const struct gm_problem *problem, double q, double values[3])
@@ -34,7 +40,7 @@ const struct gm_problem gm_problem_pendulum = {
         &(const struct gm_ode){
             .components = "q p",
             .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},
             .lagrangian = &(const struct gm_lagrangian){.potential = potential},
             .loops = GM_LOOPS(pendulum),
         },
@@ -49,7 +55,8 @@ const struct gm_problem gm_problem_pendulum_tangent = {
         &(const struct gm_ode){
             .components = "q xi1 xi2 p eta1 eta2",
             .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .partial = true},
+            .hamiltonian =
+                &(const struct gm_hamiltonian){.energy = energy, .partial = true, .formula = formula},
             .loops = GM_LOOPS(pendulum_tangent),
         },
 };

@@ -9,7 +9,15 @@
 extern const struct gm_problem gm_problem_oscillator; /* (q, p), H = p^2/2 + q^2/2 */
 extern const struct gm_problem gm_problem_pendulum;   /* (q, p), H = p^2/2 - cos q */
 
-/* The same with two tangent vectors carried along: (q, xi_1, xi_2, p, eta_1, eta_2). */
+/* With a friction besides, p' = -sin q - c p, c = *(const double *)parameters. */
+extern const struct gm_problem gm_problem_damped_pendulum;
+
+/* A mass on a rod, (x, y, z, p_x, p_y, p_z), H = |p|^2/2 + z with the constraint (x^2 + y^2 + z^2 - 1)/2;
+   angular momentum x p_y - y p_x about the vertical. */
+extern const struct gm_problem gm_problem_spherical_pendulum;
+
+/* The oscillator and the pendulum with two tangent vectors carried along: (q, xi_1, xi_2, p, eta_1,
+   eta_2). */
 extern const struct gm_problem gm_problem_oscillator_tangent;
 extern const struct gm_problem gm_problem_pendulum_tangent;
 

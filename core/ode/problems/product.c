@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* (q, p), H = (1 + q^2)(1 + p^2)/2: a Hamiltonian that is not separable.
    M. Tao, Phys. Rev. E 94 (2016) 043303. */
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -14,6 +15,11 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
     }
 }
 
+static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    return gm_hamiltonian_read(problem, "(1 + q^2)*(1 + p^2)/2", graph, node);
+}
+
 const struct gm_problem gm_problem_product = {
     .name = "product",
     .n = 2,
@@ -22,7 +28,7 @@ const struct gm_problem gm_problem_product = {
     .facets =
         &(const struct gm_ode){
             .components = "q p",
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},
             .loops = GM_LOOPS(product),
         },
 };

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A mass on a stiff spring of rest length 1 in gravity; see spring_pendulum.kernel.h. */
 #include <math.h>
+#include <stdio.h>
 
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -17,6 +19,14 @@ static void energy(const struct gm_problem *problem, const double *y, double *va
     }
 }
 
+static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    char text[128];
+    snprintf(text, sizeof text, "(p1^2 + p2^2 + %.17g*(sqrt(q1^2 + q2^2) - 1)^2)/2 + q2",
+             *(const double *)problem->parameters);
+    return gm_hamiltonian_read(problem, text, graph, node);
+}
+
 const struct gm_problem gm_problem_spring_pendulum = {
     .name = "spring-pendulum",
     .n = 4,
@@ -27,7 +37,7 @@ const struct gm_problem gm_problem_spring_pendulum = {
             .components = "q1 q2 p1 p2",
             .stiff = true,
             .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},
             .loops = GM_LOOPS(spring_pendulum),
         },
 };

@@ -4,7 +4,9 @@
    with q_i = g x_i, p_i = y_i these are Hamilton's equations. H. Aref, Annu. Rev. Fluid Mech. 15 (1983) 345;
    Razafindralandy et al. (2018), eq. 30, whose factor and sense of rotation are mended. */
 #include <math.h>
+#include <stdio.h>
 
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -66,8 +68,29 @@ static void reduced_energy(const struct gm_problem *problem, const double *state
     }
 }
 
-static const struct gm_hamiltonian full = {.energy = energy, .weight = inverse_strength};
-static const struct gm_hamiltonian halved = {.energy = reduced_energy, .weight = inverse_of_two};
+static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    char text[160];
+    const int count = (int)((problem->n - 2 * problem->passive) / 2);
+    snprintf(text, sizeof text,
+             "-%.17g*sum(i = 1 .. %d, j = i+1 .. %d, log((x[i] - x[j])^2 + (y[i] - y[j])^2))",
+             strength(problem) * strength(problem) / (4 * M_PI), count, count);
+    return gm_hamiltonian_read(problem, text, graph, node);
+}
+
+static bool reduced_formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
+{
+    char text[256];
+    snprintf(text, sizeof text,
+             "-%.17g*(2*log((x[1] - x[2])^2 + (y[1] - y[2])^2) + 2*log((x[1] + x[2])^2 + (y[1] + y[2])^2)"
+             " + log(4*(x[1]^2 + y[1]^2)) + log(4*(x[2]^2 + y[2]^2)))",
+             strength(problem) * strength(problem) / (4 * M_PI));
+    return gm_hamiltonian_read(problem, text, graph, node);
+}
+
+static const struct gm_hamiltonian full = {.energy = energy, .weight = inverse_strength, .formula = formula};
+static const struct gm_hamiltonian halved = {
+    .energy = reduced_energy, .weight = inverse_of_two, .formula = reduced_formula};
 
 #define VORTICES(numbers, its_hamiltonian, its_loops)                                                        \
     {                                                                                                        \

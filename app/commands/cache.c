@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint cache: the loops that were compiled, listed and removed. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/commands/commands.h"
+#include "app/native/cache.h"
+#include "app/output/say.h"
+#include "app/request/exit.h"
+#include "core/memory.h"
+
+static int command_cache(const struct gm_options *options)
+{
+    char folder[GM_CACHE_PATH], message[GM_MESSAGE];
+    if (options->arguments.count > 0) {
+        gm_complain("cache takes no word: \"%.60s\"", options->arguments.words[0]);
+        return GM_EXIT_USAGE;
+    }
+    if (!gm_cache_folder(folder, message)) {
+        gm_complain("%s", message);
+        return GM_EXIT_FILE;
+    }
+    if (options->clear) {
+        gm_say("%zu removed from %s", gm_cache_clear(folder), folder);
+        return gm_finish(GM_EXIT_OK);
+    }
+    size_t count = 0, bytes = 0;
+    struct gm_cache_entry *entries = NULL;
+    if (!gm_cache_list(folder, &entries, &count) || gm_memory_was_short()) {
+        const bool short_of_memory = gm_memory_was_short() || errno == ENOMEM;
+        gm_complain("%s could not be read: %s", folder,
+                    short_of_memory ? "not enough memory" : strerror(errno));
+        free(entries);
+        return short_of_memory ? GM_EXIT_MEMORY : GM_EXIT_FILE;
+    }
+    for (size_t i = 0; i < count; i++) {
+        char used[32];
+        struct tm date;
+        bytes += entries[i].size;
+        strftime(used, sizeof used, "%Y-%m-%d %H:%M", localtime_r(&entries[i].used, &date));
+        gm_say("%s  %8zu bytes  %s", entries[i].key.text, entries[i].size, used);
+    }
+    gm_say("%zu %s of %zu bytes in %s", count, count == 1 ? "kernel" : "kernels", bytes, folder);
+    free(entries);
+    return gm_finish(GM_EXIT_OK);
+}
+
+const struct gm_command_row gm_command_cache = {
+    .name = "cache",
+    .synopsis = "",
+    .help = "the loops that were compiled of systems of one's own, the one used last first",
+    .bit = GM_CACHE,
+    .function = command_cache,
+};

@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* geomint certify: the claims against what is measured, and against what theory says of the coefficients. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "app/commands/commands.h"
+#include "app/commands/measuring/certificate.h"
+#include "app/commands/measuring/charted.h"
+#include "app/cores/pool.h"
+#include "app/output/json.h"
+#include "app/output/say.h"
+#include "app/output/scheme_json.h"
+#include "app/request/arguments.h"
+#include "app/request/scheme.h"
+#include "app/studies/certified_lane.h"
+#include "app/studies/listener.h"
+#include "core/certify.h"
+#include "core/memory.h"
+#include "core/schemes.h"
+
+/* As a text or as JSON; `system` is what it was measured on, NULL: the problems that schemes are certified
+   on. What - is written to gets nothing else. */
+static void show(const struct gm_options *options, const struct gm_certificate *certificate,
+                 const char *system)
+{
+    if (options->json) {
+        gm_certificate_put(stdout, certificate, system);
+        printf("\n");
+    } else if (!gm_options_take_stdout(options)) {
+        gm_certificate_print(certificate);
+    }
+}
+
+/* The diagram, where it is asked for; `status` says what the certificates came to. */
+static int chart(const struct gm_options *options, const struct gm_certificate *certificates, size_t count,
+                 int status)
+{
+    if (!options->output && !options->out) {
+        return status;
+    }
+    const struct gm_orders orders = {certificates, count};
+    if (!gm_orders_are_known(&orders)) {
+        gm_complain("there is no diagram: the order of %s is not measured by a ladder of time steps",
+                    certificates[0].scheme->name);
+        return GM_EXIT_USAGE;
+    }
+    /* `again` needs no file of the scheme */
+    struct gm_options told = *options;
+    const char *const word = certificates[0].scheme->word;
+    told.arguments = (struct gm_arguments){0};
+    int written = GM_EXIT_MEMORY;
+    bool good = gm_arguments_add(&told.arguments, word ? word : options->arguments.words[0]);
+    for (int i = 1; good && i < options->arguments.count; i++) {
+        good = gm_arguments_add(&told.arguments, options->arguments.words[i]);
+    }
+    if (good) {
+        written = gm_command_chart(&told, "certify", "order", &orders, gm_orders_draw, gm_orders_write);
+    }
+    gm_arguments_close(&told.arguments);
+    return written == GM_EXIT_OK ? status : written;
+}
+
+/* The schemes that are certified, and what came of them. */
+struct certifying {
+    const struct gm_scheme **schemes;
+    const struct gm_options *options;
+    struct gm_certificate *certificates; /* a place for each scheme, as there are few */
+    bool *lost;                          /* for want of memory */
+    size_t count, certified, broken;
+};
+
+static void certify(void *self, size_t index, size_t slot)
+{
+    struct certifying *all = self;
+    const unsigned long refusals = gm_memory_refusals();
+    all->certificates[slot] = gm_certify(all->schemes[index]);
+    all->lost[slot] = gm_memory_refusals() != refusals;
+}
+
+static bool tell(void *self, size_t index, size_t slot)
+{
+    struct certifying *all = self;
+    gm_terminal_listener_clear();
+    if (all->lost[slot]) {
+        gm_complain("not enough memory to certify %s", all->schemes[index]->name);
+        return false;
+    }
+    show(all->options, &all->certificates[slot], NULL);
+    all->certified++;
+    all->broken += all->certificates[slot].holds ? 0 : 1;
+    if (all->certified < all->count) {
+        fflush(stdout);
+        gm_listener_hears(&gm_terminal_listener, all->schemes[index + 1]->name, all->certified, all->count);
+    }
+    return true;
+}
+
+/* ---- on one system ---- */
+
+/* The scheme is the first word, the others say more of the system. */
+static int certify_on(const struct gm_options *options)
+{
+    const struct gm_arguments *typed = &options->arguments;
+    const char *const *words = (const char *const *)typed->words;
+    char message[GM_MESSAGE];
+    struct gm_certificate certificate;
+    int status = GM_EXIT_USAGE;
+    if (gm_certify_words(words[0], options->on, typed->count - 1, words + 1, &certificate, &status,
+                         message)) {
+        show(options, &certificate, options->on);
+        status = chart(options, &certificate, 1, certificate.holds ? GM_EXIT_OK : GM_EXIT_CLAIM);
+    } else {
+        gm_complain("%s", message);
+    }
+    return gm_finish(gm_memory_was_short() ? GM_EXIT_MEMORY : status);
+}
+
+/* ---- with decimals that satisfy the conditions ---- */
+
+static bool is_same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+static bool write_text(const char *path, const char *text, char *message)
+{
+    FILE *stream = fopen(path, "w");
+    const bool put = stream && fputs(text, stream) >= 0;
+    const bool good = stream && fclose(stream) == 0 && put;
+    return good || gm_refuse(message, "%.300s could not be written: %s", path, strerror(errno));
+}
+
+static int polish(const struct gm_options *options)
+{
+    const char *name = options->arguments.words[0], *out = options->polish;
+    char message[GM_MESSAGE] = "";
+    struct gm_polish polish;
+    bool unreadable = false;
+    if (is_same_file(name, out)) {
+        gm_complain("--polish %.200s would overwrite the scheme that is polished", out);
+        return GM_EXIT_USAGE;
+    }
+    char *text = gm_scheme_polished(name, &polish, &unreadable, message);
+    if (!text) {
+        gm_complain("%s", message);
+        return gm_memory_was_short() ? GM_EXIT_MEMORY : unreadable ? GM_EXIT_FILE : GM_EXIT_USAGE;
+    }
+    const bool written = write_text(out, text, message);
+    free(text);
+    if (!written) {
+        gm_complain("%s", message);
+        return GM_EXIT_FILE;
+    }
+    if (options->json) {
+        printf("{");
+        gm_json_pair("scheme", name);
+        printf(",");
+        gm_json_pair("polished", out);
+        printf(",\"order\":%d,\"conditions\":%zu,\"decimals\":%zu,", polish.order, polish.conditions,
+               polish.decimals);
+        gm_json_number_pair("residual_before", polish.before);
+        printf(",");
+        gm_json_number_pair("residual", polish.after);
+        printf(",");
+        gm_json_number_pair("change", polish.change);
+        printf("}\n");
+    } else {
+        printf("%zu condition%s of order %d and of what is claimed: the largest residual was %.1e, is %.1e\n"
+               "%zu decimal%s, moved by at most %.1e\n",
+               polish.conditions, polish.conditions == 1 ? "" : "s", polish.order, polish.before,
+               polish.after, polish.decimals, polish.decimals == 1 ? "" : "s", polish.change);
+    }
+    gm_complain("wrote %s", out);
+    return gm_finish(GM_EXIT_OK);
+}
+
+static int command_certify(const struct gm_options *options)
+{
+    if (options->polish && (options->on || options->output || options->arguments.count != 1)) {
+        gm_complain("--polish takes one scheme, a file or a word, and nothing else");
+        return GM_EXIT_USAGE;
+    }
+    if (options->polish) {
+        return polish(options);
+    }
+    if (options->on && options->arguments.count > 0 && strcmp(options->arguments.words[0], "all") == 0) {
+        gm_complain("--on measures one scheme: name it");
+        return GM_EXIT_USAGE;
+    }
+    if (options->on && options->arguments.count > 0) {
+        return certify_on(options);
+    }
+    if (options->arguments.count != 1) {
+        gm_complain("certify which scheme? A name, or all");
+        return GM_EXIT_USAGE;
+    }
+    const char *name = options->arguments.words[0];
+    const bool every = strcmp(name, "all") == 0;
+    if (every && (options->output || options->out)) {
+        gm_complain("--output and --out are for the diagram of one scheme: name it");
+        return GM_EXIT_USAGE;
+    }
+    char message[GM_MESSAGE] = "";
+    int status = GM_EXIT_MEMORY;
+    const struct gm_scheme *found = every ? NULL : gm_scheme_sought(name, &status, message);
+    if (!every && !found) {
+        gm_complain("%s", message);
+        return status;
+    }
+    const size_t most = gm_scheme_count();
+    struct certifying all = {.schemes = calloc(most, sizeof *all.schemes),
+                             .options = options,
+                             .certificates = calloc(most, sizeof *all.certificates),
+                             .lost = calloc(most, sizeof *all.lost)};
+    status = GM_EXIT_MEMORY;
+    if (all.schemes && all.certificates && all.lost) {
+        if (found && found->word) {
+            all.schemes[all.count++] = found;
+        }
+        for (size_t i = 0; i < most; i++) {
+            const struct gm_scheme *scheme = gm_scheme_at(i);
+            if (every || strcmp(scheme->name, found->name) == 0) {
+                all.schemes[all.count++] = scheme;
+            }
+        }
+        const struct gm_pool pool = {
+            .count = all.count, .window = most, .work = certify, .take = tell, .self = &all};
+        gm_listener_hears(&gm_terminal_listener, all.schemes[0]->name, 0, all.count);
+        if (gm_pool_run(&pool) == all.count) {
+            if (!options->json && !gm_options_take_stdout(options)) {
+                printf("%zu certified, %zu broken\n", all.certified, all.broken);
+            }
+            status = chart(options, all.certificates, all.count, all.broken ? GM_EXIT_CLAIM : GM_EXIT_OK);
+        }
+    }
+    free(all.schemes);
+    free(all.certificates);
+    free(all.lost);
+    return gm_finish(status);
+}
+
+const struct gm_command_row gm_command_certify = {
+    .name = "certify",
+    .synopsis = "SCHEME|FILE.scheme|all [--on SYSTEM [KEY=VALUE ...]] [--polish OUT.scheme]",
+    .help = "the claims against measurements and theory",
+    .bit = GM_CERTIFY,
+    .function = command_certify,
+};

@@ -1,0 +1,488 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is known of somebody's own system: its equations as they were derived, its structure with reasons, and
+   the schemes that fit it. */
+#include "app/commands/reference/system.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/output/json.h"
+#include "app/output/say.h"
+#include "app/output/wrapped.h"
+#include "app/request/system.h"
+#include "core/field/own/potential.h"
+#include "core/formula/equations.h"
+#include "core/formula/facts.h"
+#include "core/formula/number.h"
+#include "core/memory.h"
+#include "core/ode/own/own.h"
+#include "core/schemes.h"
+#include "render/message.h"
+
+static const char *const kinds[GM_SYSTEM_KINDS] = {"canonical", "lagrangian", "ode", "poisson", "field"};
+static const char *const titles[GM_SYSTEM_KINDS] = {"A canonical system", "A Lagrangian system",
+                                                    "An ordinary differential equation", "A Poisson system",
+                                                    "A wave equation"};
+static const char *const energies[GM_SYSTEM_KINDS] = {"H", "L", "", "H", "V"};
+
+enum { MOST_EQUATIONS = 40 }; /* that are printed; --json has them all */
+
+struct report {
+    struct gm_own_system system;
+    struct gm_own_model model;
+    struct gm_problem problem; /* for the file's values; not opened where no scheme can advance it */
+};
+
+static bool fits(const struct report *report, const struct gm_scheme *scheme)
+{
+    return report->problem.kind && scheme->family->kind == report->problem.kind &&
+           gm_scheme_fits(scheme, &report->problem);
+}
+
+/* How many operations there are, of a formula that is too long to be read. */
+static char *formula_of(const struct report *report, gm_node_id node, bool latex)
+{
+    const struct gm_naming naming = gm_system_naming(&report->system);
+    char *text = latex ? gm_formula_latex(&report->system.graph, node, &naming)
+                       : gm_formula_text(&report->system.graph, node, &naming);
+    if (!text && !gm_memory_was_short() && asprintf(&text, latex ? "\\ldots" : "(a long formula)") < 0) {
+        text = NULL;
+    }
+    return text;
+}
+
+static void print_equation(const struct report *report, const char *left, gm_node_id node)
+{
+    char *text = formula_of(report, node, false);
+    gm_print_wrapped(text ? text : "", printf("  %s = ", left), 6);
+    free(text);
+}
+
+/* What the rate of component number i is called, and its node; GM_NO_NODE: it has none. */
+static gm_node_id equation_of(const struct report *report, size_t i, char *left, size_t size)
+{
+    const struct gm_own_system *system = &report->system;
+    const size_t half = system->n / 2;
+    if (system->kind == GM_LAGRANGIAN && i < half) {
+        snprintf(left, size, "%.60s", system->variables[half + i].name);
+        return system->momenta[i];
+    }
+    if (system->kind == GM_FIELD) { /* number 1: the first one says that u_t is u_t */
+        snprintf(left, size, "%.60s_tt - %.60s_xx", system->variables[0].name, system->variables[0].name);
+        return system->rates[i];
+    }
+    snprintf(left, size, "%.60s'", system->variables[i].name);
+    return system->rates[i];
+}
+
+static size_t first_equation(const struct gm_own_system *system)
+{
+    return system->kind == GM_FIELD ? 1 : 0;
+}
+
+static const char *certainty(enum gm_identity check)
+{
+    static const char *const words[] = {[GM_NOT_ZERO] = "not kept",
+                                        [GM_ZERO_PROVED] = "proved",
+                                        [GM_ZERO_TESTED] = "tested at random points",
+                                        [GM_UNTESTED] = "not checked"};
+    return words[check];
+}
+
+static bool is_kept(const struct gm_system_item *item)
+{
+    return item->word == GM_WORD_INVARIANT || item->word == GM_WORD_CASIMIR || item->word == GM_WORD_SYMMETRY;
+}
+
+/* The name of an invariant; of a momentum map without one its number. */
+static void kept_name(const struct gm_own_system *system, const struct gm_system_item *item, char *name,
+                      size_t size)
+{
+    int number = 0;
+    for (const struct gm_system_item *other = system->items; other <= item; other++) {
+        number += other->word == GM_WORD_SYMMETRY && !other->name[0];
+    }
+    if (item->name[0]) {
+        snprintf(name, size, "%.60s", item->name);
+    } else {
+        snprintf(name, size, "momentum%d", number);
+    }
+}
+
+/* Its formula; GM_NO_NODE where a symmetry has no momentum map. */
+static gm_node_id kept_node(const struct gm_own_system *system, const struct gm_system_item *item)
+{
+    return item->word != GM_WORD_SYMMETRY  ? item->nodes[0]
+           : system->kind <= GM_LAGRANGIAN ? item->nodes[system->n / 2]
+                                           : GM_NO_NODE;
+}
+
+static void print_texts(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
+    static const enum gm_system_word order[] = {GM_WORD_TITLE, GM_WORD_ABOUT, GM_WORD_WATCH,
+                                                GM_WORD_REFERENCE};
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
+        if (system->texts[order[i]]) {
+            gm_print_wrapped(system->texts[order[i]], 0, 0);
+        }
+    }
+    char line[200];
+    snprintf(line, sizeof line, "%s of %zu component%s%s", titles[system->kind], system->n,
+             system->n == 1 ? "" : "s", system->timed ? " and the time" : "");
+    gm_print_wrapped(line, 0, 0);
+}
+
+static void print_parameters(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
+    double *start = gm_equations_start(system, NULL);
+    if (system->parameters < system->velocities) {
+        printf("\nparameters\n");
+    }
+    for (size_t i = system->parameters; i < system->velocities; i++) {
+        const struct gm_system_variable *row = &system->variables[i];
+        char value[64], low[64], high[64], text[512];
+        gm_number_format(row->value, value, sizeof value);
+        snprintf(text, sizeof text, "%.200s%s%.60s%s%s%s%s%s%s", row->meaning, row->unit[0] ? ", in " : "",
+                 row->unit, isnan(row->low) ? "" : " [",
+                 isnan(row->low) ? "" : gm_number_format(row->low, low, sizeof low),
+                 isnan(row->low) ? "" : " .. ",
+                 isnan(row->low) ? "" : gm_number_format(row->high, high, sizeof high),
+                 isnan(row->low) ? "" : "]", row->fixed ? " (a whole number that is fixed)" : "");
+        gm_print_wrapped(text, printf("  %-14s %-12s ", row->name, value), 30);
+    }
+    printf("\nstart\n");
+    for (size_t i = 0; start && i < system->n && i < MOST_EQUATIONS; i++) {
+        if (system->kind == GM_FIELD) {
+            print_equation(report, system->variables[i].name, system->variables[i].start);
+            continue;
+        }
+        printf("  %-14s %.15g%s\n", system->variables[i].name, start[i],
+               system->variables[i].angle ? " (an angle)" : "");
+    }
+    free(start);
+}
+
+static void print_equations(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
+    printf("\nequations\n");
+    if (system->kind != GM_RATES) {
+        print_equation(report, energies[system->kind], system->energy);
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_LET) {
+            print_equation(report, system->items[i].name, system->items[i].nodes[0]);
+        }
+    }
+    for (size_t i = first_equation(system); i < system->n; i++) {
+        char left[140];
+        const gm_node_id node = equation_of(report, i, left, sizeof left);
+        if (i == MOST_EQUATIONS) {
+            printf("  and %zu more\n", system->n - i);
+            break;
+        }
+        print_equation(report, left, node);
+    }
+    for (size_t i = 0, k = 1; i < system->item_count && k <= MOST_EQUATIONS; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            printf("%s", k == 1 ? "\nconstraints, whose forces act on the momenta beside these rates\n" : "");
+            print_equation(report, "0", system->items[i].nodes[0]);
+            k++;
+        }
+    }
+}
+
+static void print_kept(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
+    bool any = false;
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        char name[80];
+        if (!is_kept(item)) {
+            continue;
+        }
+        printf("%s", any ? "" : "\ninvariants\n");
+        any = true;
+        kept_name(system, item, name, sizeof name);
+        const gm_node_id node = kept_node(system, item);
+        char *text =
+                 node == GM_NO_NODE ? strdup("a symmetry of the motion") : formula_of(report, node, false),
+             *line = NULL;
+        if (asprintf(&line, "%s = %s (%s%s)", name, text ? text : "",
+                     item->word == GM_WORD_CASIMIR    ? "a Casimir, "
+                     : item->word == GM_WORD_SYMMETRY ? "by symmetry, "
+                                                      : "",
+                     certainty(item->check)) >= 0) {
+            gm_print_wrapped(line, printf("  "), 2);
+            free(line);
+        }
+        free(text);
+    }
+}
+
+/* The facets of a field: its equation has them. */
+static const char *const field_facts[][2] = {
+    {"wave", "u_tt = u_xx - V'(u), and V is smooth"},
+    {"multisymplectic", "s = (u, u_t, u_x) solves M s_t + K s_x = grad S(s), S = V(u) + u_t^2/2 - u_x^2/2"},
+};
+enum { FIELD_FACTS = sizeof field_facts / sizeof *field_facts };
+
+static void print_facts(const struct report *report)
+{
+    printf("\nstructure\n");
+    for (size_t i = 0; i < FIELD_FACTS && report->system.kind == GM_FIELD; i++) {
+        gm_print_wrapped(field_facts[i][1], printf("  %-16s yes ", field_facts[i][0]), 23);
+    }
+    if (report->system.kind == GM_POISSON) {
+        printf("  %-16s yes Jacobi's identity holds (%s)\n", "bracket", certainty(report->system.jacobi));
+    }
+    for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
+        const struct gm_finding *finding = &report->model.findings[fact];
+        char *reason = finding->asked ? gm_fact_reason(&report->system, fact, finding) : NULL;
+        if (reason) {
+            gm_print_wrapped(reason,
+                             printf("  %-16s %-4s", gm_fact_word(fact), finding->holds ? "yes" : "no"), 23);
+        }
+        free(reason);
+    }
+}
+
+static void print_schemes(const struct report *report)
+{
+    const char *lacks = report->system.kind == GM_FIELD ? "" : gm_own_model_lacks(&report->model);
+    printf("\nschemes that fit\n");
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    for (size_t i = 0; out && i < gm_scheme_count(); i++) {
+        if (fits(report, gm_scheme_at(i))) {
+            fprintf(out, "%s ", gm_scheme_at(i)->name);
+        }
+    }
+    if (out && fclose(out) == 0) {
+        gm_print_wrapped(lacks[0] ? lacks : text, printf("  "), 2);
+    }
+    free(text);
+}
+
+static void print_json(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
+    const char *comma = "";
+    char name[80];
+    printf("{");
+    gm_json_pair("title", system->texts[GM_WORD_TITLE] ? system->texts[GM_WORD_TITLE] : "");
+    printf(",");
+    gm_json_pair("kind", kinds[system->kind]);
+    printf(",\"timed\":%s,\"parameters\":{", system->timed ? "true" : "false");
+    for (size_t i = system->parameters; i < system->velocities; i++, comma = ",") {
+        printf("%s", comma);
+        gm_json_number_pair(system->variables[i].name, system->variables[i].value);
+    }
+    double *start = gm_equations_start(system, NULL);
+    printf("},\"start\":{");
+    comma = "";
+    for (size_t i = 0; start && i < system->n; i++, comma = ",") {
+        printf("%s", comma);
+        if (system->kind == GM_FIELD) {
+            char *text = formula_of(report, system->variables[i].start, false);
+            gm_json_pair(system->variables[i].name, text ? text : "");
+            free(text);
+        } else {
+            gm_json_number_pair(system->variables[i].name, start[i]);
+        }
+    }
+    free(start);
+    printf("},\"equations\":{");
+    comma = "";
+    for (size_t i = first_equation(system); i < system->n; i++, comma = ",") {
+        char *text = formula_of(report, equation_of(report, i, name, sizeof name), false);
+        printf("%s", comma);
+        gm_json_pair(name, text ? text : "");
+        free(text);
+    }
+    printf("},\"invariants\":{");
+    comma = "";
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (is_kept(&system->items[i])) {
+            kept_name(system, &system->items[i], name, sizeof name);
+            printf("%s", comma);
+            gm_json_pair(name, certainty(system->items[i].check));
+            comma = ",";
+        }
+    }
+    printf("},\"structure\":{");
+    comma = "";
+    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++, comma = ",") {
+        printf("%s\"%s\":{\"holds\":true,", comma, field_facts[i][0]);
+        gm_json_pair("reason", field_facts[i][1]);
+        printf("}");
+    }
+    for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
+        const struct gm_finding *finding = &report->model.findings[fact];
+        char *reason = finding->asked ? gm_fact_reason(system, fact, finding) : NULL;
+        if (reason) {
+            printf("%s\"%s\":{\"holds\":%s,", comma, gm_fact_word(fact), finding->holds ? "true" : "false");
+            gm_json_pair("reason", reason);
+            printf("}");
+            comma = ",";
+        }
+        free(reason);
+    }
+    printf("},\"schemes\":[");
+    comma = "";
+    for (size_t i = 0; i < gm_scheme_count(); i++) {
+        if (fits(report, gm_scheme_at(i))) {
+            printf("%s\"%s\"", comma, gm_scheme_at(i)->name);
+            comma = ",";
+        }
+    }
+    printf("]}\n");
+}
+
+static void print_latex(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
+    const size_t half = system->n / 2;
+    printf("\\begin{align}\n");
+    if (system->kind != GM_RATES) {
+        char *text = formula_of(report, system->energy, true);
+        printf("  %s &= %s \\\\\n", energies[system->kind], text ? text : "");
+        free(text);
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_LET) {
+            char *text = formula_of(report, system->items[i].nodes[0], true),
+                 *name = gm_name_latex(system->items[i].name);
+            printf("  %s &= %s \\\\\n", name ? name : "", text ? text : "");
+            free(text);
+            free(name);
+        }
+    }
+    for (size_t i = first_equation(system); i < system->n; i++) {
+        const bool momentum = system->kind == GM_LAGRANGIAN && i < half, field = system->kind == GM_FIELD;
+        char *name = gm_name_latex(system->variables[momentum ? half + i : field ? 0 : i].name), left[140];
+        char *text = formula_of(report, equation_of(report, i, left, sizeof left), true);
+        if (field) {
+            printf("  \\partial_t^2 %s - \\partial_x^2 %s &= %s\n", name ? name : "", name ? name : "",
+                   text ? text : "");
+        } else {
+            printf(momentum ? "  %s &= %s%s\n" : "  \\dot{%s} &= %s%s\n", name ? name : "", text ? text : "",
+                   i + 1 < system->n ? " \\\\" : "");
+        }
+        free(name);
+        free(text);
+    }
+    printf("\\end{align}\n");
+}
+
+/* key=value words to values; false with a complaint. */
+static bool read_values(const struct gm_arguments *arguments, struct gm_system_value *values, size_t *count)
+{
+    for (int i = 1; i < arguments->count; i++) {
+        char *word = arguments->words[i], *equals = strchr(word, '=');
+        double number;
+        if (!equals || !gm_number_parse(equals + 1, &number)) {
+            gm_complain("list SYSTEM takes parameters with numbers, such as N=3, not \"%.60s\"", word);
+            return false;
+        }
+        *equals = '\0';
+        values[(*count)++] = (struct gm_system_value){word, equals + 1};
+    }
+    return true;
+}
+
+/* every value was that of a parameter */
+static bool are_known(const struct gm_own_system *system, const struct gm_system_value *values, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        bool known = false;
+        for (size_t i = system->parameters; i < system->velocities; i++) {
+            known |= strcmp(system->variables[i].name, values[k].name) == 0;
+        }
+        if (!known) {
+            gm_complain("this system has no parameter \"%.60s\"", values[k].name);
+            return false;
+        }
+    }
+    return true;
+}
+
+/* False: out of memory. */
+static bool open_problem(struct report *report)
+{
+    double *start = NULL;
+    if (report->system.kind == GM_FIELD) {
+        struct gm_own_wave wave;
+        start = gm_equations_start(&report->system, NULL);
+        const bool opened = start && gm_own_wave_derive(&wave, &report->system) &&
+                            gm_own_wave_open(&report->problem, &wave, start);
+        free(start);
+        return opened;
+    }
+    bool good = gm_own_model_open(&report->model, &report->system);
+    if (good && !gm_own_model_lacks(&report->model)[0]) {
+        start = gm_equations_start(&report->system, NULL);
+        good = start && gm_own_problem_open(&report->problem, &report->model, start);
+    }
+    free(start);
+    return good;
+}
+
+/* The system of a file with other values, or of words alone: NULL. An exit status, told. */
+static int open_system(struct report *report, const struct gm_arguments *arguments, const char *path)
+{
+    char message[GM_MESSAGE];
+    size_t count = 0;
+    struct gm_system_value *values = calloc((size_t)arguments->count, sizeof *values);
+    int status = !values                                           ? GM_EXIT_MEMORY
+                 : !path || read_values(arguments, values, &count) ? GM_EXIT_OK
+                                                                   : GM_EXIT_USAGE;
+    if (status == GM_EXIT_OK) {
+        status = path ? gm_system_open(&report->system, path, values, count, message)
+                      : gm_system_open_typed(&report->system, arguments->count, arguments->words, message);
+        if (status != GM_EXIT_OK) {
+            gm_complain("%s", message);
+        }
+    }
+    if (status == GM_EXIT_OK && !are_known(&report->system, values, count)) {
+        status = GM_EXIT_USAGE;
+    }
+    free(values);
+    return status;
+}
+
+int gm_list_system(const struct gm_arguments *arguments, const char *path, enum gm_telling telling)
+{
+    struct report report = {.problem = {0}};
+    const int status = open_system(&report, arguments, path);
+    if (status == GM_EXIT_OK && open_problem(&report)) {
+        if (telling == GM_TELL_JSON) {
+            print_json(&report);
+        } else if (telling == GM_TELL_LATEX) {
+            print_latex(&report);
+        } else {
+            print_texts(&report);
+            print_parameters(&report);
+            print_equations(&report);
+            print_kept(&report);
+            if (telling == GM_TELL_ALL) {
+                print_facts(&report);
+                print_schemes(&report);
+            }
+        }
+    }
+    if (report.system.kind == GM_FIELD) {
+        gm_own_wave_close(&report.problem);
+    } else {
+        gm_own_problem_close(&report.problem);
+    }
+    gm_own_model_close(&report.model);
+    gm_system_close(&report.system);
+    return gm_finish(status);
+}

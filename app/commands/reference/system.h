@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What geomint list tells of a system of somebody's own. */
+#ifndef GM_APP_COMMANDS_REFERENCE_SYSTEM_H
+#define GM_APP_COMMANDS_REFERENCE_SYSTEM_H
+
+#include "app/request/arguments.h"
+
+enum gm_telling { GM_TELL_SHORT, GM_TELL_ALL, GM_TELL_LATEX, GM_TELL_JSON };
+
+/* geomint list SYSTEM: what a system says, and what was found out about it. The words behind the first give
+   parameters other values; without a path they are all there is, "system H=... key=value ...". Returns the
+   exit status. */
+int gm_list_system(const struct gm_arguments *arguments, const char *path, enum gm_telling telling);
+
+#endif

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The prompt for a system or a scheme of one's own: opened, typed in, checked, taken. What runs goes on until
+   then. */
+#include "app/explorer/events.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/explorer/view/keystroke.h"
+#include "app/request/system.h"
+#include "core/schemes.h"
+
+static const char example[] = "H=p^2/2 - cos(q) q=2 p=0";
+
+static void open_prompt(struct gm_explorer *explorer, enum gm_own_kind kind, const char *text, size_t at)
+{
+    struct gm_own_prompt *prompt = &explorer->own;
+    prompt->kind = kind;
+    prompt->checked = prompt->entered = false;
+    prompt->fault = (struct gm_typed_fault){.at = -1};
+    gm_edit_set(&prompt->line, text, at);
+    explorer->dirty = explorer->fresh = true;
+    gm_explorer_check_own(explorer);
+}
+
+static void close_prompt(struct gm_explorer *explorer)
+{
+    struct gm_own_prompt *prompt = &explorer->own;
+    free(prompt->last[prompt->kind]);
+    prompt->last[prompt->kind] = strdup(prompt->line.text);
+    prompt->kind = GM_OWN_NONE;
+    explorer->dirty = explorer->fresh = true;
+}
+
+/* Three steps of a scheme that fits, of which one goes back, or two stages. */
+static const char *scheme_example(const struct gm_shot *shot)
+{
+    static const char *const examples[][2] = {
+        {"verlet", "composition(verlet; 1/(2 - 2^(1/3)), 1 - 2/(2 - 2^(1/3)), 1/(2 - 2^(1/3)))"},
+        {"midpoint", "composition(midpoint; 1/(2 - 2^(1/3)), 1 - 2/(2 - 2^(1/3)), 1/(2 - 2^(1/3)))"},
+    };
+    for (size_t k = 0; k < sizeof examples / sizeof *examples; k++) {
+        for (size_t i = 0; i < shot->scheme_count; i++) {
+            if (strcmp(shot->schemes[i]->name, examples[k][0]) == 0) {
+                return examples[k][1];
+            }
+        }
+    }
+    return "runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)";
+}
+
+void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork)
+{
+    const enum gm_own_kind kind = fork ? GM_OWN_FORK : GM_OWN_SWITCH;
+    const struct gm_shot *shot = explorer->open.shot;
+    const struct gm_scheme *present = shot->lanes[shot->selected].scheme;
+    const char *last = explorer->own.last[kind];
+    open_prompt(explorer, kind,
+                present->word ? gm_scheme_word(present)
+                : last        ? last
+                              : scheme_example(shot),
+                SIZE_MAX);
+}
+
+/* A system of one's own is told first, as a command line, by the thread that runs it. */
+void gm_explorer_ask_system(struct gm_explorer *explorer)
+{
+    const struct gm_open *open = &explorer->open;
+    const char *last = explorer->own.last[GM_OWN_SYSTEM];
+    if (open->shot && open->scene->text) {
+        explorer->editing = explorer->face.awaited = true;
+        gm_worker_order(open->worker, (struct gm_order){.kind = GM_ORDER_TELL});
+        return;
+    }
+    const size_t formula = (size_t)(strstr(example, " q=") - example);
+    open_prompt(explorer, GM_OWN_SYSTEM, last ? last : example, last ? SIZE_MAX : formula);
+}
+
+void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
+{
+    struct gm_arguments typed = {0}, words = {0};
+    bool good = command && gm_typed_split(&typed, command) && typed.count > 1;
+    struct gm_arguments formulas = {0};
+    explorer->editing = false;
+    /* without the program's name; `system` goes without saying, and behind a file's name stand its
+       formulas */
+    const bool formula = good && strcmp(typed.words[1], "system") == 0;
+    good = good && (formula || (gm_arguments_add(&words, typed.words[1]) &&
+                                gm_system_formulas(explorer->open.scene->text, &formulas)));
+    for (int i = 0; good && i < formulas.count; i++) {
+        good = gm_arguments_add(&words, formulas.words[i]);
+    }
+    for (int i = 2; good && i < typed.count; i++) {
+        good = gm_arguments_have(&formulas, typed.words[i]) || gm_arguments_add(&words, typed.words[i]);
+    }
+    char *text = good ? gm_typed_join(&words) : NULL;
+    if (text) { /* the cursor behind the first formula */
+        size_t at = words.count > 0 ? strlen(words.words[0]) : 0;
+        at += !formula && words.count > 1 ? 1 + strlen(words.words[1]) : 0;
+        open_prompt(explorer, GM_OWN_SYSTEM, text, at);
+    }
+    free(text);
+    gm_arguments_close(&typed);
+    gm_arguments_close(&words);
+    gm_arguments_close(&formulas);
+}
+
+/* What is typed is right: it takes the place of what runs, or of a lane's scheme. */
+static void take(struct gm_explorer *explorer)
+{
+    struct gm_own_prompt *prompt = &explorer->own;
+    struct gm_open *open = &explorer->open;
+    prompt->entered = false;
+    if (prompt->kind == GM_OWN_SYSTEM) {
+        if (!gm_open_line(open, prompt->line.text, &prompt->fault)) {
+            return;
+        }
+        open->guide.tour = NULL;
+        open->studies.shown = GM_STUDY_NONE;
+        explorer->face.guide = NULL;
+        explorer->face.parameter = 0;
+        explorer->list.shown = false;
+    } else {
+        const struct gm_scheme *scheme = gm_typed_scheme(prompt->line.text, &prompt->fault);
+        if (!scheme) {
+            return;
+        }
+        gm_worker_order(open->worker, (struct gm_order){.kind = prompt->kind == GM_OWN_FORK ? GM_ORDER_FORK
+                                                                                            : GM_ORDER_SWITCH,
+                                                        .scheme = scheme});
+    }
+    close_prompt(explorer);
+}
+
+void gm_explorer_check_own(struct gm_explorer *explorer)
+{
+    struct gm_own_prompt *prompt = &explorer->own;
+    if (prompt->kind == GM_OWN_NONE || prompt->checked) {
+        return;
+    }
+    prompt->checked = gm_check_knows(&explorer->check, prompt->kind != GM_OWN_SYSTEM, prompt->line.text,
+                                     explorer->wake, &prompt->fault);
+    explorer->dirty = explorer->dirty || prompt->checked;
+    if (prompt->checked && prompt->entered) {
+        if (prompt->fault.sentence[0]) {
+            prompt->entered = false;
+        } else {
+            take(explorer);
+        }
+    }
+}
+
+void gm_explorer_press_own(struct gm_explorer *explorer, int key)
+{
+    struct gm_own_prompt *prompt = &explorer->own;
+    explorer->dirty = true;
+    if (gm_key_is_escape(key)) {
+        close_prompt(explorer);
+    } else if (gm_key_is_enter(key)) {
+        prompt->entered = !prompt->checked || !prompt->fault.sentence[0];
+        if (prompt->checked && prompt->entered) {
+            take(explorer);
+        }
+    } else {
+        if (prompt->entered) { /* more came at once: an end of a line in what was pasted is a blank */
+            gm_edit_press(&prompt->line, ' ');
+        }
+        prompt->entered = false;
+        prompt->checked = !gm_edit_press(&prompt->line, key) && prompt->checked;
+    }
+}
+
+void gm_explorer_close_own(struct gm_explorer *explorer)
+{
+    gm_check_close(&explorer->check);
+    for (size_t i = 0; i < GM_OWN_KINDS; i++) {
+        free(explorer->own.last[i]);
+    }
+}

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the prompt for a system, or a scheme, of one's own looks like. */
+#include "app/explorer/view/own.h"
+
+#include <stdio.h>
+
+/* A rule with what is asked, the line, the caret, and what is wrong in at most two rows. */
+enum { ROWS = 5, FEW_ROWS = 2, FEW_SCREEN_ROWS = 16 };
+
+static const char *const questions[GM_OWN_KINDS] = {
+    [GM_OWN_SYSTEM] = " Your own system: a formula with its values, a file, or a name ",
+    [GM_OWN_SWITCH] = " Your own scheme for this lane: coefficients, or a file ",
+    [GM_OWN_FORK] = " Your own scheme for one more lane: coefficients, or a file ",
+};
+
+int gm_own_prompt_rows(const struct gm_own_prompt *prompt, int rows)
+{
+    if (!prompt || prompt->kind == GM_OWN_NONE || rows < 4) {
+        return 0;
+    }
+    return rows >= FEW_SCREEN_ROWS ? ROWS : FEW_ROWS;
+}
+
+static void verdict(const struct gm_own_prompt *prompt, char *text, size_t size)
+{
+    if (prompt->line.refused > 0) {
+        snprintf(text, size,
+                 "A line has room for %d bytes, and the last %zu that came were left out: a file has more.",
+                 GM_EDIT - 1, prompt->line.refused);
+    } else if (!prompt->checked) {
+        snprintf(text, size, "%s", prompt->entered ? "It is read …" : prompt->fault.sentence);
+    } else if (prompt->fault.sentence[0]) {
+        snprintf(text, size, "%s", prompt->fault.sentence);
+    } else {
+        snprintf(text, size, "That is right: enter takes it.");
+    }
+}
+
+void gm_own_prompt_draw(const struct gm_sheet *sheet, const struct gm_own_prompt *prompt)
+{
+    char text[GM_MESSAGE + 128];
+    const bool few = sheet->height < ROWS, wrong = prompt->fault.sentence[0] != '\0';
+    const struct gm_sheet line = gm_sheet_part(sheet, 1, few ? 0 : 1, sheet->width - 2, 1);
+    const struct gm_sheet told = gm_sheet_part(sheet, 1, few ? 1 : 3, sheet->width - 2, few ? 1 : 2);
+    for (int i = 0; !few && i < sheet->width; i++) {
+        gm_sheet_glyph(sheet, i, 0, 0x2500, GM_GRID, false);
+    }
+    if (!few) {
+        gm_sheet_cut(sheet, 1, 0, questions[prompt->kind], GM_INK, true);
+    }
+    gm_edit_draw(&line, 0, &prompt->line);
+    if (!few && prompt->checked && wrong && prompt->fault.at >= 0) {
+        gm_sheet_glyph(sheet, 1 + gm_edit_column(&line, &prompt->line, (size_t)prompt->fault.at), 2, '^',
+                       GM_INITIAL, true);
+    }
+    verdict(prompt, text, sizeof text);
+    gm_sheet_wrapped(&told, 0, 0, told.height, text, prompt->checked && wrong ? GM_INITIAL : GM_SECONDARY);
+}
+
+void gm_own_prompt_keys(const struct gm_sheet *last, const struct gm_own_prompt *prompt)
+{
+    const bool ready = prompt->checked && !prompt->fault.sentence[0];
+    const struct gm_hint hints[] = {{"enter", ready ? "take it" : "–", '\n'},
+                                    {"esc", "back", 27},
+                                    {"← →", "move", 0},
+                                    {"ctrl-U", "clear", 'U' - '@'},
+                                    {NULL, NULL, 0}};
+    gm_sheet_hints(last, 1, ready ? hints : hints + 1);
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_EXPLORER_VIEW_OWN_H
+#define GM_APP_EXPLORER_VIEW_OWN_H
+
+#include "app/explorer/view/edit.h"
+#include "app/request/typed.h"
+
+/* The prompt for a system, or a scheme, of one's own: what is typed, and below it what is wrong, and
+   where. */
+
+enum gm_own_kind {
+    GM_OWN_NONE,   /* the prompt is closed */
+    GM_OWN_SYSTEM, /* that takes the place of what is open */
+    GM_OWN_SWITCH, /* a scheme for the selected lane */
+    GM_OWN_FORK,   /* a scheme for one more lane from its state */
+    GM_OWN_KINDS
+};
+
+struct gm_own_prompt {
+    enum gm_own_kind kind;
+    struct gm_edit line;
+    bool checked; /* the fault is that of the line as it is; else of an earlier one */
+    struct gm_typed_fault fault;
+    bool entered;             /* the line is to be taken once it is checked */
+    char *last[GM_OWN_KINDS]; /* what was typed before; NULL: nothing */
+};
+
+/* The rows that it takes of a screen of so many; 0: it is closed. */
+int gm_own_prompt_rows(const struct gm_own_prompt *prompt, int rows);
+/* Fills the sheet, of so many rows. */
+void gm_own_prompt_draw(const struct gm_sheet *sheet, const struct gm_own_prompt *prompt);
+/* The keys, in the last row. */
+void gm_own_prompt_keys(const struct gm_sheet *last, const struct gm_own_prompt *prompt);
+
+#endif

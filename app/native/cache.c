@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The folder of compiled loops: whose it is, what is whole, what has to go. */
+#include "app/native/cache.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "render/message.h"
+
+enum { MOST_ENTRIES = 256, LARGEST = 1 << 24, MOST_BYTES = 1 << 26 };
+static const char ending[] = ".so";
+
+/* Behind the library; loaders do not mind. */
+struct seal {
+    char magic[8];
+    uint64_t a, b;
+};
+static const char magic[8] = {'g', 'e', 'o', 'm', 'i', 'n', 't', '1'};
+
+struct gm_digest gm_digest_open(void)
+{
+    return (struct gm_digest){UINT64_C(0xcbf29ce484222325), UINT64_C(0x9e3779b97f4a7c15)};
+}
+
+/* Two sums of Fowler, Noll & Vo's kind, of different multipliers: against accidents, not against malice. */
+void gm_digest_add(struct gm_digest *digest, const void *bytes, size_t count)
+{
+    const unsigned char *at = bytes;
+    for (size_t i = 0; i < count; i++) {
+        digest->a = (digest->a ^ at[i]) * UINT64_C(0x100000001b3);
+        digest->b = (digest->b ^ at[i]) * UINT64_C(0xbf58476d1ce4e5b9);
+        digest->b ^= digest->b >> 29;
+    }
+}
+
+struct gm_cache_key gm_digest_key(const struct gm_digest *digest)
+{
+    struct gm_cache_key key;
+    snprintf(key.text, sizeof key.text, "%016llx%016llx", (unsigned long long)digest->a,
+             (unsigned long long)digest->b);
+    return key;
+}
+
+bool gm_cache_folder(char path[GM_CACHE_PATH], char *sentence)
+{
+    const char *own = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    const bool known = own && own[0] == '/';
+    struct stat about;
+    if (!known && !(home && home[0] == '/')) {
+        return gm_refuse(sentence, "there is no folder for caches: neither XDG_CACHE_HOME nor HOME is set");
+    }
+    /* longer paths have no room for an entry's name */
+    if (snprintf(path, GM_CACHE_PATH - 128, "%s%s", known ? own : home, known ? "" : "/.cache") >=
+        GM_CACHE_PATH - 128) {
+        return gm_refuse(sentence, "the path of the cache is too long");
+    }
+    mkdir(path, 0700);
+    strcat(path, "/geomint");
+    if ((mkdir(path, 0700) != 0 && errno != EEXIST) || lstat(path, &about) != 0) {
+        return gm_refuse(sentence, "%.200s could not be made: %s", path, strerror(errno));
+    }
+    if (!S_ISDIR(about.st_mode) || about.st_uid != geteuid() || (about.st_mode & 077) != 0) {
+        return gm_refuse(sentence,
+                         "%.200s is not used: it is to be a folder of yours that nobody else may open", path);
+    }
+    return true;
+}
+
+static void path_of(const char *folder, const struct gm_cache_key *key, char path[GM_CACHE_PATH])
+{
+    snprintf(path, GM_CACHE_PATH, "%.3900s/%s%s", folder, key->text, ending);
+}
+
+/* The digest of a file's bytes but its last `without`, and these; false where it is no regular file of
+   ours. */
+static bool digest_file(int file, size_t without, struct gm_digest *digest, struct seal *last)
+{
+    struct stat about;
+    char bytes[1 << 14];
+    *digest = gm_digest_open();
+    if (fstat(file, &about) != 0 || !S_ISREG(about.st_mode) || about.st_uid != geteuid() ||
+        about.st_size > LARGEST || (size_t)about.st_size <= without) {
+        return false;
+    }
+    for (size_t left = (size_t)about.st_size - without; left > 0;) {
+        const ssize_t count = read(file, bytes, left < sizeof bytes ? left : sizeof bytes);
+        if (count <= 0) {
+            return false;
+        }
+        gm_digest_add(digest, bytes, (size_t)count);
+        left -= (size_t)count;
+    }
+    return without == 0 || read(file, last, sizeof *last) == (ssize_t)sizeof *last;
+}
+
+void gm_cache_drop(const char *folder, const struct gm_cache_key *key)
+{
+    char path[GM_CACHE_PATH];
+    path_of(folder, key, path);
+    unlink(path);
+}
+
+int gm_cache_find(const char *folder, const struct gm_cache_key *key)
+{
+    char path[GM_CACHE_PATH];
+    struct gm_digest digest;
+    struct seal seal;
+    path_of(folder, key, path);
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (file < 0) {
+        return -1;
+    }
+    const bool read = digest_file(file, sizeof seal, &digest, &seal);
+    gm_digest_add(&digest, key->text, sizeof key->text); /* one that was moved here is none */
+    const bool whole =
+        read && memcmp(seal.magic, magic, sizeof magic) == 0 && seal.a == digest.a && seal.b == digest.b;
+    if (!whole) {
+        gm_cache_drop(folder, key);
+        close(file);
+        return -1;
+    }
+    futimens(file, NULL); /* the oldest go first */
+    return file;
+}
+
+bool gm_cache_keep(const char *folder, const char *library, const struct gm_cache_key *key)
+{
+    char path[GM_CACHE_PATH];
+    struct gm_digest digest;
+    struct seal seal;
+    path_of(folder, key, path);
+    const int file = open(library, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+    bool good = file >= 0 && digest_file(file, 0, &digest, NULL);
+    if (good) {
+        gm_digest_add(&digest, key->text, sizeof key->text);
+        memcpy(seal.magic, magic, sizeof magic);
+        seal.a = digest.a;
+        seal.b = digest.b;
+        good = lseek(file, 0, SEEK_END) >= 0 && write(file, &seal, sizeof seal) == (ssize_t)sizeof seal;
+    }
+    if (file >= 0) {
+        good = close(file) == 0 && good;
+    }
+    good = good && rename(library, path) == 0;
+    size_t count = 0, kept = good ? 1 : 0, bytes = 0;
+    struct gm_cache_entry *entries = NULL;
+    gm_cache_list(folder, &entries, &count); /* where it cannot be read, nothing is dropped */
+    for (size_t i = 0; i < count; i++) {
+        bytes += entries[i].size;
+        if (strcmp(entries[i].key.text, key->text) == 0) {
+            continue;
+        }
+        if (kept < MOST_ENTRIES && bytes <= MOST_BYTES) {
+            kept++;
+        } else {
+            gm_cache_drop(folder, &entries[i].key);
+        }
+    }
+    free(entries);
+    return good;
+}
+
+static bool is_entry(const char *name)
+{
+    return strlen(name) == GM_KEY_TEXT - 1 + sizeof ending - 1 &&
+           strspn(name, "0123456789abcdef") == GM_KEY_TEXT - 1 && strcmp(name + GM_KEY_TEXT - 1, ending) == 0;
+}
+
+/* Calls `each` for every file of the folder that is an entry, or for those that are none. False where the
+   folder, which need not be there, cannot be read. */
+static bool each_file(const char *folder, bool entries,
+                      void (*each)(void *data, const char *path, const char *name, const struct stat *about),
+                      void *data)
+{
+    DIR *files = opendir(folder);
+    if (!files) {
+        return errno == ENOENT;
+    }
+    for (const struct dirent *file; (file = readdir(files));) {
+        char path[GM_CACHE_PATH];
+        struct stat about;
+        snprintf(path, sizeof path, "%.3800s/%s", folder, file->d_name);
+        if (is_entry(file->d_name) == entries && lstat(path, &about) == 0 && S_ISREG(about.st_mode)) {
+            each(data, path, file->d_name, &about);
+        }
+    }
+    closedir(files);
+    return true;
+}
+
+static void remove_stale(void *data, const char *path, const char *name, const struct stat *about)
+{
+    (void)name;
+    const time_t *now = data;
+    if (about->st_mtime + 3600 < *now) {
+        unlink(path);
+    }
+}
+
+void gm_cache_sweep(const char *folder)
+{
+    time_t now = time(NULL);
+    each_file(folder, false, remove_stale, &now);
+}
+
+struct list {
+    struct gm_cache_entry *entries;
+    size_t count, room;
+};
+
+static void add_entry(void *data, const char *path, const char *name, const struct stat *about)
+{
+    (void)path;
+    struct list *list = data;
+    if (list->count == list->room) {
+        const size_t room = 2 * list->room + 16;
+        struct gm_cache_entry *more = realloc(list->entries, room * sizeof *more);
+        if (!more) {
+            return;
+        }
+        list->entries = more;
+        list->room = room;
+    }
+    struct gm_cache_entry *entry = &list->entries[list->count++];
+    *entry = (struct gm_cache_entry){.size = (size_t)about->st_size, .used = about->st_mtime};
+    memcpy(entry->key.text, name, GM_KEY_TEXT - 1);
+}
+
+static int later(const void *a, const void *b)
+{
+    const struct gm_cache_entry *one = a, *other = b;
+    return one->used != other->used ? (one->used < other->used ? 1 : -1)
+                                    : strcmp(one->key.text, other->key.text);
+}
+
+bool gm_cache_list(const char *folder, struct gm_cache_entry **entries, size_t *count)
+{
+    struct list list = {0};
+    const bool good = each_file(folder, true, add_entry, &list);
+    if (list.count > 0) {
+        qsort(list.entries, list.count, sizeof *list.entries, later);
+    }
+    *entries = list.entries;
+    *count = list.count;
+    return good;
+}
+
+static void remove_entry(void *data, const char *path, const char *name, const struct stat *about)
+{
+    (void)name;
+    (void)about;
+    size_t *count = data;
+    *count += unlink(path) == 0;
+}
+
+size_t gm_cache_clear(const char *folder)
+{
+    size_t count = 0, others = 0;
+    each_file(folder, true, remove_entry, &count);
+    each_file(folder, false, remove_entry, &others);
+    return count;
+}

@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The compiler's process: found, started, watched, ended. */
+#include "app/native/compiler.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "render/cells/text.h"
+#include "render/clock.h"
+#include "render/message.h"
+
+enum { MOST_BYTES = 1 << 24, COULD_NOT_START = 127 };
+
+/* on the clock, and of a processor */
+static double most_seconds(void)
+{
+    const char *own = getenv("GEOMINT_COMPILER_SECONDS");
+    const double seconds = own ? strtod(own, NULL) : 0;
+    return seconds >= 1 && seconds <= 3600 ? seconds : 10;
+}
+
+bool gm_program_find(const char *name, char path[GM_CACHE_PATH], struct stat *about)
+{
+    const char *folders = getenv("PATH");
+    for (const char *at = folders ? folders : ""; *at; at += *at == ':') {
+        const size_t length = strcspn(at, ":");
+        if (length > 0 && *at == '/' &&
+            snprintf(path, GM_CACHE_PATH, "%.*s/%s", (int)length, at, name) < GM_CACHE_PATH &&
+            stat(path, about) == 0 && S_ISREG(about->st_mode) && access(path, X_OK) == 0) {
+            return true;
+        }
+        at += length;
+    }
+    return false;
+}
+
+bool gm_compiler_find(char path[GM_CACHE_PATH], struct gm_digest *digest)
+{
+    struct stat about;
+    if (!gm_program_find("cc", path, &about) && !gm_program_find("gcc", path, &about) &&
+        !gm_program_find("clang", path, &about)) {
+        return false;
+    }
+    gm_digest_add(digest, path, strlen(path) + 1);
+    gm_digest_add(digest, &about.st_ino, sizeof about.st_ino);
+    gm_digest_add(digest, &about.st_size, sizeof about.st_size);
+    gm_digest_add(digest, &about.st_mtim, sizeof about.st_mtim);
+    return true;
+}
+
+/* PATH of its environment: the absolute folders of ours, for the programs that it starts itself. */
+static void put_search_path(char *path, size_t size)
+{
+    const char *folders = getenv("PATH");
+    size_t end = (size_t)snprintf(path, size, "PATH=");
+    for (const char *at = folders ? folders : ""; *at; at += *at == ':') {
+        const size_t length = strcspn(at, ":");
+        if (*at == '/' && end + length + 2 < size) {
+            end += (size_t)snprintf(path + end, size - end, "%s%.*s", path[end - 1] == '=' ? "" : ":",
+                                    (int)length, at);
+        }
+        at += length;
+    }
+}
+
+static void limit(int resource, rlim_t most)
+{
+    const struct rlimit limits = {most, most};
+    setrlimit(resource, &limits);
+}
+
+/* In the child, where nothing may be asked that allocates. */
+__attribute__((noreturn)) static void become(const char *const *arguments, char *const *environment,
+                                             int folder, int log, rlim_t seconds)
+{
+    sigset_t none;
+    const int nothing = open("/dev/null", O_RDWR);
+    setpgid(0, 0);
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+    signal(SIGPIPE, SIG_DFL);
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    limit(RLIMIT_CPU, seconds);
+    limit(RLIMIT_FSIZE, MOST_BYTES);
+    limit(RLIMIT_CORE, 0);
+    close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC); /* what libraries have opened */
+    if (nothing >= 0 && dup2(nothing, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0 &&
+        dup2(log, STDERR_FILENO) >= 0 && fchdir(folder) == 0) {
+        execve(arguments[0], (char *const *)arguments, environment);
+    }
+    _exit(COULD_NOT_START);
+}
+
+bool gm_compilation_start(struct gm_compilation *compilation, const char *folder, const char *log,
+                          const char *const *arguments, char *sentence)
+{
+    char path[2 * GM_CACHE_PATH], aside[GM_CACHE_PATH + 8];
+    put_search_path(path, sizeof path);
+    snprintf(aside, sizeof aside, "TMPDIR=%s", folder);
+    char language[] = "LC_ALL=C", *const environment[] = {path, aside, language, NULL};
+    const int where = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    snprintf(compilation->log, sizeof compilation->log, "%.3900s/%.100s", folder, log);
+    const int complaints = open(compilation->log, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+    const rlim_t seconds = (rlim_t)most_seconds();
+    pid_t child = -1;
+    if (where >= 0 && complaints >= 0) {
+        child = fork();
+        if (child == 0) {
+            become(arguments, environment, where, complaints, seconds);
+        }
+    }
+    const int error = errno;
+    if (where >= 0) {
+        close(where);
+    }
+    if (complaints >= 0) {
+        close(complaints);
+    }
+    if (child < 0) {
+        unlink(compilation->log);
+        return gm_refuse(sentence, "the compiler could not be started: %s", strerror(error));
+    }
+    setpgid(child, child); /* whoever of the two is first */
+    compilation->process = child;
+    compilation->deadline = gm_clock_seconds() + most_seconds();
+    return true;
+}
+
+/* The first line that it complained with. */
+static void first_line(const struct gm_compilation *compilation, char *line, size_t size)
+{
+    FILE *file = fopen(compilation->log, "re");
+    line[0] = '\0';
+    if (file) {
+        if (!fgets(line, (int)size, file)) {
+            line[0] = '\0';
+        }
+        fclose(file);
+    }
+    line[strcspn(line, "\n")] = '\0';
+    gm_text_tame(line);
+}
+
+enum gm_compiled gm_compilation_look(struct gm_compilation *compilation, char *sentence)
+{
+    int status = 0;
+    const pid_t ended = waitpid(compilation->process, &status, WNOHANG);
+    if (ended == 0 || (ended < 0 && errno == EINTR)) {
+        if (gm_clock_seconds() < compilation->deadline) {
+            return GM_COMPILES;
+        }
+        gm_compilation_stop(compilation);
+        gm_refuse(sentence, "the compiler took longer than %.0f seconds", most_seconds());
+        return GM_COMPILES_NOT;
+    }
+    compilation->process = 0;
+    char line[200];
+    first_line(compilation, line, sizeof line);
+    unlink(compilation->log);
+    if (ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+        return GM_COMPILED;
+    }
+    gm_refuse(sentence, "the compiler failed%s%s", line[0] ? ": " : "", line);
+    return GM_COMPILES_NOT;
+}
+
+void gm_compilation_stop(struct gm_compilation *compilation)
+{
+    if (compilation->process > 0) {
+        kill(-compilation->process, SIGKILL);
+        kill(compilation->process, SIGKILL);
+        while (waitpid(compilation->process, NULL, 0) < 0 && errno == EINTR) {
+        }
+        compilation->process = 0;
+        unlink(compilation->log);
+    }
+}

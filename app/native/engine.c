@@ -1,0 +1,477 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Native loops: made, found, tried, taken. */
+#include "app/native/engine.h"
+
+#include <dlfcn.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "app/native/cache.h"
+#include "app/native/compiler.h"
+#include "core/kind.h"
+#include "core/memory.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/own/own.h"
+#include "render/message.h"
+
+/* As the build compiles the loops of the problems that it knows: no operation is fused or exchanged. The
+   functions of formulas are those of the library, in each case; what is one instruction is one. */
+static const char *const flags[] = {
+    "-std=c17",
+    "-O3",
+    "-ffp-contract=off",
+    "-fno-math-errno",
+    "-fno-gcse-after-reload",
+    "-fno-builtin-pow",
+    "-fno-builtin-exp",
+    "-fno-builtin-log",
+    "-fno-builtin-sin",
+    "-fno-builtin-cos",
+    "-fno-builtin-tan",
+    "-fno-builtin-asin",
+    "-fno-builtin-acos",
+    "-fno-builtin-atan",
+    "-fno-builtin-atan2",
+    "-fno-builtin-sinh",
+    "-fno-builtin-cosh",
+    "-fno-builtin-tanh",
+    "-fno-builtin-fmod",
+    "-D_GNU_SOURCE",
+    "-DGM_PROBLEM=own",
+    "-DGM_ISA=native",
+
+    "-w",
+    "-shared",
+    "-fPIC",
+};
+static const char *const isa_flags[GM_ISA_COUNT][3] = {
+    [GM_ISA_AVX2] = {"-mavx2"},
+    [GM_ISA_AVX512] = {"-march=skylake-avx512", "-mno-fma", "-mprefer-vector-width=512"},
+};
+static const char *const family_flags[GM_OVER_COUNT] = {
+    [GM_OVER_NONE] = "-DGM_LOOP_NONE",
+    [GM_OVER_EXPLICIT] = "-DGM_LOOP_EXPLICIT",
+    [GM_OVER_IMPLICIT] = "-DGM_LOOP_IMPLICIT",
+    [GM_OVER_SPLITTING] = "-DGM_LOOP_SPLITTING",
+};
+
+/* What is compiled of the loops: those of a family, for single runs or for ensembles. */
+struct part {
+    int family;
+    bool alone;
+};
+
+enum state { NEW, COMPILING, READY, REFUSED };
+
+/* The loops of one kernel's text. */
+struct build {
+    struct build *next;
+    struct gm_digest source; /* of text and part */
+    struct part part;
+    enum state state;
+    const struct gm_loops *loops;
+    struct gm_compilation compilation;
+    struct gm_cache_key key;
+    char text_name[80], library_name[80], log_name[80]; /* while it compiles */
+    char sentence[GM_MESSAGE];                          /* where it is refused */
+    bool said;
+};
+
+/* Lanes of all threads share them; they stay as long as the program does. */
+static pthread_mutex_t making = PTHREAD_MUTEX_INITIALIZER;
+static struct build *builds;
+static enum gm_engine chosen = GM_ENGINE_INTERPRETED;
+static char kernel_folder[GM_CACHE_PATH];
+static void (*tell)(const char *sentence);
+static bool (*interrupted)(void);
+static atomic_bool stopping; /* the program ends, and what compiles with it */
+static double spent_in_all;
+
+bool gm_engine_named(const char *word, enum gm_engine *engine)
+{
+    static const char *const words[] = {"auto", "interpreted", "native"};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(words[i], word) == 0) {
+            *engine = (enum gm_engine)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+void gm_engine_choose(enum gm_engine engine, const char *kernels, void (*teller)(const char *sentence),
+                      bool (*asked)(void))
+{
+    chosen = engine;
+    tell = teller;
+    interrupted = asked;
+    static bool stops;
+    /* the compiler works in a folder of its own */
+    if (strlen(kernels) >= sizeof kernel_folder || !realpath(kernels, kernel_folder)) {
+        kernel_folder[0] = '\0';
+    }
+    if (!stops) {
+        stops = atexit(gm_engine_stop) == 0;
+    }
+}
+
+static bool is_written(const struct gm_lane *lane)
+{
+    return lane->problem.kind == &gm_kind_ode && gm_ode_of(&lane->problem)->written;
+}
+
+/* Whether it has taken loops, those of its scheme's family where that has some. */
+static bool is_native(const struct gm_lane *lane)
+{
+    const struct gm_loops *taken = gm_own_problem_taken(&lane->problem);
+    const int over = lane->scheme->family->over_kernels;
+    return taken && (over == GM_OVER_NONE || taken->over_kernels[over]);
+}
+
+const char *gm_engine_of(const struct gm_lane *lane)
+{
+    return !is_written(lane) ? NULL : is_native(lane) ? "native" : "interpreted";
+}
+
+static const char *alone_flag(struct part part)
+{
+    return part.alone ? "-DGM_ALONE" : "-UGM_ALONE";
+}
+
+/* ---- from a kernel's text to loops ---- */
+
+static void refuse(struct build *build)
+{
+    build->state = REFUSED;
+}
+
+/* Loads the entry of the build's key, where there is one. */
+static void load(struct build *build, const char *folder)
+{
+    char path[64];
+    const int file = gm_cache_find(folder, &build->key);
+    if (file < 0) {
+        return;
+    }
+    /* What was looked at, not what has its name by now. It stays open as long as it is loaded: the loader
+       knows libraries by their names, and another one shall not have this. */
+    snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+    void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    const char *error = library ? NULL : dlerror();
+    build->loops = library ? dlsym(library, "gm_loops_own_native") : NULL;
+    if (build->loops) {
+        build->state = READY;
+        return;
+    }
+    gm_refuse(build->sentence, "what was compiled could not be loaded: %.300s",
+              error ? error : "it holds no loops");
+    refuse(build);
+    if (library) {
+        dlclose(library);
+        gm_cache_drop(folder, &build->key);
+    }
+    close(file);
+}
+
+static bool write_text(const char *folder, const char *name, const char *text)
+{
+    char path[GM_CACHE_PATH];
+    snprintf(path, sizeof path, "%.3900s/%s", folder, name);
+    FILE *file = fopen(path, "wxe");
+    const bool written = file && fputs(text, file) >= 0;
+    return file && fclose(file) == 0 && written;
+}
+
+static void remove_aside(const char *folder, const struct build *build)
+{
+    const char *const names[] = {build->text_name, build->library_name};
+    for (size_t i = 0; i < 2; i++) {
+        char path[GM_CACHE_PATH];
+        snprintf(path, sizeof path, "%.3900s/%s", folder, names[i]);
+        unlink(path);
+    }
+}
+
+static void compile(struct build *build, const char *folder, const char *compiler, const char *text,
+                    struct part part)
+{
+    enum { MOST = sizeof flags / sizeof *flags + 16 };
+    static unsigned number;
+    const char *arguments[MOST];
+    char kernels[128], source[GM_CACHE_PATH];
+    size_t count = 0;
+    gm_cache_sweep(folder);
+    snprintf(build->text_name, sizeof build->text_name, "%s-%d-%u.h", build->key.text, (int)getpid(),
+             ++number);
+    snprintf(build->library_name, sizeof build->library_name, "%s-%d-%u.aside", build->key.text,
+             (int)getpid(), number);
+    snprintf(build->log_name, sizeof build->log_name, "%s-%d-%u.log", build->key.text, (int)getpid(), number);
+    snprintf(kernels, sizeof kernels, "-DGM_KERNELS=\"%s\"", build->text_name);
+    snprintf(source, sizeof source, "%.3900s/core/ode/families/over_kernels.c", kernel_folder);
+    if (!write_text(folder, build->text_name, text)) {
+        remove_aside(folder, build);
+        gm_refuse(build->sentence, "the cache could not be written");
+        refuse(build);
+        return;
+    }
+    arguments[count++] = compiler;
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+        arguments[count++] = flags[i];
+    }
+    for (size_t i = 0; i < 3; i++) {
+        if (isa_flags[gm_isa_best()][i]) {
+            arguments[count++] = isa_flags[gm_isa_best()][i];
+        }
+    }
+    const char *const rest[] = {
+        family_flags[part.family], alone_flag(part), kernels, "-I", kernel_folder, "-I", ".", "-o",
+        build->library_name,       source,           "-lm",   NULL};
+    memcpy(arguments + count, rest, sizeof rest);
+    if (gm_compilation_start(&build->compilation, folder, build->log_name, arguments, build->sentence)) {
+        build->state = COMPILING;
+    } else {
+        remove_aside(folder, build);
+        refuse(build);
+    }
+}
+
+static void add_word(struct gm_digest *digest, const char *word)
+{
+    gm_digest_add(digest, word ? word : "", word ? strlen(word) + 1 : 1);
+}
+
+/* What the loops depend on: the text, this build of the program, the compiler, its flags, the processor. */
+static bool find_key(struct build *build, char compiler[GM_CACHE_PATH])
+{
+    struct gm_digest digest = build->source;
+    struct stat program;
+    if (stat("/proc/self/exe", &program) == 0) {
+        gm_digest_add(&digest, &program.st_size, sizeof program.st_size);
+        gm_digest_add(&digest, &program.st_mtim, sizeof program.st_mtim);
+    }
+    add_word(&digest, GM_VERSION);
+    add_word(&digest, kernel_folder);
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+        add_word(&digest, flags[i]);
+    }
+    for (size_t i = 0; i < 3; i++) {
+        add_word(&digest, isa_flags[gm_isa_best()][i]);
+    }
+    const bool found = gm_compiler_find(compiler, &digest);
+    build->key = gm_digest_key(&digest);
+    return found;
+}
+
+static void begin(struct build *build, const char *text, struct part part)
+{
+    char folder[GM_CACHE_PATH], compiler[GM_CACHE_PATH];
+    if (!kernel_folder[0]) {
+        gm_refuse(build->sentence, "the sources of its loops are not there");
+        refuse(build);
+    } else if (!find_key(build, compiler)) {
+        gm_refuse(build->sentence, "there is no C compiler (cc, gcc or clang) in PATH");
+        refuse(build);
+    } else if (!gm_cache_folder(folder, build->sentence)) {
+        refuse(build);
+    } else {
+        load(build, folder);
+        if (build->state == NEW) {
+            compile(build, folder, compiler, text, part);
+        }
+    }
+}
+
+/* How a compilation goes. */
+static void look(struct build *build)
+{
+    char folder[GM_CACHE_PATH], library[GM_CACHE_PATH];
+    const enum gm_compiled how = gm_compilation_look(&build->compilation, build->sentence);
+    if (how == GM_COMPILES) {
+        return;
+    }
+    if (!gm_cache_folder(folder, build->sentence)) {
+        refuse(build);
+        return;
+    }
+    snprintf(library, sizeof library, "%.3900s/%s", folder, build->library_name);
+    if (how == GM_COMPILED && gm_cache_keep(folder, library, &build->key)) {
+        load(build, folder);
+    }
+    if (build->state == COMPILING) {
+        if (how == GM_COMPILED) {
+            gm_refuse(build->sentence, "the compiler wrote nothing that can be kept");
+        }
+        refuse(build);
+    }
+    remove_aside(folder, build);
+}
+
+/* The build of a lane's problem and scheme, which is begun; NULL: memory is short. Its problem notes it: the
+   text is written once, not whenever somebody looks how it goes. */
+static struct build *build_of(const struct gm_lane *lane)
+{
+    const char *lacks = NULL;
+    const struct part part = {lane->scheme->family->over_kernels, lane->problem.m == 1};
+    void **note = gm_own_problem_note(&lane->problem);
+    const struct build *noted = *note;
+    if (noted && noted->part.family == part.family && noted->part.alone == part.alone) {
+        return *note;
+    }
+    char *text = gm_own_problem_kernel(&lane->problem, &lacks);
+    struct gm_digest source = gm_digest_open();
+    if (!text && !lacks) {
+        return NULL;
+    }
+    add_word(&source, text ? text : lacks);
+    add_word(&source, family_flags[part.family]);
+    add_word(&source, alone_flag(part));
+    struct build *build = builds;
+    while (build && (build->source.a != source.a || build->source.b != source.b)) {
+        build = build->next;
+    }
+    if (!build && (build = calloc(1, sizeof *build))) {
+        build->source = source;
+        build->part = part;
+        build->next = builds;
+        builds = build;
+        if (text) {
+            begin(build, text, part);
+        } else {
+            gm_refuse(build->sentence, "%s", lacks);
+            refuse(build);
+        }
+    }
+    free(text);
+    *note = build;
+    return build;
+}
+
+/* ---- lanes ---- */
+
+static bool same(double a, double b)
+{
+    return (isnan(a) && isnan(b)) || memcmp(&a, &b, sizeof a) == 0;
+}
+
+/* A run after some steps from a snapshot on, as another snapshot. */
+static bool try_steps(struct gm_run *run, const void *before, void *after)
+{
+    enum { BLOCK = 20 };
+    if (!gm_run_load(run, before)) {
+        return false;
+    }
+    gm_run_advance(run, BLOCK);
+    gm_run_save(run, after);
+    return true;
+}
+
+/* Whether both engines make the same steps from where the lane is: of the counts, and every bit of what the
+   run remembers. The lane is left where it is; where they do, it has taken the loops. */
+static bool agrees(struct gm_lane *lane, const struct gm_loops *loops)
+{
+    struct gm_run *run = lane->run;
+    const size_t size = gm_run_snapshot_size(run), head = size - run->half_size;
+    char *before = malloc(3 * size), *one = before ? before + size : NULL,
+         *other = before ? one + size : NULL;
+    bool good = before != NULL;
+    if (good) {
+        gm_run_save(run, before);
+        good = try_steps(run, before, one);
+        struct gm_run then = *run;
+        gm_own_problem_take(&lane->problem, loops);
+        good = good && try_steps(run, before, other) && run->status == then.status &&
+               run->steps == then.steps && run->evaluations == then.evaluations &&
+               run->iterations == then.iterations && run->solves == then.solves;
+        const double *numbers = (const double *)(const void *)(one + head),
+                     *others = (const double *)(const void *)(other + head);
+        for (size_t i = 0; good && i < run->half_size / sizeof *numbers; i++) {
+            good = same(numbers[i], others[i]);
+        }
+        gm_run_load(run, before);
+    }
+    if (!good) {
+        gm_own_problem_take(&lane->problem, NULL);
+    }
+    free(before);
+    return good;
+}
+
+/* The loops of a build that is ready go to a lane. */
+static void give(struct build *build, struct gm_lane *lane)
+{
+    if (build->state != READY || lane->run->status != GM_OK ||
+        gm_own_problem_taken(&lane->problem) == build->loops) {
+        return;
+    }
+    const unsigned long refusals = gm_memory_refusals();
+    if (!agrees(lane, build->loops) && refusals == gm_memory_refusals()) {
+        gm_refuse(build->sentence, "its steps are not those of the interpreter, bit by bit");
+        refuse(build);
+    }
+}
+
+void gm_engine_meet(struct gm_lane *lane)
+{
+    if (chosen != GM_ENGINE_NATIVE || !is_written(lane)) {
+        return;
+    }
+    pthread_mutex_lock(&making);
+    struct build *build = build_of(lane);
+    while (build && build->state == COMPILING && !stopping && !interrupted()) {
+        nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
+        look(build);
+    }
+    if (build) {
+        give(build, lane);
+    }
+    if (build && build->state == REFUSED && tell && !build->said) {
+        char sentence[GM_MESSAGE];
+        gm_refuse(sentence, "the formulas are interpreted: %.400s", build->sentence);
+        tell(sentence);
+        build->said = true;
+    }
+    pthread_mutex_unlock(&making);
+}
+
+void gm_engine_look(struct gm_lane *lane, double spent, double left)
+{
+    static const double building = 5; /* seconds */
+    if (chosen == GM_ENGINE_INTERPRETED || !is_written(lane) || is_native(lane) || stopping ||
+        pthread_mutex_trylock(&making) != 0) {
+        return;
+    }
+    spent_in_all += spent;
+    const bool pays = chosen == GM_ENGINE_NATIVE || spent_in_all + left > building;
+    struct build *build = pays ? build_of(lane) : NULL;
+    if (build && build->state == COMPILING) {
+        look(build);
+    }
+    if (build) {
+        give(build, lane);
+    }
+    pthread_mutex_unlock(&making);
+}
+
+void gm_engine_stop(void)
+{
+    char folder[GM_CACHE_PATH], sentence[GM_MESSAGE];
+    stopping = true;
+    pthread_mutex_lock(&making);
+    for (struct build *build = builds; build; build = build->next) {
+        if (build->state == COMPILING) {
+            gm_compilation_stop(&build->compilation);
+            refuse(build);
+            if (gm_cache_folder(folder, sentence)) {
+                remove_aside(folder, build);
+            }
+        }
+    }
+    pthread_mutex_unlock(&making);
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sentences on standard error, lines on standard output, and whether they arrived. */
+#include "app/output/say.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "render/cells/text.h"
+
+__attribute__((format(printf, 3, 0))) static void put_line(FILE *stream, const char *front,
+                                                           const char *format, va_list arguments)
+{
+    char text[8192]; /* a path may have 4096 bytes */
+    vsnprintf(text, sizeof text, format, arguments);
+    char *rest = text; /* a place in a text is shown on lines of its own */
+    for (char *line; (line = strsep(&rest, "\n")); front = "") {
+        fprintf(stream, "%s%s\n", front, gm_text_tame(line));
+    }
+}
+
+void gm_complain(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    put_line(stderr, "geomint: ", format, arguments);
+    va_end(arguments);
+}
+
+void gm_say(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    put_line(stdout, "", format, arguments);
+    va_end(arguments);
+}
+
+int gm_finish(int status)
+{
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        if (errno == EPIPE) {
+            return GM_EXIT_PIPE;
+        }
+        gm_complain("standard output could not be written: %s", strerror(errno));
+        return GM_EXIT_FILE;
+    }
+    return status;
+}

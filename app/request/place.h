@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_REQUEST_PLACE_H
+#define GM_APP_REQUEST_PLACE_H
+
+#include <stddef.h>
+
+/* Appends to a message (GM_MESSAGE bytes) the line of a text that is wrong, and below it a line with a caret
+   at the place. Only what is ASCII is shown as it is. */
+void gm_place_show(const char *text, size_t length, size_t offset, char *message);
+
+#endif

@@ -1,0 +1,426 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The runs of a sweep: from a number to a run, and from a run to a row. */
+#include "app/request/interrupt.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/output/csv.h"
+#include "app/request/drive.h"
+#include "app/studies/sweep.h"
+#include "core/memory.h"
+#include "core/schemes.h"
+#include "render/clock.h"
+
+const char gm_sweep_statuses[] =
+    "ok, blow-up, no-convergence, mesh-crossing, step-collapse, out-of-memory, refused";
+
+static const struct gm_parameter *row_of(const struct gm_scene *scene, const char *key)
+{
+    const struct gm_parameter *own = gm_scene_parameter(scene, key);
+    return own ? own : gm_setting_find(key);
+}
+
+static bool is_number(const struct gm_scene *scene, const char *key)
+{
+    const struct gm_parameter *row = row_of(scene, key);
+    return strcmp(key, "steps") == 0 || (row && (row->type == GM_REAL || row->type == GM_INTEGER));
+}
+
+/* Whether a word says how runs are made of the others, and is no key of a run. */
+static bool is_of_the_list(const struct gm_word *word)
+{
+    return strcmp(word->key, "zip") == 0;
+}
+
+static bool is_column(const struct gm_word *word)
+{
+    return !is_of_the_list(word) && strcmp(word->key, "scheme") != 0;
+}
+
+/* ---- the words of a run ---- */
+
+static bool add_word(struct gm_arguments *arguments, const char *key, const char *value)
+{
+    char *word = NULL;
+    const bool good = asprintf(&word, "%s=%s", key, value) >= 0 && gm_arguments_add(arguments, word);
+    free(word);
+    return good;
+}
+
+/* Whether a word is a parameter that schemes bring, and that this one does not. */
+static bool is_idle(const struct gm_sweep *sweep, const struct gm_word *word, const struct gm_scheme *scheme)
+{
+    const struct gm_parameter *setting = gm_setting_find(word->key);
+    return setting && scheme && !gm_scene_parameter(sweep->scene, word->key) &&
+           !gm_scheme_takes(scheme, setting);
+}
+
+/* The words of run number `run`, which are to be closed; `instead` of key `key`, where that is not NULL. What
+   its scheme does not take is left out, as lanes leave it out, where another one takes it. */
+static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, const char *instead,
+                     struct gm_arguments *arguments)
+{
+    char text[GM_TEXT_SIZE];
+    const struct gm_word *schemes = gm_words_find(&sweep->words, "scheme");
+    const size_t choice = gm_words_choice(&sweep->words, (size_t)(schemes - sweep->words.list), run);
+    const struct gm_scheme *scheme =
+        gm_scheme_find(key && strcmp(key, "scheme") == 0 ? instead : gm_word_value(schemes, choice, text));
+    *arguments = (struct gm_arguments){0};
+    bool good =
+        gm_arguments_add(arguments, sweep->scene->words ? sweep->scene->words[0] : sweep->scene->name);
+    for (size_t i = 1; good && sweep->scene->words && sweep->scene->words[i]; i++) {
+        good = gm_arguments_add(arguments, sweep->scene->words[i]);
+    }
+    for (size_t i = 0; good && i < sweep->words.count; i++) {
+        const struct gm_word *word = &sweep->words.list[i];
+        bool idle = is_idle(sweep, word, scheme);
+        for (size_t k = 0; idle && k < schemes->count; k++) {
+            idle = is_idle(sweep, word, gm_scheme_find(schemes->pieces[k].text));
+        }
+        if (!is_of_the_list(word) && (idle || !is_idle(sweep, word, scheme))) {
+            const bool other = key && strcmp(key, word->key) == 0;
+            good =
+                add_word(arguments, word->key,
+                         other ? instead : gm_word_value(word, gm_words_choice(&sweep->words, i, run), text));
+        }
+    }
+    return good;
+}
+
+char *gm_sweep_words(const struct gm_sweep *sweep, size_t run)
+{
+    struct gm_arguments arguments;
+    char *text = words_of(sweep, run, NULL, NULL, &arguments) ? gm_arguments_join("run", &arguments) : NULL;
+    gm_arguments_close(&arguments);
+    return text;
+}
+
+/* ---- reading ---- */
+
+/* The run with the middle of every list. */
+static size_t middle_of(const struct gm_sweep *sweep)
+{
+    size_t run = 0;
+    for (size_t i = 0; i < sweep->words.count && !sweep->words.zip; i++) {
+        run = run * sweep->words.list[i].count + sweep->words.list[i].count / 2;
+    }
+    return sweep->words.zip ? sweep->count / 2 : run;
+}
+
+static bool try_run(const struct gm_sweep *sweep, size_t run, const char *key, const char *value,
+                    bool *unreadable, char *message)
+{
+    struct gm_arguments arguments;
+    struct gm_request request = {0};
+    const bool told = words_of(sweep, run, key, value, &arguments) || gm_refuse(message, "not enough memory");
+    const bool good =
+        told && gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, message);
+    *unreadable = request.refusal == GM_EXIT_FILE;
+    gm_request_close(&request);
+    gm_arguments_close(&arguments);
+    return good;
+}
+
+/* Whether the first run can be asked for, with another value of a key, or else the one in the middle: in a
+   corner of ranges there may be no run. False with a sentence on the first. */
+static bool try_some(const struct gm_sweep *sweep, const char *key, const char *value, bool *unreadable,
+                     char *message)
+{
+    char ignored[GM_MESSAGE];
+    bool also_unreadable;
+    return try_run(sweep, 0, key, value, unreadable, message) ||
+           try_run(sweep, middle_of(sweep), key, value, &also_unreadable, ignored);
+}
+
+/* Whether a value is one of its key. */
+static bool fits(const struct gm_scene *scene, const char *key, const char *value)
+{
+    char *own = gm_scene_defaults(scene);
+    struct gm_settings settings;
+    double steps = 0;
+    const struct gm_parameter *row = gm_scene_parameter(scene, key);
+    const bool good = row ? own && gm_parameter_set(row, own, value) == GM_PARSED
+                      : gm_setting_find(key)
+                          ? gm_parameter_set(gm_setting_find(key), &settings, value) == GM_PARSED
+                          : gm_number_parse(value, &steps) && steps >= 0 && steps <= (double)GM_MOST_STEPS;
+    free(own);
+    return good;
+}
+
+/* A run can be asked for with all schemes, and every list holds values of its key: of a range the ends
+   tell. */
+static bool check(const struct gm_sweep *sweep, bool *unreadable, char *message)
+{
+    char first[GM_TEXT_SIZE], last[GM_TEXT_SIZE];
+    for (size_t i = 0; i < sweep->words.count; i++) {
+        const struct gm_word *word = &sweep->words.list[i];
+        if (strcmp(word->key, "equal") == 0 || strcmp(word->key, "overlay") == 0) {
+            return gm_refuse(message, "%s= is of lanes beside each other; a sweep has none", word->key);
+        }
+        if (strcmp(word->key, "scheme") == 0) {
+            for (size_t k = 0; k < word->count; k++) {
+                if (!try_some(sweep, "scheme", gm_word_value(word, k, first), unreadable, message)) {
+                    return false;
+                }
+            }
+        }
+        size_t value = 0;
+        for (size_t k = 0; is_column(word) && k < word->piece_count; k++) {
+            const size_t values = word->pieces[k].range.count ? word->pieces[k].range.count : 1;
+            const char *ends[] = {gm_word_value(word, value, first),
+                                  gm_word_value(word, value + values - 1, last)};
+            for (size_t end = 0; end < 2; end++) {
+                if (!fits(sweep->scene, word->key, ends[end]) &&
+                    !try_some(sweep, word->key, ends[end], unreadable, message)) {
+                    return false;
+                }
+            }
+            value += values;
+        }
+    }
+    return true;
+}
+
+static bool choose_observables(struct gm_sweep *sweep, const char *measure, char *message)
+{
+    sweep->measure = measure ? strdup(measure) : NULL;
+    return (!measure || sweep->measure || gm_refuse(message, "not enough memory")) &&
+           gm_chosen_open(&sweep->chosen, sweep->scene, measure, message);
+}
+
+bool gm_sweep_open(struct gm_sweep *sweep, const struct gm_arguments *arguments, const char *measure,
+                   bool *unreadable, char *message)
+{
+    *sweep = (struct gm_sweep){.shard = 1, .shards = 1};
+    *unreadable = false;
+    if (arguments->count == 0) {
+        return gm_refuse(message, "sweep of which scene? See geomint list scenes");
+    }
+    int status;
+    sweep->scene = gm_request_scene(arguments->count, arguments->words, &status, message);
+    if (!sweep->scene) {
+        *unreadable = status == GM_EXIT_FILE;
+        return false;
+    }
+    if (!gm_words_read(&sweep->words, sweep->scene, arguments->count - 1, arguments->words + 1,
+                       GM_RUN_SCHEMES, message) ||
+        !gm_words_count(&sweep->words, SIZE_MAX / 2, &sweep->count, message) ||
+        !choose_observables(sweep, measure, message) || !check(sweep, unreadable, message)) {
+        return false;
+    }
+    sweep->arguments = gm_words_join(sweep->scene, &sweep->words);
+    return sweep->arguments || gm_refuse(message, "not enough memory");
+}
+
+void gm_sweep_close(struct gm_sweep *sweep)
+{
+    gm_words_close(&sweep->words);
+    free(sweep->arguments);
+    free(sweep->measure);
+    gm_chosen_close(&sweep->chosen);
+    *sweep = (struct gm_sweep){0};
+}
+
+size_t gm_sweep_share(const struct gm_sweep *sweep)
+{
+    return (sweep->count + sweep->shards - sweep->shard) / sweep->shards;
+}
+
+size_t gm_sweep_run(const struct gm_sweep *sweep, size_t k)
+{
+    return k * sweep->shards + sweep->shard - 1;
+}
+
+/* ---- rows ---- */
+
+char *gm_sweep_head(const struct gm_sweep *sweep)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    fputs("scene,scheme", stream);
+    for (size_t i = 0; i < sweep->words.count; i++) {
+        if (is_column(&sweep->words.list[i])) {
+            fprintf(stream, ",%s", sweep->words.list[i].key);
+        }
+    }
+    fputs(",status,t,steps,evaluations,solves,seconds", stream);
+    for (size_t i = 0; i < sweep->chosen.count; i++) {
+        fprintf(stream, ",%s", gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i])->key);
+    }
+    fputc('\n', stream);
+    return fclose(stream) == 0 ? text : NULL;
+}
+
+static void put_front(const struct gm_sweep *sweep, size_t run, FILE *stream)
+{
+    char text[GM_TEXT_SIZE];
+    fprintf(stream, "%s,", sweep->scene->mark ? sweep->scene->mark : sweep->scene->name);
+    for (size_t pass = 0; pass < 2; pass++) { /* the scheme, wherever it was typed, is the first column */
+        for (size_t i = 0; i < sweep->words.count; i++) {
+            const struct gm_word *word = &sweep->words.list[i];
+            if (is_of_the_list(word) || is_column(word) != (pass == 1)) {
+                continue;
+            }
+            const char *value = gm_word_value(word, gm_words_choice(&sweep->words, i, run), text);
+            const struct gm_scheme *scheme = strcmp(word->key, "scheme") == 0 ? gm_scheme_find(value) : NULL;
+            value = scheme ? gm_scheme_word(scheme) : value;
+            double number = 0;
+            if (is_number(sweep->scene, word->key) && gm_number_parse(value, &number)) {
+                fprintf(stream, "%.17g,", number);
+            } else {
+                gm_csv_put_text(stream, value);
+                fputc(',', stream);
+            }
+        }
+    }
+}
+
+char *gm_sweep_front(const struct gm_sweep *sweep, size_t run)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    put_front(sweep, run, stream);
+    return fclose(stream) == 0 ? text : NULL;
+}
+
+/* The cells behind the front, of a run that has ended or could not begin (no lane). */
+static void put_end(const struct gm_sweep *sweep, const struct gm_drive *drive, const char *status,
+                    const double *values, FILE *stream)
+{
+    const struct gm_lane *lane = drive->lane;
+    if (lane) {
+        const struct gm_run *run = lane->run;
+        fprintf(stream, "%s,%.17g,%ld,%.0f,%.0f,%.6g", status, run->t, run->steps,
+                gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves),
+                drive->seconds);
+    } else {
+        fprintf(stream, "%s,,,,,", status);
+    }
+    for (size_t i = 0; i < sweep->chosen.count; i++) {
+        fputc(',', stream);
+        if (lane && !isnan(values[i])) {
+            fprintf(stream, "%.17g", values[i]);
+        }
+    }
+    fputc('\n', stream);
+}
+
+/* Whether what is told follows from the last state alone. */
+static bool is_of_the_end(const struct gm_sweep *sweep)
+{
+    bool end = !sweep->scene->stop;
+    for (size_t i = 0; i < sweep->chosen.count; i++) {
+        const struct gm_observable *observable =
+            gm_scene_observable_at(sweep->scene, sweep->chosen.numbers[i]);
+        end = end && !observable->recalls && observable->period == 0;
+    }
+    return end;
+}
+
+/* Asks for the run as `geomint run` would, and makes it. NULL where it was interrupted. */
+static char *make_row(const struct gm_sweep *sweep, size_t run, const struct gm_request *request,
+                      const char *refusal)
+{
+    char message[GM_MESSAGE];
+    const unsigned long refusals = gm_memory_refusals();
+    struct gm_drive drive = {.request = request};
+    drive.lane = refusal ? NULL : gm_request_open_lane(request, 0, message);
+    if (drive.lane) {
+        drive.lane->unfollowed = is_of_the_end(sweep);
+        gm_drive_to(&drive, request->lanes[0].steps, false, message);
+    }
+    const struct gm_run *ended = drive.lane ? drive.lane->run : NULL;
+    const bool interrupted = ended && gm_interrupted && gm_drive_goes_on(&drive, request->lanes[0].steps);
+    double *values = interrupted ? NULL : malloc(sweep->chosen.count * sizeof *values);
+    for (size_t i = 0; ended && values && i < sweep->chosen.count; i++) {
+        values[i] = gm_lane_observe(drive.lane, sweep->chosen.numbers[i]);
+    }
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = values ? open_memstream(&text, &size) : NULL;
+    if (stream) {
+        const bool lost = gm_memory_refusals() != refusals || (!ended && !refusal);
+        put_front(sweep, run, stream);
+        put_end(sweep, &drive, refusal ? refusal : gm_status_name(lost ? GM_OUT_OF_MEMORY : ended->status),
+                values, stream);
+        text = fclose(stream) == 0 ? text : NULL;
+    }
+    free(values);
+    gm_lane_close(drive.lane);
+    return text;
+}
+
+char *gm_sweep_make(const struct gm_sweep *sweep, size_t run, char *sentence)
+{
+    struct gm_arguments arguments;
+    struct gm_request request = {0};
+    const unsigned long refusals = gm_memory_refusals();
+    sentence[0] = '\0';
+    const bool told = words_of(sweep, run, NULL, NULL, &arguments);
+    const bool asked =
+        told && gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, sentence);
+    const bool lost = gm_memory_refusals() != refusals;
+    char *row = make_row(sweep, run, &request,
+                         asked  ? NULL
+                         : lost ? gm_status_name(GM_OUT_OF_MEMORY)
+                                : "refused");
+    if (asked || lost) {
+        sentence[0] = '\0';
+    }
+    gm_request_close(&request);
+    gm_arguments_close(&arguments);
+    return row;
+}
+
+/* ---- how long it takes ---- */
+
+/* What a run will take, judged by its first steps. */
+static double seconds_of(const struct gm_sweep *sweep, size_t run)
+{
+    const double enough = 0.2;
+    char message[GM_MESSAGE];
+    struct gm_arguments arguments;
+    struct gm_request request = {0};
+    const double started = gm_clock_seconds();
+    double seconds = 0;
+    struct gm_drive drive = {.request = &request};
+    if (words_of(sweep, run, NULL, NULL, &arguments) &&
+        gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, message) &&
+        (drive.lane = gm_request_open_lane(&request, 0, message))) {
+        const struct gm_run *state = drive.lane->run;
+        const long steps = request.lanes[0].steps;
+        seconds = gm_clock_seconds() - started;
+        for (long goal = 1; drive.seconds < enough && gm_drive_goes_on(&drive, steps) && !gm_interrupted;
+             goal *= 2) {
+            gm_drive_to(&drive, goal < steps ? goal : steps, false, message);
+        }
+        const double part = (state->t - drive.lane->t0) / (request.lanes[0].end - drive.lane->t0);
+        seconds += part > 0 && part < 1 && state->status == GM_OK ? drive.seconds / part : drive.seconds;
+    }
+    gm_lane_close(drive.lane);
+    gm_request_close(&request);
+    gm_arguments_close(&arguments);
+    return seconds;
+}
+
+double gm_sweep_seconds(const struct gm_sweep *sweep)
+{
+    enum { SAMPLES = 5 };
+    const size_t runs = gm_sweep_share(sweep);
+    double sum = 0;
+    for (size_t i = 0; i < SAMPLES; i++) {
+        sum += seconds_of(sweep, gm_sweep_run(sweep, (runs - 1) / (SAMPLES - 1) * i));
+    }
+    return sum / SAMPLES * (double)runs;
+}

@@ -1,0 +1,337 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Waves in a potential that somebody wrote: V, V' and V'' are formulas. The quotient of V is the mean of its
+   slope,
+       [V(a) - V(b)] / (a - b) = integral of V'(b + s (a - b)) over 0 < s < 1,
+   by Gauss's formula of six points on one, two, four .. pieces, until two results agree: nothing cancels,
+   however near a and b are. Where they do not, the quotient is taken as it stands if rounding leaves more of
+   it. */
+#include "core/field/own/potential.h"
+
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/field/problems/wave.h"
+#include "core/tape.h"
+
+struct own {
+    struct gm_field facets;
+    struct gm_form form;
+    struct gm_tape potential, slope, curvature, start, exact;
+    bool has_exact;
+};
+
+static const struct own *own_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
+
+static double value_of(const struct gm_tape *tape, double u)
+{
+    double value;
+    gm_tape_values(tape, &u, &value, 1);
+    return value;
+}
+
+static double potential(const struct gm_problem *problem, double u)
+{
+    return value_of(&own_of(problem)->potential, u);
+}
+
+static double slope(const struct gm_problem *problem, double u)
+{
+    return value_of(&own_of(problem)->slope, u);
+}
+
+static double curvature(const struct gm_problem *problem, double u)
+{
+    return value_of(&own_of(problem)->curvature, u);
+}
+
+static void slopes(const struct gm_problem *problem, const double *u, double *slope, size_t count)
+{
+    enum { ROOM = 128 };
+    double values[ROOM]; /* u and slope may be the same, inputs and outputs of a tape not */
+    for (size_t first = 0; first < count; first += ROOM) {
+        const size_t some = count - first < ROOM ? count - first : ROOM;
+        gm_tape_values(&own_of(problem)->slope, u + first, values, some);
+        memcpy(slope + first, values, some * sizeof *values);
+    }
+}
+
+/* Gauss's points and weights on (-1, 1), those above 0. */
+enum { HALF = 3, MOST_PIECES = 16 };
+static const double abscissas[HALF] = {0.238619186083196908630501721680712,
+                                       0.661209386466264513661399595019905,
+                                       0.932469514203152027812301554493995};
+static const double weights[HALF] = {0.467913934572691047389870343989551, 0.360761573048138607569833513837716,
+                                     0.171324492379170345040296142172733};
+
+/* The mean of a formula over so many pieces of what lies between a and b; weighted by s, which is 1 at a and
+   0 at b, where that is asked for. *size is the largest value. Exchanging a and b changes no bit of what is
+   not weighted. */
+static double mean_of(const struct gm_tape *tape, double a, double b, size_t pieces, bool weighted,
+                      double *size)
+{
+    enum { EACH = 2 * HALF };
+    double at[MOST_PIECES * EACH] = {0}, value[MOST_PIECES * EACH], sum = 0;
+    const double middle = (a + b) / 2, half = (a - b) / 2;
+    /* pairs that lie as far from the middle on either side are added first */
+    for (size_t piece = 0; piece < pieces; piece++) {
+        for (size_t k = 0; k < HALF; k++) {
+            const size_t i = piece * EACH + 2 * k;
+            const double from = (2 * (double)piece + 1 - (double)pieces + abscissas[k]) / (double)pieces;
+            at[i] = middle + half * from;
+            at[i + 1] = middle - half * from;
+        }
+    }
+    gm_tape_values(tape, at, value, pieces * EACH);
+    for (size_t i = 0; i < pieces * EACH; i += 2) {
+        const double share = (at[i] - middle) * (half != 0 ? 1 / half : 0); /* of a, from -1 to 1 */
+        sum += weights[i / 2 % HALF] * (weighted ? (value[i] * (1 + share) + value[i + 1] * (1 - share)) / 2
+                                                 : value[i] + value[i + 1]);
+        *size = fmax(*size, fmax(fabs(value[i]), fabs(value[i + 1])));
+    }
+    return sum / (2 * (double)pieces);
+}
+
+static double quotient(const struct gm_problem *problem, double a, double b)
+{
+    const struct own *own = own_of(problem);
+    double size = 0, last = mean_of(&own->slope, a, b, 1, false, &size), differ = INFINITY;
+    for (size_t pieces = 2; pieces <= MOST_PIECES; pieces *= 2) {
+        const double mean = mean_of(&own->slope, a, b, pieces, false, &size), before = differ;
+        differ = fabs(mean - last);
+        last = mean;
+        if (!(differ > 8 * DBL_EPSILON * size)) {
+            return mean;
+        }
+        if (differ >= before) {
+            break;
+        }
+    }
+    /* Near an extremum of V what is left of V' may be rounding alone, and means differ by that for ever;
+       between points that lie far apart they may differ by more than rounding leaves of the quotient. */
+    const double at_a = potential(problem, a), at_b = potential(problem, b);
+    const double rounding = DBL_EPSILON * fmax(fabs(at_a), fabs(at_b)) / fabs(a - b);
+    return differ > rounding ? (at_a - at_b) / (a - b) : last;
+}
+
+static double quotient_slope(const struct gm_problem *problem, double a, double b)
+{
+    double size = 0;
+    return mean_of(&own_of(problem)->curvature, a, b, 2, true, &size);
+}
+
+static const struct gm_wave formulas = {
+    .potential = potential,
+    .slope = slope,
+    .curvature = curvature,
+    .slopes = slopes,
+    .quotient = quotient,
+    .quotient_slope = quotient_slope,
+};
+
+static void gradient(const void *parameters, const double *s, double *gradient)
+{
+    gradient[0] = value_of(&((const struct own *)parameters)->slope, s[0]);
+    gradient[1] = s[1];
+    gradient[2] = -s[2];
+}
+
+/* ---- what is derived ---- */
+
+/* The derivative of a node over one variable. */
+static gm_node_id over(struct gm_own_system *system, gm_node_id node, size_t variable)
+{
+    gm_node_id *direction = malloc((system->variable_count + 1) * sizeof *direction), result = GM_NO_NODE;
+    for (size_t i = 0; direction && i < system->variable_count; i++) {
+        direction[i] = gm_formula_constant(&system->graph, i == variable);
+    }
+    if (direction && node != GM_NO_NODE) {
+        result = gm_derivative_along(&system->graph, node, direction, system->variable_count);
+    }
+    system->graph.failed |= result == GM_NO_NODE;
+    free(direction);
+    return result;
+}
+
+static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
+{
+    system->graph.simplifies = true;
+    const gm_node_id node = gm_formula_apply(&system->graph, operation, a, b);
+    system->graph.simplifies = false;
+    return node;
+}
+
+/* With u at the start, f = V'(u), f' = V'', f'' = V''':
+       u_tt   = u_xx - f
+       u_ttt  = (u_t)_xx - f' u_t
+       u_tttt = (u_tt)_xx - f'' u_t^2 - f' u_tt */
+static void derive_start(struct gm_own_wave *wave, struct gm_own_system *system)
+{
+    enum { U, U_T, F = 0, F1, F2 };
+    const size_t x = system->velocities;
+    gm_node_id *at = wave->start, force[3] = {wave->slope, wave->curvature}, u[1];
+    force[F2] = over(system, force[F1], U);
+    u[0] = at[0] = system->variables[U].start;
+    at[1] = system->variables[U_T].start;
+    if (system->graph.failed || !gm_formula_substitute(&system->graph, force, 3, u, 1)) {
+        system->graph.failed = true;
+        return;
+    }
+    for (size_t k = 2; k < GM_OWN_START && !system->graph.failed; k++) {
+        const gm_node_id bend = over(system, over(system, at[k - 2], x), x);
+        gm_node_id rate = force[F];
+        if (k > 2) {
+            rate = apply(system, GM_OPERATION_MULTIPLY, force[F1], at[k - 2]);
+        }
+        if (k == 4) {
+            const gm_node_id square = apply(system, GM_OPERATION_MULTIPLY, at[1], at[1]);
+            rate = apply(system, GM_OPERATION_ADD, rate,
+                         apply(system, GM_OPERATION_MULTIPLY, force[F2], square));
+        }
+        at[k] = system->graph.failed ? GM_NO_NODE : apply(system, GM_OPERATION_SUBTRACT, bend, rate);
+    }
+}
+
+/* x, then t, as the first variables. */
+static bool place(struct gm_own_system *system, gm_node_id *nodes, size_t count)
+{
+    const size_t variables = system->velocities + 1;
+    gm_node_id *others = malloc(variables * sizeof *others);
+    for (size_t i = 0; others && i < variables; i++) {
+        others[i] = GM_NO_NODE;
+    }
+    if (others) {
+        others[system->velocities] = gm_formula_variable(&system->graph, 0);
+        others[system->n] = gm_formula_variable(&system->graph, 1);
+    }
+    const bool good = others && gm_formula_substitute(&system->graph, nodes, count, others, variables);
+    free(others);
+    return good;
+}
+
+bool gm_own_wave_derive(struct gm_own_wave *wave, struct gm_own_system *system)
+{
+    *wave = (struct gm_own_wave){.system = system, .exact = system->variables[0].exact};
+    wave->slope = over(system, system->energy, 0);
+    wave->curvature = over(system, wave->slope, 0);
+    if (!system->graph.failed) {
+        derive_start(wave, system);
+    }
+    return !system->graph.failed && place(system, wave->start, GM_OWN_START) &&
+           (wave->exact == GM_NO_NODE || place(system, &wave->exact, 1));
+}
+
+bool gm_own_wave_open(struct gm_problem *problem, const struct gm_own_wave *wave, const double *values)
+{
+    struct own *own = calloc(1, sizeof *own);
+    const struct gm_own_system *system = wave->system;
+    *problem = (struct gm_problem){.name = "wave equation", .kind = &gm_kind_field, .m = 1};
+    if (!own) {
+        return false;
+    }
+    own->form = (struct gm_form){3, gm_wave_m, gm_wave_k, gradient};
+    own->facets = (struct gm_field){.form = &own->form, .wave = &formulas};
+    problem->facets = &own->facets;
+    problem->parameters = own;
+    own->has_exact = wave->exact != GM_NO_NODE;
+    return gm_tape_open(&own->potential, &system->graph, &system->energy, 1, 1, values) &&
+           gm_tape_open(&own->slope, &system->graph, &wave->slope, 1, 1, values) &&
+           gm_tape_open(&own->curvature, &system->graph, &wave->curvature, 1, 1, values) &&
+           gm_tape_open(&own->start, &system->graph, wave->start, GM_OWN_START, 1, values) &&
+           (!own->has_exact || gm_tape_open(&own->exact, &system->graph, &wave->exact, 1, 2, values));
+}
+
+void gm_own_wave_close(struct gm_problem *problem)
+{
+    struct own *own = (struct own *)problem->parameters;
+    if (own) {
+        struct gm_tape *const tapes[] = {&own->potential, &own->slope, &own->curvature, &own->start,
+                                         &own->exact};
+        for (size_t i = 0; i < sizeof tapes / sizeof *tapes; i++) {
+            gm_tape_close(tapes[i]);
+        }
+    }
+    free(own);
+    problem->parameters = problem->facets = NULL;
+}
+
+/* ---- the start ---- */
+
+/* u(x, t) by Taylor's formula about t = 0. */
+static double near_start(const struct own *own, double x, double t)
+{
+    double rates[GM_OWN_START], u = 0;
+    gm_tape_values(&own->start, &x, rates, 1);
+    for (size_t k = GM_OWN_START; k-- > 0;) {
+        u = rates[k] + u * t / (double)(k + 1);
+    }
+    return u;
+}
+
+double gm_own_wave_exact(const struct gm_problem *problem, double x, double t)
+{
+    const struct own *own = own_of(problem);
+    const double place[] = {x, t};
+    double u = NAN;
+    if (own->has_exact) {
+        gm_tape_values(&own->exact, place, &u, 1);
+    }
+    return u;
+}
+
+void gm_own_wave_levels(const struct gm_problem *problem, double gap, double *y)
+{
+    const struct own *own = own_of(problem);
+    const size_t points = problem->line.points;
+    for (size_t i = 0; i < points; i++) {
+        const double x = gm_line_node(&problem->line, i);
+        y[i] = near_start(own, x, 0);
+        y[points + i] = own->has_exact ? gm_own_wave_exact(problem, x, gap) : near_start(own, x, gap);
+    }
+    y[2 * points] = gap;
+}
+
+bool gm_own_wave_closes(const struct gm_problem *problem, const char *name, char *sentence, size_t size)
+{
+    const struct gm_line *line = &problem->line;
+    const struct own *own = own_of(problem);
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < line->points; i++) {
+        const double x = gm_line_node(line, i);
+        double rates[GM_OWN_START];
+        gm_tape_values(&own->start, &x, rates, 1);
+        for (size_t k = 0; k < GM_OWN_START; k++) {
+            if (!isfinite(rates[k])) {
+                static const char *const which[] = {"", "_t", "_tt", "_ttt", "_tttt"};
+                snprintf(sentence, size, "%.60s%s at the start is not finite where x = %.6g", name, which[k],
+                         x);
+                return false;
+            }
+        }
+        low = fmin(low, rates[0]);
+        high = fmax(high, rates[0]);
+    }
+    const double left = near_start(own, line->first, 0), right = near_start(own, -line->first, 0);
+    if (!(fabs(right - left - line->jump) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
+        snprintf(sentence, size,
+                 "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other "
+                 "(jump: tells by how much they differ)",
+                 name, left, right);
+        return false;
+    }
+    for (int i = 0; i <= 8 && line->jump != 0; i++) {
+        const double u = low + (high - low) * i / 8, force = slope(problem, u),
+                     further = slope(problem, u + line->jump);
+        if (!(fabs(further - force) <= 1e-9 * fmax(1, fabs(force)))) {
+            snprintf(sentence, size,
+                     "V' does not repeat after the jump: it is %.6g at %.60s = %.6g and %.6g further by %.6g",
+                     force, name, u, further, line->jump);
+            return false;
+        }
+    }
+    return true;
+}

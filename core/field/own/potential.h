@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* u_tt = u_xx - V'(u) with a potential that somebody wrote. */
+#ifndef GM_CORE_FIELD_OWN_POTENTIAL_H
+#define GM_CORE_FIELD_OWN_POTENTIAL_H
+
+#include "core/field/field.h"
+#include "core/formula/system.h"
+
+enum { GM_OWN_START = 5 }; /* u and its derivatives over t at the start, as far as levels are made of them */
+
+/* A field's formulas, of its system's graph. */
+struct gm_own_wave {
+    const struct gm_own_system *system;
+    gm_node_id slope, curvature; /* V', V'' */
+    /* in x, which is variable 0 there, and of the exact solution t, variable 1; GM_NO_NODE: it is not told */
+    gm_node_id start[GM_OWN_START], exact;
+};
+
+/* Derives them; false where memory was refused. The graph grows. */
+bool gm_own_wave_derive(struct gm_own_wave *wave, struct gm_own_system *system);
+
+/* The problem with these values of all variables (gm_equations_start); the caller sets line and n, as of
+   gm_problem_wave. False where memory was refused. To be closed in both cases. */
+bool gm_own_wave_open(struct gm_problem *problem, const struct gm_own_wave *wave, const double *values);
+void gm_own_wave_close(struct gm_problem *problem);
+
+/* The exact solution as the file tells it; NaN where it does not. */
+double gm_own_wave_exact(const struct gm_problem *problem, double x, double t);
+
+/* Writes the state of a wave problem: the level at t = 0, and that at `gap`, which is the exact one where
+   that is told. */
+void gm_own_wave_levels(const struct gm_problem *problem, double gap, double *y);
+
+/* Whether the field closes on the problem's line: it is finite everywhere; u at one end is that at the other,
+   further by the jump, but for a thousandth of its range; and V' is the same further by the jump. A sentence
+   if not. */
+bool gm_own_wave_closes(const struct gm_problem *problem, const char *name, char *sentence, size_t size);
+
+#endif

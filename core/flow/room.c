@@ -1,0 +1,595 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rooms of files: lines to sides of a mesh's boundary, sources, a start and probes. */
+#include "core/flow/room.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const keys[GM_ROOM_KEYS] = {"speed",      "flow", "scalar", "temperature",
+                                               "tangential", "rate", "x",      "y"};
+
+#define CARRIED (1u << GM_ROOM_SCALAR | 1u << GM_ROOM_TEMPERATURE)
+
+/* The lines that name something, with the keys they may have, and those that they must. */
+static const struct {
+    const char *word;
+    unsigned may, must;
+} words[] = {
+    [GM_ROOM_INLET] = {"inlet", 1u << GM_ROOM_SPEED | 1u << GM_ROOM_FLOW | CARRIED, 0},
+    [GM_ROOM_OUTLET] = {"outlet", 1u << GM_ROOM_FLOW, 0},
+    [GM_ROOM_WALL] = {"wall", CARRIED | 1u << GM_ROOM_TANGENTIAL, 0},
+    [GM_ROOM_SOURCE] = {"source", 1u << GM_ROOM_RATE | 1u << GM_ROOM_X | 1u << GM_ROOM_Y,
+                        1u << GM_ROOM_RATE | 1u << GM_ROOM_X | 1u << GM_ROOM_Y},
+    [GM_ROOM_PROBE] = {"probe", 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_X | 1u << GM_ROOM_Y},
+    [GM_ROOM_START] = {"start", CARRIED, 0},
+};
+enum { WORDS = sizeof words / sizeof words[0] };
+
+/* The variables of formulas. */
+static const char *const variables[] = {"s", "x", "y"};
+
+static const char *known(size_t i, const void *data)
+{
+    return (void)data, i < 3 ? variables[i] : NULL;
+}
+
+static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    for (size_t i = 0; i < 3; i++) {
+        if (name->length == 1 && name->text[0] == variables[i][0] && !name->indexed && !name->initial) {
+            *node = gm_formula_variable(data, i);
+            return GM_KNOWN;
+        }
+    }
+    if (name->length == 1 && name->text[0] == 't') {
+        snprintf(sentence, GM_FAULT_SENTENCE, "what a room's boundary gives may not change in time");
+        return GM_REFUSED;
+    }
+    return GM_UNKNOWN;
+}
+
+static bool read_formula(struct gm_room *room, struct gm_span span, struct gm_room_formula *value,
+                         struct gm_fault *fault)
+{
+    const struct gm_scope scope = {.find = find, .known = known, .data = &room->graph, .lines = true};
+    gm_node_id node = 0;
+    if (!gm_formula_read(&room->graph, room->text, span.begin, span.end, &scope, &node, fault)) {
+        return false;
+    }
+    value->place = span.begin;
+    value->part = gm_formula_parts(&room->graph, node, &value->parts);
+    return value->part != NULL;
+}
+
+double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
+                     const double at[3], double standard, double *scratch)
+{
+    const struct gm_room_formula *value = &line->value[key];
+    if (value->place == 0) {
+        return standard;
+    }
+    gm_formula_evaluate_parts(&room->graph, value->part, value->parts, at, scratch);
+    return scratch[value->part[value->parts - 1]];
+}
+
+void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double *scratch,
+                   double point[2])
+{
+    const double origin[3] = {0};
+    point[0] = gm_room_value(room, line, GM_ROOM_X, origin, 0, scratch);
+    point[1] = gm_room_value(room, line, GM_ROOM_Y, origin, 0, scratch);
+}
+
+/* Where the next "key =" begins in a span, or its end. */
+static size_t next_key(const char *text, struct gm_span span)
+{
+    for (size_t at = span.begin; at < span.end; at++) {
+        const size_t length = gm_name_length(text + at, span.end - at);
+        size_t behind = at + length;
+        while (behind < span.end && (text[behind] == ' ' || text[behind] == '\t')) {
+            behind++;
+        }
+        if (length > 0 && behind < span.end && text[behind] == '=') {
+            return at;
+        }
+        at += length > 0 ? length - 1 : 0;
+    }
+    return span.end;
+}
+
+static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct gm_span rest,
+                       struct gm_fault *fault)
+{
+    unsigned given = 0;
+    while (rest.begin < rest.end) {
+        const size_t length = gm_name_length(room->text + rest.begin, rest.end - rest.begin);
+        int key = GM_ROOM_KEYS - 1;
+        while (key >= 0 &&
+               (strncmp(room->text + rest.begin, keys[key], length) != 0 || keys[key][length] != '\0')) {
+            key--;
+        }
+        if (length == 0 || key < 0 || !(words[line->word].may >> key & 1)) {
+            char list[96] = "";
+            for (size_t k = 0, used = 0; k < GM_ROOM_KEYS; k++) {
+                if (words[line->word].may >> k & 1) {
+                    used += (size_t)snprintf(list + used, sizeof list - used, "%s%s =", used ? ", " : "",
+                                             keys[k]);
+                }
+            }
+            return gm_fail(fault, rest.begin, "%s: takes %s", words[line->word].word, list);
+        }
+        size_t equals = rest.begin + length;
+        equals += strspn(room->text + equals, " \t\r\n");
+        if (equals >= rest.end || room->text[equals] != '=') {
+            return gm_fail(fault, equals < rest.end ? equals : rest.begin, "%s: needs = and a value",
+                           keys[key]);
+        }
+        equals++;
+        const size_t end = next_key(room->text, (struct gm_span){equals, rest.end});
+        if (given >> key & 1) {
+            return gm_fail(fault, rest.begin, "%s = is given twice", keys[key]);
+        }
+        const struct gm_span formula = gm_span_trimmed(room->text, (struct gm_span){equals, end});
+        if (!read_formula(room, formula, &line->value[key], fault)) {
+            return false;
+        }
+        given |= 1u << key;
+        rest.begin = end;
+    }
+    for (int key = 0; key < GM_ROOM_KEYS; key++) {
+        if (words[line->word].must >> key & 1 && !(given >> key & 1)) {
+            return gm_fail(fault, line->place, "%s: needs %s =", words[line->word].word, keys[key]);
+        }
+    }
+    const struct {
+        enum gm_room_word word;
+        unsigned some;
+        const char *sentence;
+    } rows[] = {
+        {GM_ROOM_INLET, 1u << GM_ROOM_SPEED | 1u << GM_ROOM_FLOW, "inlet: needs speed = or flow ="},
+        {GM_ROOM_START, CARRIED, "start: needs scalar = or temperature ="},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (line->word == rows[i].word && !(given & rows[i].some)) {
+            return gm_fail(fault, line->place, "%s", rows[i].sentence);
+        }
+    }
+    return true;
+}
+
+static bool read_line(struct gm_room *room, enum gm_room_word word, struct gm_span value,
+                      struct gm_fault *fault)
+{
+    struct gm_room_line *more = realloc(room->lines, (room->count + 1) * sizeof *more);
+    if (!more) {
+        return false;
+    }
+    room->lines = more;
+    struct gm_room_line *line = &more[room->count];
+    *line = (struct gm_room_line){.word = word, .place = value.begin};
+    if (word != GM_ROOM_START) {
+        const bool quoted = value.begin < value.end && room->text[value.begin] == '"';
+        struct gm_span name = {value.begin + quoted, value.begin + quoted};
+        while (name.end < value.end &&
+               (quoted ? room->text[name.end] != '"' : !strchr(" \t\r\n", room->text[name.end]))) {
+            name.end++;
+        }
+        const size_t length = name.end - name.begin;
+        if (length == 0 || length >= GM_ROOM_NAME || (quoted && name.end == value.end)) {
+            return gm_fail(fault, value.begin, "%s: needs a name, of at most 63 bytes", words[word].word);
+        }
+        memcpy(line->name, room->text + name.begin, length);
+        value = gm_span_trimmed(room->text, (struct gm_span){name.end + quoted, value.end});
+    }
+    for (size_t i = 0; i < room->count; i++) {
+        const bool same = (more[i].word <= GM_ROOM_WALL) == (word <= GM_ROOM_WALL) &&
+                          (more[i].word == GM_ROOM_START) == (word == GM_ROOM_START);
+        if (same && strcmp(more[i].name, line->name) == 0) {
+            return word == GM_ROOM_START ? gm_fail(fault, line->place, "start: is given twice")
+                                         : gm_fail(fault, line->place, "%.63s is named twice", line->name);
+        }
+    }
+    room->count++;
+    return read_pairs(room, line, value, fault);
+}
+
+/* A line that says one thing: true where it is known. */
+static bool read_single(struct gm_room *room, struct gm_text_line line, bool *met, struct gm_fault *fault)
+{
+    const struct {
+        const char *word;
+        char **text;
+        double *number;
+        bool any; /* not only positive */
+    } rows[] = {
+        {"title", &room->title, NULL, false},
+        {"about", &room->about, NULL, false},
+        {"mesh", &room->mesh, NULL, false},
+        {"units", &room->units, NULL, false},
+        {"viscosity", NULL, &room->viscosity, false},
+        {"diffusivity", NULL, &room->diffusivity, false},
+        {"reynolds", NULL, &room->reynolds, false},
+        {"schmidt", NULL, &room->schmidt, false},
+        {"buoyancy", NULL, &room->buoyancy, true},
+        {"reference-temperature", NULL, &room->reference_temperature, true},
+        {"dt", NULL, &room->dt, false},
+        {"until", NULL, &room->until, false},
+    };
+    const size_t length = line.word.end - line.word.begin;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        if (strlen(rows[i].word) != length ||
+            memcmp(rows[i].word, room->text + line.word.begin, length) != 0) {
+            continue;
+        }
+        *met = true;
+        if (rows[i].text ? *rows[i].text != NULL : !isnan(*rows[i].number)) {
+            return gm_fail(fault, line.word.begin, "%s: is given twice", rows[i].word);
+        }
+        if (line.value.begin == line.value.end) {
+            return gm_fail(fault, line.word.begin, "%s: says nothing", rows[i].word);
+        }
+        if (rows[i].text) {
+            *rows[i].text = gm_span_words(room->text, line.value);
+            return *rows[i].text != NULL;
+        }
+        char number[64];
+        snprintf(number, sizeof number, "%.*s", (int)(line.value.end - line.value.begin),
+                 room->text + line.value.begin);
+        return (gm_number_parse(number, rows[i].number) && (rows[i].any || *rows[i].number > 0) &&
+                isfinite(*rows[i].number)) ||
+               gm_fail(fault, line.value.begin, "%s: is a %s number", rows[i].word,
+                       rows[i].any ? "finite" : "positive");
+    }
+    return true;
+}
+
+/* What is said in one of two ways, and whether all is said. */
+static bool complete(struct gm_room *room, struct gm_fault *fault)
+{
+    if (!isnan(room->viscosity) && !isnan(room->reynolds)) {
+        return gm_fail(fault, 0, "viscosity: and reynolds: say the same; a room has one of them");
+    }
+    if (!isnan(room->diffusivity) && !isnan(room->schmidt)) {
+        return gm_fail(fault, 0, "diffusivity: and schmidt: say the same; a room has one of them");
+    }
+    room->viscosity = isnan(room->reynolds) ? room->viscosity : 1 / room->reynolds;
+    if (!room->mesh || isnan(room->viscosity)) {
+        return gm_fail(fault, 0, "a room needs a line %s",
+                       room->mesh ? "viscosity: (or reynolds:)" : "mesh:");
+    }
+    room->diffusivity = !isnan(room->schmidt)      ? room->viscosity / room->schmidt
+                        : isnan(room->diffusivity) ? room->viscosity
+                                                   : room->diffusivity;
+    size_t warm = 0, place = 0;
+    for (size_t i = 0; i < room->count; i++) {
+        const size_t here = room->lines[i].value[GM_ROOM_TEMPERATURE].place;
+        warm += here > 0;
+        place = here > 0 ? here : place;
+    }
+    if (warm > 0 && isnan(room->buoyancy)) {
+        return gm_fail(fault, place,
+                       "a temperature needs a line buoyancy: (g beta; 0 where warm air does not rise)");
+    }
+    if (warm == 0 && !(isnan(room->buoyancy) && isnan(room->reference_temperature))) {
+        return gm_fail(fault, 0, "%s: needs a temperature = of a wall, an inlet or the start",
+                       isnan(room->buoyancy) ? "reference-temperature" : "buoyancy");
+    }
+    room->reference_temperature =
+        isnan(room->reference_temperature) && warm > 0 ? 0 : room->reference_temperature;
+    return true;
+}
+
+bool gm_room_read(struct gm_room *room, const char *text, size_t length, struct gm_fault *fault)
+{
+    *room = (struct gm_room){.text = malloc(length + 1),
+                             .length = length,
+                             .viscosity = NAN,
+                             .diffusivity = NAN,
+                             .reynolds = NAN,
+                             .schmidt = NAN,
+                             .buoyancy = NAN,
+                             .reference_temperature = NAN,
+                             .dt = NAN,
+                             .until = NAN};
+    *fault = (struct gm_fault){0};
+    gm_formula_open(&room->graph);
+    if (!room->text) {
+        return false;
+    }
+    memcpy(room->text, text, length);
+    room->text[length] = '\0';
+    if (!gm_lines_are_text(text, length, fault)) {
+        return false;
+    }
+    struct gm_text_line line;
+    size_t at = 0;
+    while (gm_lines_next(room->text, length, &at, &line, fault)) {
+        const char *word = room->text + line.word.begin;
+        const size_t letters = line.word.end - line.word.begin;
+        bool met = letters == strlen("geomint") && strncmp(word, "geomint", letters) == 0;
+        if (!met && !read_single(room, line, &met, fault)) {
+            return false;
+        }
+        for (int i = 0; i < WORDS && !met; i++) {
+            if (strlen(words[i].word) == letters && strncmp(word, words[i].word, letters) == 0) {
+                met = true;
+                if (!read_line(room, (enum gm_room_word)i, line.value, fault)) {
+                    return false;
+                }
+            }
+        }
+        if (!met) {
+            return gm_fail(fault, line.word.begin,
+                           "a room has no line %.*s:; it has geomint: title: about: mesh: units: viscosity: "
+                           "diffusivity: reynolds: schmidt: buoyancy: reference-temperature: dt: until: "
+                           "inlet: outlet: wall: source: probe: start:",
+                           (int)(letters < 40 ? letters : 40), word);
+        }
+    }
+    if (fault->sentence[0] || room->graph.failed) {
+        return false;
+    }
+    return complete(room, fault);
+}
+
+void gm_room_close(struct gm_room *room)
+{
+    gm_formula_close(&room->graph);
+    for (size_t i = 0; i < room->count; i++) {
+        for (int key = 0; key < GM_ROOM_KEYS; key++) {
+            free(room->lines[i].value[key].part);
+        }
+    }
+    free(room->text);
+    free(room->lines);
+    free(room->title);
+    free(room->about);
+    free(room->mesh);
+    free(room->units);
+    *room = (struct gm_room){0};
+}
+
+/* The profile of an inlet; where it is no number, the place is kept. */
+struct profile {
+    const struct gm_room *room;
+    const struct gm_room_line *line;
+    struct bad *bad;
+    double *scratch;
+};
+
+/* The inlet, and where its profile is no number; NULL: there is none. */
+struct bad {
+    const struct gm_room_line *line;
+    double at[2];
+};
+
+static double speed_at(const void *data, double s, const double at[2])
+{
+    const struct profile *profile = data;
+    const double place[3] = {s, at[0], at[1]},
+                 speed =
+                     gm_room_value(profile->room, profile->line, GM_ROOM_SPEED, place, 0, profile->scratch);
+    if (!isfinite(speed)) {
+        *profile->bad = (struct bad){profile->line, {at[0], at[1]}};
+    }
+    return speed;
+}
+
+/* The triangle that a point is in, with its barycentric coordinates; false outside. */
+static bool locate(const struct gm_complex *complex, const double at[2], size_t *triangle, double w[3])
+{
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double p[6];
+        gm_complex_corners(complex, t, p);
+        for (int k = 0; k < 3; k++) {
+            const double *b = p + 2 * ((k + 1) % 3), *c = p + 2 * ((k + 2) % 3);
+            w[k] =
+                ((b[0] - at[0]) * (c[1] - at[1]) - (c[0] - at[0]) * (b[1] - at[1])) / (2 * complex->area[t]);
+        }
+        if (w[0] >= -1e-12 && w[1] >= -1e-12 && w[2] >= -1e-12) {
+            *triangle = t;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A carried quantity at the start, where it is not held. */
+static bool start_carried(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
+                          const struct gm_complex *complex, const bool *fixed, double *value, double *scratch,
+                          struct gm_fault *fault)
+{
+    for (size_t v = 0; v < complex->vertices && line->value[key].place > 0; v++) {
+        const double *p = complex->point + 2 * v, at[3] = {0, p[0], p[1]},
+                     here = gm_room_value(room, line, key, at, 0, scratch);
+        value[v] = fixed[v] ? value[v] : here;
+        if (!isfinite(here)) {
+            return gm_fail(fault, line->value[key].place, "the %s is not finite at (%.4g, %.4g)", keys[key],
+                           p[0], p[1]);
+        }
+    }
+    return true;
+}
+
+/* Sources, probes that must lie in the room, and what is carried at the start. */
+static bool place_things(const struct gm_room *room, struct gm_flow *flow, double *scratch,
+                         struct gm_fault *fault)
+{
+    const struct gm_complex *complex = flow->complex;
+    for (size_t i = 0; i < room->count; i++) {
+        const struct gm_room_line *line = &room->lines[i];
+        if (line->word < GM_ROOM_SOURCE) {
+            continue;
+        }
+        if (line->word == GM_ROOM_START) {
+            if (!start_carried(room, line, GM_ROOM_SCALAR, complex, flow->theta_fixed, flow->theta, scratch,
+                               fault) ||
+                !start_carried(room, line, GM_ROOM_TEMPERATURE, complex, flow->temperature_fixed,
+                               flow->temperature, scratch, fault)) {
+                return false;
+            }
+            continue;
+        }
+        double at[2], w[3];
+        gm_room_point(room, line, scratch, at);
+        const double place[3] = {0, at[0], at[1]},
+                     rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0, scratch);
+        size_t triangle = 0;
+        if (!locate(complex, at, &triangle, w)) {
+            return gm_fail(fault, line->place, "%.63s at (%.4g, %.4g) is not in the room", line->name, at[0],
+                           at[1]);
+        }
+        if (!isfinite(rate)) {
+            return gm_fail(fault, line->value[GM_ROOM_RATE].place, "the rate is not finite");
+        }
+        for (int k = 0; k < 3; k++) {
+            flow->source[complex->triangle[3 * triangle + (size_t)k]] += w[k] * rate;
+        }
+    }
+    return true;
+}
+
+/* The side of each boundary edge: 0 a wall without a name, else 1 + the line's number. */
+static bool name_sides(const struct gm_room *room, const struct gm_triangulation *mesh,
+                       unsigned char *side_of, struct gm_fault *fault)
+{
+    for (size_t i = 0; i < room->count; i++) {
+        const struct gm_room_line *line = &room->lines[i];
+        if (line->word > GM_ROOM_WALL) {
+            continue;
+        }
+        const long tag = gm_triangulation_group(mesh, line->name);
+        bool met = false;
+        for (size_t b = 0; tag != 0 && b < mesh->complex->boundary; b++) {
+            if (mesh->edge_group[mesh->complex->boundary_edge[b]] == tag) {
+                if (side_of[b] != 0) {
+                    return gm_fail(fault, line->place, "the group %.63s has a line already", line->name);
+                }
+                side_of[b] = (unsigned char)(i + 1);
+                met = true;
+            }
+        }
+        if (!met) {
+            char names[160];
+            return gm_fail(fault, line->place,
+                           "the mesh has no physical group \"%.40s\" on its boundary (there are: %s)",
+                           line->name, gm_triangulation_group_names(mesh, names, sizeof names));
+        }
+    }
+    return true;
+}
+
+/* The speed of a free fall over the room's size with the largest difference of temperature that it is given:
+   the Reynolds number of that is the root of Grashof's. */
+static double fall(const struct gm_flow *flow)
+{
+    double low = flow->reference_temperature, high = low;
+    for (size_t v = 0; flow->heat && v < flow->complex->vertices; v++) {
+        low = fmin(low, flow->temperature[v]);
+        high = fmax(high, flow->temperature[v]);
+    }
+    return sqrt(fabs(flow->buoyancy) * (high - low) * sqrt(flow->complex->total_area));
+}
+
+struct gm_flow *gm_room_flow(const struct gm_room *room, struct gm_triangulation *mesh,
+                             struct gm_fault *fault, enum gm_boundary_fault *boundary)
+{
+    *fault = (struct gm_fault){0};
+    *boundary = GM_BOUNDARY_OK;
+    struct gm_flow *flow = gm_flow_open(mesh->complex);
+    if (!flow) {
+        mesh->complex = NULL;
+        return NULL;
+    }
+    const struct gm_complex *complex = flow->complex;
+    struct bad bad = {0};
+    unsigned char *side_of = calloc(complex->boundary + 1, 1);
+    struct gm_side *sides = calloc(room->count + 1, sizeof *sides);
+    struct profile *profiles = calloc(room->count + 1, sizeof *profiles);
+    double *scratch = malloc((room->graph.count + 1) * sizeof *scratch);
+    flow->source = calloc(complex->vertices, sizeof *flow->source);
+    bool good = side_of && sides && profiles && scratch && flow->source;
+    good = good &&
+           (isnan(room->buoyancy) || gm_flow_carry_heat(flow, room->buoyancy, room->reference_temperature));
+    good = good && (room->count < GM_ROOM_SIDES ||
+                    gm_fail(fault, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1));
+    good = good && name_sides(room, mesh, side_of, fault);
+    for (size_t i = 0; good && i <= room->count; i++) {
+        const struct gm_room_line *line = i > 0 ? &room->lines[i - 1] : NULL;
+        sides[i] = (struct gm_side){.flow = NAN, .theta_free = true, .temperature_free = true};
+        if (!line || line->word > GM_ROOM_WALL) {
+            continue;
+        }
+        const double origin[3] = {0};
+        const bool inlet = line->word == GM_ROOM_INLET;
+        const double tangential = gm_room_value(room, line, GM_ROOM_TANGENTIAL, origin, 0, scratch);
+        profiles[i] = (struct profile){room, line, &bad, scratch};
+        sides[i].kind = inlet                          ? GM_EDGE_INLET
+                        : line->word == GM_ROOM_OUTLET ? GM_EDGE_OUTLET
+                        : tangential != 0              ? GM_EDGE_LID
+                                                       : GM_EDGE_WALL;
+        sides[i].flow = gm_room_value(room, line, GM_ROOM_FLOW, origin, NAN, scratch);
+        sides[i].speed = tangential;
+        sides[i].theta_free = !inlet && line->value[GM_ROOM_SCALAR].place == 0;
+        sides[i].theta = gm_room_value(room, line, GM_ROOM_SCALAR, origin, 0, scratch);
+        sides[i].temperature_free = !inlet && line->value[GM_ROOM_TEMPERATURE].place == 0;
+        sides[i].temperature =
+            gm_room_value(room, line, GM_ROOM_TEMPERATURE, origin, flow->reference_temperature, scratch);
+        if (line->value[GM_ROOM_SPEED].place != 0) {
+            sides[i].profile = speed_at;
+            sides[i].data = &profiles[i];
+        }
+        if (line->value[GM_ROOM_FLOW].place != 0 && !(sides[i].flow >= 0 && isfinite(sides[i].flow))) {
+            good = gm_fail(fault, line->value[GM_ROOM_FLOW].place, "a flow is a number that is not negative");
+        } else if (!isfinite(sides[i].theta) || !isfinite(sides[i].temperature) || !isfinite(tangential)) {
+            good = gm_fail(fault, line->place, "what %.63s gives is not finite", line->name);
+        }
+    }
+    if (good) {
+        *boundary = gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT);
+        good = *boundary == GM_BOUNDARY_OK;
+        if (bad.line) {
+            good = gm_fail(fault, bad.line->value[GM_ROOM_SPEED].place,
+                           "the speed is not finite at (%.4g, %.4g)", bad.at[0], bad.at[1]);
+        }
+    }
+    good = good && place_things(room, flow, scratch, fault);
+    free(scratch);
+    free(side_of);
+    free(sides);
+    free(profiles);
+    mesh->complex = NULL;
+    if (!good) {
+        gm_flow_close(flow);
+        return NULL;
+    }
+    flow->viscosity = room->viscosity;
+    flow->diffusivity = room->diffusivity;
+    flow->reynolds = flow->speed * fmax(flow->inlet_length, sqrt(complex->total_area) / 10) / room->viscosity;
+    flow->reynolds = fmax(flow->reynolds, fall(flow) * sqrt(complex->total_area) / room->viscosity);
+    flow->scalar = true;
+    return flow;
+}
+
+const char *gm_room_hole(const struct gm_triangulation *mesh, const struct gm_complex *complex, size_t hole,
+                         char *name, size_t size)
+{
+    size_t met = 0;
+    snprintf(name, size, "hole%zu", hole);
+    for (size_t loop = 0; loop < complex->loops; loop++) {
+        met += gm_complex_loop_area(complex, loop) < 0;
+        if (met != hole) {
+            continue;
+        }
+        const int group = mesh->edge_group[complex->boundary_edge[complex->loop_start[loop]]];
+        for (size_t i = 0; i < mesh->groups; i++) {
+            if (group != 0 && mesh->group[i].tag == group && mesh->group[i].name[0]) {
+                snprintf(name, size, "%s", mesh->group[i].name);
+            }
+        }
+        break;
+    }
+    return name;
+}

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FLOW_ROOM_H
+#define GM_CORE_FLOW_ROOM_H
+
+#include "core/flow/boundary.h"
+#include "core/flow/gmsh.h"
+#include "core/formula/lines.h"
+
+/* A room that somebody wrote: lines `word: NAME key = formula key = formula` (core/formula/lines.h), where
+   formulas may hold x, y and, of an inlet, s, which runs from 0 to 1 along its pieces
+   (core/flow/boundary.h). */
+
+enum gm_room_word {
+    GM_ROOM_INLET,
+    GM_ROOM_OUTLET,
+    GM_ROOM_WALL,
+    GM_ROOM_SOURCE,
+    GM_ROOM_PROBE,
+    GM_ROOM_START
+};
+enum gm_room_key {
+    GM_ROOM_SPEED,
+    GM_ROOM_FLOW,
+    GM_ROOM_SCALAR,
+    GM_ROOM_TEMPERATURE,
+    GM_ROOM_TANGENTIAL,
+    GM_ROOM_RATE,
+    GM_ROOM_X,
+    GM_ROOM_Y,
+    GM_ROOM_KEYS
+};
+enum { GM_ROOM_NAME = 64, GM_LARGEST_ROOM = 1 << 16, GM_ROOM_SIDES = 255 };
+
+struct gm_room_line {
+    enum gm_room_word word;
+    char name[GM_ROOM_NAME]; /* of a group, or its own */
+    size_t place;            /* in the text */
+    struct gm_room_formula {
+        size_t place;     /* 0: not given */
+        gm_node_id *part; /* what it is made of, itself the last */
+        size_t parts;
+    } value[GM_ROOM_KEYS];
+};
+
+struct gm_room {
+    char *text;
+    size_t length;
+    struct gm_formula graph;
+    struct gm_room_line *lines;
+    size_t count;
+    char *title, *about, *mesh, *units; /* "": not given */
+    double viscosity, diffusivity, reynolds,
+        schmidt; /* NAN: not given; the former two are made of the latter */
+    double dt, until;
+    double buoyancy, reference_temperature; /* NAN: there is no heat */
+};
+
+/* Reads a room's text; it is copied. False with a fault, whose sentence is empty where memory was refused. To
+   be closed in both cases. */
+bool gm_room_read(struct gm_room *room, const char *text, size_t length, struct gm_fault *fault);
+void gm_room_close(struct gm_room *room);
+
+/* The value of a key at the part s of a side and the point x, y; its standard where it is not given. scratch:
+   a number for each node of the room's graph. */
+double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
+                     const double at[3], double standard, double *scratch);
+
+/* Where a source or a probe is. */
+void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double *scratch,
+                   double point[2]);
+
+/* The flow of the room on its mesh, which it takes. NULL with a fault; `boundary` says what is wrong with its
+   flows, where that is what is wrong. */
+struct gm_flow *gm_room_flow(const struct gm_room *room, struct gm_triangulation *mesh,
+                             struct gm_fault *fault, enum gm_boundary_fault *boundary);
+
+/* The name of a hole, from 1: that of the group of its wall, or "hole1". */
+const char *gm_room_hole(const struct gm_triangulation *mesh, const struct gm_complex *complex, size_t hole,
+                         char *name, size_t size);
+
+#endif

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Compositions of any schemes whatever,
+       y1 = Phi_s(g_s h) o ... o Phi_1(g_1 h) (y0),
+   by the loops that these have. The rows of the list are none: they are brought along. Hairer, Lubich &
+   Wanner (2006), sections II.4, V.3. */
+#include "core/ode/families/composition.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/kind.h"
+#include "core/ode/families/families.h"
+
+/* The states between two substeps go back and forth between the run's and this one. */
+struct workspace {
+    double *state, *carry; /* n * m each */
+    int count;
+    const struct gm_family *
+        *families; /* of the substeps, with their workspaces; NULL: that of an earlier one */
+    void **workspaces;
+};
+
+bool gm_scheme_composes(const struct gm_scheme *scheme)
+{
+    const struct gm_family *family = scheme->family;
+    return family->kind == &gm_kind_ode && !family->memory && !family->own_time && !family->doubled &&
+           !family->not_resumable;
+}
+
+static void workspace_close(void *data)
+{
+    struct workspace *workspace = data;
+    if (!workspace) {
+        return;
+    }
+    for (int i = 0; i < workspace->count; i++) {
+        if (workspace->families[i]) {
+            workspace->families[i]->workspace_close(workspace->workspaces[i]);
+        }
+    }
+    free(workspace->families);
+    free(workspace->workspaces);
+    free(workspace->state);
+    free(workspace);
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct gm_substeps *substeps = scheme->coefficients;
+    const size_t count = problem->n * problem->m, parts = (size_t)substeps->count;
+    struct workspace *workspace = calloc(1, sizeof *workspace);
+    if (!workspace) {
+        return NULL;
+    }
+    workspace->state = malloc(2 * count * sizeof(double));
+    workspace->families = calloc(parts, sizeof(*workspace->families));
+    workspace->workspaces = calloc(parts, sizeof *workspace->workspaces);
+    bool good = workspace->state && workspace->families && workspace->workspaces;
+    for (int i = 0; good && i < substeps->count; i++) {
+        const struct gm_scheme *part = substeps->at[i].scheme;
+        int same = 0;
+        while (substeps->at[same].scheme != part) {
+            same++;
+        }
+        workspace->count = i + 1;
+        workspace->workspaces[i] = workspace->workspaces[same];
+        if (same == i && part->family->workspace_open &&
+            gm_scheme_loop(part, problem) == part->family->loop) {
+            workspace->workspaces[i] = part->family->workspace_open(problem, part);
+            good = workspace->workspaces[i] != NULL;
+            workspace->families[i] = good ? part->family : NULL;
+        }
+    }
+    if (!good) {
+        workspace_close(workspace);
+        return NULL;
+    }
+    workspace->carry = workspace->state + count;
+    return workspace;
+}
+
+static void workspace_reset(void *data)
+{
+    struct workspace *workspace = data;
+    for (int i = 0; i < workspace->count; i++) {
+        if (workspace->families[i] && workspace->families[i]->workspace_reset) {
+            workspace->families[i]->workspace_reset(workspace->workspaces[i]);
+        }
+    }
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    const struct gm_substeps *substeps = task->scheme->coefficients;
+    const struct workspace *workspace = task->workspace;
+    const size_t bytes = task->problem->n * task->problem->m * sizeof(double);
+    struct gm_progress progress = {.status = GM_OK};
+    struct gm_task substep = *task;
+    substep.steps = 1;
+    for (; progress.done < task->steps; progress.done++) {
+        for (int i = 0; i < substeps->count; i++) {
+            const struct gm_scheme *scheme = substeps->at[i].scheme;
+            gm_loop *advance = gm_scheme_loop(scheme, task->problem);
+            const bool there = substep.y == task->out;
+            substep.scheme = scheme;
+            substep.dt = substeps->at[i].fraction * task->dt;
+            substep.workspace = workspace->workspaces[i];
+            substep.out = there ? workspace->state : task->out;
+            substep.carry_out = !task->carry ? NULL : there ? workspace->carry : task->carry_out;
+            if (task->carry) { /* a scheme that does not sum so leaves it as it is */
+                memcpy(substep.carry_out, substep.carry, bytes);
+            }
+            const struct gm_progress made =
+                advance ? advance(&substep) : (struct gm_progress){.status = GM_NO_CONVERGENCE};
+            progress.evaluations += made.evaluations;
+            progress.solves += made.solves;
+            progress.iterations += made.iterations;
+            if (made.done < 1) {
+                progress.status = made.status;
+                progress.failed_iterations = made.failed_iterations;
+                return progress;
+            }
+            substep.y = substep.out;
+            substep.carry = substep.carry_out;
+        }
+    }
+    if (substep.y != task->out) {
+        memcpy(task->out, substep.y, bytes);
+        if (task->carry) {
+            memcpy(task->carry_out, substep.carry, bytes);
+        }
+    }
+    return progress;
+}
+
+#define COMPOSITION(passive)                                                                                 \
+    {                                                                                                        \
+        .kind = &gm_kind_ode, .title = "composition", .parameters = gm_settings_of_sums, .loop = loop,       \
+        .carries_passive = passive, .workspace_open = workspace_open, .workspace_close = workspace_close,    \
+        .workspace_reset = workspace_reset,                                                                  \
+    }
+const struct gm_family gm_family_composition = COMPOSITION(false);
+const struct gm_family gm_family_composition_carrying = COMPOSITION(true);

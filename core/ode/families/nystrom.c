@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nystrom methods for q'' = g(q), so for H = T(p) + V(q) with a quadratic T, g = T'' F, F = -dV/dq:
+       Q_i = q0 + c_i h q0' + h^2 sum_j a_ij g(Q_j)
+       q1  = q0 +     h q0' + h^2 sum_i b_i  g(Q_i),   q1' = q0' + h sum_i bv_i g(Q_i)
+   T' is affine, so that all that is asked for is the velocity at a momentum, v(p0 + h sum_j a_ij F_j), and
+   the force:
+       Q_i = q0 + h [(c_i - 1) v(p0) + v(p0 + h sum_j a_ij F_j)]
+   Where a stage asks for itself or a later one, all are found by fixed-point iteration. A last component that
+   is the time moves with the stages. The rows of the list are none: they are brought along. E.J. Nystrom
+   (1925); E. Hairer, S.P. Norsett & G. Wanner, Solving Ordinary Differential Equations I (1993), II.14. */
+#include "core/ode/families/nystrom.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/families/families.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+
+/* The scratch: the forces at the stages, the velocity at p0, a state and its slope. */
+struct scratch {
+    double *forces, *velocity, *state, *slope;
+    size_t half;
+};
+
+static struct scratch scratch_of(const struct gm_members *members, int stages)
+{
+    const size_t half = members->n / 2;
+    double *at = members->scratch;
+    return (struct scratch){.half = half,
+                            .forces = at,
+                            .velocity = at + (size_t)stages * half,
+                            .state = at + ((size_t)stages + 1) * half,
+                            .slope = at + ((size_t)stages + 1) * half + members->n};
+}
+
+/* slope[0 .. half) := q' at the state's momenta */
+static void find_velocity(const struct gm_problem *problem, const struct scratch *scratch)
+{
+    const struct gm_loops *loops = gm_ode_of(problem)->loops[GM_ISA_BASELINE];
+    if (gm_ode_of(problem)->split->unit_mass) {
+        memcpy(scratch->slope, scratch->state + scratch->half, scratch->half * sizeof(double));
+    } else if (loops->velocity) {
+        loops->velocity(problem, scratch->state, scratch->slope, 1);
+    } else {
+        gm_field(problem, scratch->state, scratch->slope, 1);
+    }
+}
+
+/* slope[half .. 2 half) := p' at the state's positions */
+static void find_force(const struct gm_problem *problem, const struct scratch *scratch)
+{
+    const struct gm_loops *loops = gm_ode_of(problem)->loops[GM_ISA_BASELINE];
+    if (loops->force) {
+        loops->force(problem, scratch->state, scratch->slope + scratch->half, 1);
+    } else {
+        gm_field(problem, scratch->state, scratch->slope, 1);
+    }
+}
+
+/* state := positions at the time c h with these weights of the forces, as far as there are `count` */
+static void place(const struct gm_task *task, const struct gm_members *members, const struct scratch *scratch,
+                  const double *weights, int count, double c)
+{
+    const size_t half = scratch->half;
+    const double h = task->dt;
+    memcpy(scratch->state, members->y, members->n * sizeof(double));
+    for (int j = 0; j < count; j++) {
+        for (size_t k = 0; weights[j] != 0 && k < half; k++) {
+            scratch->state[half + k] += h * weights[j] * scratch->forces[(size_t)j * half + k];
+        }
+    }
+    find_velocity(task->problem, scratch);
+    for (size_t k = 0; k < half; k++) {
+        scratch->state[k] += h * ((c - 1) * scratch->velocity[k] + scratch->slope[k]);
+    }
+    if (members->n % 2 != 0) {
+        scratch->state[members->n - 1] += c * h;
+    }
+}
+
+/* Asks for all forces once, from those that are there; how much they change. */
+static double pass(const struct gm_task *task, const struct gm_members *members,
+                   const struct gm_nystrom_row *row, const struct scratch *scratch, bool is_explicit)
+{
+    const size_t half = scratch->half;
+    double change = 0;
+    for (int i = 0; i < row->stages; i++) {
+        place(task, members, scratch, row->a[i], is_explicit ? i : row->stages, row->c[i]);
+        find_force(task->problem, scratch);
+        double *force = scratch->forces + (size_t)i * half;
+        for (size_t k = 0; k < half; k++) {
+            change += fabs(scratch->slope[half + k] - force[k]);
+            force[k] = scratch->slope[half + k];
+        }
+    }
+    return change;
+}
+
+static bool is_explicit_row(const struct gm_nystrom_row *row)
+{
+    bool is_explicit = true;
+    for (int i = 0; i < row->stages; i++) {
+        for (int j = i; j < row->stages; j++) {
+            is_explicit = is_explicit && row->a[i][j] == 0;
+        }
+    }
+    return is_explicit;
+}
+
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
+{
+    enum { ITERATIONS = 150 };
+    const struct gm_nystrom_row *row = task->scheme->coefficients;
+    const struct scratch scratch = scratch_of(members, row->stages);
+    const size_t half = scratch.half;
+    const bool is_explicit = is_explicit_row(row);
+    memcpy(scratch.state, members->y, members->n * sizeof(double));
+    find_velocity(task->problem, &scratch);
+    memcpy(scratch.velocity, scratch.slope, half * sizeof(double));
+    memset(scratch.forces, 0, (size_t)row->stages * half * sizeof(double));
+    bool settled = false;
+    double previous = INFINITY;
+    for (int iteration = 0; iteration < (is_explicit ? 1 : ITERATIONS) && !settled; iteration++) {
+        const double change = pass(task, members, row, &scratch, is_explicit);
+        double size = 0;
+        for (size_t k = 0; k < (size_t)row->stages * half; k++) {
+            size += fabs(scratch.forces[k]);
+        }
+        progress->evaluations += (unsigned long)row->stages;
+        progress->iterations += is_explicit ? 0 : 1;
+        settled = is_explicit || gm_is_settled(change, 8 * DBL_EPSILON * size, &previous);
+        if (!(change < 1e100)) {
+            return is_explicit ? GM_BLOW_UP : GM_NO_CONVERGENCE;
+        }
+    }
+    if (!settled) {
+        return GM_NO_CONVERGENCE;
+    }
+    place(task, members, &scratch, row->b, row->stages, 1);
+    memcpy(members->y, scratch.state, half * sizeof(double));
+    for (int i = 0; i < row->stages; i++) {
+        for (size_t k = 0; k < half; k++) {
+            members->y[half + k] += task->dt * row->bv[i] * scratch.forces[(size_t)i * half + k];
+        }
+    }
+    if (members->n % 2 != 0) {
+        members->y[members->n - 1] += task->dt;
+    }
+    return GM_OK;
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct gm_nystrom_row *row = scheme->coefficients;
+    return gm_members_open(problem, 0, ((size_t)row->stages + 1) * (problem->n / 2) + 2 * problem->n);
+}
+
+const struct gm_family gm_family_nystrom = {
+    .kind = &gm_kind_ode,
+    .title = "Nyström",
+    .loop = loop,
+    .workspace_open = workspace_open,
+    .workspace_close = free,
+};

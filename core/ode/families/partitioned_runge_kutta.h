@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The row of a partitioned Runge-Kutta method: a and b are those of q', c and d those of p'. */
+#ifndef GM_CORE_ODE_FAMILIES_PARTITIONED_RUNGE_KUTTA_H
+#define GM_CORE_ODE_FAMILIES_PARTITIONED_RUNGE_KUTTA_H
+
+#include <stddef.h>
+
+enum { GM_PARTITIONED_STAGES = 16 };
+
+struct gm_partitioned_row {
+    size_t stages;
+    double a[GM_PARTITIONED_STAGES][GM_PARTITIONED_STAGES], c[GM_PARTITIONED_STAGES][GM_PARTITIONED_STAGES];
+    double b[GM_PARTITIONED_STAGES], d[GM_PARTITIONED_STAGES];
+};
+
+#endif

@@ -1,0 +1,535 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Variational integrators with a fixed step, for every Lagrangian L(t, q, v) and forces F(t, q, v). The
+   discrete Lagrangian is the action of a polynomial of degree s with values q0 = Q_0, .. Q_s = q1 at control
+   points, q(c) = sum_j Q_j l_j(c), by a quadrature of r points:
+       L_d = h sum_i b_i L(t + c_i h, q(c_i), q'(c_i) / h)
+   and of it follow, with the forces' virtual work by the same quadrature (discrete Lagrange-d'Alembert),
+       R_j  = sum_i b_i [ h (dL/dq + F)_i l_j(c_i) + (dL/dv)_i l_j'(c_i) ]
+       -p0  = R_0,   0 = R_j  (0 < j < s),   p1 = R_s
+   J.E. Marsden & M. West, Acta Numerica 10 (2001) 357, sections 1.5, 2.2 and 2.6; S. Ober-Blobaum & N. Saake,
+   Adv. Comput. Math. 41 (2015) 955. One point in the middle is the midpoint rule, the end points make
+   Verlet's scheme, and Gauss points are those of collocation where r = s; here r = s + 1.
+
+   With constraints g(q) = 0, at control points that are those of Lobatto's quadrature, G = dg/dq:
+       R_j + b_j G(Q_j)' mu_j in place of R_j,   g(Q_j) = 0  (0 < j <= s)
+       p1 with the multiplier that makes G v = 0 there
+   which, where the mass matrix is constant, is RATTLE for s = 1, and for s = 2, 3 the Lobatto IIIA-IIIB pairs
+   of L. Jay, SIAM J. Numer. Anal. 33 (1996) 368, of order 2 s. SHAKE takes the momenta with the last
+   multiplier, and puts them into the tangent when the next step begins.
+
+   With a friction F = -c p the step without it stands between two halves of the friction's exact flow,
+       p := exp(-c h / 2) p
+   so that every area shrinks by exp(-c h). R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276. */
+#include "core/ode/families/variational.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/families/families.h"
+#include "core/ode/kernel/members.h"
+#include "core/ode/variational/manifold.h"
+
+enum { ITERATIONS = 50, HALVINGS = 20 };
+
+/* The scratch: what the basis is at the points, unknowns, and their equations. */
+struct step {
+    const struct gm_variational_row *rule;
+    const struct gm_task *task;
+    struct gm_manifold manifold;
+    size_t half, constraints, unknowns;
+    double friction, t;                /* of the state, where the equations hold it */
+    double *values, *slopes;           /* l_j(c_i), l_j'(c_i): points * (degree + 1) */
+    double *q, *p;                     /* at the start */
+    double *solution, *change, *trial; /* Q_j - q0, then mu_j, of the unknowns */
+    double *residual, *matrix;
+    double *impulse; /* what the momenta gain, but for the last multiplier */
+};
+
+static size_t unknowns_of(const struct gm_problem *problem, const struct gm_variational_row *rule)
+{
+    return rule->degree * (problem->n / 2 + gm_action_constraints(problem));
+}
+
+/* Three vectors of unknowns, the residual, and the matrix; the tables, and three vectors of coordinates. */
+static size_t room_of(const struct gm_problem *problem, const struct gm_variational_row *rule)
+{
+    const size_t unknowns = unknowns_of(problem, rule);
+    return 2 * rule->points * (rule->degree + 1) + 3 * (problem->n / 2) + 4 * unknowns + unknowns * unknowns +
+           gm_manifold_room(problem);
+}
+
+static struct step lay(const struct gm_problem *problem, const struct gm_variational_row *rule, double *room)
+{
+    const size_t half = problem->n / 2, unknowns = unknowns_of(problem, rule),
+                 table = rule->points * (rule->degree + 1);
+    struct step step = {.rule = rule,
+                        .half = half,
+                        .constraints = gm_action_constraints(problem),
+                        .unknowns = unknowns,
+                        .values = room,
+                        .slopes = room + table,
+                        .q = room + 2 * table};
+    step.p = step.q + half;
+    step.impulse = step.p + half;
+    step.solution = step.impulse + half;
+    step.change = step.solution + unknowns;
+    step.trial = step.change + unknowns;
+    step.residual = step.trial + unknowns;
+    step.matrix = step.residual + unknowns;
+    step.manifold = gm_manifold_lay(problem, step.matrix + unknowns * unknowns);
+    return step;
+}
+
+/* l_j(c) and its derivative, by Lagrange's formula */
+static void basis(const struct gm_variational_row *rule, size_t j, double c, double *value, double *slope)
+{
+    *value = 1;
+    *slope = 0;
+    for (size_t k = 0; k <= rule->degree; k++) {
+        if (k != j) {
+            const double width = rule->control[j] - rule->control[k], factor = (c - rule->control[k]) / width;
+            *slope = *slope * factor + *value / width;
+            *value *= factor;
+        }
+    }
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct gm_variational_row *rule = scheme->coefficients;
+    struct gm_members *members = gm_members_open(problem, 0, room_of(problem, rule));
+    if (members) {
+        const struct step step = lay(problem, rule, members->scratch);
+        for (size_t i = 0; i < rule->points; i++) {
+            for (size_t j = 0; j <= rule->degree; j++) {
+                const size_t at = i * (rule->degree + 1) + j;
+                basis(rule, j, rule->c[i], &step.values[at], &step.slopes[at]);
+            }
+        }
+    }
+    return members;
+}
+
+/* without the friction, F + c p, where it is solved apart */
+static void leave_friction(const struct step *step)
+{
+    const struct gm_motion *motion = &step->manifold.action.motion;
+    for (size_t i = 0; i < step->half && step->friction != 0; i++) {
+        motion->forces[i] += step->friction * motion->momenta[i];
+        for (size_t k = i * step->half; k < (i + 1) * step->half; k++) {
+            motion->forces_q[k] += step->friction * motion->momenta_q[k];
+            motion->forces_v[k] += step->friction * motion->momenta_v[k];
+        }
+    }
+}
+
+/* Point i of the quadrature, in the equations and their derivatives over the unknowns. */
+static bool add_point(const struct step *step, const double *unknowns, size_t i)
+{
+    const struct gm_variational_row *rule = step->rule;
+    const struct gm_motion *motion = &step->manifold.action.motion;
+    const size_t half = step->half, all = step->unknowns;
+    const double *l = step->values + i * (rule->degree + 1), *dl = step->slopes + i * (rule->degree + 1);
+    const double h = step->task->dt, b = rule->b[i];
+    double *at = step->manifold.at;
+    for (size_t a = 0; a < half; a++) {
+        at[a] = step->q[a];
+        at[half + a] = 0;
+        for (size_t j = 1; j <= rule->degree; j++) {
+            at[a] += l[j] * unknowns[(j - 1) * half + a];
+            at[half + a] += dl[j] * unknowns[(j - 1) * half + a];
+        }
+        at[half + a] /= h;
+    }
+    if (step->manifold.action.problem->n > 2 * half) {
+        at[2 * half] = step->t + rule->c[i] * h;
+    }
+    if (!gm_action_evaluate(&step->manifold.action, at)) {
+        return false;
+    }
+    leave_friction(step);
+    for (size_t a = 0; a < half; a++) {
+        step->impulse[a] += h * b * motion->forces[a];
+        for (size_t j = 0; j < rule->degree; j++) {
+            step->residual[j * half + a] += b * (h * motion->forces[a] * l[j] + motion->momenta[a] * dl[j]);
+        }
+    }
+    for (size_t j = 0; j < rule->degree; j++) {
+        for (size_t k = 1; k <= rule->degree; k++) {
+            const double forces_q = b * h * l[k] * l[j], forces_v = b * dl[k] * l[j],
+                         momenta_q = b * l[k] * dl[j], momenta_v = b * dl[k] / h * dl[j];
+            for (size_t a = 0; a < half; a++) {
+                double *row = step->matrix + (j * half + a) * all + (k - 1) * half;
+                for (size_t c = 0; c < half; c++) {
+                    const size_t of = a * half + c;
+                    row[c] += forces_q * motion->forces_q[of] + forces_v * motion->forces_v[of] +
+                              momenta_q * motion->momenta_q[of] + momenta_v * motion->momenta_v[of];
+                }
+            }
+        }
+    }
+    return true;
+}
+
+/* The constraints at control point j, whose weight is b. */
+static void add_constraints(const struct step *step, const double *unknowns, size_t j)
+{
+    const struct gm_manifold *manifold = &step->manifold;
+    const size_t half = step->half, constraints = step->constraints, all = step->unknowns,
+                 degree = step->rule->degree;
+    const double b = step->rule->b[j];
+    const double *moved = j > 0 ? unknowns + (j - 1) * half : NULL;
+    for (size_t a = 0; a < half; a++) {
+        manifold->at[a] = step->q[a] + (moved ? moved[a] : 0);
+    }
+    for (size_t k = 0; k < constraints; k++) {
+        manifold->multipliers[k] = j < degree ? unknowns[degree * half + j * constraints + k] : 0;
+    }
+    gm_manifold_constrain(manifold, manifold->at);
+    for (size_t k = 0; k < constraints; k++) {
+        const size_t equation = degree * half + (j - 1) * constraints + k; /* g(Q_j) = 0 */
+        if (moved) {
+            step->residual[equation] = manifold->g[k];
+        }
+        for (size_t a = 0; a < half; a++) {
+            const double slope = manifold->slopes[k * half + a];
+            if (moved) {
+                step->matrix[equation * all + (j - 1) * half + a] = slope;
+            }
+            if (j < degree) {
+                step->matrix[(j * half + a) * all + degree * half + j * constraints + k] = b * slope;
+                step->residual[j * half + a] += b * slope * manifold->multipliers[k];
+                step->impulse[a] += b * slope * manifold->multipliers[k];
+            }
+        }
+    }
+    for (size_t a = 0; moved && j < degree && a < half; a++) {
+        double *row = step->matrix + (j * half + a) * all + (j - 1) * half;
+        for (size_t c = 0; c < half; c++) {
+            row[c] += b * manifold->curvature[a * half + c];
+        }
+    }
+}
+
+/* The equations at these unknowns, with their derivatives; returns the 1-norm of the residual. */
+static double assemble(const struct step *step, const double *unknowns, struct gm_progress *progress)
+{
+    const struct gm_variational_row *rule = step->rule;
+    double size = 0;
+    memset(step->impulse, 0, step->half * sizeof(double));
+    memset(step->residual, 0, step->unknowns * sizeof(double));
+    memset(step->matrix, 0, step->unknowns * step->unknowns * sizeof(double));
+    memcpy(step->residual, step->p, step->half * sizeof(double));
+    for (size_t i = 0; i < rule->points; i++) {
+        if (!add_point(step, unknowns, i)) {
+            return NAN;
+        }
+    }
+    for (size_t j = 0; j <= rule->degree && step->constraints > 0; j++) {
+        add_constraints(step, unknowns, j);
+    }
+    progress->evaluations += rule->points;
+    for (size_t i = 0; i < step->unknowns; i++) {
+        size += fabs(step->residual[i]);
+    }
+    return size;
+}
+
+/* Newton's method from rest, where the first step is the Legendre transform; shortened where a whole step
+   leads further away. */
+static bool solve(const struct step *step, struct gm_progress *progress)
+{
+    const size_t moved = step->rule->degree * step->half, all = step->unknowns;
+    double previous = INFINITY,
+           off = (memset(step->solution, 0, all * sizeof(double)), assemble(step, step->solution, progress));
+    double scale = 0;
+    for (size_t a = 0; a < step->half; a++) {
+        scale += (double)step->rule->degree * fabs(step->q[a]);
+    }
+    for (int iteration = 0; iteration < ITERATIONS && isfinite(off); iteration++) {
+        memcpy(step->change, step->residual, all * sizeof(double));
+        progress->iterations++;
+        progress->solves++;
+        if (!gm_eliminate(all, step->matrix, step->change)) {
+            return false;
+        }
+        double change = 0, far = 0;
+        for (size_t i = 0; i < moved; i++) {
+            change += fabs(step->change[i]);
+            far += fabs(step->solution[i]);
+        }
+        const double size = scale + far;
+        if (!isfinite(change)) {
+            return false;
+        }
+        if (change <= 0x1p-53 * far || gm_is_settled(change, 0x1p-46 * size, &previous)) {
+            return true;
+        }
+        double factor = 1, there = NAN;
+        for (int halving = 0; halving < HALVINGS; halving++, factor /= 2) {
+            for (size_t i = 0; i < all; i++) {
+                step->trial[i] = step->solution[i] - factor * step->change[i];
+            }
+            there = assemble(step, step->trial, progress);
+            if (there <= off || (change <= 0x1p-26 * size && isfinite(there))) {
+                break;
+            }
+        }
+        off = there;
+        memcpy(step->solution, step->trial, all * sizeof(double));
+    }
+    return false;
+}
+
+/* p1 := the momenta at the end, G v = 0 */
+static bool end_on_manifold(const struct step *step, double *y)
+{
+    const struct gm_variational_row *rule = step->rule;
+    const struct gm_manifold *manifold = &step->manifold;
+    const size_t half = step->half;
+    if (!rule->late) {
+        for (size_t a = 0; a < half; a++) {
+            manifold->at[half + a] = step->solution[(rule->degree - 1) * half + a] / step->task->dt;
+        }
+        return gm_manifold_settle(manifold, y);
+    }
+    gm_manifold_constrain(manifold, y);
+    for (size_t k = 0; k < step->constraints; k++) {
+        for (size_t a = 0; a < half; a++) {
+            y[half + a] += rule->b[rule->degree] * manifold->slopes[k * half + a] *
+                           step->solution[rule->degree * half + k];
+        }
+    }
+    return true;
+}
+
+static enum gm_status make_step(const struct gm_task *task, struct gm_members *members,
+                                struct gm_progress *progress)
+{
+    const struct gm_problem *problem = task->problem;
+    const struct gm_variational_row *rule = task->scheme->coefficients;
+    struct step step = lay(problem, rule, members->scratch);
+    const size_t half = step.half;
+    double *y = members->y;
+    step.task = task;
+    step.friction = rule->damped ? gm_ode_of(problem)->action->friction(problem) : 0;
+    const double fades = exp(-step.friction * task->dt / 2);
+    if (rule->late) {
+        memset(step.manifold.at + half, 0, half * sizeof *y);
+        if (!gm_manifold_settle(&step.manifold, y)) {
+            return GM_NO_CONVERGENCE;
+        }
+    }
+    memcpy(step.q, y, half * sizeof *y);
+    for (size_t a = 0; a < half; a++) {
+        step.p[a] = rule->damped ? fades * y[half + a] : y[half + a];
+    }
+    step.t = problem->n > 2 * half ? y[2 * half] : 0;
+    if (!solve(&step, progress)) {
+        return GM_NO_CONVERGENCE;
+    }
+    for (size_t a = 0; a < half; a++) {
+        y[a] += step.solution[(rule->degree - 1) * half + a];
+        y[half + a] = step.p[a] + step.impulse[a];
+    }
+    if (problem->n > 2 * half) {
+        y[2 * half] += task->dt;
+    }
+    if (step.constraints > 0 && !end_on_manifold(&step, y)) {
+        return GM_NO_CONVERGENCE;
+    }
+    for (size_t a = 0; rule->damped && a < half; a++) {
+        y[half + a] *= fades;
+    }
+    return GM_OK;
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, make_step);
+}
+
+#define TRAPEZOIDAL .degree = 1, .points = 2, .control = {0, 1}, .b = {0.5, 0.5}, .c = {0, 1}
+#define MIDPOINT .degree = 1, .points = 1, .control = {0, 1}, .b = {1}, .c = {0.5}
+#define SIMPSON                                                                                              \
+    .degree = 2, .points = 3, .control = {0, 0.5, 1}, .b = {1. / 6, 2. / 3, 1. / 6}, .c = {0, 0.5, 1}
+/* (1 - 1/sqrt(5)) / 2, (1 - 1/sqrt(3)) / 2, (1 - sqrt(3/5)) / 2, and the four points of Gauss */
+#define OF_LOBATTO 0.27639320225002103036
+#define OF_GAUSS2 0.21132486540518711775
+#define OF_GAUSS3 0.11270166537925831148
+#define OF_GAUSS4 0.06943184420297371239
+#define MORE_OF_GAUSS4 0.33000947820757186760
+#define WEIGHT_OF_GAUSS4 0.17392742256872692869
+
+static const struct gm_variational_row midpoint = {MIDPOINT}, damped_midpoint = {MIDPOINT, .damped = true},
+                                       trapezoidal = {TRAPEZOIDAL},
+                                       damped_trapezoidal = {TRAPEZOIDAL, .damped = true},
+                                       shake = {TRAPEZOIDAL, .late = true}, simpson = {SIMPSON};
+static const struct gm_variational_row lobatto6 = {
+    .degree = 3,
+    .points = 4,
+    .control = {0, OF_LOBATTO, 1 - OF_LOBATTO, 1},
+    .b = {1. / 12, 5. / 12, 5. / 12, 1. / 12},
+    .c = {0, OF_LOBATTO, 1 - OF_LOBATTO, 1},
+};
+static const struct gm_variational_row galerkin2 = {
+    .degree = 1, .points = 2, .control = {0, 1}, .b = {0.5, 0.5}, .c = {OF_GAUSS2, 1 - OF_GAUSS2}};
+static const struct gm_variational_row galerkin4 = {.degree = 2,
+                                                    .points = 3,
+                                                    .control = {0, 0.5, 1},
+                                                    .b = {5. / 18, 4. / 9, 5. / 18},
+                                                    .c = {OF_GAUSS3, 0.5, 1 - OF_GAUSS3}};
+static const struct gm_variational_row galerkin6 = {
+    .degree = 3,
+    .points = 4,
+    .control = {0, OF_LOBATTO, 1 - OF_LOBATTO, 1},
+    .b = {WEIGHT_OF_GAUSS4, 0.5 - WEIGHT_OF_GAUSS4, 0.5 - WEIGHT_OF_GAUSS4, WEIGHT_OF_GAUSS4},
+    .c = {OF_GAUSS4, MORE_OF_GAUSS4, 1 - MORE_OF_GAUSS4, 1 - OF_GAUSS4},
+};
+
+#define VARIATIONAL .family = &gm_family_variational
+#define OF_ACTION VARIATIONAL, .needs = GM_NEEDS_ACTION, .claims = GEOMETRIC
+#define GEOMETRIC                                                                                            \
+    GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR |                     \
+        GM_KEEPS_MOMENTUM_MAPS
+#define CONSTRAINED                                                                                          \
+    VARIATIONAL, .needs = GM_NEEDS_CONSTRAINTS,                                                              \
+                 .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_MOMENTUM_MAPS |           \
+                           GM_KEEPS_CONSTRAINTS | GM_KEEPS_HIDDEN
+#define DAMPED                                                                                               \
+    VARIATIONAL, .needs = GM_NEEDS_ACTION | GM_NEEDS_FRICTION, .claims = GM_SYMMETRIC | GM_CONFORMAL
+#define MARSDEN_WEST "J.E. Marsden & M. West, Acta Numerica 10 (2001) 357"
+#define OBER_BLOBAUM "S. Ober-Blöbaum & N. Saake, Adv. Comput. Math. 41 (2015) 955"
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "variational-midpoint2",
+        .title = "variational midpoint",
+        .formula = "L_d = h L(t + h/2, (q₀ + q₁)/2, (q₁ − q₀)/h),  p₀ = −∂L_d/∂q₀,  p₁ = ∂L_d/∂q₁",
+        .reference = MARSDEN_WEST ", 2.6.1; Razafindralandy et al. (2018), eq. 56",
+        .coefficients = &midpoint,
+        .order = 2,
+        OF_ACTION,
+    },
+    {
+        .name = "variational-trapezoidal2",
+        .title = "variational trapezoidal",
+        .formula = "L_d = h/2 [L(t, q₀, v) + L(t + h, q₁, v)],  v = (q₁ − q₀)/h,  p₀ = −∂L_d/∂q₀,  "
+                   "p₁ = ∂L_d/∂q₁",
+        .reference = MARSDEN_WEST ", 2.6.2",
+        .coefficients = &trapezoidal,
+        .order = 2,
+        OF_ACTION,
+    },
+    {
+        .name = "variational-simpson4",
+        .title = "variational Simpson",
+        .formula = "L_d = h/6 [L(0) + 4 L(1/2) + L(1)],  q(c) of degree 2 through q₀, Q, q₁,  ∂L_d/∂Q = 0",
+        .reference = MARSDEN_WEST ", 2.6.5",
+        .coefficients = &simpson,
+        .order = 4,
+        OF_ACTION,
+    },
+    {
+        .name = "variational-galerkin2",
+        .title = "variational Galerkin 2",
+        .formula = "L_d = h Σᵢ bᵢ L(t + cᵢh, q(cᵢ), q′(cᵢ)/h),  q(c) of degree 1, 2 points of Gauss",
+        .reference = MARSDEN_WEST ", 2.2.6; " OBER_BLOBAUM,
+        .coefficients = &galerkin2,
+        .order = 2,
+        OF_ACTION,
+    },
+    {
+        .name = "variational-galerkin4",
+        .title = "variational Galerkin 4",
+        .formula = "L_d = h Σᵢ bᵢ L(t + cᵢh, q(cᵢ), q′(cᵢ)/h),  q(c) of degree 2, 3 points of Gauss,  "
+                   "∂L_d/∂Q = 0",
+        .reference = MARSDEN_WEST ", 2.2.6; " OBER_BLOBAUM,
+        .coefficients = &galerkin4,
+        .order = 4,
+        OF_ACTION,
+    },
+    {
+        .name = "variational-galerkin6",
+        .title = "variational Galerkin 6",
+        .formula = "L_d = h Σᵢ bᵢ L(t + cᵢh, q(cᵢ), q′(cᵢ)/h),  q(c) of degree 3, 4 points of Gauss,  "
+                   "∂L_d/∂Qⱼ = 0",
+        .reference = MARSDEN_WEST ", 2.2.6; " OBER_BLOBAUM,
+        .coefficients = &galerkin6,
+        .order = 6,
+        OF_ACTION,
+    },
+    {
+        .name = "conformal-midpoint2",
+        .title = "conformal midpoint",
+        .formula = "p ← exp(−ch/2) p,  variational midpoint without friction,  p ← exp(−ch/2) p",
+        .reference = "R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276",
+        .coefficients = &damped_midpoint,
+        .order = 2,
+        DAMPED,
+    },
+    {
+        .name = "conformal-trapezoidal2",
+        .title = "conformal trapezoidal",
+        .formula = "p ← exp(−ch/2) p,  variational trapezoidal without friction,  p ← exp(−ch/2) p",
+        .reference = "R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276",
+        .coefficients = &damped_trapezoidal,
+        .order = 2,
+        DAMPED,
+    },
+    {
+        .name = "rattle2",
+        .title = "RATTLE",
+        .formula = "variational trapezoidal with G(q₀)ᵀμ₀ beside p₀,  g(q₁) = 0;  p₁ with G(q₁)ᵀμ₁,  "
+                   "G(q₁) v₁ = 0",
+        .reference = "H.C. Andersen, J. Comput. Phys. 52 (1983) 24; B. Leimkuhler & R.D. Skeel, J. Comput. "
+                     "Phys. 112 (1994) 117",
+        .coefficients = &trapezoidal,
+        .order = 2,
+        CONSTRAINED,
+    },
+    {
+        .name = "shake2",
+        .title = "SHAKE",
+        .formula = "the positions of RATTLE;  p₁ with the multiplier of the step's begin, G(q₁) v₁ ≠ 0",
+        .reference =
+            "J.-P. Ryckaert, G. Ciccotti & H.J.C. Berendsen, J. Comput. Phys. 23 (1977) 327; E. Hairer, "
+            "C. Lubich & G. Wanner (2006), VII.1.4",
+        .coefficients = &shake,
+        .order = 2,
+        .needs = GM_NEEDS_CONSTRAINTS,
+        .claims = GM_SYMPLECTIC | GM_KEEPS_MOMENTUM_MAPS | GM_KEEPS_CONSTRAINTS,
+        VARIATIONAL,
+    },
+    {
+        .name = "constrained-lobatto4",
+        .title = "constrained Lobatto IIIA-IIIB 4",
+        .formula = "variational Simpson with G(Qⱼ)ᵀμⱼ and g(Qⱼ) = 0 at its points;  p₁ with G(q₁)ᵀμ, "
+                   "G(q₁) v₁ = 0",
+        .reference = "L. Jay, SIAM J. Numer. Anal. 33 (1996) 368",
+        .coefficients = &simpson,
+        .order = 4,
+        CONSTRAINED,
+    },
+    {
+        .name = "constrained-lobatto6",
+        .title = "constrained Lobatto IIIA-IIIB 6",
+        .formula = "degree 3 at the 4 points of Lobatto with G(Qⱼ)ᵀμⱼ and g(Qⱼ) = 0;  p₁ with G(q₁)ᵀμ, "
+                   "G(q₁) v₁ = 0",
+        .reference = "L. Jay, SIAM J. Numer. Anal. 33 (1996) 368",
+        .coefficients = &lobatto6,
+        .order = 6,
+        CONSTRAINED,
+    },
+};
+
+const struct gm_family gm_family_variational = {
+    .kind = &gm_kind_ode,
+    .title = "variational, with fixed step",
+    .schemes = schemes,
+    .count = sizeof schemes / sizeof schemes[0],
+    .loop = loop,
+    .workspace_open = workspace_open,
+    .workspace_close = free,
+};

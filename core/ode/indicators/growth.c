@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sums of the exponent and of MEGNO, taken after every step; the vector is given the length 1 again each
+   time. */
+#include "core/ode/indicators/growth.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/indicators/tangent.h"
+#include "core/ode/ode.h"
+
+enum { RECORDS = 128, BLOCK = 128 /* steps */ };
+
+struct sums {
+    double time;    /* since the start */
+    double growth;  /* ln(d(t) / d(0)) */
+    double moment;  /* int_0^t s d'/d ds */
+    double average; /* int_0^t Y ds */
+};
+
+struct gm_growth {
+    struct gm_problem problem;
+    struct gm_run *run;
+    struct gm_tangent *tangent;
+    double *v;
+    bool failed;
+    struct sums sums;
+    /* What they were after 0, every, 2 every ... steps; when all are full every other one goes. */
+    struct sums records[RECORDS];
+    size_t recorded;
+    long every;
+};
+
+/* Whether the last component is the time: orbits beside one another have the same. */
+static bool has_time(const struct gm_problem *problem)
+{
+    const char *names = gm_ode_of(problem)->components, *last = names ? strrchr(names, ' ') : NULL;
+    return last && strcmp(last, " t") == 0;
+}
+
+/* Every component has its part, and no two the same: the fractions of multiples of the golden mean lie
+   evenly. */
+static void choose_direction(double *v, size_t n)
+{
+    const double golden = 0.6180339887498949;
+    double square = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double part = golden * (double)(i + 1);
+        v[i] = part - floor(part) - 0.5;
+        square += v[i] * v[i];
+    }
+    for (size_t i = 0; i < n; i++) {
+        v[i] /= sqrt(square);
+    }
+}
+
+struct gm_growth *gm_growth_open(const struct gm_problem *problem, const struct gm_scheme *scheme,
+                                 const struct gm_settings *settings, double t0, double dt, const double *y0)
+{
+    struct gm_growth *growth = calloc(1, sizeof *growth);
+    if (!growth) {
+        return NULL;
+    }
+    growth->problem = *problem;
+    growth->problem.n -= 2 * problem->passive;
+    growth->problem.passive = 0;
+    growth->problem.m = 1;
+    growth->every = 1;
+    growth->recorded = 1;
+    growth->run = gm_run_open(&growth->problem, scheme, settings, t0, dt, y0);
+    growth->tangent = growth->run ? gm_tangent_open(growth->run) : NULL;
+    growth->v = growth->tangent ? calloc(gm_tangent_size(growth->tangent), sizeof *growth->v) : NULL;
+    if (!growth->v) {
+        gm_growth_close(growth);
+        return NULL;
+    }
+    choose_direction(growth->v, growth->problem.n - (has_time(&growth->problem) ? 1 : 0));
+    growth->failed = !gm_tangent_begin(growth->tangent, growth->v);
+    return growth;
+}
+
+void gm_growth_close(struct gm_growth *growth)
+{
+    if (!growth) {
+        return;
+    }
+    free(growth->v);
+    gm_tangent_close(growth->tangent);
+    gm_run_close(growth->run);
+    free(growth);
+}
+
+static void record(struct gm_growth *growth, long steps)
+{
+    if (steps % growth->every != 0) {
+        return;
+    }
+    if (growth->recorded == RECORDS) {
+        for (size_t i = 0; i < RECORDS / 2; i++) {
+            growth->records[i] = growth->records[2 * i];
+        }
+        growth->recorded = RECORDS / 2;
+        growth->every *= 2;
+    }
+    growth->records[growth->recorded++] = growth->sums;
+}
+
+/* A step of this length in time, in which the vector has grown so much. */
+static void add(struct gm_growth *growth, double step, double length)
+{
+    struct sums *sums = &growth->sums;
+    const double ratio = log(length);
+    sums->growth += ratio;
+    sums->moment += (sums->time + step / 2) * ratio;
+    sums->time += step;
+    sums->average += sums->time > 0 ? 2 * sums->moment / sums->time * step : 0;
+}
+
+bool gm_growth_to(struct gm_growth *growth, long steps)
+{
+    struct gm_stretch made[BLOCK];
+    const struct gm_run *run = growth->run;
+    while (!growth->failed && run->steps < steps) {
+        const long before = run->steps, left = steps - before;
+        const size_t block = left < BLOCK ? (size_t)left : BLOCK;
+        double t = run->t;
+        const size_t count = gm_tangent_advance(growth->tangent, growth->v, block, made);
+        for (size_t i = 0; i < count; i++) {
+            add(growth, fabs(made[i].t - t), made[i].length);
+            record(growth, before + (long)i + 1);
+            t = made[i].t;
+        }
+        growth->failed = count < block;
+    }
+    return !growth->failed;
+}
+
+const double *gm_growth_state(const struct gm_growth *growth)
+{
+    return gm_run_state(growth->run);
+}
+
+long gm_growth_steps(const struct gm_growth *growth)
+{
+    return growth->run->steps;
+}
+
+struct gm_growth_values gm_growth_values(const struct gm_growth *growth)
+{
+    const struct sums *now = &growth->sums;
+    const struct sums *half = &growth->records[growth->run->steps / 2 / growth->every];
+    const double exponent = now->growth / now->time, megno = now->average / now->time;
+    return (struct gm_growth_values){
+        .exponent = exponent,
+        .megno = megno,
+        .exponent_change = exponent - half->growth / half->time,
+        .megno_change = megno - half->average / half->time,
+    };
+}

@@ -1,0 +1,602 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The stages of a Runge-Kutta method, plain or partitioned, with their derivatives along v: with k_j =
+   f(Y_j),
+       Y_i = y0 + h sum_j a_ij k_j,   dY_i = v + h sum_j a_ij w_j,   w_j = f'(Y_j) dY_j
+       y1  = y0 + h sum_j b_j  k_j,   dy1  = v + h sum_j b_j  w_j
+   where momenta may have other a and b. Splittings and Nystrom methods are of this form
+   (core/theory/coefficients.h). Stages that ask for one another form a block, which Newton's method solves:
+   its last matrix is that of the dY_i. Where there is no such form, or that solution is not the scheme's,
+   central differences are taken at two distances, of which the error in the square of the distance is
+   eliminated. */
+#include "core/ode/indicators/tangent.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
+#include "core/theory/coefficients.h"
+
+struct gm_tangent {
+    struct gm_run *run;
+    struct gm_run *probe; /* for differences, with a workspace of its own; NULL: none were taken yet */
+    size_t n, memory;
+    size_t stages;         /* 0: differences are all there is */
+    double *a[GM_SIDES];   /* stages * stages by rows */
+    double *b[GM_SIDES];   /* stages */
+    int *side;             /* of each component */
+    size_t *from, *to;     /* of each stage: the components whose slopes are asked for */
+    bool running;          /* each stage knows those before it with their final weights, as in splittings */
+    double *k, *w;         /* stages * n each */
+    double *y, *dy;        /* n each: the sums over the stages that are done */
+    double *base, *d_base; /* stages * n each: of a block, what the stages before it give */
+    double *at;            /* stages * n: the states of its stages */
+    double *jacobians, *matrix; /* of its stages, n * n each; of all its equations */
+    double *right;
+    double *kicked,
+        *kick; /* n each: where the Jacobian of the last stage was taken, if that was a kick, and its k */
+    double *before, *plus, *minus, *slope; /* n + memory each */
+    bool together;  /* the stages have led where the scheme did, to the last bit, so far */
+    void *snapshot; /* of the run, to which it goes back where they did not */
+};
+
+const char *gm_tangent_word(const struct gm_scheme *scheme)
+{
+    return scheme->family->not_resumable                        ? "none"
+           : scheme->exact || scheme->family->coefficients_open ? "exact"
+                                                                : "differences";
+}
+
+/* ---- opening ---- */
+
+/* Where the block ends that begins with this stage: no stage in it asks for one behind. */
+static size_t end_of_block(const struct gm_tangent *tangent, size_t first)
+{
+    const size_t s = tangent->stages;
+    size_t end = first + 1;
+    for (size_t i = first; i < end; i++) {
+        for (size_t j = end; j < s; j++) {
+            const bool asks = tangent->a[GM_SIDE_Q][i * s + j] != 0 || tangent->a[GM_SIDE_P][i * s + j] != 0;
+            end = asks ? j + 1 : end;
+        }
+    }
+    return end;
+}
+
+/* Whether the slopes of a stage are asked for on that side. */
+static bool is_asked(const struct gm_tangent *tangent, size_t stage, size_t side)
+{
+    const size_t s = tangent->stages;
+    bool asked = tangent->b[side][stage] != 0;
+    for (size_t i = 0; i < s; i++) {
+        asked = asked || tangent->a[side][i * s + stage] != 0;
+    }
+    return asked;
+}
+
+/* A kick needs the slopes of p alone, a drift those of q, which are those of the first half; the time moves
+   with q. */
+static void choose_components(struct gm_tangent *tangent)
+{
+    const size_t n = tangent->n;
+    for (size_t j = 0; j < tangent->stages; j++) {
+        const bool q = is_asked(tangent, j, GM_SIDE_Q), p = is_asked(tangent, j, GM_SIDE_P);
+        tangent->from[j] = q ? 0 : n / 2;
+        tangent->to[j] = q && (p || n % 2 != 0) ? n : q ? n / 2 : n / 2 * 2;
+    }
+}
+
+static bool is_running(const struct gm_tangent *tangent)
+{
+    const size_t s = tangent->stages;
+    bool running = true;
+    for (size_t i = 0; i < s; i++) {
+        for (size_t j = 0; j < s; j++) {
+            for (size_t side = 0; side < GM_SIDES; side++) {
+                running = running && tangent->a[side][i * s + j] == (j < i ? tangent->b[side][j] : 0);
+            }
+        }
+    }
+    return running;
+}
+
+static double *doubles(size_t count)
+{
+    return calloc(count + 1, sizeof(double));
+}
+
+/* What the stages need; false: out of memory. */
+static bool open_stages(struct gm_tangent *tangent, const struct gm_coefficients *coefficients)
+{
+    const size_t n = tangent->n, s = (size_t)coefficients->stages;
+    bool good = true;
+    tangent->stages = s;
+    for (size_t side = 0; side < GM_SIDES; side++) {
+        const bool plain = side >= (size_t)gm_coefficients_sides(coefficients);
+        const struct gm_ball *a = coefficients->a[plain ? 0 : side], *b = coefficients->b[plain ? 0 : side];
+        tangent->a[side] = doubles(s * s);
+        tangent->b[side] = doubles(s);
+        good = good && tangent->a[side] && tangent->b[side];
+        for (size_t i = 0; good && i < s * s; i++) {
+            tangent->a[side][i] = gm_ball_midpoint(a[i]);
+        }
+        for (size_t i = 0; good && i < s; i++) {
+            tangent->b[side][i] = gm_ball_midpoint(b[i]);
+        }
+    }
+    size_t largest = 1;
+    for (size_t first = 0; good && first < s;) {
+        const size_t end = end_of_block(tangent, first);
+        largest = end - first > largest ? end - first : largest;
+        first = end;
+    }
+    tangent->running = good && is_running(tangent);
+    tangent->side = malloc(n * sizeof *tangent->side);
+    for (size_t c = 0; tangent->side && c < n; c++) {
+        /* a last component that is the time moves with q */
+        tangent->side[c] = c >= n / 2 && c < n / 2 * 2 ? GM_SIDE_P : GM_SIDE_Q;
+    }
+    struct {
+        double **place;
+        size_t count;
+    } const rooms[] = {
+        {&tangent->k, s * n},
+        {&tangent->w, s * n},
+        {&tangent->kicked, n},
+        {&tangent->kick, n},
+        {&tangent->y, n},
+        {&tangent->dy, n},
+        {&tangent->base, largest * n},
+        {&tangent->d_base, largest * n},
+        {&tangent->at, largest * n},
+        {&tangent->jacobians, largest * n * n},
+        {&tangent->right, largest * n},
+        {&tangent->matrix, largest * n * largest * n},
+    };
+    for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; i++) {
+        *rooms[i].place = doubles(rooms[i].count);
+        good = good && *rooms[i].place;
+    }
+    tangent->from = calloc(s, sizeof *tangent->from);
+    tangent->to = calloc(s, sizeof *tangent->to);
+    good = good && tangent->side && tangent->from && tangent->to;
+    if (good) {
+        tangent->kicked[0] = NAN;
+        choose_components(tangent);
+    }
+    return good;
+}
+
+struct gm_tangent *gm_tangent_open(struct gm_run *run)
+{
+    struct gm_tangent *tangent = calloc(1, sizeof *tangent);
+    struct gm_coefficients coefficients;
+    if (!tangent) {
+        return NULL;
+    }
+    const struct gm_family *family = run->scheme->family;
+    tangent->run = run;
+    tangent->n = run->problem->n;
+    tangent->memory = family->memory ? family->memory(run->problem, run->scheme) : 0;
+    const size_t size = gm_tangent_size(tangent);
+    tangent->before = doubles(size);
+    tangent->plus = doubles(size);
+    tangent->minus = doubles(size);
+    tangent->slope = doubles(size);
+    bool good = tangent->before && tangent->plus && tangent->minus && tangent->slope;
+    tangent->snapshot = malloc(gm_run_snapshot_size(run));
+    good = good && tangent->snapshot;
+    if (good && gm_matrix_size(run->problem) > 0 && gm_scheme_coefficients_open(run->scheme, &coefficients)) {
+        good = open_stages(tangent, &coefficients);
+        gm_coefficients_close(&coefficients);
+        tangent->together = tangent->memory == 0 && !family->own_time;
+    }
+    if (!good) {
+        gm_tangent_close(tangent);
+        return NULL;
+    }
+    return tangent;
+}
+
+void gm_tangent_close(struct gm_tangent *tangent)
+{
+    if (!tangent) {
+        return;
+    }
+    double *const rooms[] = {tangent->a[0],   tangent->a[1],   tangent->b[0],   tangent->b[1],
+                             tangent->k,      tangent->w,      tangent->y,      tangent->dy,
+                             tangent->base,   tangent->d_base, tangent->at,     tangent->jacobians,
+                             tangent->matrix, tangent->right,  tangent->before, tangent->plus,
+                             tangent->minus,  tangent->slope,  tangent->kicked, tangent->kick};
+    for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; i++) {
+        free(rooms[i]);
+    }
+    free(tangent->side);
+    free(tangent->from);
+    free(tangent->to);
+    free(tangent->snapshot);
+    gm_run_close(tangent->probe);
+    free(tangent);
+}
+
+size_t gm_tangent_size(const struct gm_tangent *tangent)
+{
+    return tangent->n + tangent->memory;
+}
+
+/* ---- by differences ---- */
+
+static struct gm_run *open_run(const struct gm_tangent *tangent, const double *y)
+{
+    const struct gm_run *run = tangent->run;
+    return gm_run_open(run->problem, run->scheme, &run->settings, run->t, run->dt, y);
+}
+
+/* By which multiple of v states are moved: beyond it the terms of order 5 count, below it round-off does.
+   What a scheme remembers may be small beside the state, as a step is. */
+static double distance(const struct gm_tangent *tangent, const double *v)
+{
+    double largest = 1e-3, most = 0;
+    for (size_t c = 0; c < tangent->n; c++) {
+        largest = fmax(largest, fabs(tangent->before[c]));
+    }
+    for (size_t i = 0; i < gm_tangent_size(tangent); i++) {
+        const double least = 1e-2 * largest, own = fmax(fabs(tangent->before[i]), least);
+        most = fmax(most, fabs(v[i]) / (i < tangent->n ? largest : own));
+    }
+    return 4e-4 / most;
+}
+
+static void take_before(const struct gm_tangent *tangent)
+{
+    memcpy(tangent->before, gm_run_state(tangent->run), tangent->n * sizeof(double));
+    if (tangent->memory > 0) {
+        memcpy(tangent->before + tangent->n, gm_run_memory(tangent->run), tangent->memory * sizeof(double));
+    }
+}
+
+/* Where `before`, moved by so many v, is after a step; false where that leads to no number. */
+static bool move(const struct gm_tangent *tangent, const double *v, double factor, double *to)
+{
+    struct gm_run *probe = tangent->probe;
+    for (size_t i = 0; i < gm_tangent_size(tangent); i++) {
+        to[i] = tangent->before[i] + factor * v[i];
+    }
+    gm_run_set_state(probe, to, tangent->memory > 0 ? to + tangent->n : NULL);
+    const bool good = gm_run_advance(probe, 1) == GM_OK;
+    memcpy(to, gm_run_state(probe), tangent->n * sizeof *to);
+    if (tangent->memory > 0) {
+        memcpy(to + tangent->n, gm_run_memory(probe), tangent->memory * sizeof *to);
+    }
+    return good;
+}
+
+/* What becomes of `before`, moved by so many v. */
+typedef bool moved(const struct gm_tangent *tangent, const double *v, double factor, double *to);
+
+/* v[i] := the derivative along v of what becomes of number i, from `first` on. */
+static bool extrapolate(const struct gm_tangent *tangent, double *v, size_t first, moved *become)
+{
+    const double near = distance(tangent, v) / 2, far = 2 * near;
+    const size_t size = gm_tangent_size(tangent);
+    if (!become(tangent, v, near, tangent->plus) || !become(tangent, v, -near, tangent->minus)) {
+        return false;
+    }
+    for (size_t i = 0; i < size; i++) {
+        tangent->slope[i] = 4. / 3 * (tangent->plus[i] - tangent->minus[i]) / (2 * near);
+    }
+    if (!become(tangent, v, far, tangent->plus) || !become(tangent, v, -far, tangent->minus)) {
+        return false;
+    }
+    for (size_t i = first; i < size; i++) {
+        v[i] = tangent->slope[i] - (tangent->plus[i] - tangent->minus[i]) / (2 * far) / 3;
+    }
+    return true;
+}
+
+static bool by_differences(struct gm_tangent *tangent, double *v)
+{
+    tangent->probe = tangent->probe ? tangent->probe : open_run(tangent, tangent->before);
+    return tangent->probe && extrapolate(tangent, v, 0, move);
+}
+
+/* What the scheme remembers at the start of a run in `before`, moved by so many v; false where there is
+   none. */
+static bool recall(const struct gm_tangent *tangent, const double *v, double factor, double *to)
+{
+    for (size_t c = 0; c < tangent->n; c++) {
+        to[c] = tangent->before[c] + factor * v[c];
+    }
+    struct gm_run *run = open_run(tangent, to);
+    const bool good = run && run->status == GM_OK;
+    if (good) {
+        memcpy(to + tangent->n, gm_run_memory(run), tangent->memory * sizeof *to);
+    }
+    gm_run_close(run);
+    return good;
+}
+
+bool gm_tangent_begin(struct gm_tangent *tangent, double *v)
+{
+    if (tangent->memory == 0) {
+        return true;
+    }
+    take_before(tangent);
+    return extrapolate(tangent, v, tangent->n, recall);
+}
+
+/* ---- by the stages ---- */
+
+/* k, the Jacobian and w of a stage at its state, whose derivative is dy. */
+static void evaluate(const struct gm_tangent *tangent, const double *y, double *k, double *jacobian)
+{
+    const struct gm_problem *problem = tangent->run->problem;
+    const struct gm_loops *loops = gm_ode_of(problem)->loops[GM_ISA_BASELINE];
+    loops->field(problem, y, k, 1);
+    loops->jacobian(problem, y, jacobian);
+}
+
+/* w of a stage, as far as it is asked for. */
+static void multiply(const struct gm_tangent *tangent, const double *jacobian, const double *dy, size_t stage)
+{
+    const size_t n = tangent->n;
+    for (size_t row = tangent->from[stage]; row < tangent->to[stage]; row++) {
+        double sum = 0;
+        for (size_t c = 0; c < n; c++) {
+            sum += jacobian[row * n + c] * dy[c];
+        }
+        tangent->w[stage * n + row] = sum;
+    }
+}
+
+/* Adds h times the weighted slopes of the stages from `first` up to `end`, and of their derivatives. */
+static void add_slopes(const struct gm_tangent *tangent, double *const weights[GM_SIDES], size_t first,
+                       size_t end, double *y, double *dy)
+{
+    const size_t n = tangent->n;
+    for (size_t j = first; j < end; j++) {
+        const double factors[GM_SIDES] = {tangent->run->dt * weights[GM_SIDE_Q][j],
+                                          tangent->run->dt * weights[GM_SIDE_P][j]};
+        for (size_t c = tangent->from[j]; c < tangent->to[j]; c++) {
+            const double factor = factors[tangent->side[c]];
+            y[c] += factor * tangent->k[j * n + c];
+            dy[c] += factor * tangent->w[j * n + c];
+        }
+    }
+}
+
+/* right := base + h sum_j a_ij k_j - Y_i over the block; returns its 1-norm, and that of the Y_i. */
+static double residual(const struct gm_tangent *tangent, size_t first, size_t count, double *size)
+{
+    const size_t n = tangent->n, s = tangent->stages;
+    double sum = 0;
+    *size = 0;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t c = 0; c < n; c++) {
+            const double *weights = tangent->a[tangent->side[c]] + (first + i) * s + first;
+            double slope = 0;
+            for (size_t j = 0; j < count; j++) {
+                slope += weights[j] * tangent->k[(first + j) * n + c];
+            }
+            const double state = tangent->at[i * n + c];
+            tangent->right[i * n + c] = tangent->base[i * n + c] + tangent->run->dt * slope - state;
+            sum += fabs(tangent->right[i * n + c]);
+            *size += fabs(state) + fabs(tangent->run->dt * slope);
+        }
+    }
+    return sum;
+}
+
+/* matrix := 1 - h a_ij f'(Y_j) */
+static void fill_matrix(const struct gm_tangent *tangent, size_t first, size_t count)
+{
+    const size_t n = tangent->n, s = tangent->stages;
+    for (size_t i = 0; i < count; i++) {
+        for (size_t row = 0; row < n; row++) {
+            double *to = tangent->matrix + (i * n + row) * count * n;
+            for (size_t j = 0; j < count; j++) {
+                const double weight =
+                    tangent->run->dt * tangent->a[tangent->side[row]][(first + i) * s + first + j];
+                for (size_t c = 0; c < n; c++) {
+                    to[j * n + c] = (i == j && row == c) - weight * tangent->jacobians[(j * n + row) * n + c];
+                }
+            }
+        }
+    }
+}
+
+/* The stages of a block, and their derivatives; false where Newton's method does not find them. */
+static bool solve_block(const struct gm_tangent *tangent, size_t first, size_t count)
+{
+    enum { ITERATIONS = 30 };
+    const size_t n = tangent->n, all = count * n;
+    tangent->kicked[0] = NAN; /* the Jacobian there is overwritten */
+    memcpy(tangent->at, tangent->base, all * sizeof(double));
+    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
+        for (size_t j = 0; j < count; j++) {
+            evaluate(tangent, tangent->at + j * n, tangent->k + (first + j) * n,
+                     tangent->jacobians + j * n * n);
+        }
+        double size;
+        const double error = residual(tangent, first, count, &size);
+        const bool solved = error <= 8 * DBL_EPSILON * size;
+        fill_matrix(tangent, first, count);
+        if (solved) {
+            memcpy(tangent->right, tangent->d_base, all * sizeof(double));
+        }
+        if (!isfinite(error) || !gm_eliminate(all, tangent->matrix, tangent->right)) {
+            return false;
+        }
+        for (size_t i = 0; i < all && !solved; i++) {
+            tangent->at[i] += tangent->right[i];
+        }
+        for (size_t j = 0; j < count && solved; j++) {
+            multiply(tangent, tangent->jacobians + j * n * n, tangent->right + j * n, first + j);
+        }
+        if (solved) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* What the stages before the block give to its stage i. */
+static void find_base(const struct gm_tangent *tangent, const double *v, size_t first, size_t i)
+{
+    const size_t n = tangent->n, s = tangent->stages;
+    double *const weights[GM_SIDES] = {tangent->a[GM_SIDE_Q] + (first + i) * s,
+                                       tangent->a[GM_SIDE_P] + (first + i) * s};
+    memcpy(tangent->base + i * n, tangent->before, n * sizeof(double));
+    memcpy(tangent->d_base + i * n, v, n * sizeof(double));
+    add_slopes(tangent, weights, 0, first, tangent->base + i * n, tangent->d_base + i * n);
+}
+
+/* k and w of a stage that asks for none but those before it. Where H = T + V a drift of unit mass needs
+   nobody, and a kick where the last one was, as the first of a step, has that one's force. */
+static void find_slopes(const struct gm_tangent *tangent, size_t stage, const double *y, const double *dy)
+{
+    const size_t n = tangent->n, half = n / 2, from = tangent->from[stage], to = tangent->to[stage];
+    const struct gm_split *split = gm_ode_of(tangent->run->problem)->split;
+    double *k = tangent->k + stage * n;
+    if (split && split->unit_mass && from == 0 && to == half) {
+        memcpy(k, y + half, half * sizeof *k);
+        memcpy(tangent->w + stage * n, dy + half, half * sizeof *k);
+        return;
+    }
+    const bool kick = split && n % 2 == 0 && from == half;
+    if (kick && memcmp(y, tangent->kicked, half * sizeof *y) == 0) {
+        memcpy(k, tangent->kick, n * sizeof *k);
+    } else {
+        evaluate(tangent, y, k, tangent->jacobians);
+        memcpy(tangent->kicked, y, n * sizeof *y);
+        memcpy(tangent->kick, k, n * sizeof *k);
+        tangent->kicked[0] = kick ? y[0] : NAN; /* the Jacobian is another one now */
+    }
+    multiply(tangent, tangent->jacobians, dy, stage);
+}
+
+/* y and dy at the end of the step that begins in `before`. */
+static bool by_stages(const struct gm_tangent *tangent, const double *v)
+{
+    const size_t n = tangent->n, s = tangent->stages;
+    memcpy(tangent->y, tangent->before, n * sizeof(double));
+    memcpy(tangent->dy, v, n * sizeof(double));
+    for (size_t j = 0; tangent->running && j < s; j++) {
+        find_slopes(tangent, j, tangent->y, tangent->dy);
+        add_slopes(tangent, tangent->b, j, j + 1, tangent->y, tangent->dy);
+    }
+    for (size_t first = 0, end; !tangent->running && first < s; first = end) {
+        end = end_of_block(tangent, first);
+        for (size_t i = 0; i < end - first; i++) {
+            find_base(tangent, v, first, i);
+        }
+        const size_t own = first * s + first;
+        if (end == first + 1 && tangent->a[GM_SIDE_Q][own] == 0 && tangent->a[GM_SIDE_P][own] == 0) {
+            find_slopes(tangent, first, tangent->base, tangent->d_base);
+        } else if (!solve_block(tangent, first, end - first)) {
+            return false;
+        }
+        add_slopes(tangent, tangent->b, first, end, tangent->y, tangent->dy);
+    }
+    return true;
+}
+
+/* Whether that is the state to which the scheme came; where equations have several solutions it may not
+   be. */
+static bool is_there(const struct gm_tangent *tangent)
+{
+    const double *y = gm_run_state(tangent->run), close = 1e-9;
+    double difference = 0, size = 0;
+    for (size_t c = 0; c < tangent->n; c++) {
+        difference += fabs(y[c] - tangent->y[c]);
+        size += fabs(y[c]) + fabs(y[c] - tangent->before[c]);
+    }
+    return difference <= close * size;
+}
+
+bool gm_tangent_step(struct gm_tangent *tangent, double *v)
+{
+    take_before(tangent);
+    if (gm_run_advance(tangent->run, 1) != GM_OK) {
+        return false;
+    }
+    if (tangent->stages > 0 && by_stages(tangent, v) && is_there(tangent)) {
+        memcpy(v, tangent->dy, tangent->n * sizeof *v);
+        return true;
+    }
+    return by_differences(tangent, v);
+}
+
+/* ---- many steps ---- */
+
+/* Gives v the length 1; returns the one that it had, 0 where that is none. */
+static double normalise(const struct gm_tangent *tangent, double *v)
+{
+    double square = 0;
+    for (size_t c = 0; c < tangent->n; c++) {
+        square += v[c] * v[c];
+    }
+    const double length = sqrt(square);
+    if (!(length > 0 && length < INFINITY)) {
+        return 0;
+    }
+    const double inverse = 1 / length;
+    for (size_t i = 0; i < gm_tangent_size(tangent); i++) {
+        v[i] *= inverse;
+    }
+    return length;
+}
+
+/* Steps by the stages alone, from the run's state on to the one in `before`. */
+static bool follow_stages(struct gm_tangent *tangent, double *v, size_t steps, struct gm_stretch *made)
+{
+    const struct gm_run *run = tangent->run;
+    const size_t bytes = tangent->n * sizeof *v;
+    bool good = true;
+    take_before(tangent);
+    for (size_t i = 0; good && i < steps; i++) {
+        good = by_stages(tangent, v);
+        memcpy(tangent->before, tangent->y, bytes);
+        memcpy(v, tangent->dy, bytes);
+        made[i] =
+            (struct gm_stretch){run->t0 + (double)(run->n + (long)i + 1) * run->dt, normalise(tangent, v)};
+        good = good && made[i].length > 0;
+    }
+    return good;
+}
+
+/* The same, and the run after them; where it does not come to the same state, to the last bit, all is as
+   before. */
+static bool advance_together(struct gm_tangent *tangent, double *v, size_t steps, struct gm_stretch *made)
+{
+    const size_t bytes = tangent->n * sizeof *v;
+    memcpy(tangent->plus, v, bytes);
+    gm_run_save(tangent->run, tangent->snapshot);
+    const bool good = follow_stages(tangent, v, steps, made) &&
+                      gm_run_advance(tangent->run, (long)steps) == GM_OK &&
+                      memcmp(gm_run_state(tangent->run), tangent->before, bytes) == 0;
+    if (!good) {
+        gm_run_load(tangent->run, tangent->snapshot);
+        memcpy(v, tangent->plus, bytes);
+    }
+    return good;
+}
+
+size_t gm_tangent_advance(struct gm_tangent *tangent, double *v, size_t steps, struct gm_stretch *made)
+{
+    size_t count = 0;
+    tangent->together = tangent->together && advance_together(tangent, v, steps, made);
+    if (tangent->together) {
+        return steps;
+    }
+    while (count < steps && gm_tangent_step(tangent, v)) {
+        made[count] = (struct gm_stretch){tangent->run->t, normalise(tangent, v)};
+        if (!(made[count].length > 0)) {
+            break;
+        }
+        count++;
+    }
+    return count;
+}

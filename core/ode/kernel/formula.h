@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The operations of formulas over the lane type, for kernels that are written from formulas: K(value_SIN)(a,
+   b). Each is the C of core/formula/operations.def, by which the interpreter computes as well, lane by lane;
+   those that registers have are one operation. Included for each pass. */
+#include "core/formula/arithmetic.h"
+
+#define GM_OPERATION(constant, name, latex, arity, smooth, value, over_a, over_b)                            \
+    GM_INLINE real K(value_##constant)(real x, real y)                                                       \
+    {                                                                                                        \
+        for (int l = 0; l < GM_LANES; l++) {                                                                 \
+            const double a = K(lane)(x, l), b = K(lane)(y, l);                                               \
+            (void)b;                                                                                         \
+            K(set_lane)(&x, l, value);                                                                       \
+        }                                                                                                    \
+        return x;                                                                                            \
+    }
+#include "core/formula/operations.def"
+#undef GM_OPERATION
+
+GM_INLINE real K(smaller)(real a, real b)
+{
+    return K(pick)(a < b, a, b);
+}
+GM_INLINE real K(larger)(real a, real b)
+{
+    return K(pick)(a > b, a, b);
+}
+GM_INLINE real K(below)(real a, real b)
+{
+    return K(pick)(a < b, K(constant)(1), K(constant)(0));
+}

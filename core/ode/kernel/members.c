@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What families need that take one member after the other: the loop, Jacobians, elimination, when to stop. */
+#include "core/ode/kernel/members.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+
+struct gm_members *gm_members_open(const struct gm_problem *problem, size_t remembered, size_t scratch)
+{
+    struct gm_members *members =
+        calloc(1, sizeof *members + (problem->n + remembered + scratch) * sizeof(double));
+    if (members) {
+        members->n = problem->n;
+        members->remembered = remembered;
+        members->y = members->room;
+        members->memory = members->y + problem->n;
+        members->scratch = members->memory + remembered;
+    }
+    return members;
+}
+
+static void gather(const double *from, double *to, size_t count, size_t m, size_t member)
+{
+    for (size_t c = 0; c < count; c++) {
+        to[c] = from[c * m + member];
+    }
+}
+
+static void scatter(const double *from, double *to, size_t count, size_t m, size_t member)
+{
+    for (size_t c = 0; c < count; c++) {
+        to[c * m + member] = from[c];
+    }
+}
+
+/* a NaN compares false */
+static bool is_within(const double *y, size_t n, double limit)
+{
+    bool good = true;
+    for (size_t c = 0; c < n; c++) {
+        good &= fabs(y[c]) <= limit;
+    }
+    return good;
+}
+
+struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step *step)
+{
+    struct gm_members *members = task->workspace;
+    const size_t n = members->n, m = task->problem->m;
+    struct gm_progress progress = {.done = task->steps, .status = GM_OK, .t = task->t};
+    for (size_t member = 0; member < m; member++) {
+        gather(task->y, members->y, n, m, member);
+        if (members->remembered > 0) {
+            gather(task->memory, members->memory, members->remembered, m, member);
+        }
+        for (long done = 0; done < progress.done; done++) {
+            enum gm_status status = step(task, members, &progress);
+            if (status == GM_OK && !is_within(members->y, n, task->limit)) {
+                status = GM_BLOW_UP;
+            }
+            if (status != GM_OK) {
+                progress.done = done;
+                progress.status = status;
+            }
+        }
+        scatter(members->y, task->out, n, m, member);
+        if (members->remembered > 0) {
+            scatter(members->memory, task->memory_out, members->remembered, m, member);
+        }
+    }
+    return progress;
+}
+
+size_t gm_matrix_size(const struct gm_problem *problem)
+{
+    const bool made = gm_ode_of(problem)->loops[GM_ISA_BASELINE]->jacobian && problem->n <= GM_NEWTON_LARGEST;
+    return made ? problem->n * problem->n : 0;
+}
+
+bool gm_jacobian(const struct gm_problem *problem, const double *y, double *jacobian)
+{
+    if (gm_matrix_size(problem) == 0) {
+        return false;
+    }
+    gm_ode_of(problem)->loops[GM_ISA_BASELINE]->jacobian(problem, y, jacobian);
+    return true;
+}
+
+double gm_energy(const struct gm_problem *problem, const double *y)
+{
+    double energy;
+    gm_ode_of(problem)->hamiltonian->energy(problem, y, &energy, 1);
+    return energy;
+}
+
+bool gm_eliminate(size_t n, double *a, double *r)
+{
+    for (size_t k = 0; k < n; k++) {
+        size_t pivot = k;
+        for (size_t i = k + 1; i < n; i++) {
+            pivot = fabs(a[i * n + k]) > fabs(a[pivot * n + k]) ? i : pivot;
+        }
+        if (!(fabs(a[pivot * n + k]) > 0)) {
+            return false;
+        }
+        if (pivot != k) {
+            for (size_t j = k; j < n; j++) {
+                const double swap = a[k * n + j];
+                a[k * n + j] = a[pivot * n + j];
+                a[pivot * n + j] = swap;
+            }
+            const double swap = r[k];
+            r[k] = r[pivot];
+            r[pivot] = swap;
+        }
+        for (size_t i = k + 1; i < n; i++) {
+            const double factor = a[i * n + k] / a[k * n + k];
+            for (size_t j = k + 1; j < n; j++) {
+                a[i * n + j] -= factor * a[k * n + j];
+            }
+            r[i] -= factor * r[k];
+        }
+    }
+    for (size_t k = n; k-- > 0;) {
+        for (size_t j = k + 1; j < n; j++) {
+            r[k] -= a[k * n + j] * r[j];
+        }
+        r[k] /= a[k * n + k];
+    }
+    return true;
+}
+
+bool gm_is_settled(double change, double roundoff, double *previous)
+{
+    const bool settled = change == 0 || (change >= *previous && change <= roundoff);
+    *previous = change;
+    return settled;
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_ODE_KERNEL_MEMBERS_H
+#define GM_CORE_ODE_KERNEL_MEMBERS_H
+
+#include "core/scheme.h"
+
+/* The loop of families that advance a problem member by member, through its callbacks. */
+
+/* Beyond this many components no matrix is made, and an iteration that does not contract has failed. */
+enum { GM_NEWTON_LARGEST = 64 };
+size_t gm_matrix_size(const struct gm_problem *problem); /* n * n, or 0 */
+
+/* The workspace: one member's state and memory, and scratch for the step. */
+struct gm_members {
+    size_t n, remembered;
+    double *y;       /* n */
+    double *memory;  /* remembered */
+    double *scratch; /* as many doubles as were asked for */
+    double room[];
+};
+
+/* Room for a member of the problem with `remembered` doubles of memory and `scratch` doubles of scratch.
+   NULL: out of memory. Closed by free. */
+struct gm_members *gm_members_open(const struct gm_problem *problem, size_t remembered, size_t scratch);
+
+/* One step of one member: changes members->y and members->memory in place. What it returns says why it
+   failed. */
+typedef enum gm_status gm_member_step(const struct gm_task *task, struct gm_members *members,
+                                      struct gm_progress *progress);
+
+/* All steps of all members; the workspace is a gm_members. Memory is [double * m + member], as the state. */
+struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step *step);
+
+/* The Jacobian of f at y, n * n by rows; false where the problem has none, or it would be too large a
+   matrix. */
+bool gm_jacobian(const struct gm_problem *problem, const double *y, double *jacobian);
+
+/* H(y) of one member. */
+double gm_energy(const struct gm_problem *problem, const double *y);
+
+/* Solves a x = r, a an n * n matrix by rows, by Gaussian elimination with partial pivoting. a is destroyed, x
+   overwrites r. False if a is singular. */
+bool gm_eliminate(size_t n, double *a, double *r);
+
+/* Whether an iteration that changes its unknowns by `change` (a 1-norm) is finished: no change, or, at the
+   level of round-off, none that still decreases. `previous` starts as infinity and is set to `change`. */
+bool gm_is_settled(double change, double roundoff, double *previous);
+
+#endif

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tiles of an ensemble: gathered, advanced, scattered; a tile that is the whole ensemble lies where it is. */
+#include "core/ode/kernel/tiles.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+
+enum { MOST_MEMBERS = 128, IN_CACHE = 4096 };
+
+struct tiles {
+    size_t members; /* of a tile */
+    double *y, *carry, *scratch, *shared;
+    double room[];
+};
+
+static size_t members_of(const struct gm_problem *problem)
+{
+    const size_t fit = IN_CACHE / (problem->n + 1) / 8 * 8;
+    const size_t most = fit < 8 ? 8 : fit > MOST_MEMBERS ? MOST_MEMBERS : fit;
+    return problem->m < most ? problem->m : most;
+}
+
+void *gm_tiles_open(const struct gm_problem *problem, size_t scratch, size_t shared)
+{
+    const size_t members = members_of(problem);
+    const size_t gathered = members < problem->m ? problem->n * members : 0;
+    struct tiles *tiles =
+        malloc(sizeof *tiles + (2 * gathered + scratch * members + shared) * sizeof(double));
+    if (tiles) {
+        tiles->members = members;
+        tiles->y = tiles->room;
+        tiles->carry = tiles->y + gathered;
+        tiles->scratch = tiles->carry + gathered;
+        tiles->shared = tiles->scratch + scratch * members;
+    }
+    return tiles;
+}
+
+/* Members [first, first + count) of a component-major array, from one that has m a component to one that has
+   `width`. */
+static void copy(const double *from, size_t m, double *to, size_t width, size_t n, size_t count)
+{
+    for (size_t c = 0; c < n; c++) {
+        memcpy(to + c * width, from + c * m, count * sizeof *to);
+    }
+}
+
+/* Whether all are finite and at most limit (a NaN compares false). */
+static bool are_within(const double *y, size_t count, double limit)
+{
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        good &= y[i] <= limit && y[i] >= -limit;
+    }
+    return good;
+}
+
+static void advance(const struct gm_task *task, gm_tile_step *step, struct gm_tile *tile,
+                    struct gm_progress *progress)
+{
+    const size_t active = gm_tile_components(task->problem) * tile->members;
+    for (long done = 0; done < progress->done; done++) {
+        enum gm_status status = step(task, tile, progress);
+        if (status == GM_OK && !are_within(tile->y, active, task->limit)) {
+            status = GM_BLOW_UP;
+        }
+        if (status != GM_OK) {
+            progress->done = done;
+            progress->status = status;
+        }
+    }
+}
+
+struct gm_progress gm_tiles_advance(const struct gm_task *task, const void *row, gm_tile_step *step)
+{
+    const struct tiles *tiles = task->workspace;
+    const struct gm_loops *loops = gm_ode_of(task->problem)->loops[gm_isa_best()];
+    const size_t n = task->problem->n, m = task->problem->m;
+    struct gm_progress progress = {.done = task->steps, .status = GM_OK};
+    if (tiles->members == m) {
+        struct gm_tile tile = {.loops = loops,
+                               .row = row,
+                               .members = m,
+                               .y = task->out,
+                               .carry = task->carry ? task->carry_out : NULL,
+                               .scratch = tiles->scratch,
+                               .shared = tiles->shared};
+        copy(task->y, m, tile.y, m, n, m);
+        if (tile.carry) {
+            copy(task->carry, m, tile.carry, m, n, m);
+        }
+        advance(task, step, &tile, &progress);
+        return progress;
+    }
+    for (size_t first = 0; first < m; first += tiles->members) {
+        const size_t count = m - first < tiles->members ? m - first : tiles->members;
+        struct gm_tile tile = {.loops = loops,
+                               .row = row,
+                               .members = count,
+                               .y = tiles->y,
+                               .carry = task->carry ? tiles->carry : NULL,
+                               .scratch = tiles->scratch,
+                               .shared = tiles->shared};
+        copy(task->y + first, m, tile.y, count, n, count);
+        if (tile.carry) {
+            copy(task->carry + first, m, tile.carry, count, n, count);
+        }
+        advance(task, step, &tile, &progress);
+        copy(tile.y, count, task->out + first, m, n, count);
+        if (tile.carry) {
+            copy(tile.carry, count, task->carry_out + first, m, n, count);
+        }
+    }
+    return progress;
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_ODE_KERNEL_TILES_H
+#define GM_CORE_ODE_KERNEL_TILES_H
+
+#include "core/ode/ode.h"
+
+/* The loop of families over a problem whose n is chosen at run time, through its field: a tile of members,
+   few enough to lie in the cache, makes all its steps before the next one is begun.
+
+   Of a single run the state may end with a passive block. A passive particle that cannot be carried on - the
+   implicit equations have no solution where a vortex turns it by more than a radian a step - is lost: NaN
+   from then on; the run goes on. Scratch is for the stages of the active components, and those of a few
+   passive particles at a time, so a million of them need no more than a hundred. */
+
+struct gm_tile {
+    const struct gm_loops *loops; /* the problem's */
+    const void *row;              /* the scheme's, as the family made it for this call */
+    size_t members;               /* in it */
+    double *y;                    /* n * members, [component * members + member] */
+    double *carry;                /* likewise, of compensated summation; NULL: plain */
+    double *scratch;              /* as many doubles for each member as were asked for, */
+    double *shared;               /* and for all together */
+    bool known; /* false at first: whether scratch holds what the last step left for this one */
+};
+
+enum { GM_PASSIVE_BLOCK = 64 };
+
+/* How many components are active. */
+static inline size_t gm_tile_components(const struct gm_problem *problem)
+{
+    return problem->n - 2 * problem->passive;
+}
+
+/* Room for tiles with so many doubles of scratch for each member, and for all of them together. NULL: out of
+   memory. Closed by free. */
+void *gm_tiles_open(const struct gm_problem *problem, size_t scratch, size_t shared);
+
+/* One step of all members of a tile, in place. What it returns says why it failed. */
+typedef enum gm_status gm_tile_step(const struct gm_task *task, struct gm_tile *tile,
+                                    struct gm_progress *progress);
+
+/* All steps of all members; the workspace is gm_tiles_open's. */
+struct gm_progress gm_tiles_advance(const struct gm_task *task, const void *row, gm_tile_step *step);
+
+/* y[i] += factor x[i]; where carry is not NULL with compensation (Kahan) */
+static inline void gm_tile_add(double *y, double factor, const double *x, double *carry, size_t count)
+{
+    for (size_t i = 0; i < count && !carry; i++) {
+        y[i] += factor * x[i];
+    }
+    for (size_t i = 0; i < count && carry; i++) {
+        const double old = y[i], whole = carry[i] + factor * x[i];
+        y[i] = old + whole;
+        carry[i] = whole + (old - y[i]);
+    }
+}
+
+/* Inlined with `members` known to be 1, loops over members vanish: a single run takes half the time. */
+#define GM_OF_TILE static inline __attribute__((always_inline))
+
+#endif

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A scheme whose coefficients were typed with too few digits, or with a wrong one: the decimals next to these
+   that satisfy the order conditions. */
+#ifndef GM_CORE_ODE_OWN_POLISH_H
+#define GM_CORE_ODE_OWN_POLISH_H
+
+#include "core/ode/own/scheme.h"
+
+struct gm_polish {
+    int order;            /* for which the conditions are solved: the scheme's */
+    unsigned claims;      /* whose algebra is solved with them */
+    size_t decimals;      /* that may move: what is no exact number */
+    size_t conditions;    /* of the order, and of the structure that is claimed */
+    double before, after; /* the largest residual, as typed and as solved */
+    double change;        /* of the decimal that moves farthest */
+};
+
+/* The text of the scheme with its decimals to 30 digits, its order and its claims said: of the solutions the
+   one next to what was typed, so that a family's free parameters stay where they are. malloc'ed. NULL with a
+   fault, whose sentence is empty where memory was refused. */
+char *gm_own_scheme_polish(const struct gm_own_scheme_source *source, struct gm_polish *polish,
+                           struct gm_fault *fault);
+
+#endif

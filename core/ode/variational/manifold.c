@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Accelerations, velocities and multipliers under constraints, and the way back onto their manifold. E.
+   Hairer, C. Lubich & G. Wanner (2006), sections VII.1.2 and IV.4; E. Hairer & G. Wanner, Solving Ordinary
+   Differential Equations II (1996), section VII.1. */
+#include "core/ode/variational/manifold.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/members.h"
+
+enum { ITERATIONS = 50 };
+
+size_t gm_manifold_room(const struct gm_problem *problem)
+{
+    const size_t half = problem->n / 2, constraints = gm_action_constraints(problem),
+                 all = half + constraints;
+    return gm_action_room(problem) + problem->n + 2 * constraints + constraints * half + half * half + all +
+           all * all;
+}
+
+struct gm_manifold gm_manifold_lay(const struct gm_problem *problem, double *room)
+{
+    const size_t half = problem->n / 2, constraints = gm_action_constraints(problem);
+    struct gm_manifold manifold = {.action = gm_action_lay(problem, room), .constraints = constraints};
+    manifold.at = room + gm_action_room(problem);
+    manifold.g = manifold.at + problem->n;
+    manifold.slopes = manifold.g + constraints;
+    manifold.curvature = manifold.slopes + constraints * half;
+    manifold.multipliers = manifold.curvature + half * half;
+    manifold.right = manifold.multipliers + constraints;
+    manifold.matrix = manifold.right + half + constraints;
+    return manifold;
+}
+
+void gm_manifold_constrain(const struct gm_manifold *manifold, const double *q)
+{
+    const struct gm_problem *problem = manifold->action.problem;
+    if (manifold->constraints > 0) {
+        gm_ode_of(problem)->action->constrain(problem, q, manifold->multipliers, manifold->g,
+                                              manifold->slopes, manifold->curvature);
+    }
+}
+
+/* matrix := [dL2/dv2, -G'; G, 0] of the latest evaluations, solved for `right`. */
+static bool solve(const struct gm_manifold *manifold)
+{
+    const size_t half = manifold->action.half, constraints = manifold->constraints, all = half + constraints;
+    memset(manifold->matrix, 0, all * all * sizeof(double));
+    for (size_t i = 0; i < half; i++) {
+        memcpy(manifold->matrix + i * all, manifold->action.motion.momenta_v + i * half,
+               half * sizeof(double));
+        for (size_t k = 0; k < constraints; k++) {
+            manifold->matrix[i * all + half + k] = -manifold->slopes[k * half + i];
+            manifold->matrix[(half + k) * all + i] = manifold->slopes[k * half + i];
+        }
+    }
+    return gm_eliminate(all, manifold->matrix, manifold->right);
+}
+
+bool gm_manifold_settle(const struct gm_manifold *manifold, double *y)
+{
+    const struct gm_action_at *action = &manifold->action;
+    const size_t half = action->half, constraints = manifold->constraints;
+    double *v = manifold->at + half, *p = y + half, previous = INFINITY;
+    memcpy(manifold->at, y, half * sizeof *y);
+    memcpy(manifold->at + 2 * half, y + 2 * half, (action->problem->n - 2 * half) * sizeof *y);
+    gm_manifold_constrain(manifold, y);
+    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
+        if (!gm_action_evaluate(action, manifold->at)) {
+            return false;
+        }
+        for (size_t i = 0; i < half; i++) {
+            manifold->right[i] = p[i] - action->motion.momenta[i];
+        }
+        for (size_t k = 0; k < constraints; k++) {
+            double sum = 0;
+            for (size_t i = 0; i < half; i++) {
+                sum -= manifold->slopes[k * half + i] * v[i];
+            }
+            manifold->right[half + k] = sum;
+        }
+        if (!solve(manifold)) {
+            return false;
+        }
+        double change = 0, size = 0;
+        for (size_t i = 0; i < half; i++) {
+            v[i] += manifold->right[i];
+            change += fabs(manifold->right[i]);
+            size += fabs(v[i]);
+            for (size_t k = 0; k < constraints; k++) {
+                p[i] += manifold->slopes[k * half + i] * manifold->right[half + k];
+            }
+        }
+        if (!isfinite(change)) {
+            return false;
+        }
+        if (change <= 0x1p-52 * size || gm_is_settled(change, 0x1p-46 * size, &previous)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* g'' = G a + v' g_qq v = 0 and dp/dt = M a + (d dL/dv / dq) v = dL/dq + F + G' multipliers, for a and
+   multipliers. */
+static bool accelerate(const struct gm_manifold *manifold, const double *y, double *f)
+{
+    const struct gm_action_at *action = &manifold->action;
+    const size_t half = action->half, constraints = manifold->constraints;
+    double state[GM_NEWTON_LARGEST], bent[GM_NEWTON_LARGEST];
+    const double *v = manifold->at + half;
+    memcpy(state, y, action->problem->n * sizeof *y);
+    memset(manifold->at + half, 0, half * sizeof *y);
+    if (!gm_manifold_settle(manifold, state)) {
+        return false;
+    }
+    /* v' g_qq v, of one constraint after the other */
+    for (size_t k = 0; k < constraints; k++) {
+        for (size_t i = 0; i < constraints; i++) {
+            manifold->multipliers[i] = i == k;
+        }
+        gm_manifold_constrain(manifold, y);
+        bent[k] = 0;
+        for (size_t i = 0; i < half; i++) {
+            for (size_t j = 0; j < half; j++) {
+                bent[k] += v[i] * manifold->curvature[i * half + j] * v[j];
+            }
+        }
+    }
+    for (size_t i = 0; i < half; i++) {
+        manifold->right[i] = action->motion.forces[i];
+        for (size_t j = 0; j < half; j++) {
+            manifold->right[i] -= action->motion.momenta_q[i * half + j] * v[j];
+        }
+    }
+    for (size_t k = 0; k < constraints; k++) {
+        manifold->right[half + k] = -bent[k];
+    }
+    if (!solve(manifold)) {
+        return false;
+    }
+    for (size_t i = 0; i < half; i++) {
+        f[i] = v[i];
+        f[half + i] = action->motion.forces[i];
+        for (size_t k = 0; k < constraints; k++) {
+            f[half + i] += manifold->slopes[k * half + i] * manifold->right[half + k];
+        }
+    }
+    return true;
+}
+
+void gm_manifold_field(const struct gm_problem *problem, const double *y, double *f, size_t m)
+{
+    const size_t n = problem->n;
+    double *room = gm_has_action(problem) ? calloc(gm_manifold_room(problem) + 2 * n, sizeof *room) : NULL;
+    double *state = room, *rates = room ? room + n : NULL;
+    for (size_t l = 0; l < m; l++) {
+        const struct gm_manifold manifold = gm_manifold_lay(problem, room ? room + 2 * n : NULL);
+        for (size_t i = 0; room && i < n; i++) {
+            state[i] = y[i * m + l];
+        }
+        const bool found = room && accelerate(&manifold, state, rates);
+        for (size_t i = 0; i < n; i++) {
+            f[i * m + l] = found ? rates[i] : NAN;
+        }
+    }
+    free(room);
+}
+
+bool gm_manifold_project(const struct gm_problem *problem, double *y)
+{
+    double *room = calloc(gm_manifold_room(problem), sizeof *room), previous = INFINITY;
+    bool good = false;
+    if (room) {
+        const struct gm_manifold manifold = gm_manifold_lay(problem, room);
+        const size_t half = manifold.action.half, constraints = manifold.constraints;
+        for (int iteration = 0; iteration < ITERATIONS && !good; iteration++) {
+            memcpy(manifold.at, y, half * sizeof *y);
+            gm_manifold_constrain(&manifold, y);
+            memset(manifold.right, 0, half * sizeof *y);
+            for (size_t k = 0; k < constraints; k++) {
+                manifold.right[half + k] = -manifold.g[k];
+            }
+            if (!gm_action_evaluate(&manifold.action, manifold.at) || !solve(&manifold)) {
+                break;
+            }
+            double change = 0, size = 0;
+            for (size_t i = 0; i < half; i++) {
+                y[i] += manifold.right[i];
+                change += fabs(manifold.right[i]);
+                size += fabs(y[i]);
+            }
+            good = change <= 0x1p-52 * size || gm_is_settled(change, 0x1p-46 * size, &previous);
+        }
+        memset(manifold.at + half, 0, half * sizeof *y);
+        good = good && gm_manifold_settle(&manifold, y);
+    }
+    free(room);
+    return good;
+}
+
+struct gm_manifold_defects gm_manifold_defects(const struct gm_problem *problem, const double *y)
+{
+    struct gm_manifold_defects defects = {NAN, NAN};
+    double *room = calloc(gm_manifold_room(problem) + problem->n, sizeof *room);
+    if (room) {
+        struct gm_manifold manifold = gm_manifold_lay(problem, room + problem->n);
+        const size_t half = manifold.action.half, constraints = manifold.constraints;
+        memcpy(room, y, problem->n * sizeof *y);
+        manifold.constraints = 0; /* the velocities as they are */
+        const bool found = gm_manifold_settle(&manifold, room);
+        manifold.constraints = constraints;
+        gm_manifold_constrain(&manifold, y);
+        defects = found ? (struct gm_manifold_defects){0, 0} : defects;
+        for (size_t k = 0; found && k < constraints; k++) {
+            double sum = 0;
+            for (size_t i = 0; i < half; i++) {
+                sum += manifold.slopes[k * half + i] * manifold.at[half + i];
+            }
+            defects.constraint = fmax(defects.constraint, fabs(manifold.g[k]));
+            defects.hidden = fmax(defects.hidden, fabs(sum));
+        }
+    }
+    free(room);
+    return defects;
+}

@@ -1,0 +1,644 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From a graph to straight code, and the two ways to compute it: one state with a register a number, or a
+   block of members with a register a row, where an operation is decoded once for the whole row. */
+#include "core/tape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clones.h"
+
+enum {
+    LARGEST_BATCH = 256, /* operations of one instruction: what they need lies in the fastest cache */
+    LEAST_BATCH = 16,
+    LEAST_ROLLED = 1024 /* values: shorter code stays in the order of the formula */
+};
+
+/* What is computed from other values. Numbers of values are those of the inputs, of the constants behind
+   them, and of what is computed, in this order. */
+struct value {
+    uint32_t operation, number, a, b;
+    uint32_t level; /* one more than that of what it is made of: no two of one level need each other */
+};
+
+/* Registers that are taken and given back together: those of an instruction. */
+struct stretch {
+    uint32_t first, alive; /* how many of their values are still needed */
+    bool wide;
+};
+
+/* What is known while the code of a tape is written. */
+struct writing {
+    struct gm_tape *tape;
+    const struct gm_formula *graph;
+    gm_node_id *parts; /* what the outputs are made of, ascending */
+    size_t part_count;
+    uint32_t *numbers; /* of nodes: of their values; NONE: not known yet */
+    double *folded;    /* of nodes that depend on no input: what they are */
+    bool *dependent;   /* of nodes: on an input */
+    uint32_t one;      /* the constant 1, for powers that need it */
+    struct value *values;
+    size_t value_count, batch_count, list_count;
+    size_t constant_room, value_room, code_room, batch_room, list_room;
+    bool rolled;
+    /* of values: register, last instruction that needs it, and, of those that are computed, stretch */
+    uint32_t *place, *last, *home;
+    struct stretch *stretches;
+    uint32_t *free[2]; /* stretches of one register, and of LARGEST_BATCH, that may be used again */
+    size_t stretch_count, free_count[2];
+    bool failed;
+};
+static const uint32_t NONE = UINT32_MAX;
+
+/* The array with room for one more behind `count`. Where memory is refused it stays what it was. */
+static void *grown(struct writing *writing, void *array, size_t size, size_t count, size_t *room)
+{
+    if (count < *room) {
+        return array;
+    }
+    void *more = realloc(array, (2 * count + 64) * size);
+    *room = more ? 2 * count + 64 : *room;
+    writing->failed |= !more;
+    return more ? more : array;
+}
+
+/* ---- from nodes to values ---- */
+
+static bool takes_two(const struct gm_node *node)
+{
+    return gm_operation_rows[node->operation].arity == 2;
+}
+
+/* the exponent of a whole power is none: it says which chain it is */
+static gm_node_id second_operand(const struct gm_node *node)
+{
+    return takes_two(node) && node->operation != GM_OPERATION_WHOLE_POWER ? node->b : node->a;
+}
+
+/* What depends on no input is computed now. */
+static void fold(struct writing *writing, const double *values)
+{
+    for (size_t k = 0; k < writing->part_count; k++) {
+        const gm_node_id i = writing->parts[k];
+        const struct gm_node *node = &writing->graph->nodes[i];
+        const gm_node_id b = node->operation > GM_VARIABLE && takes_two(node) ? node->b : node->a;
+        bool dependent = node->operation == GM_VARIABLE && node->a < writing->tape->inputs;
+        if (node->operation > GM_VARIABLE) {
+            dependent = writing->dependent[node->a] || writing->dependent[b];
+        }
+        writing->numbers[i] = NONE;
+        writing->dependent[i] = dependent;
+        if (!dependent) {
+            writing->folded[i] =
+                node->operation == GM_CONSTANT ? node->value
+                : node->operation == GM_VARIABLE
+                    ? values[node->a]
+                    : gm_operation_value(node->operation, writing->folded[node->a], writing->folded[b]);
+        }
+    }
+}
+
+static uint32_t constant(struct writing *writing, double value)
+{
+    struct gm_tape *tape = writing->tape;
+    tape->constants = grown(writing, tape->constants, sizeof *tape->constants, tape->constant_count,
+                            &writing->constant_room);
+    if (!writing->failed) {
+        tape->constants[tape->constant_count++] = value;
+    }
+    return (uint32_t)(tape->inputs + tape->constant_count - 1);
+}
+
+static void need(struct writing *writing, gm_node_id i)
+{
+    if (!writing->dependent[i] && writing->numbers[i] == NONE) {
+        writing->numbers[i] = constant(writing, writing->folded[i]);
+    }
+}
+
+static void find_constants(struct writing *writing, const gm_node_id *nodes, size_t count)
+{
+    bool inverts = false;
+    for (size_t k = 0; k < writing->part_count; k++) {
+        const struct gm_node *node = &writing->graph->nodes[writing->parts[k]];
+        if (writing->dependent[writing->parts[k]] && node->operation > GM_VARIABLE) {
+            need(writing, node->a);
+            need(writing, second_operand(node));
+            inverts |=
+                node->operation == GM_OPERATION_WHOLE_POWER && writing->graph->nodes[node->b].value <= 0;
+        }
+    }
+    for (size_t k = 0; k < count; k++) {
+        need(writing, nodes[k]);
+    }
+    writing->one = inverts ? constant(writing, 1) : NONE;
+}
+
+static uint32_t compute_value(struct writing *writing, uint32_t operation, uint32_t a, uint32_t b)
+{
+    const size_t first = writing->tape->inputs + writing->tape->constant_count;
+    const uint32_t number = (uint32_t)(first + writing->value_count);
+    writing->values =
+        grown(writing, writing->values, sizeof *writing->values, writing->value_count, &writing->value_room);
+    if (!writing->failed) {
+        writing->values[writing->value_count++] = (struct value){operation, number, a, b, 0};
+    }
+    return number;
+}
+
+/* x^n as gm_whole_power computes it, without its questions */
+static uint32_t power_of(struct writing *writing, uint32_t x, double n)
+{
+    const int whole = (int)fabs(n);
+    int bit = GM_MOST_CHAINED;
+    if (whole == 0) {
+        return compute_value(writing, GM_VARIABLE, writing->one, writing->one);
+    }
+    while (bit > 1 && !(whole & bit)) {
+        bit /= 2;
+    }
+    uint32_t power = x;
+    for (bit /= 2; bit > 0; bit /= 2) {
+        power = compute_value(writing, GM_OPERATION_MULTIPLY, power, power);
+        power = whole & bit ? compute_value(writing, GM_OPERATION_MULTIPLY, power, x) : power;
+    }
+    return n < 0 ? compute_value(writing, GM_OPERATION_DIVIDE, writing->one, power) : power;
+}
+
+static void find_values(struct writing *writing)
+{
+    struct gm_tape *tape = writing->tape;
+    const uint32_t *const numbers = writing->numbers;
+    for (size_t k = 0; k < writing->part_count && !writing->failed; k++) {
+        const gm_node_id i = writing->parts[k];
+        const struct gm_node *node = &writing->graph->nodes[i];
+        if (!writing->dependent[i]) {
+            continue;
+        }
+        if (node->operation == GM_VARIABLE) {
+            writing->numbers[i] = node->a;
+            tape->first_used = node->a < tape->first_used ? node->a : tape->first_used;
+            tape->last_used = node->a >= tape->last_used ? node->a + (size_t)1 : tape->last_used;
+        } else if (node->operation == GM_OPERATION_WHOLE_POWER) {
+            writing->numbers[i] = power_of(writing, numbers[node->a], writing->graph->nodes[node->b].value);
+        } else {
+            writing->numbers[i] =
+                compute_value(writing, node->operation, numbers[node->a], numbers[second_operand(node)]);
+        }
+    }
+}
+
+/* ---- from values to code ---- */
+
+static int compare(uint32_t a, uint32_t b)
+{
+    return (a > b) - (a < b);
+}
+
+static int by_level(const void *a, const void *b)
+{
+    const struct value *x = a, *y = b;
+    return x->level != y->level           ? compare(x->level, y->level)
+           : x->operation != y->operation ? compare(x->operation, y->operation)
+                                          : compare(x->number, y->number);
+}
+
+/* Behind the values that are computed by the same instruction as that at `begin`. */
+static size_t end_of(const struct writing *writing, size_t begin)
+{
+    const struct value *values = writing->values;
+    size_t end = begin + 1;
+    while (writing->rolled && end < writing->value_count && end - begin < LARGEST_BATCH &&
+           values[end].level == values[begin].level && values[end].operation == values[begin].operation) {
+        end++;
+    }
+    return end - begin < LEAST_BATCH ? begin + 1 : end;
+}
+
+/* Orders values by level and operation, if then most of them share an instruction. */
+static void roll(struct writing *writing)
+{
+    const size_t fixed = writing->tape->inputs + writing->tape->constant_count, count = writing->value_count;
+    struct value *straight = malloc(count * sizeof *straight);
+    if (!straight) {
+        writing->failed = true;
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        struct value *value = &writing->values[i];
+        const uint32_t a = value->a < fixed ? 0 : writing->values[value->a - fixed].level,
+                       b = value->b < fixed ? 0 : writing->values[value->b - fixed].level;
+        value->level = 1 + (a > b ? a : b);
+    }
+    memcpy(straight, writing->values, count * sizeof *straight);
+    qsort(writing->values, count, sizeof *writing->values, by_level);
+    writing->rolled = true;
+    size_t instructions = 0;
+    for (size_t begin = 0; begin < count; begin = end_of(writing, begin)) {
+        instructions++;
+    }
+    if (instructions > count / 2) {
+        memcpy(writing->values, straight, count * sizeof *straight);
+        writing->rolled = false;
+    }
+    free(straight);
+}
+
+/* A stretch for the values of an instruction. */
+static uint32_t take(struct writing *writing, size_t count)
+{
+    const bool wide = count > 1;
+    uint32_t taken = (uint32_t)writing->stretch_count;
+    if (writing->free_count[wide] > 0) {
+        taken = writing->free[wide][--writing->free_count[wide]];
+    } else {
+        const uint32_t first = (uint32_t)writing->tape->registers;
+        writing->stretches[writing->stretch_count++] = (struct stretch){first, 0, wide};
+        writing->tape->registers += wide ? LARGEST_BATCH : 1;
+    }
+    writing->stretches[taken].alive = (uint32_t)count;
+    return taken;
+}
+
+/* What only this instruction still needed gives its register back. */
+static void release(struct writing *writing, uint32_t number, uint32_t instruction)
+{
+    if (writing->last[number] == instruction) {
+        const uint32_t home = writing->home[number];
+        struct stretch *stretch = &writing->stretches[home];
+        writing->last[number] = NONE; /* once, where it is both operands */
+        if (--stretch->alive == 0) {
+            writing->free[stretch->wide][writing->free_count[stretch->wide]++] = home;
+        }
+    }
+}
+
+static void put(struct writing *writing, uint32_t operation, uint32_t to, uint32_t a, uint32_t b)
+{
+    struct gm_tape *tape = writing->tape;
+    tape->code = grown(writing, tape->code, sizeof *tape->code, tape->length, &writing->code_room);
+    if (!writing->failed) {
+        tape->code[tape->length++] = (struct gm_instruction){operation, to, a, b};
+    }
+}
+
+static uint32_t register_of(const struct writing *writing, const struct value *value, bool second)
+{
+    return writing->place[second ? value->b : value->a];
+}
+
+static struct gm_operands operands_of(struct writing *writing, const struct value *values, size_t count,
+                                      bool second, bool may_be_one)
+{
+    struct gm_tape *tape = writing->tape;
+    const uint32_t first = register_of(writing, values, second), list = (uint32_t)writing->list_count;
+    bool row = true, one = may_be_one;
+    for (size_t i = 0; i < count; i++) {
+        row = row && register_of(writing, &values[i], second) == first + i;
+        one = one && register_of(writing, &values[i], second) == first;
+    }
+    for (size_t i = 0; i < count && !row && !one; i++) {
+        tape->lists =
+            grown(writing, tape->lists, sizeof *tape->lists, writing->list_count, &writing->list_room);
+        if (!writing->failed) {
+            tape->lists[writing->list_count++] = register_of(writing, &values[i], second);
+        }
+    }
+    return row   ? (struct gm_operands){GM_IN_A_ROW, first}
+           : one ? (struct gm_operands){GM_THE_SAME, first}
+                 : (struct gm_operands){GM_LISTED, list};
+}
+
+static void put_batch(struct writing *writing, const struct value *values, size_t count, uint32_t to)
+{
+    struct gm_tape *tape = writing->tape;
+    struct gm_repeated batch = {.operation = values[0].operation, .count = (uint32_t)count, .to = to};
+    batch.a = operands_of(writing, values, count, false, true);
+    batch.b = batch.a;
+    if (gm_operation_rows[batch.operation].arity == 2) {
+        batch.b = operands_of(writing, values, count, true, batch.a.lie != GM_THE_SAME);
+    }
+    tape->batches =
+        grown(writing, tape->batches, sizeof *tape->batches, writing->batch_count, &writing->batch_room);
+    if (!writing->failed) {
+        /* registers 0: they are read before anybody looks at the operation */
+        put(writing, GM_REPEATED, (uint32_t)writing->batch_count, 0, 0);
+        tape->batches[writing->batch_count++] = batch;
+    }
+}
+
+/* Where values live, and until when. */
+static void prepare(struct writing *writing, const gm_node_id *nodes, size_t count)
+{
+    struct gm_tape *tape = writing->tape;
+    const uint32_t fixed = (uint32_t)(tape->inputs + tape->constant_count);
+    for (uint32_t i = 0; i < fixed + writing->value_count; i++) {
+        writing->place[i] = i < fixed ? i : NONE;
+        writing->last[i] = NONE;
+    }
+    uint32_t instruction = 0;
+    for (size_t begin = 0, end; begin < writing->value_count; begin = end, instruction++) {
+        end = end_of(writing, begin);
+        for (size_t i = begin; i < end; i++) {
+            const struct value *value = &writing->values[i];
+            writing->last[value->a] = value->a < fixed ? NONE : instruction;
+            writing->last[value->b] = value->b < fixed ? NONE : instruction;
+        }
+    }
+    /* the first output that is this value */
+    for (size_t k = count; k-- > 0;) {
+        const uint32_t number = writing->numbers[nodes[k]];
+        if (number >= fixed) {
+            writing->place[number] = fixed + (uint32_t)k;
+            writing->last[number] = NONE;
+        }
+    }
+    tape->registers = fixed + count;
+}
+
+static void write_code(struct writing *writing, const gm_node_id *nodes, size_t count)
+{
+    struct gm_tape *tape = writing->tape;
+    const uint32_t first_output = (uint32_t)(tape->inputs + tape->constant_count);
+    prepare(writing, nodes, count);
+    uint32_t instruction = 0;
+    for (size_t begin = 0, end; begin < writing->value_count && !writing->failed;
+         begin = end, instruction++) {
+        end = end_of(writing, begin);
+        const struct value *first = &writing->values[begin];
+        const bool is_output = end - begin == 1 && writing->place[first->number] != NONE;
+        const uint32_t home = is_output ? NONE : take(writing, end - begin),
+                       to = is_output ? writing->place[first->number] : writing->stretches[home].first;
+        if (end - begin > 1) {
+            put_batch(writing, first, end - begin, to);
+        } else {
+            put(writing, first->operation, to, writing->place[first->a], writing->place[first->b]);
+        }
+        for (size_t i = begin; i < end; i++) {
+            const struct value *value = &writing->values[i];
+            writing->place[value->number] = to + (uint32_t)(i - begin);
+            writing->home[value->number] = home;
+            release(writing, value->a, instruction);
+            release(writing, value->b, instruction);
+        }
+    }
+    for (size_t k = 0; k < count && !writing->failed; k++) {
+        const uint32_t to = first_output + (uint32_t)k, from = writing->place[writing->numbers[nodes[k]]];
+        if (from != to) {
+            put(writing, GM_VARIABLE, to, from, from);
+        }
+    }
+}
+
+bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
+                  size_t inputs, const double *values)
+{
+    *tape = (struct gm_tape){.inputs = inputs, .outputs = count, .first_used = inputs};
+    struct writing writing = {.tape = tape, .graph = graph};
+    writing.parts = gm_formula_parts_of(graph, nodes, count, &writing.part_count);
+    const size_t room =
+        writing.parts && writing.part_count > 0 ? writing.parts[writing.part_count - 1] + (size_t)1 : 1;
+    writing.numbers = malloc(room * sizeof *writing.numbers);
+    writing.folded = malloc(room * sizeof *writing.folded);
+    writing.dependent = malloc(room * sizeof *writing.dependent);
+    writing.failed = !writing.parts || !writing.numbers || !writing.folded || !writing.dependent;
+    if (!writing.failed) {
+        fold(&writing, values);
+        find_constants(&writing, nodes, count);
+        find_values(&writing);
+    }
+    if (!writing.failed && writing.value_count >= LEAST_ROLLED) {
+        roll(&writing);
+    }
+    const size_t all = inputs + tape->constant_count + writing.value_count + 1;
+    writing.place = malloc(all * sizeof *writing.place);
+    writing.last = malloc(all * sizeof *writing.last);
+    writing.home = malloc(all * sizeof *writing.home);
+    writing.stretches = malloc(all * sizeof *writing.stretches);
+    writing.free[0] = malloc(all * sizeof *writing.free[0]);
+    writing.free[1] = malloc(all * sizeof *writing.free[1]);
+    writing.failed |= !writing.place || !writing.last || !writing.home || !writing.stretches ||
+                      !writing.free[0] || !writing.free[1];
+    if (!writing.failed) {
+        write_code(&writing, nodes, count);
+    }
+    free(writing.parts);
+    free(writing.numbers);
+    free(writing.folded);
+    free(writing.dependent);
+    free(writing.values);
+    free(writing.place);
+    free(writing.last);
+    free(writing.home);
+    free(writing.stretches);
+    free(writing.free[0]);
+    free(writing.free[1]);
+    return !writing.failed;
+}
+
+void gm_tape_close(struct gm_tape *tape)
+{
+    free(tape->code);
+    free(tape->batches);
+    free(tape->lists);
+    free(tape->constants);
+    *tape = (struct gm_tape){0};
+}
+
+/* ---- code to numbers ---- */
+
+struct gm_instruction gm_tape_member(const struct gm_tape *tape, const struct gm_repeated *batch, uint32_t i)
+{
+    const struct gm_operands *const operands[] = {&batch->a, &batch->b};
+    uint32_t at[2];
+    for (int k = 0; k < 2; k++) {
+        const uint32_t from = operands[k]->at;
+        at[k] = operands[k]->lie == GM_LISTED ? tape->lists[from + i]
+                                              : from + (operands[k]->lie == GM_IN_A_ROW ? i : 0);
+    }
+    return (struct gm_instruction){batch->operation, batch->to + i, at[0], at[1]};
+}
+
+/* An operation for rows of `count` numbers; of an operand that is the same for all, `one`, there is one
+   number. Not inlined: there compilers forget that rows do not overlap. */
+GM_CLONES __attribute__((noinline)) static void compute_row(uint32_t operation, double *restrict to,
+                                                            const double *restrict x, bool one_x,
+                                                            const double *restrict y, bool one_y,
+                                                            size_t count)
+{
+    switch ((enum gm_operation)operation) {
+#define GM_ROW(value_, x_, y_)                                                                               \
+    for (size_t i = 0; i < count; i++) {                                                                     \
+        const double a = x_, b = y_;                                                                         \
+        (void)b;                                                                                             \
+        to[i] = value_;                                                                                      \
+    }
+#define GM_OPERATION(constant, name, latex, arity, smooth, value_, over_a, over_b)                           \
+    case GM_OPERATION_##constant:                                                                            \
+        if (one_x) {                                                                                         \
+            GM_ROW(value_, *x, y[i])                                                                         \
+        } else if (one_y) {                                                                                  \
+            GM_ROW(value_, x[i], *y)                                                                         \
+        } else {                                                                                             \
+            GM_ROW(value_, x[i], y[i])                                                                       \
+        }                                                                                                    \
+        break;
+#include "core/formula/operations.def"
+#undef GM_OPERATION
+    case GM_CONSTANT:
+    case GM_VARIABLE:
+    case GM_OPERATIONS:
+        for (size_t i = 0; i < count; i++) {
+            to[i] = one_x ? *x : x[i];
+        }
+        break;
+    }
+}
+
+/* The operands of a batch for one state, in a row: where they are, or gathered. */
+static inline const double *gathered(const struct gm_tape *tape, const struct gm_operands *operands,
+                                     uint32_t count, const double *r, double *room)
+{
+    if (operands->lie != GM_LISTED) {
+        return r + operands->at;
+    }
+    const uint32_t *list = tape->lists + operands->at;
+    for (uint32_t i = 0; i < count; i++) {
+        room[i] = r[list[i]];
+    }
+    return room;
+}
+
+/* Not inlined: what it needs would burden every other instruction of a single state. */
+__attribute__((noinline)) static void compute_batch(const struct gm_tape *tape,
+                                                    const struct gm_repeated *batch, double *r)
+{
+    double room[2][LARGEST_BATCH];
+    const double *x = gathered(tape, &batch->a, batch->count, r, room[0]),
+                 *y = gathered(tape, &batch->b, batch->count, r, room[1]);
+    compute_row(batch->operation, r + batch->to, x, batch->a.lie == GM_THE_SAME, y,
+                batch->b.lie == GM_THE_SAME, batch->count);
+}
+
+/* One state: r holds all registers. */
+static void compute(const struct gm_tape *tape, double *r)
+{
+    const struct gm_instruction *const end = tape->code + tape->length;
+    for (const struct gm_instruction *at = tape->code; at < end; at++) {
+        const double a = r[at->a], b = r[at->b];
+        double value = a;
+        switch ((enum gm_operation)at->operation) {
+#define GM_OPERATION(constant, name, latex, arity, smooth, value_, over_a, over_b)                           \
+    case GM_OPERATION_##constant:                                                                            \
+        value = value_;                                                                                      \
+        break;
+#include "core/formula/operations.def"
+#undef GM_OPERATION
+        case GM_CONSTANT:
+        case GM_VARIABLE:
+            break;
+        case GM_OPERATIONS:
+            compute_batch(tape, &tape->batches[at->to], r);
+            continue;
+        default: /* it need not be asked */
+            __builtin_unreachable();
+        }
+        r[at->to] = value;
+    }
+}
+
+/* A block of members: at[register] is its row, or of a constant its one number. */
+static void compute_rows(const struct gm_tape *tape, double *const *at, size_t count)
+{
+    for (size_t k = 0; k < tape->length; k++) {
+        struct gm_instruction now = tape->code[k];
+        const struct gm_repeated *batch = now.operation == GM_REPEATED ? &tape->batches[now.to] : NULL;
+        for (uint32_t i = 0; i < (batch ? batch->count : 1); i++) {
+            now = batch ? gm_tape_member(tape, batch, i) : now;
+            compute_row(now.operation, at[now.to], at[now.a], now.a - tape->inputs < tape->constant_count,
+                        at[now.b], now.b - tape->inputs < tape->constant_count, count);
+        }
+    }
+}
+
+/* Registers that lie on the stack; of longer code they are allocated. */
+enum { ON_STACK = 2048, LARGEST_BLOCK = 128, IN_CACHE = 4096 };
+
+/* One by one: a wide load of numbers that were just stored one by one would have to wait for all of them. */
+static inline void copy_each(double *to, const double *from, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        to[i] = from[i];
+        __asm__ volatile("");
+    }
+}
+
+static void one_state(const struct gm_tape *tape, const double *inputs, double *outputs)
+{
+    double few[ON_STACK], *many = NULL, *r = few;
+    if (tape->registers > ON_STACK) {
+        r = many = malloc(tape->registers * sizeof *many);
+    }
+    if (!r) {
+        for (size_t k = 0; k < tape->outputs; k++) {
+            outputs[k] = NAN;
+        }
+        return;
+    }
+    double *const constants = r + tape->inputs, *const results = constants + tape->constant_count;
+    copy_each(r + tape->first_used, inputs + tape->first_used,
+              tape->last_used > tape->first_used ? tape->last_used - tape->first_used : 0);
+    copy_each(constants, tape->constants, tape->constant_count);
+    compute(tape, r);
+    copy_each(outputs, results, tape->outputs);
+    free(many);
+}
+
+void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inputs_apart, double *outputs,
+                   size_t outputs_apart, size_t m)
+{
+    const size_t fixed = tape->inputs + tape->constant_count + tape->outputs,
+                 between = tape->registers - fixed;
+    size_t block = between > 0 ? IN_CACHE / between / 8 * 8 : LARGEST_BLOCK;
+    block = block < 8 ? 8 : block > LARGEST_BLOCK ? LARGEST_BLOCK : block;
+    double few[IN_CACHE], *few_rows[ON_STACK], *many = NULL, **many_rows = NULL;
+    double *room = few, **at = few_rows;
+    if (between * block > IN_CACHE || tape->registers > ON_STACK) {
+        room = many = malloc((between * block + 1) * sizeof *many);
+        at = many_rows = malloc(tape->registers * sizeof *many_rows);
+    }
+    const bool short_of_memory = !room || !at;
+    for (size_t k = 0; short_of_memory && k < tape->outputs; k++) {
+        for (size_t i = 0; i < m; i++) {
+            outputs[k * outputs_apart + i] = NAN;
+        }
+    }
+    for (size_t first = 0; !short_of_memory && first < m; first += block) {
+        double **next = at;
+        for (size_t i = 0; i < tape->inputs; i++) {
+            *next++ = (double *)inputs + i * inputs_apart + first; /* never written to */
+        }
+        for (size_t i = 0; i < tape->constant_count; i++) {
+            *next++ = &tape->constants[i];
+        }
+        for (size_t i = 0; i < tape->outputs; i++) {
+            *next++ = outputs + i * outputs_apart + first;
+        }
+        for (size_t i = 0; i < between; i++) {
+            *next++ = room + i * block;
+        }
+        compute_rows(tape, at, m - first < block ? m - first : block);
+    }
+    free(many);
+    free(many_rows);
+}
+
+void gm_tape_values(const struct gm_tape *tape, const double *inputs, double *outputs, size_t m)
+{
+    if (m == 1) {
+        one_state(tape, inputs, outputs);
+    } else {
+        gm_tape_block(tape, inputs, m, outputs, m, m);
+    }
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nodes of a graph as straight code, to be computed many times: for one state, or for many at once. What a
+   sum over a list has written out becomes a loop again: the same operation on many operands is one
+   instruction. */
+#ifndef GM_CORE_TAPE_H
+#define GM_CORE_TAPE_H
+
+#include "core/formula/graph.h"
+
+/* One operation on registers. GM_VARIABLE is a copy of a; GM_REPEATED is batch number `to`. */
+struct gm_instruction {
+    uint32_t operation, to, a, b;
+};
+enum { GM_REPEATED = GM_OPERATIONS };
+
+/* The same operation `count` times, for registers to, to + 1 ..: the operands lie in as many registers from
+   `at` on, are all register `at`, or those of lists[at], lists[at + 1] .. */
+struct gm_repeated {
+    uint32_t operation, count, to;
+    struct gm_operands {
+        enum { GM_IN_A_ROW, GM_THE_SAME, GM_LISTED } lie;
+        uint32_t at;
+    } a, b;
+};
+
+/* The registers: inputs, constants, outputs, and what lies between. It does not change while it is computed,
+   so threads may share it. */
+struct gm_tape {
+    struct gm_instruction *code;
+    size_t length;
+    struct gm_repeated *batches;
+    uint32_t *lists;
+    double *constants;
+    size_t inputs, constant_count, outputs, registers;
+    size_t first_used, last_used; /* the inputs that occur are among [first, last) */
+};
+
+/* The code of `count` nodes. Variables 0 .. inputs - 1 are its inputs, every other one is the constant
+   values[number]; what depends on no input is computed here, once. The operations are those of the graph, one
+   by one, so that the bits are those of gm_formula_evaluate. The time is that of what the nodes are made of,
+   not of the graph. False: out of memory. To be closed in both cases. */
+bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
+                  size_t inputs, const double *values);
+void gm_tape_close(struct gm_tape *tape);
+
+/* Operation number i of one that is repeated. */
+struct gm_instruction gm_tape_member(const struct gm_tape *tape, const struct gm_repeated *batch, uint32_t i);
+
+/* The nodes' values for m members: inputs (inputs * m) and outputs (count * m) lie [number * m + member], and
+   do not overlap. Where memory is short, which is noted (core/memory.h), they are NaN. A member's bits do not
+   depend on m. */
+void gm_tape_values(const struct gm_tape *tape, const double *inputs, double *outputs, size_t m);
+
+/* The same where member i's number k lies at inputs[k * inputs_apart + i], outputs[k * outputs_apart + i]. */
+void gm_tape_block(const struct gm_tape *tape, const double *inputs, size_t inputs_apart, double *outputs,
+                   size_t outputs_apart, size_t m);
+
+#endif

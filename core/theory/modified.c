@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The N-th power of a method is a method, whose elementary weight of a tree, Phi^N, is a polynomial of N of
+   the degree |tree| without a constant. It is the flow after the time N dt of the modified equation, whose
+   coefficient b(tree) is therefore its derivative at N = 0: of the polynomial through N = 0 .. n
+       b = sum_(N = 1 .. n) (-1)^(N+1) binomial(n, N) Phi^N / N.
+   With Phi_i of step k and W_k = sum_i b_i Phi_ki, a branch u of a stage of step k counts
+       sum_(l < k) W_l(u) + sum_j a_ij Phi_kj(u). */
+#include "core/theory/modified.h"
+
+#include <stdlib.h>
+
+#include "core/theory/theory.h"
+
+/* Of every tree, for each of so many steps and stages: Phi, and what it counts as a branch. */
+struct powers {
+    struct gm_ball *of;
+    int steps, stages;
+};
+
+static struct gm_ball *inner(const struct powers *powers, int tree, int step)
+{
+    return powers->of + (((size_t)tree * 2) * (size_t)powers->steps + (size_t)step) * (size_t)powers->stages;
+}
+
+static struct gm_ball *outer(const struct powers *powers, int tree, int step)
+{
+    return inner(powers, tree, step) + powers->steps * powers->stages;
+}
+
+static struct gm_ball add_products(struct gm_ball sum, const struct gm_ball *x, const struct gm_ball *y,
+                                   int count)
+{
+    for (int i = 0; i < count; i++) {
+        sum = gm_ball_add(sum, gm_ball_multiply(x[i], y[i]));
+    }
+    return sum;
+}
+
+/* b(tree); the trees before it are known */
+static struct gm_ball equation_of(const struct gm_coefficients *coefficients, const struct gm_trees *trees,
+                                  const struct powers *powers, int tree)
+{
+    const struct gm_tree *this = &trees->trees[tree];
+    const struct gm_ball *a = coefficients->a[this->side], *b = coefficients->b[this->side];
+    const int stages = powers->stages;
+    struct gm_ball weight = gm_ball_of(0), sum = weight;
+    long binomial = 1;
+    for (int step = 0; step < powers->steps; step++) {
+        struct gm_ball *phi = inner(powers, tree, step), *branch = outer(powers, tree, step);
+        for (int i = 0; i < stages; i++) {
+            phi[i] = this->last < 0 ? gm_ball_of(1)
+                                    : gm_ball_multiply(inner(powers, this->without, step)[i],
+                                                       outer(powers, this->last, step)[i]);
+        }
+        for (int i = 0; i < stages; i++) {
+            branch[i] = add_products(weight, a + (size_t)i * (size_t)stages, phi, stages);
+        }
+        weight = add_products(weight, b, phi, stages);
+        const int power = step + 1;
+        binomial = binomial * (this->order - step) / power; /* 0 beyond the tree's order */
+        const struct gm_ball factor = gm_ball_ratio(power % 2 ? binomial : -binomial, power);
+        sum = gm_ball_add(sum, gm_ball_multiply(factor, weight));
+    }
+    return sum;
+}
+
+struct gm_ball *gm_modified_equation(const struct gm_trees *trees, const struct gm_coefficients *coefficients)
+{
+    const int count = trees->first[trees->orders + 1];
+    struct powers powers = {.steps = trees->orders, .stages = coefficients->stages};
+    powers.of = malloc((size_t)count * 2 * (size_t)powers.steps * (size_t)powers.stages * sizeof *powers.of);
+    struct gm_ball *equation = malloc((size_t)count * sizeof *equation);
+    for (int tree = 0; powers.of && equation && tree < count; tree++) {
+        equation[tree] = equation_of(coefficients, trees, &powers, tree);
+    }
+    if (!powers.of) {
+        free(equation);
+        equation = NULL;
+    }
+    free(powers.of);
+    return equation;
+}
+
+/* The most vertices that a branch of the root has. */
+static int largest_branch(const struct gm_trees *trees, int tree)
+{
+    int largest = 0;
+    for (const struct gm_tree *at = &trees->trees[tree]; at->last >= 0; at = &trees->trees[at->without]) {
+        const int order = trees->trees[at->last].order;
+        largest = order > largest ? order : largest;
+    }
+    return largest;
+}
+
+bool gm_modified_open(struct gm_modified *modified, const struct gm_coefficients *coefficients, int order)
+{
+    const bool split =
+        coefficients->equations == GM_EQUATIONS_SEPARABLE || coefficients->equations == GM_EQUATIONS_NYSTROM;
+    *modified = (struct gm_modified){0};
+    gm_trees_open(&modified->trees, split ? GM_EQUATIONS_SEPARABLE : coefficients->equations);
+    bool good = true;
+    while (good && modified->trees.orders < order) {
+        good = gm_trees_grow(&modified->trees);
+    }
+    const struct gm_trees *trees = &modified->trees;
+    struct gm_ball *equation = good ? gm_modified_equation(trees, coefficients) : NULL;
+    const int count = trees->first[trees->orders + 1];
+    modified->terms = equation ? malloc((size_t)count * sizeof *modified->terms) : NULL;
+    for (int tree = 0; modified->terms && tree < count; tree++) {
+        const struct gm_tree *this = &trees->trees[tree];
+        const int twice = 2 * largest_branch(trees, tree);
+        /* where H does not split, sides are those of branches */
+        const bool counted = split || this->side == GM_SIDE_Q;
+        if (counted && twice <= this->order && !gm_ball_may_vanish(equation[tree])) {
+            const double share = twice == this->order ? 0.5 : 1;
+            modified->terms[modified->count++] = (struct gm_modified_term){
+                .tree = tree, .weight = share * gm_ball_midpoint(equation[tree]) / this->symmetry};
+        }
+    }
+    free(equation);
+    return modified->terms != NULL;
+}
+
+void gm_modified_close(struct gm_modified *modified)
+{
+    gm_trees_close(&modified->trees);
+    free(modified->terms);
+    *modified = (struct gm_modified){0};
+}

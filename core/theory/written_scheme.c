@@ -1,0 +1,822 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads schemes: lines or the segments of a word, then names, then coefficients, each twice: as doubles, by
+   the operations that every formula has, and as balls, which know what was written. */
+#include "core/theory/written_scheme.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/formula/nearest.h"
+
+enum {
+    ONE_TABLEAU = 1 << GM_WRITTEN_RUNGE_KUTTA | 1 << GM_WRITTEN_EXPLICIT,
+    PARTITIONED = 1 << GM_WRITTEN_PARTITIONED,
+    NYSTROM = 1 << GM_WRITTEN_NYSTROM,
+    COMPOSITION = 1 << GM_WRITTEN_COMPOSITION,
+    SPLITTING = 1 << GM_WRITTEN_SPLITTING,
+    PROCESSED = 1 << GM_WRITTEN_PROCESSED,
+    ADJOINT = 1 << GM_WRITTEN_ADJOINT,
+    TABLEAUS = ONE_TABLEAU | PARTITIONED | NYSTROM,
+    ANY = TABLEAUS | COMPOSITION | SPLITTING | PROCESSED | ADJOINT
+};
+
+static const struct {
+    const char *word;
+    enum { TEXT, NAMED, ROW, MATRIX, SCHEME } holds;
+    unsigned kinds;
+} words[GM_SCHEME_WORDS] = {
+#define GM_SCHEME_WORD(constant, word, holds, kinds) {word, holds, kinds},
+#include "core/theory/scheme_words.def"
+#undef GM_SCHEME_WORD
+};
+
+enum { LONGEST_POSITIONAL = 4 };
+
+/* What stands in a word's parentheses without a name, in this order. The first `required` are to be said. */
+static const struct {
+    const char *name;
+    int required, count;
+    enum gm_scheme_word positional[LONGEST_POSITIONAL];
+} kinds[GM_WRITTEN_KINDS] = {
+    [GM_WRITTEN_RUNGE_KUTTA] = {"runge-kutta", 2, 3, {GM_SCHEME_WORD_A, GM_SCHEME_WORD_B, GM_SCHEME_WORD_C}},
+    [GM_WRITTEN_EXPLICIT] = {"explicit", 2, 3, {GM_SCHEME_WORD_A, GM_SCHEME_WORD_B, GM_SCHEME_WORD_C}},
+    [GM_WRITTEN_PARTITIONED] = {"partitioned",
+                                3,
+                                4,
+                                {GM_SCHEME_WORD_A, GM_SCHEME_WORD_B, GM_SCHEME_WORD_AH, GM_SCHEME_WORD_BH}},
+    [GM_WRITTEN_NYSTROM] = {"nystrom",
+                            4,
+                            4,
+                            {GM_SCHEME_WORD_A, GM_SCHEME_WORD_B, GM_SCHEME_WORD_BV, GM_SCHEME_WORD_C}},
+    [GM_WRITTEN_COMPOSITION] = {"composition", 2, 2, {GM_SCHEME_WORD_BASE, GM_SCHEME_WORD_STEPS}},
+    [GM_WRITTEN_SPLITTING] = {"splitting", 2, 2, {GM_SCHEME_WORD_DRIFTS, GM_SCHEME_WORD_KICKS}},
+    [GM_WRITTEN_PROCESSED] = {"processed", 2, 2, {GM_SCHEME_WORD_KERNEL, GM_SCHEME_WORD_PROCESSOR}},
+    [GM_WRITTEN_ADJOINT] = {"adjoint", 1, 1, {GM_SCHEME_WORD_BASE}},
+};
+
+/* A number, or a let, before it is computed. */
+struct formula {
+    gm_node_id node;
+    struct gm_span name, value; /* the name is that of a let */
+    bool read;
+};
+
+struct reading {
+    struct gm_written_scheme *scheme;
+    const char *text;
+    struct gm_formula graph;
+    struct gm_written_number *decimals; /* the graph's variables */
+    size_t decimal_count;
+    struct gm_decimals *gathered; /* or NULL */
+    struct formula lets[GM_MOST_LETS];
+    char let_names[GM_MOST_LETS][64];
+    gm_node_id *nodes[GM_SCHEME_WORDS]; /* of each line's numbers */
+    struct gm_fault *fault;
+    bool failed;
+};
+
+__attribute__((format(printf, 3, 4))) static bool fail(struct reading *reading, size_t place,
+                                                       const char *format, ...)
+{
+    if (!reading->failed) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(reading->fault->sentence, sizeof reading->fault->sentence, format, arguments);
+        va_end(arguments);
+        reading->fault->offset = place;
+        reading->failed = true;
+    }
+    return false;
+}
+
+static bool no_memory(struct reading *reading)
+{
+    if (!reading->failed) {
+        *reading->fault = (struct gm_fault){0};
+    }
+    reading->failed = true;
+    return false;
+}
+
+static int brief(struct gm_span span)
+{
+    const size_t length = span.end - span.begin;
+    return (int)(length < 40 ? length : 40);
+}
+
+/* -- words and lines
+   ----------------------------------------------------------------------------------------- */
+
+const char *gm_written_kind_name(enum gm_written_kind kind)
+{
+    return kinds[kind].name;
+}
+
+static bool is_called(const char *text, size_t length, const char *name)
+{
+    return strlen(name) == length && memcmp(text, name, length) == 0;
+}
+
+/* GM_WRITTEN_KINDS: there is none. */
+static enum gm_written_kind kind_of(const char *text, size_t length)
+{
+    enum gm_written_kind kind = 0;
+    while (kind < GM_WRITTEN_KINDS && !is_called(text, length, kinds[kind].name)) {
+        kind++;
+    }
+    return kind;
+}
+
+static size_t kind_length(const char *text, size_t length)
+{
+    size_t end = 0;
+    while (end < length && ((text[end] >= 'a' && text[end] <= 'z') || text[end] == '-')) {
+        end++;
+    }
+    return end;
+}
+
+bool gm_written_is_word(const char *text, size_t length)
+{
+    const size_t end = kind_length(text, length);
+    return end < length && text[end] == '(' && kind_of(text, end) < GM_WRITTEN_KINDS;
+}
+
+static const char *word_name(size_t i, const void *data)
+{
+    return (void)data, words[i].word;
+}
+
+static const char *kind_name(size_t i, const void *data)
+{
+    return (void)data, kinds[i].name;
+}
+
+static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t place, struct gm_span value)
+{
+    struct gm_written_scheme *scheme = reading->scheme;
+    const char *comment = words[word].holds == TEXT || words[word].holds == SCHEME
+                              ? memchr(reading->text + value.begin, '#', value.end - value.begin)
+                              : NULL;
+    if (comment) {
+        value =
+            gm_span_trimmed(reading->text, (struct gm_span){value.begin, (size_t)(comment - reading->text)});
+    }
+    if (value.begin == value.end) {
+        return fail(reading, place, "%s: says nothing", words[word].word);
+    }
+    if (word == GM_SCHEME_WORD_LET) {
+        if (scheme->let_count == GM_MOST_LETS) {
+            return fail(reading, place, "a scheme has at most %d lets", GM_MOST_LETS);
+        }
+        scheme->lets[scheme->let_count++] = value;
+        return true;
+    }
+    if (scheme->lines[word].said) {
+        return fail(reading, place, "%s is said twice", words[word].word);
+    }
+    scheme->lines[word] = (struct gm_written_line){.said = true, .value = value};
+    return true;
+}
+
+static bool take_named(struct reading *reading, const struct gm_text_line *line)
+{
+    const char *name = reading->text + line->word.begin;
+    const size_t length = line->word.end - line->word.begin;
+    enum gm_scheme_word word = 0;
+    while (word < GM_SCHEME_WORDS && !is_called(name, length, words[word].word)) {
+        word++;
+    }
+    if (word < GM_SCHEME_WORDS) {
+        return take_line(reading, word, line->word.begin, line->value);
+    }
+    char copy[41];
+    snprintf(copy, sizeof copy, "%.*s", brief(line->word), name);
+    const char *near = gm_nearest(copy, GM_SCHEME_WORDS, word_name, NULL);
+    return fail(reading, line->word.begin, "a scheme has no line \"%s\"%s%s", copy,
+                near ? "; did you mean " : "", near ? near : "");
+}
+
+static bool find_kind(struct reading *reading, struct gm_span name)
+{
+    const char *text = reading->text + name.begin;
+    reading->scheme->kind = kind_of(text, name.end - name.begin);
+    if (reading->scheme->kind < GM_WRITTEN_KINDS) {
+        return true;
+    }
+    char copy[41];
+    snprintf(copy, sizeof copy, "%.*s", brief(name), text);
+    const char *near = gm_nearest(copy, GM_WRITTEN_KINDS, kind_name, NULL);
+    return fail(reading, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
+                near ? "; did you mean "
+                     : "; there are runge-kutta, explicit, partitioned, nystrom, "
+                       "composition, splitting, processed, adjoint",
+                near ? near : "");
+}
+
+static bool read_file(struct reading *reading, struct gm_span span)
+{
+    struct gm_text_line line;
+    struct gm_fault fault;
+    for (size_t at = span.begin; gm_lines_next(reading->text, span.end, &at, &line, &fault);) {
+        if (!take_named(reading, &line)) {
+            return false;
+        }
+    }
+    if (fault.sentence[0]) {
+        return fail(reading, fault.offset, "%s", fault.sentence);
+    }
+    const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
+    return kind->said ? find_kind(reading, kind->value)
+                      : fail(reading, span.begin, "what kind of a scheme is it? A line kind: says so");
+}
+
+/* Where the parenthesis at span.begin is closed, or the end. */
+static size_t closing(const char *text, struct gm_span span)
+{
+    int depth = 0;
+    size_t at = span.begin;
+    do {
+        depth += (text[at] == '(') - (text[at] == ')');
+        at++;
+    } while (at < span.end && depth > 0);
+    return depth == 0 ? at - 1 : span.end;
+}
+
+static bool read_word(struct reading *reading, struct gm_span span)
+{
+    const char *text = reading->text;
+    const size_t open = span.begin + kind_length(text + span.begin, span.end - span.begin);
+    const size_t close = closing(text, (struct gm_span){open, span.end});
+    if (close == span.end) {
+        return fail(reading, open, "this parenthesis is not closed");
+    }
+    if (close + 1 < span.end) {
+        return fail(reading, close + 1, "the scheme ends before this");
+    }
+    struct gm_span rest = {open + 1, close}, segment;
+    int positional = 0;
+    find_kind(reading, (struct gm_span){span.begin, open});
+    while (!reading->failed && gm_span_take(text, &rest, ";", &segment)) {
+        const size_t name = gm_name_length(text + segment.begin, segment.end - segment.begin);
+        const size_t colon = segment.begin + name;
+        if (name > 0 && colon < segment.end && text[colon] == ':') {
+            const struct gm_text_line line = {
+                {segment.begin, colon}, gm_span_trimmed(text, (struct gm_span){colon + 1, segment.end})};
+            take_named(reading, &line);
+        } else if (positional < kinds[reading->scheme->kind].count) {
+            take_line(reading, kinds[reading->scheme->kind].positional[positional++], segment.begin, segment);
+        } else {
+            fail(reading, segment.begin, "there is more between the parentheses than %s has",
+                 kinds[reading->scheme->kind].name);
+        }
+    }
+    const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
+    if (!reading->failed && kind->said &&
+        kind_of(text + kind->value.begin, kind->value.end - kind->value.begin) != reading->scheme->kind) {
+        return fail(reading, kind->value.begin, "the word says that it is of the kind %s",
+                    kinds[reading->scheme->kind].name);
+    }
+    return !reading->failed;
+}
+
+/* What is said belongs to the kind, and what it needs is said. */
+static bool check_lines(struct reading *reading, struct gm_span span)
+{
+    const struct gm_written_scheme *scheme = reading->scheme;
+    const char *name = kinds[scheme->kind].name;
+    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
+        if (scheme->lines[word].said && !(words[word].kinds >> scheme->kind & 1)) {
+            return fail(reading, scheme->lines[word].value.begin, "a scheme of the kind %s has no %s:", name,
+                        words[word].word);
+        }
+    }
+    for (int i = 0; i < kinds[scheme->kind].required; i++) {
+        const enum gm_scheme_word word = kinds[scheme->kind].positional[i];
+        if (!scheme->lines[word].said) {
+            return fail(reading, span.begin, "a scheme of the kind %s needs %s:", name, words[word].word);
+        }
+    }
+    return true;
+}
+
+/* -- numbers
+   ------------------------------------------------------------------------------------------------- */
+
+/* The decimal of the whole text, or what is taken for it. */
+static struct gm_written_number known_decimal(struct reading *reading, const char *text, size_t length,
+                                              double value)
+{
+    struct gm_written_number number = {.value = value, .ball = gm_ball_decimal(text, length, value)};
+    struct gm_decimals *gathered = reading->gathered;
+    const size_t place = (size_t)(text - reading->text);
+    size_t i = 0;
+    if (!gathered || number.ball.radius == 0) {
+        return number;
+    }
+    while (i < gathered->count && gathered->at[i].place != place) {
+        i++;
+    }
+    if (gathered->instead && i < gathered->count) {
+        number.ball = gathered->instead[i];
+        number.value = gm_ball_midpoint(number.ball);
+    } else if (i == gathered->count) {
+        struct gm_decimal *more = realloc(gathered->at, (i + 1) * sizeof *more);
+        if (more) {
+            gathered->at = more;
+            gathered->at[gathered->count++] = (struct gm_decimal){place, length, number.ball};
+        } else {
+            reading->graph.failed = true;
+        }
+    }
+    return number;
+}
+
+static gm_node_id decimal(void *data, const char *text, size_t length, double value)
+{
+    struct reading *reading = data;
+    const bool whole = strcspn(text, ".eE") >= length;
+    if (value < 1e15 && value == floor(value) && !memchr(text, '.', length)) {
+        return gm_formula_constant(&reading->graph, value);
+    }
+    if (whole && length > GM_BALL_DIGITS) {
+        fail(reading, (size_t)(text - reading->text), "a whole number has at most %d digits", GM_BALL_DIGITS);
+    }
+    const size_t count = reading->decimal_count;
+    if ((count & (count - 1)) == 0) {
+        struct gm_written_number *more =
+            realloc(reading->decimals, (count ? 2 * count : 1) * sizeof *reading->decimals);
+        if (!more) {
+            reading->graph.failed = true;
+            return 0;
+        }
+        reading->decimals = more;
+    }
+    reading->decimals[count] = known_decimal(reading, text, length, value);
+    reading->decimal_count++;
+    return gm_formula_variable(&reading->graph, count);
+}
+
+static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
+{
+    const struct reading *reading = data;
+    for (int i = 0; i < reading->scheme->let_count; i++) {
+        const struct formula *let = &reading->lets[i];
+        if (let->name.end - let->name.begin == name->length &&
+            memcmp(reading->text + let->name.begin, name->text, name->length) == 0) {
+            *node = let->node;
+            if (name->indexed) {
+                snprintf(sentence, GM_FAULT_SENTENCE, "%s is no list", reading->let_names[i]);
+                return GM_REFUSED;
+            }
+            return let->read ? GM_KNOWN : GM_POSTPONED;
+        }
+    }
+    return GM_UNKNOWN;
+}
+
+static const char *known(size_t i, const void *data)
+{
+    const struct reading *reading = data;
+    return i < (size_t)reading->scheme->let_count ? reading->let_names[i] : NULL;
+}
+
+/* False, and nothing has failed: a let has to be read before. */
+static bool read_formula(struct reading *reading, struct gm_span span, gm_node_id *node)
+{
+    const struct gm_scope scope = {
+        .find = find, .known = known, .decimal = decimal, .data = reading, .lines = true};
+    struct gm_fault fault;
+    if (gm_formula_read(&reading->graph, reading->text, span.begin, span.end, &scope, node, &fault)) {
+        return !reading->failed;
+    }
+    return reading->graph.failed ? no_memory(reading)
+           : fault.sentence[0]   ? fail(reading, fault.offset, "%s", fault.sentence)
+                                 : false;
+}
+
+static bool name_let(struct reading *reading, int i)
+{
+    const struct gm_span span = reading->scheme->lets[i];
+    const char *text = reading->text;
+    struct formula *let = &reading->lets[i];
+    const size_t length = gm_name_length(text + span.begin, span.end - span.begin);
+    let->name = (struct gm_span){span.begin, span.begin + length};
+    const struct gm_span rest = gm_span_trimmed(text, (struct gm_span){let->name.end, span.end});
+    if (length == 0 || rest.begin == rest.end || text[rest.begin] != '=') {
+        return fail(reading, length ? rest.begin : span.begin, "a let is a name, = and a formula");
+    }
+    if (length >= sizeof reading->let_names[0] || gm_formula_reserves(text + span.begin, length)) {
+        return fail(reading, span.begin, "the name %.*s is %s", brief(let->name), text + span.begin,
+                    length >= sizeof reading->let_names[0] ? "too long" : "reserved");
+    }
+    memcpy(reading->let_names[i], text + span.begin, length);
+    for (int k = 0; k < i; k++) {
+        if (strcmp(reading->let_names[k], reading->let_names[i]) == 0) {
+            return fail(reading, span.begin, "%s is defined twice", reading->let_names[i]);
+        }
+    }
+    let->value = gm_span_trimmed(text, (struct gm_span){rest.begin + 1, rest.end});
+    return true;
+}
+
+/* In any order: those first that need no other one. */
+static bool read_lets(struct reading *reading)
+{
+    const int count = reading->scheme->let_count;
+    for (int i = 0; i < count; i++) {
+        if (!name_let(reading, i)) {
+            return false;
+        }
+    }
+    for (bool again = true; again;) {
+        again = false;
+        for (int i = 0; i < count && !reading->failed; i++) {
+            struct formula *let = &reading->lets[i];
+            if (!let->read) {
+                let->read = read_formula(reading, let->value, &let->node);
+                again = again || let->read;
+            }
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        if (!reading->lets[i].read) {
+            return fail(reading, reading->lets[i].name.begin, "%s is defined by itself, through other lets",
+                        reading->let_names[i]);
+        }
+    }
+    return !reading->failed;
+}
+
+/* The piece before the next separator, behind which another one has to stand; false at the end, and with a
+   fault. */
+static bool take_piece(struct reading *reading, struct gm_span *rest, const char *separator,
+                       struct gm_span *piece)
+{
+    const size_t end = gm_span_until(reading->text, *rest, separator);
+    if (end < rest->end && end + 1 == rest->end) {
+        return fail(reading, end, "nothing stands behind this %s", separator);
+    }
+    return gm_span_take(reading->text, rest, separator, piece);
+}
+
+/* Rows between |, entries between commas. */
+static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
+{
+    struct gm_written_line *line = &reading->scheme->lines[word];
+    const bool stages = words[word].kinds & TABLEAUS;
+    const int most = stages ? GM_MOST_STAGES : GM_MOST_SUBSTEPS;
+    const size_t room = (size_t)most * (words[word].holds == MATRIX ? (size_t)most : 1);
+    line->numbers = calloc(room, sizeof *line->numbers);
+    reading->nodes[word] = calloc(room, sizeof *reading->nodes[word]);
+    if (!line->numbers || !reading->nodes[word]) {
+        return no_memory(reading);
+    }
+    struct gm_span rows = line->value, row, entry;
+    for (int count = 0; take_piece(reading, &rows, "|", &row); line->rows++) {
+        const size_t begin = row.begin;
+        int columns = 0;
+        if (line->rows == (words[word].holds == MATRIX ? most : 1)) {
+            return words[word].holds == MATRIX ? fail(reading, begin, "a scheme has at most %d stages", most)
+                                               : fail(reading, begin, "%s is one row", words[word].word);
+        }
+        for (; take_piece(reading, &row, ",", &entry); columns++, count++) {
+            if (columns == most) {
+                return fail(reading, entry.begin, "a scheme has at most %d %s", most,
+                            stages ? "stages" : "steps");
+            }
+            line->numbers[count].place = entry.begin;
+            if (!read_formula(reading, entry, &reading->nodes[word][count])) {
+                return false;
+            }
+        }
+        if (!reading->failed && line->rows > 0 && columns != line->columns) {
+            return fail(reading, begin, "row %d of %s has %d entries, the first has %d", line->rows + 1,
+                        words[word].word, columns, line->columns);
+        }
+        line->columns = columns;
+    }
+    return !reading->failed;
+}
+
+/* What the node is, from those before it. */
+static struct gm_ball ball_of(const struct reading *reading, const struct gm_ball *balls, gm_node_id id,
+                              bool *known_here)
+{
+    const struct gm_node *node = &reading->graph.nodes[id];
+    const struct gm_ball a = node->operation > GM_VARIABLE ? balls[node->a] : gm_ball_of(0);
+    const struct gm_ball b = node->operation > GM_VARIABLE ? balls[node->b] : gm_ball_of(0);
+    switch (node->operation) {
+    case GM_CONSTANT:
+        return node->value == M_PI ? gm_ball_pi() : gm_ball_of(node->value);
+    case GM_VARIABLE:
+        return reading->decimals[node->a].ball;
+    case GM_OPERATION_ADD:
+        return gm_ball_add(a, b);
+    case GM_OPERATION_SUBTRACT:
+        return gm_ball_subtract(a, b);
+    case GM_OPERATION_MULTIPLY:
+        return gm_ball_multiply(a, b);
+    case GM_OPERATION_DIVIDE:
+        return gm_ball_divide(a, b);
+    case GM_OPERATION_NEGATE:
+        return gm_ball_subtract(gm_ball_of(0), a);
+    case GM_OPERATION_WHOLE_POWER: {
+        struct gm_ball power = gm_ball_of(1);
+        const double exponent = reading->graph.nodes[node->b].value;
+        for (int i = 0; i < fabs(exponent); i++) {
+            power = gm_ball_multiply(power, a);
+        }
+        return exponent < 0 ? gm_ball_divide(gm_ball_of(1), power) : power;
+    }
+    case GM_OPERATION_POWER:
+        return gm_ball_exp(gm_ball_multiply(b, gm_ball_log(a)));
+    case GM_OPERATION_SQRT:
+        return gm_ball_sqrt(a);
+    case GM_OPERATION_EXP:
+        return gm_ball_exp(a);
+    case GM_OPERATION_LOG:
+        return gm_ball_log(a);
+    case GM_OPERATION_SIN:
+        return gm_ball_sin(a);
+    case GM_OPERATION_COS:
+        return gm_ball_cos(a);
+    default:
+        *known_here = false;
+        return gm_ball_of(0);
+    }
+}
+
+static bool compute(struct reading *reading)
+{
+    const gm_node_id count = reading->graph.count;
+    struct gm_ball *balls = malloc((count + (size_t)1) * sizeof *balls);
+    double *values = malloc((count + (size_t)1) * sizeof *values);
+    double *variables = malloc((reading->decimal_count + 1) * sizeof *variables);
+    bool good = (balls && values && variables) || no_memory(reading);
+    for (size_t i = 0; good && i < reading->decimal_count; i++) {
+        variables[i] = reading->decimals[i].value;
+    }
+    if (good) {
+        gm_formula_evaluate(&reading->graph, count, variables, values);
+    }
+    for (gm_node_id id = 0; good && id < count; id++) {
+        bool exact = true;
+        balls[id] = ball_of(reading, balls, id, &exact);
+        if (!exact) {
+            const size_t place = reading->graph.places[id];
+            good = fail(reading, place == SIZE_MAX ? 0 : place,
+                        "coefficients are made of numbers, + - * / ^, sqrt, exp, log, sin, cos and pi alone");
+        }
+    }
+    for (enum gm_scheme_word word = 0; good && word < GM_SCHEME_WORDS; word++) {
+        struct gm_written_line *line = &reading->scheme->lines[word];
+        for (int i = 0; good && i < line->rows * line->columns; i++) {
+            struct gm_written_number *number = &line->numbers[i];
+            const gm_node_id node = reading->nodes[word][i];
+            number->value = values[node];
+            number->ball = balls[node];
+            good = (isfinite(number->value) && isfinite(number->ball.radius) && fabs(number->value) < 1e6) ||
+                   fail(reading, number->place, "this coefficient is %g: no finite number below a million",
+                        number->value);
+        }
+    }
+    free(balls);
+    free(values);
+    free(variables);
+    gm_ball_forget();
+    return good;
+}
+
+/* -- what has to fit
+   --------------------------------------------------------------------------------------- */
+
+static const struct gm_written_number *entry_of(const struct gm_written_line *a, int i, int j)
+{
+    return &a->numbers[i * a->columns + j];
+}
+
+static bool check_tableau(struct reading *reading)
+{
+    const struct gm_written_scheme *scheme = reading->scheme;
+    const struct gm_written_line *a = &scheme->lines[GM_SCHEME_WORD_A], *c = &scheme->lines[GM_SCHEME_WORD_C];
+    const int stages = a->rows;
+    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
+        const struct gm_written_line *line = &scheme->lines[word];
+        if (words[word].holds == MATRIX && line->said && line->rows != line->columns) {
+            return fail(reading, line->value.begin, "%s has %d rows of %d entries: it is not square",
+                        words[word].word, line->rows, line->columns);
+        }
+        if (line->rows > 0 && line->columns != stages) {
+            return fail(reading, line->value.begin, "%s has %d entries%s; the rows of a make %d stages",
+                        words[word].word, line->columns, line->rows > 1 ? " in a row" : "", stages);
+        }
+    }
+    for (int i = 0; scheme->kind == GM_WRITTEN_EXPLICIT && i < stages; i++) {
+        for (int j = i; j < stages; j++) {
+            if (entry_of(a, i, j)->value != 0) {
+                return fail(reading, entry_of(a, i, j)->place,
+                            "entry %d, %d stands %s the diagonal and is not 0: the scheme is not explicit",
+                            i + 1, j + 1, i == j ? "on" : "above");
+            }
+        }
+    }
+    for (int i = 0; scheme->kind != GM_WRITTEN_NYSTROM && c->said && i < stages; i++) {
+        struct gm_ball sum = gm_ball_of(0);
+        for (int j = 0; j < stages; j++) {
+            sum = gm_ball_add(sum, entry_of(a, i, j)->ball);
+        }
+        if (!gm_ball_may_vanish(gm_ball_subtract(sum, c->numbers[i].ball))) {
+            return fail(reading, c->numbers[i].place, "row %d of a sums to %.15g, c says %.15g", i + 1,
+                        gm_ball_midpoint(sum), c->numbers[i].value);
+        }
+    }
+    return true;
+}
+
+static bool check_steps(struct reading *reading)
+{
+    const struct gm_written_line *steps = &reading->scheme->lines[GM_SCHEME_WORD_STEPS];
+    double sum = 0;
+    for (int i = 0; i < steps->columns; i++) {
+        sum += steps->numbers[i].value;
+    }
+    const bool tried = reading->gathered && reading->gathered->instead;
+    return tried || fabs(sum - 1) <= 1e-3 ||
+           fail(reading, steps->value.begin, "the steps sum to %.15g, not to 1", sum);
+}
+
+static bool is_text(const struct reading *reading, const struct gm_written_line *line, const char *word)
+{
+    return is_called(reading->text + line->value.begin, line->value.end - line->value.begin, word);
+}
+
+static bool check_pieces(struct reading *reading)
+{
+    struct gm_written_scheme *scheme = reading->scheme;
+    const struct gm_written_line *first = &scheme->lines[GM_SCHEME_WORD_FIRST];
+    const struct gm_written_line *purpose = &scheme->lines[GM_SCHEME_WORD_FOR];
+    const int drifts = scheme->lines[GM_SCHEME_WORD_DRIFTS].columns;
+    const int kicks = scheme->lines[GM_SCHEME_WORD_KICKS].columns;
+    if (abs(drifts - kicks) > 1) {
+        return fail(reading, scheme->lines[GM_SCHEME_WORD_KICKS].value.begin,
+                    "%d drifts and %d kicks cannot take turns", drifts, kicks);
+    }
+    scheme->kick_first = kicks > drifts || (first->said && is_text(reading, first, "kick"));
+    if (first->said && !is_text(reading, first, "kick") && !is_text(reading, first, "drift")) {
+        return fail(reading, first->value.begin, "first: is kick or drift");
+    }
+    if (first->said && drifts != kicks && scheme->kick_first != (kicks > drifts)) {
+        return fail(reading, first->value.begin, "there is one more drift than kicks: a drift is first");
+    }
+    if (first->said && kicks > drifts && is_text(reading, first, "drift")) {
+        return fail(reading, first->value.begin, "there is one more kick than drifts: a kick is first");
+    }
+    scheme->nystrom = purpose->said && is_text(reading, purpose, "nystrom");
+    return !purpose->said || scheme->nystrom ||
+           fail(reading, purpose->value.begin, "for: is nystrom, where T is quadratic, or is not said");
+}
+
+static bool read_order(struct reading *reading)
+{
+    enum { MOST = 20 };
+    const struct gm_written_line *order = &reading->scheme->lines[GM_SCHEME_WORD_ORDER];
+    for (size_t i = order->value.begin; i < order->value.end; i++) {
+        const char digit = reading->text[i];
+        const bool good = digit >= '0' && digit <= '9' && reading->scheme->order <= MOST;
+        reading->scheme->order = good ? 10 * reading->scheme->order + digit - '0' : MOST + 1;
+    }
+    return !order->said || (reading->scheme->order > 0 && reading->scheme->order <= MOST) ||
+           fail(reading, order->value.begin, "order: is a whole number from 1 to %d", MOST);
+}
+
+/* Titles stand in the word, between its parentheses and semicolons. */
+static bool check_title(struct reading *reading)
+{
+    const struct gm_written_line *title = &reading->scheme->lines[GM_SCHEME_WORD_TITLE];
+    int depth = 0;
+    for (size_t i = title->value.begin; i < title->value.end && depth >= 0; i++) {
+        const char here = reading->text[i];
+        const int opens = (here == '(' || here == '['), closes = (here == ')' || here == ']');
+        depth = here == ';' ? -1 : depth + opens - closes;
+    }
+    return depth == 0 || fail(reading, title->value.begin,
+                              "a title has no semicolon, and closes its parentheses and brackets");
+}
+
+static bool read(struct reading *reading, struct gm_span span)
+{
+    struct gm_written_scheme *scheme = reading->scheme;
+    struct gm_fault fault;
+    if (span.end - span.begin > GM_LARGEST_SCHEME) {
+        return fail(reading, span.begin, "a scheme has at most %d bytes", GM_LARGEST_SCHEME);
+    }
+    if (!gm_lines_are_text(reading->text + span.begin, span.end - span.begin, &fault)) {
+        return fail(reading, span.begin + fault.offset, "%s", fault.sentence);
+    }
+    const bool is_word = gm_written_is_word(reading->text + span.begin, span.end - span.begin);
+    if (!(is_word ? read_word(reading, span) : read_file(reading, span)) || !check_lines(reading, span)) {
+        return false;
+    }
+    const struct gm_written_line *format = &scheme->lines[GM_SCHEME_WORD_GEOMINT];
+    if (format->said && !is_text(reading, format, "1")) {
+        return fail(reading, format->value.begin, "this is of a later format; this geomint reads 1");
+    }
+    if (!read_order(reading) || !check_title(reading) || !read_lets(reading)) {
+        return false;
+    }
+    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
+        const bool numbers = words[word].holds == ROW || words[word].holds == MATRIX;
+        if (numbers && scheme->lines[word].said && !read_numbers(reading, word)) {
+            return reading->failed ? false : no_memory(reading);
+        }
+    }
+    if (!compute(reading)) {
+        return false;
+    }
+    return TABLEAUS >> scheme->kind & 1             ? check_tableau(reading)
+           : scheme->kind == GM_WRITTEN_COMPOSITION ? check_steps(reading)
+           : scheme->kind == GM_WRITTEN_SPLITTING   ? check_pieces(reading)
+                                                    : true;
+}
+
+bool gm_written_open(struct gm_written_scheme *scheme, const char *text, size_t begin, size_t end,
+                     struct gm_decimals *decimals, struct gm_fault *fault)
+{
+    *scheme = (struct gm_written_scheme){.text = text};
+    *fault = (struct gm_fault){0};
+    struct reading *reading = calloc(1, sizeof *reading);
+    if (!reading) {
+        return false;
+    }
+    reading->scheme = scheme;
+    reading->text = text;
+    reading->fault = fault;
+    reading->gathered = decimals;
+    gm_formula_open(&reading->graph);
+    reading->graph.keeps = true;
+    const bool good = read(reading, gm_span_trimmed(text, (struct gm_span){begin, end}));
+    gm_formula_close(&reading->graph);
+    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
+        free(reading->nodes[word]);
+    }
+    free(reading->decimals);
+    free(reading);
+    return good;
+}
+
+void gm_written_close(struct gm_written_scheme *scheme)
+{
+    for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
+        free(scheme->lines[word].numbers);
+    }
+    *scheme = (struct gm_written_scheme){0};
+}
+
+static void put(FILE *stream, const char *word, const char *value)
+{
+    if (value) {
+        fprintf(stream, "%s: %s; ", word, value);
+    }
+}
+
+char *gm_written_word(const struct gm_written_scheme *scheme, const char *title,
+                      const char *const schemes[GM_SCHEME_WORDS])
+{
+    char *text = NULL;
+    size_t size = 0;
+    bool good = true;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) {
+        return NULL;
+    }
+    fprintf(stream, "%s(", kinds[scheme->kind].name);
+    put(stream, words[GM_SCHEME_WORD_TITLE].word, title);
+    for (int i = 0; i < scheme->let_count; i++) {
+        char *value = gm_span_words(scheme->text, scheme->lets[i]);
+        good = good && value;
+        put(stream, words[GM_SCHEME_WORD_LET].word, value);
+        free(value);
+    }
+    for (enum gm_scheme_word word = GM_SCHEME_WORD_ORDER; word < GM_SCHEME_WORDS; word++) {
+        if (scheme->lines[word].said && words[word].holds == SCHEME) {
+            put(stream, words[word].word, schemes[word]);
+        } else if (scheme->lines[word].said) {
+            char *value = gm_span_words(scheme->text, scheme->lines[word].value);
+            good = good && value;
+            put(stream, words[word].word, value);
+            free(value);
+        }
+    }
+    good = fclose(stream) == 0 && good;
+    if (!good) {
+        free(text);
+        return NULL;
+    }
+    text[size - 2] = ')'; /* instead of the last semicolon */
+    text[size - 1] = '\0';
+    return text;
+}

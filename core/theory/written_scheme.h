@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A scheme that somebody wrote down, in a file or in a word such as composition(verlet; g, 1 - 2*g, g): what
+   is said, with coefficients as numbers and as they were written. docs/own-schemes.md tells the words. */
+#ifndef GM_CORE_THEORY_WRITTEN_SCHEME_H
+#define GM_CORE_THEORY_WRITTEN_SCHEME_H
+
+#include "core/formula/lines.h"
+#include "core/theory/ball.h"
+
+enum gm_written_kind {
+    GM_WRITTEN_RUNGE_KUTTA,
+    GM_WRITTEN_EXPLICIT, /* the same, with nothing on or above the diagonal */
+    GM_WRITTEN_PARTITIONED,
+    GM_WRITTEN_NYSTROM,
+    GM_WRITTEN_COMPOSITION,
+    GM_WRITTEN_SPLITTING,
+    GM_WRITTEN_PROCESSED,
+    GM_WRITTEN_ADJOINT,
+    GM_WRITTEN_KINDS
+};
+
+enum gm_scheme_word {
+#define GM_SCHEME_WORD(constant, ...) GM_SCHEME_WORD_##constant,
+#include "core/theory/scheme_words.def"
+#undef GM_SCHEME_WORD
+    GM_SCHEME_WORDS
+};
+
+enum { GM_MOST_STAGES = 16, GM_MOST_SUBSTEPS = 127, GM_MOST_LETS = 64, GM_LARGEST_SCHEME = 1 << 20 };
+
+/* A coefficient: the double that a run takes, and what was written. */
+struct gm_written_number {
+    double value;
+    struct gm_ball ball;
+    size_t place; /* in the text */
+};
+
+/* The decimals of a text that are no exact numbers, each where it stands. */
+struct gm_decimals {
+    size_t count;
+    struct gm_decimal {
+        size_t place, length;
+        struct gm_ball ball; /* what was typed */
+    } * at;
+    bool alone; /* they alone are asked for, and no theory */
+    /* Taken for them, in this order; NULL: what was typed, and they are gathered. */
+    const struct gm_ball *instead;
+};
+
+struct gm_written_line {
+    bool said;
+    struct gm_span value; /* of the text */
+    int rows, columns;    /* of its numbers, where it has any */
+    struct gm_written_number *numbers;
+};
+
+struct gm_written_scheme {
+    const char *text; /* that it was read from */
+    enum gm_written_kind kind;
+    struct gm_written_line lines[GM_SCHEME_WORDS]; /* but for LET */
+    struct gm_span lets[GM_MOST_LETS];
+    int let_count;
+    int order;                /* 0: not said */
+    bool kick_first, nystrom; /* of a splitting */
+};
+
+/* What a kind is called: "runge-kutta". */
+const char *gm_written_kind_name(enum gm_written_kind kind);
+
+/* Whether a text is a word: it begins with a kind and a parenthesis. */
+bool gm_written_is_word(const char *text, size_t length);
+
+/* Reads text[begin .. end): a word, or else the lines of a file. False with a fault, whose sentence is empty
+   where memory was refused; to be closed in both cases. The text outlives it. `decimals` may be NULL. */
+bool gm_written_open(struct gm_written_scheme *scheme, const char *text, size_t begin, size_t end,
+                     struct gm_decimals *decimals, struct gm_fault *fault);
+void gm_written_close(struct gm_written_scheme *scheme);
+
+/* The word that is read to the same scheme: title, order, claims, lets and coefficients in parentheses behind
+   the kind. `schemes` are the words for the schemes that it names, by the word of its line. malloc'ed, NULL:
+   out of memory. */
+char *gm_written_word(const struct gm_written_scheme *scheme, const char *title,
+                      const char *const schemes[GM_SCHEME_WORDS]);
+
+#endif

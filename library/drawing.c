@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pictures of a handle's lanes. Mesa's software contexts of one process are not safe from each other, and a
+   context is current in a thread: so one picture is drawn at a time, in a thread that knows nothing of the
+   host. */
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "app/output/still.h"
+#include "core/memory.h"
+#include "library/handle.h"
+#include "library/host.h"
+#include "render/cells/text.h"
+#include "render/gl/canvas.h"
+
+struct drawing {
+    geomint *handle;
+    const struct gm_lane **lanes;
+    struct gm_appearance look;
+    const char *path; /* of a file, and its format, or */
+    enum gm_format format;
+    unsigned char *rgba; /* pixels */
+};
+
+static bool paint(struct drawing *drawing, char *message)
+{
+    const struct gm_appearance *look = &drawing->look;
+    const size_t pixels = (size_t)look->width * (size_t)look->height;
+    struct gm_canvas *canvas = gm_canvas_open(look, message);
+    if (!canvas) {
+        return false;
+    }
+    struct gm_picture *picture = gm_picture_open();
+    unsigned char *rgb = malloc(3 * pixels);
+    const unsigned long refusals = gm_memory_refusals();
+    bool good = picture && rgb;
+    if (good) {
+        const struct gm_request *request = &drawing->handle->request;
+        gm_lanes_draw(drawing->lanes, request->count, picture);
+        good = gm_canvas_paint(canvas, picture, rgb) && gm_memory_refusals() == refusals;
+    }
+    for (size_t i = 0; good && i < pixels; i++) {
+        memcpy(&drawing->rgba[4 * i], &rgb[3 * i], 3);
+        drawing->rgba[4 * i + 3] = 255;
+    }
+    free(rgb);
+    gm_picture_close(picture);
+    gm_canvas_close(canvas);
+    return good ||
+           gm_refuse(message, "there is not enough memory for a picture of %dx%d", look->width, look->height);
+}
+
+static bool print(struct drawing *drawing, char *message)
+{
+    struct gm_print print = {.path = drawing->path, .look = drawing->look, .format = drawing->format};
+    return gm_still_write(&print, &drawing->handle->request, drawing->lanes, message);
+}
+
+static void draw(void *data)
+{
+    struct drawing *drawing = data;
+    geomint *handle = drawing->handle;
+    char message[GM_MESSAGE] = "";
+    if (gm_handle_follow(handle)) {
+        for (size_t i = 0; i < handle->request.count; i++) {
+            drawing->lanes[i] = handle->drawn[i].lane;
+        }
+        if (!(drawing->path ? print : paint)(drawing, message)) {
+            gm_handle_refuse(handle, gm_memory_refusals() > 0 ? GEOMINT_MEMORY : GEOMINT_FILE, message);
+        }
+    } else if (gm_memory_refusals() > 0) { /* of this thread, which gm_call_end does not see */
+        gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
+    }
+}
+
+/* Whether a picture may look so; false with a sentence. */
+static bool check(geomint *handle, const struct gm_appearance *look)
+{
+    char sentence[GM_MESSAGE];
+    const int least = look->width < look->height ? look->width : look->height;
+    const int most = look->width > look->height ? look->width : look->height;
+    if (least < GM_LEAST_SIDE || most > GM_MOST_SIDE) {
+        gm_refuse(sentence, "a picture of %dx%d: each side is from %d to %d", look->width, look->height,
+                  GM_LEAST_SIDE, GM_MOST_SIDE);
+        return gm_handle_refuse(handle, GEOMINT_USAGE, sentence);
+    }
+    if (look->scale != 0 && !(look->scale >= GM_LEAST_SCALE && look->scale <= GM_MOST_SCALE)) {
+        gm_refuse(sentence, "letters and lines %g times as large: from %g to %g", look->scale, GM_LEAST_SCALE,
+                  GM_MOST_SCALE);
+        return gm_handle_refuse(handle, GEOMINT_USAGE, sentence);
+    }
+    return true;
+}
+
+/* Whether OpenGL is where it was loaded: its threads are not in a process that was forked off afterwards,
+   which would wait for them for ever. False with a sentence. One thread at a time asks. */
+static bool has_painter(geomint *handle)
+{
+    static pid_t painter;
+    painter = painter ? painter : getpid();
+    return painter == getpid() ||
+           gm_handle_refuse(handle, GEOMINT_FILE,
+                            "a process that was forked from one that had painted paints no pixels; it writes "
+                            ".svg and .pdf");
+}
+
+static int draw_alone(struct drawing *drawing)
+{
+    static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+    geomint *handle = drawing->handle;
+    const struct gm_call call = gm_call_begin(handle);
+    const size_t count = geomint_lanes(handle);
+    if (gm_handle_has(handle, 0) && check(handle, &drawing->look)) {
+        drawing->lanes = calloc(count, sizeof *drawing->lanes);
+        pthread_mutex_lock(&turn);
+        gm_memory_forget(); /* a shortage that is over spoils no picture */
+        const bool pixels = !drawing->path || drawing->format == GM_FORMAT_PNG;
+        if ((!pixels || has_painter(handle)) && !(drawing->lanes && gm_host_spare(draw, drawing))) {
+            gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
+        }
+        pthread_mutex_unlock(&turn);
+        free(drawing->lanes);
+    }
+    return gm_call_end(&call);
+}
+
+int geomint_draw(geomint *handle, int width, int height, double scale, unsigned char *rgba)
+{
+    if (!gm_handle_given(handle, rgba, "rgba")) {
+        return geomint_status(handle);
+    }
+    return draw_alone(&(struct drawing){
+        .handle = handle, .look = {.width = width, .height = height, .scale = scale}, .rgba = rgba});
+}
+
+int geomint_save(geomint *handle, const char *path, int width, int height, double scale, const char *title)
+{
+    struct drawing drawing = {.handle = handle,
+                              .look = {.width = width, .height = height, .scale = scale, .title = title},
+                              .path = path};
+    if (!gm_handle_given(handle, path, "path")) {
+        return geomint_status(handle);
+    }
+    if (!gm_format_of(path, &drawing.format)) {
+        gm_handle_refuse(handle, GEOMINT_USAGE, "the name of a picture's file ends with .png, .svg or .pdf");
+        return geomint_status(handle);
+    }
+    if (title && (!*title || !gm_text_is_plain(title))) {
+        gm_handle_refuse(handle, GEOMINT_USAGE,
+                         "the title is empty, or holds a character that cannot be shown");
+        return geomint_status(handle);
+    }
+    return draw_alone(&drawing);
+}

@@ -1,0 +1,573 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Handles of the library: opened of words, driven, asked for numbers. */
+#include "library/handle.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/data/meta.h"
+#include "app/output/json.h"
+#include "app/request/arguments.h"
+#include "core/memory.h"
+#include "core/schemes.h"
+#include "library/host.h"
+
+const char *geomint_version(void)
+{
+    return GM_VERSION;
+}
+
+const char *geomint_scene_name(size_t index)
+{
+    return index < gm_scene_count() ? gm_scene_at(index)->name : NULL;
+}
+
+const char *geomint_scheme_name(size_t index)
+{
+    return index < gm_scheme_count() ? gm_scheme_at(index)->name : NULL;
+}
+
+int geomint_status(const geomint *handle)
+{
+    return handle ? handle->status : GEOMINT_MEMORY;
+}
+
+const char *geomint_message(const geomint *handle)
+{
+    return handle ? handle->message : "there is not enough memory";
+}
+
+/* ---- calls ---- */
+
+struct gm_call gm_call_begin(geomint *handle)
+{
+    if (handle) {
+        handle->status = GEOMINT_OK;
+        handle->message[0] = '\0';
+    }
+    return (struct gm_call){handle, gm_host_leave_outside(), gm_memory_refusals()};
+}
+
+bool gm_handle_refuse(geomint *handle, int status, const char *sentence)
+{
+    if (handle) {
+        handle->status = status;
+        if (sentence != handle->message) {
+            snprintf(handle->message, sizeof handle->message, "%s", sentence);
+        }
+    }
+    return false;
+}
+
+int gm_call_end(const struct gm_call *call)
+{
+    geomint *handle = call->handle;
+    if (gm_memory_refusals() != call->refusals) {
+        gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
+    }
+    gm_host_return(call->outside);
+    return geomint_status(handle);
+}
+
+bool gm_handle_given(geomint *handle, const void *pointer, const char *name)
+{
+    char sentence[GM_MESSAGE];
+    if (!pointer) {
+        gm_refuse(sentence, "%s is NULL", name);
+        gm_handle_refuse(handle, GEOMINT_USAGE, sentence);
+    }
+    return pointer != NULL;
+}
+
+bool gm_handle_given_words(geomint *handle, int count, const char *const words[])
+{
+    bool good = count <= 0 || gm_handle_given(handle, words, "words");
+    for (int i = 0; good && i < count; i++) {
+        good = gm_handle_given(handle, words[i], "one of the words");
+    }
+    return good;
+}
+
+bool gm_handle_has(geomint *handle, size_t lane)
+{
+    if (lane < geomint_lanes(handle)) {
+        return true;
+    }
+    char sentence[GM_MESSAGE];
+    snprintf(sentence, sizeof sentence, "there is no lane %zu; there are %zu, counted from 0 on", lane,
+             geomint_lanes(handle));
+    return gm_handle_refuse(handle, GEOMINT_USAGE, sentence);
+}
+
+/* ---- opening and closing ---- */
+
+/* What a lane's state is made of, what changes first. */
+static bool name_quantities(struct gm_handle_lane *lane)
+{
+    const struct gm_run *run = lane->drive.lane->run;
+    struct gm_quantity found[GM_QUANTITIES];
+    const size_t count = gm_quantities_beside_time(run, found);
+    size_t most = 0;
+    for (int fixed = 0; fixed < 2; fixed++) {
+        for (size_t i = 0; i < count; i++) {
+            if (found[i].fixed != (fixed == 1)) {
+                continue;
+            }
+            const size_t size = gm_quantity_size(run, &found[i]);
+            lane->sizes[lane->quantity_count] = size;
+            lane->quantities[lane->quantity_count++] = found[i];
+            lane->fixed_count += (size_t)fixed;
+            most = found[i].derive && size > most ? size : most;
+        }
+    }
+    lane->scratch = most > 0 ? malloc(most * sizeof *lane->scratch) : NULL;
+    return most == 0 || lane->scratch;
+}
+
+static bool open_lanes(geomint *handle)
+{
+    const struct gm_request *request = &handle->request;
+    handle->lanes = calloc(request->count, sizeof *handle->lanes);
+    for (size_t i = 0; handle->lanes && i < request->count; i++) {
+        struct gm_handle_lane *lane = &handle->lanes[i];
+        lane->drive = (struct gm_drive){
+            .lane = gm_request_open_lane(request, i, handle->message), .request = request, .index = i};
+        if (!lane->drive.lane) {
+            return gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
+        }
+        if (!name_quantities(lane)) {
+            return gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
+        }
+    }
+    return handle->lanes && gm_chosen_open(&handle->chosen, request->scene, NULL, handle->message);
+}
+
+static void close_lanes(geomint *handle)
+{
+    for (size_t i = 0; i < handle->request.count; i++) {
+        if (handle->lanes) {
+            gm_lane_close(handle->lanes[i].drive.lane);
+            free(handle->lanes[i].state);
+            free(handle->lanes[i].scratch);
+        }
+        if (handle->drawn) {
+            gm_lane_close(handle->drawn[i].lane);
+        }
+    }
+    free(handle->lanes);
+    free(handle->drawn);
+    gm_chosen_close(&handle->chosen);
+    gm_request_close(&handle->request);
+    handle->lanes = NULL;
+    handle->drawn = NULL;
+}
+
+geomint *geomint_open(int count, const char *const words[])
+{
+    geomint *handle = calloc(1, sizeof *handle);
+    struct gm_arguments typed = {0};
+    if (!handle) {
+        return NULL;
+    }
+    const struct gm_call call = gm_call_begin(handle);
+    bool good = gm_handle_given_words(handle, count, words);
+    for (int i = 0; i < count && good; i++) {
+        good = gm_arguments_add(&typed, words[i]);
+    }
+    if (good && !gm_request_parse(&handle->request, typed.count, typed.words, 1, handle->message)) {
+        good = gm_handle_refuse(handle, gm_request_refusal(&handle->request), handle->message);
+    }
+    if (!good || !open_lanes(handle)) {
+        close_lanes(handle);
+    }
+    gm_arguments_close(&typed);
+    gm_call_end(&call);
+    return handle;
+}
+
+void geomint_close(geomint *handle)
+{
+    if (handle) {
+        const struct gm_call call = gm_call_begin(handle);
+        close_lanes(handle);
+        free(handle->text);
+        gm_call_end(&call);
+        free(handle);
+    }
+}
+
+size_t geomint_lanes(const geomint *handle)
+{
+    return handle && handle->lanes ? handle->request.count : 0;
+}
+
+/* ---- driving ---- */
+
+static const struct gm_run *run_of(const geomint *handle, size_t lane)
+{
+    return lane < geomint_lanes(handle) ? handle->lanes[lane].drive.lane->run : NULL;
+}
+
+static struct gm_timing *timing_of(const struct gm_drive *drive)
+{
+    return drive->lane->parameters;
+}
+
+/* How a lane stands after it was driven, and the state for the host. */
+static void look(geomint *handle, struct gm_handle_lane *lane)
+{
+    const struct gm_lane *driven = lane->drive.lane;
+    if (lane->state) {
+        memcpy(lane->state, gm_run_state(driven->run),
+               driven->problem.n * driven->problem.m * sizeof *lane->state);
+    }
+    if (driven->run->status != GM_OK) {
+        gm_failure_sentence(driven, handle->message, sizeof handle->message);
+        handle->status = driven->run->status == GM_OUT_OF_MEMORY ? GEOMINT_MEMORY : GEOMINT_NUMERICAL;
+    }
+}
+
+/* Makes steps up to so many in all, or, where the scheme chooses them, up to the time `until`. */
+static void drive_to(geomint *handle, size_t index, long steps, double until)
+{
+    struct gm_handle_lane *lane = &handle->lanes[index];
+    struct gm_timing *timing = timing_of(&lane->drive);
+    const double asked = timing->until;
+    timing->until = until;
+    if (!gm_drive_to(&lane->drive, steps, false, handle->message)) {
+        gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
+    }
+    timing->until = asked;
+    look(handle, lane);
+}
+
+int geomint_step(geomint *handle, size_t lane, long steps)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    if (gm_handle_has(handle, lane) && steps > 0) {
+        const long made = run_of(handle, lane)->steps;
+        drive_to(handle, lane, steps < GM_MOST_STEPS - made ? made + steps : GM_MOST_STEPS, GM_NEVER);
+    }
+    return gm_call_end(&call);
+}
+
+int geomint_until(geomint *handle, size_t lane, double t)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    if (!isfinite(t)) {
+        gm_handle_refuse(handle, GEOMINT_USAGE, "a run goes on until a time, which is a finite number");
+    } else if (gm_handle_has(handle, lane)) {
+        const struct gm_run *run = run_of(handle, lane);
+        drive_to(handle, lane, gm_run_steps_at(run, t), t);
+    }
+    return gm_call_end(&call);
+}
+
+double geomint_time(const geomint *handle, size_t lane)
+{
+    const struct gm_run *run = run_of(handle, lane);
+    return run ? run->t : NAN;
+}
+
+long geomint_steps(const geomint *handle, size_t lane)
+{
+    const struct gm_run *run = run_of(handle, lane);
+    return run ? run->steps : 0;
+}
+
+long geomint_steps_left(const geomint *handle, size_t lane)
+{
+    const struct gm_run *run = run_of(handle, lane);
+    if (!run) {
+        return 0;
+    }
+    const long end = handle->request.lanes[lane].steps;
+    return !gm_drive_goes_on(&handle->lanes[lane].drive, end) ? 0
+           : run->scheme->family->own_time                    ? -1
+                                                              : end - run->steps;
+}
+
+const double *geomint_state(geomint *handle, size_t index, size_t *n, size_t *m)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    const double *state = NULL;
+    if (gm_handle_has(handle, index)) {
+        struct gm_handle_lane *lane = &handle->lanes[index];
+        const struct gm_problem *problem = &lane->drive.lane->problem;
+        if (!lane->state && (lane->state = malloc(problem->n * problem->m * sizeof *lane->state))) {
+            memcpy(lane->state, gm_run_state(lane->drive.lane->run),
+                   problem->n * problem->m * sizeof *lane->state);
+        }
+        state = lane->state;
+        if (n) {
+            *n = problem->n;
+        }
+        if (m) {
+            *m = problem->m;
+        }
+    }
+    gm_call_end(&call);
+    return state;
+}
+
+/* ---- rows ---- */
+
+int geomint_observe(geomint *handle, const char *keys)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    struct gm_chosen chosen;
+    if (gm_handle_has(handle, 0)) {
+        if (gm_chosen_open(&chosen, handle->request.scene, keys, handle->message)) {
+            gm_chosen_close(&handle->chosen);
+            handle->chosen = chosen;
+        } else {
+            gm_chosen_close(&chosen);
+            gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
+        }
+    }
+    return gm_call_end(&call);
+}
+
+/* What stands in a column: a quantity, or an observable. */
+struct column {
+    const struct gm_quantity *quantity;
+    const struct gm_observable *observable;
+    size_t number; /* of either */
+};
+
+static struct column column_of(const geomint *handle, size_t index, size_t column)
+{
+    struct column found = {0};
+    if (index >= geomint_lanes(handle)) {
+        return found;
+    }
+    const struct gm_handle_lane *lane = &handle->lanes[index];
+    const size_t moving = lane->quantity_count - lane->fixed_count, told = handle->chosen.count;
+    if (column >= moving && column < moving + told) {
+        found.number = handle->chosen.numbers[column - moving];
+        found.observable = gm_scene_observable_at(handle->request.scene, found.number);
+    } else if (column < lane->quantity_count + told) {
+        found.number = column < moving ? column : column - told;
+        found.quantity = &lane->quantities[found.number];
+    }
+    return found;
+}
+
+size_t geomint_columns(const geomint *handle, size_t index)
+{
+    if (index >= geomint_lanes(handle)) {
+        return 0;
+    }
+    const struct gm_handle_lane *lane = &handle->lanes[index];
+    return lane->quantity_count - lane->fixed_count + handle->chosen.count;
+}
+
+const char *geomint_column_name(const geomint *handle, size_t lane, size_t column)
+{
+    const struct column found = column_of(handle, lane, column);
+    return found.quantity ? found.quantity->name : found.observable ? found.observable->key : NULL;
+}
+
+const char *geomint_column_unit(const geomint *handle, size_t lane, size_t column)
+{
+    const struct column found = column_of(handle, lane, column);
+    return found.quantity ? found.quantity->unit : found.observable ? found.observable->unit : NULL;
+}
+
+size_t geomint_column_shape(const geomint *handle, size_t lane, size_t column, size_t shape[3])
+{
+    const struct gm_quantity *quantity = column_of(handle, lane, column).quantity;
+    return quantity ? gm_quantity_shape(quantity, handle->lanes[lane].drive.lane->problem.m, shape) : 0;
+}
+
+static const double *values_of(const struct gm_handle_lane *lane, size_t quantity)
+{
+    return gm_quantity_values(lane->drive.lane->run, &lane->quantities[quantity], lane->scratch);
+}
+
+int geomint_column(geomint *handle, size_t index, size_t column, double *values)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    if (gm_handle_has(handle, index) && gm_handle_given(handle, values, "values")) {
+        const struct gm_handle_lane *lane = &handle->lanes[index];
+        const struct column found = column_of(handle, index, column);
+        if (found.quantity) {
+            memcpy(values, values_of(lane, found.number), lane->sizes[found.number] * sizeof *values);
+        } else if (found.observable) {
+            *values = gm_lane_observe(lane->drive.lane, found.number);
+        } else {
+            gm_handle_refuse(handle, GEOMINT_USAGE, "there is no such column");
+        }
+    }
+    return gm_call_end(&call);
+}
+
+int geomint_observable(geomint *handle, size_t lane, const char *key, double *value)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    if (gm_handle_has(handle, lane) && gm_handle_given(handle, key, "key") &&
+        gm_handle_given(handle, value, "value")) {
+        const int found = gm_scene_observable(handle->request.scene, key);
+        if (found >= 0) {
+            *value = gm_lane_observe(handle->lanes[lane].drive.lane, (size_t)found);
+        } else {
+            gm_chosen_refuse(handle->request.scene, key, handle->message);
+            gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
+        }
+    }
+    return gm_call_end(&call);
+}
+
+size_t geomint_row_size(const geomint *handle, size_t index)
+{
+    size_t size = 0;
+    if (index < geomint_lanes(handle)) {
+        const struct gm_handle_lane *lane = &handle->lanes[index];
+        size = handle->chosen.count;
+        for (size_t i = 0; i < lane->quantity_count - lane->fixed_count; i++) {
+            size += lane->sizes[i];
+        }
+    }
+    return size;
+}
+
+static double *write_row(const geomint *handle, const struct gm_handle_lane *lane, double *row)
+{
+    for (size_t i = 0; i < lane->quantity_count - lane->fixed_count; i++) {
+        memcpy(row, values_of(lane, i), lane->sizes[i] * sizeof *row);
+        row += lane->sizes[i];
+    }
+    for (size_t i = 0; i < handle->chosen.count; i++) {
+        *row++ = gm_lane_observe(lane->drive.lane, handle->chosen.numbers[i]);
+    }
+    return row;
+}
+
+int geomint_row(geomint *handle, size_t lane, double *t, double *values)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    if (gm_handle_has(handle, lane) && gm_handle_given(handle, values, "values")) {
+        write_row(handle, &handle->lanes[lane], values);
+        if (t) {
+            *t = run_of(handle, lane)->t;
+        }
+    }
+    return gm_call_end(&call);
+}
+
+static size_t make_rows(geomint *handle, size_t index, long every, size_t rows, double *t, double *values)
+{
+    struct gm_handle_lane *lane = &handle->lanes[index];
+    struct gm_drive *drive = &lane->drive;
+    const struct gm_run *run = drive->lane->run;
+    const long end = handle->request.lanes[index].steps;
+    size_t made = 0;
+    while (made < rows && gm_drive_goes_on(drive, end)) {
+        const long before = run->steps, left = every - before % every;
+        if (!gm_drive_to(drive, end - before < left ? end : before + left, false, handle->message)) {
+            gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
+        }
+        if (run->steps == before) {
+            break;
+        }
+        t[made++] = run->t;
+        values = write_row(handle, lane, values);
+    }
+    look(handle, lane);
+    return made;
+}
+
+int geomint_rows(geomint *handle, size_t lane, long every, size_t rows, double *t, double *values,
+                 size_t *made)
+{
+    const struct gm_call call = gm_call_begin(handle);
+    size_t count = 0;
+    if (every < 1) {
+        gm_handle_refuse(handle, GEOMINT_USAGE, "rows lie at least one step apart");
+    } else if (gm_handle_has(handle, lane) && gm_handle_given(handle, t, "t") &&
+               gm_handle_given(handle, values, "values")) {
+        count = make_rows(handle, lane, every, rows, t, values);
+    }
+    if (made) {
+        *made = count;
+    }
+    return gm_call_end(&call);
+}
+
+/* ---- the copies that are drawn ---- */
+
+bool gm_handle_follow(geomint *handle)
+{
+    const size_t count = geomint_lanes(handle);
+    if (!handle->drawn && !(handle->drawn = calloc(count, sizeof *handle->drawn))) {
+        return gm_handle_refuse(handle, GEOMINT_MEMORY, "there is not enough memory");
+    }
+    for (size_t i = 0; i < count; i++) {
+        struct gm_drive *drawn = &handle->drawn[i];
+        const struct gm_drive *drive = &handle->lanes[i].drive;
+        if (!drawn->lane) {
+            *drawn = (struct gm_drive){.request = &handle->request,
+                                       .index = i,
+                                       .lane = gm_request_open_lane(&handle->request, i, handle->message)};
+        }
+        if (!drawn->lane) {
+            return gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
+        }
+        const double asked = timing_of(drive)->until;
+        timing_of(drawn)->until = GM_NEVER;
+        /* the step that failed is tried once more: the picture says so */
+        const long more = drive->lane->run->status == GM_OK ? 0 : 1;
+        const bool good = gm_drive_to(drawn, drive->lane->run->steps + more, true, handle->message);
+        timing_of(drawn)->until = asked;
+        if (!good) {
+            return gm_handle_refuse(handle, GEOMINT_USAGE, handle->message);
+        }
+    }
+    return true;
+}
+
+/* ---- texts ---- */
+
+/* The lane as one object: what a file of states says of it, and what it cost. */
+static bool put_lane(FILE *stream, const struct gm_drive *drive)
+{
+    const struct gm_run *run = drive->lane->run;
+    char sentence[GM_MESSAGE], warning[GM_MESSAGE];
+    gm_failure_sentence(drive->lane, sentence, sizeof sentence);
+    gm_lane_warning(drive->lane, warning, sizeof warning);
+    char *meta = gm_meta_text(drive->lane, gm_status_name(run->status), sentence);
+    if (meta) {
+        fprintf(stream, "%.*s,\"warning\":", (int)strlen(meta) - 1, meta); /* without its last brace */
+        gm_json_put_text(stream, warning);
+        fprintf(stream, ",\"evaluations\":%.0f,\"solves\":%.0f}", gm_run_per_member(run, run->evaluations),
+                gm_run_per_member(run, run->solves));
+    }
+    free(meta);
+    return meta != NULL;
+}
+
+const char *geomint_text(geomint *handle)
+{
+    const size_t count = geomint_lanes(handle);
+    if (count == 0) { /* a scheme's was made when it was opened */
+        return handle ? handle->text : NULL;
+    }
+    const struct gm_call call = gm_call_begin(handle);
+    size_t size = 0;
+    free(handle->text);
+    handle->text = NULL;
+    FILE *stream = open_memstream(&handle->text, &size);
+    bool good = stream != NULL;
+    for (size_t i = 0; i < count && good; i++) {
+        fputc(i > 0 ? ',' : '[', stream);
+        good = put_lane(stream, &handle->lanes[i].drive);
+    }
+    if (stream) {
+        fputc(']', stream);
+        good = fclose(stream) == 0 && good;
+    }
+    gm_call_end(&call);
+    return good ? handle->text : NULL;
+}

@@ -1,0 +1,492 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A wave equation that somebody wrote,
+       u_tt = u_xx - V'(u),   H = integral of u_t^2/2 + u_x^2/2 + V(u),
+   as a scene: the parameters of its file are keys, with the ring and its grid; what it keeps or observes are
+   integrals of densities. The scene is made while the program runs, and does not change afterwards. */
+#include "scenes/field/own.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/field/own/potential.h"
+#include "core/formula/equations.h"
+#include "core/tape.h"
+#include "scenes/field/wave_observables.h"
+#include "scenes/frame/written.h"
+
+enum { DT, UNTIL, HALF_LENGTH, POINTS, VALUES /* the first row of the file's own */ };
+enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, COMMON = 7 };
+
+struct own_field {
+    struct gm_scene scene; /* first: a scene is found to be this */
+    struct gm_own_system system;
+    struct gm_own_wave wave;
+    struct gm_parameter *rows;
+    size_t row_count;
+    struct lane *initial;
+    struct gm_observable observables[COMMON + 1 + MOST_DENSITIES];
+    size_t observable_count;
+    struct gm_tape densities[MOST_DENSITIES], jump; /* of all variables */
+    size_t first_density;
+    struct gm_track track;
+    const char *schemes[MOST_PREFERRED + 1];
+    struct gm_work work;
+    double resolutions[3], errors[3];
+    double low, high; /* of u at the start */
+    struct gm_kept_texts texts;
+};
+
+/* Parameters of a run; behind the values of the file's own stand as many bytes: whether each was given. */
+struct lane {
+    struct gm_timing timing;
+    const struct own_field *own;
+    double half_length;
+    long points;
+    double values[];
+};
+
+static const struct own_field *field_of(const struct gm_view *view)
+{
+    return ((const struct lane *)view->parameters)->own;
+}
+
+static size_t parameter_count(const struct own_field *own)
+{
+    return own->row_count - VALUES;
+}
+
+/* Values of all variables; `given`: of those parameters alone that were given, others follow. malloc'ed. */
+static double *values_of(const struct lane *lane, const char *given)
+{
+    const struct gm_own_system *system = &lane->own->system;
+    double *known = malloc(system->variable_count * sizeof *known);
+    for (size_t i = 0; known && i < system->variable_count; i++) {
+        known[i] = NAN;
+    }
+    for (size_t i = 0; known && i < parameter_count(lane->own); i++) {
+        known[system->parameters + i] = !given || given[i] ? lane->values[i] : NAN;
+    }
+    double *values = known ? gm_equations_start(system, known) : NULL;
+    free(known);
+    return values;
+}
+
+/* ---- from parameters to problem and start ---- */
+
+static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
+{
+    struct lane *lane = parameters;
+    const struct own_field *own = lane->own;
+    char *given = (char *)(lane->values + parameter_count(own));
+    for (size_t i = 0; i < parameter_count(own); i++) {
+        given[i] |= gm_is_given(own->rows[VALUES + i].key, keys, count);
+    }
+    double *values = values_of(lane, given);
+    bool good = values || gm_refuse(sentence, "not enough memory");
+    for (size_t i = 0; i < parameter_count(own) && good; i++) {
+        const struct gm_parameter *row = &own->rows[VALUES + i];
+        const double value = lane->values[i] = values[own->system.parameters + i];
+        good = (value >= row->lowest && value <= row->highest) ||
+               gm_refuse(sentence, "%s is %g with these values, and lies between %g and %g", row->key, value,
+                         row->lowest, row->highest);
+    }
+    free(values);
+    return good;
+}
+
+static void close_problem(struct gm_problem *problem)
+{
+    gm_own_wave_close(problem);
+}
+
+static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
+{
+    const struct lane *lane = parameters;
+    const struct own_field *own = lane->own;
+    double *values = values_of(lane, NULL);
+    bool good =
+        (values && gm_own_wave_open(problem, &own->wave, values)) || gm_refuse(sentence, "not enough memory");
+    if (good) {
+        problem->name = own->scene.name;
+        problem->line = gm_ring(lane->half_length, lane->points);
+        if (own->jump.outputs > 0) {
+            gm_tape_values(&own->jump, values, &problem->line.jump, 1);
+        }
+        problem->n = gm_wave_size(problem->line.points);
+        good = gm_own_wave_closes(problem, own->system.variables[0].name, sentence, GM_MESSAGE);
+    }
+    if (!good && values) {
+        gm_own_wave_close(problem);
+    }
+    free(values);
+    return good;
+}
+
+static void start(const void *parameters, const struct gm_problem *problem, double *y)
+{
+    gm_own_wave_levels(problem, ((const struct gm_timing *)parameters)->dt, y);
+}
+
+/* ---- what is observed ---- */
+
+static double exact(const struct gm_view *view, double x)
+{
+    return gm_own_wave_exact(view->problem, x, view->t);
+}
+
+static double solution_error(const struct gm_view *view)
+{
+    return gm_field_error(view, exact);
+}
+
+/* The integral of a density, in the middle between the two levels of the state. */
+static double integral(const struct gm_view *view)
+{
+    const struct own_field *own = field_of(view);
+    const struct gm_own_system *system = &own->system;
+    const size_t number = (size_t)(view->observable - own->observables) - own->first_density;
+    const struct gm_line *line = &view->problem->line;
+    const double *u = view->state, *other = u + line->points, gap = other[line->points];
+    double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, density;
+    for (size_t i = 0; values && i < line->points; i++) {
+        const size_t right = i + 1 < line->points ? i + 1 : 0, left = i > 0 ? i - 1 : line->points - 1;
+        const double jump = right == 0 || i == 0 ? line->jump : 0;
+        values[0] = (u[i] + other[i]) / 2;
+        values[1] = (other[i] - u[i]) / gap;
+        values[system->velocities] = gm_line_node(line, i);
+        values[system->velocities + 1] =
+            ((u[right] + other[right] - u[left] - other[left]) / 2 + jump) / (2 * line->dx);
+        gm_tape_values(&own->densities[number], values, &density, 1);
+        sum += density;
+    }
+    free(values);
+    return sum * line->dx;
+}
+
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct lane *lane = lanes[0]->parameters;
+    const struct own_field *own = lane->own;
+    const bool crosses = own->low < -0.2 * own->high, known = own->wave.exact != GM_NO_NODE;
+    const double most = fmax(fabs(own->low), fabs(own->high)), margin = 0.1 * (own->high - own->low);
+    const struct gm_field_look look = {
+        .value = gm_field_u,
+        .exact = known ? exact : NULL,
+        .name = own->system.variables[0].name,
+        .low = crosses ? -most - margin : own->low - margin,
+        .high = crosses ? most + margin : own->high + margin,
+        .map = crosses ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
+    };
+    picture->title = own->scene.title;
+    picture->subtitle = gm_picture_text(picture, "%ld points,  Δx = %g%s", lane->points,
+                                        lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count));
+    const struct gm_graph graphs[] = {
+        {.observable = known ? "solution_error" : "energy_error",
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = known ? 1e-3 : 1e-16,
+         .calm_high = known ? 1 : 1e-2},
+        {.observable = "own_energy_error",
+         .highest = true,
+         .scale = GM_LOG,
+         .calm_low = 1e-16,
+         .calm_high = 1e-2},
+    };
+    gm_draw_field(picture, lanes, count, &look, graphs, GM_COUNT(graphs));
+}
+
+/* The limit of the scheme's steps at the state that a run was started in. */
+static void tell_failure(const struct gm_view *view, char *text, size_t size)
+{
+    const struct gm_step_limit *limit = view->scheme->limit;
+    const double longest = limit ? limit->longest(view->problem, view->start) : INFINITY;
+    text[0] = '\0';
+    if (fabs(view->dt) > longest) {
+        snprintf(text, size, "dt = %.4g is beyond %.4g, the limit of linear theory %s", fabs(view->dt),
+                 longest, limit->condition);
+    }
+}
+
+/* ---- the scene is made ---- */
+
+static const char *number_text(struct own_field *own, double value)
+{
+    char text[64];
+    return gm_kept_texts_add(&own->texts, strdup(gm_number_format(value, text, sizeof text)));
+}
+
+static const struct gm_system_item *item_of(const struct gm_own_system *system, enum gm_system_word word)
+{
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == word) {
+            return &system->items[i];
+        }
+    }
+    return NULL;
+}
+
+/* What a line of one number says with the file's own values; `usual` where there is none. */
+static double number_of(const struct own_field *own, const double *values, enum gm_system_word word,
+                        double usual)
+{
+    const struct gm_system_item *item = item_of(&own->system, word);
+    const struct gm_formula *graph = &own->system.graph;
+    double *all = item ? malloc((graph->count + (size_t)1) * sizeof *all) : NULL;
+    if (all) {
+        gm_formula_evaluate(graph, graph->count, values, all);
+        usual = all[item->nodes[0]];
+    }
+    free(all);
+    return usual;
+}
+
+/* A tape whose inputs are all variables, so that lanes with different parameters share it. */
+static bool open_tape(const struct own_field *own, struct gm_tape *tape, gm_node_id node)
+{
+    const size_t inputs = own->system.variable_count;
+    double *unused = calloc(inputs, sizeof *unused);
+    const bool good = unused && gm_tape_open(tape, &own->system.graph, &node, 1, inputs, unused);
+    free(unused);
+    return good;
+}
+
+static bool make_rows(struct own_field *own)
+{
+    const struct gm_own_system *system = &own->system;
+    const size_t parameters = system->velocities - system->parameters;
+    own->row_count = VALUES + parameters;
+    own->rows = calloc(own->row_count, sizeof *own->rows);
+    own->initial = calloc(1, sizeof *own->initial + parameters * (sizeof(double) + 1));
+    double *values = gm_equations_start(system, NULL);
+    if (!own->rows || !own->initial || !values) {
+        free(values);
+        return false;
+    }
+    own->initial->own = own;
+    const double half_length = number_of(own, values, GM_WORD_HALF_LENGTH, 20),
+                 points = number_of(own, values, GM_WORD_POINTS, 400),
+                 dt = number_of(own, values, GM_WORD_DT, gm_written_rounded(half_length / points)),
+                 steps = number_of(own, values, GM_WORD_STEPS, 2 * half_length / dt),
+                 until = number_of(own, values, GM_WORD_UNTIL, steps * dt);
+    const struct gm_parameter common[VALUES] = {
+        [DT] = GM_DT(number_text(own, dt), 1e-9, 1e6),
+        [UNTIL] = GM_UNTIL(number_text(own, until)),
+        [HALF_LENGTH] = GM_HALF_LENGTH(struct lane, half_length, number_text(own, half_length),
+                                       "the ring is −half_length ≤ x < half_length"),
+        [POINTS] = GM_POINTS(struct lane, points, number_text(own, points), 3, "of the grid"),
+    };
+    memcpy(own->rows, common, sizeof common);
+    bool good = true;
+    for (size_t i = 0; i < parameters; i++) {
+        const struct gm_system_variable *variable = &system->variables[system->parameters + i];
+        const bool ranged = !isnan(variable->low);
+        own->rows[VALUES + i] = (struct gm_parameter){
+            .key = variable->name,
+            .unit = variable->unit ? variable->unit : "",
+            .help = variable->meaning && variable->meaning[0] ? variable->meaning : "a parameter",
+            .type = GM_REAL,
+            .offset = offsetof(struct lane, values) + i * sizeof(double),
+            .standard = number_text(own, values[system->parameters + i]),
+            .lowest = variable->fixed ? variable->value
+                      : ranged        ? variable->low
+                                      : -1e300,
+            .highest = variable->fixed ? variable->value
+                       : ranged        ? variable->high
+                                       : 1e300,
+        };
+    }
+    for (size_t i = 0; i < own->row_count; i++) {
+        good = good && own->rows[i].standard;
+    }
+    free(values);
+    if (good) {
+        gm_parameters_reset(own->rows, own->row_count, own->initial);
+    }
+    return good;
+}
+
+static bool make_observables(struct own_field *own, char *sentence)
+{
+    static const struct gm_observable common[COMMON] = {GM_WAVE_INVARIANTS, GM_WAVE_LAWS};
+    static const struct gm_observable error =
+        GM_LOG_OBSERVABLE("solution_error", solution_error, "distance from the exact solution");
+    const struct gm_own_system *system = &own->system;
+    memcpy(own->observables, common, sizeof common);
+    own->observable_count = COMMON;
+    if (own->wave.exact != GM_NO_NODE) {
+        own->observables[own->observable_count++] = error;
+    }
+    own->first_density = own->observable_count;
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        const bool kept = item->word == GM_WORD_INVARIANT;
+        if (!kept && item->word != GM_WORD_OBSERVE) {
+            continue;
+        }
+        const size_t number = own->observable_count - own->first_density;
+        char *key = NULL;
+        if (number == MOST_DENSITIES) {
+            return gm_refuse(sentence, "a field has at most %d invariants and observables", MOST_DENSITIES);
+        }
+        if (asprintf(&key, kept ? "%s_error" : "%s", item->name) < 0) {
+            key = NULL;
+        }
+        if (!gm_kept_texts_add(&own->texts, key) ||
+            !open_tape(own, &own->densities[number], item->nodes[0])) {
+            return false;
+        }
+        for (size_t k = 0; k < own->observable_count; k++) {
+            if (strcmp(own->observables[k].key, key) == 0) {
+                return gm_refuse(sentence, "there are two observables %s", key);
+            }
+        }
+        own->observables[own->observable_count++] =
+            kept ? (struct gm_observable)GM_KEPT_OBSERVABLE(key, integral, item->name, item->name,
+                                                            .least = item->scale)
+                 : (struct gm_observable)GM_OBSERVABLE(key, integral, item->name);
+    }
+    return true;
+}
+
+static bool make_schemes(struct own_field *own, const struct gm_problem *problem, char *sentence)
+{
+    size_t count;
+    if (!gm_written_schemes(own->system.texts[GM_WORD_SCHEMES], problem, own->schemes, MOST_PREFERRED, &count,
+                            sentence)) {
+        return false;
+    }
+    own->scene.schemes = count > 0 ? own->schemes : gm_wave_schemes;
+    return true;
+}
+
+/* With an exact solution the grid is refined with the step; without one the distance from a reference run on
+   the same grid is measured. */
+static void make_work(struct own_field *own)
+{
+    own->work = (struct gm_work){.arguments = "",
+                                 .coarsest = own->initial->half_length / (double)own->initial->points * 2,
+                                 .halvings = 5};
+    if (own->wave.exact != GM_NO_NODE) {
+        own->work.measure = "solution_error";
+        own->work.resolution = "points";
+        own->work.resolutions = own->resolutions;
+        own->work.resolution_count = GM_COUNT(own->resolutions);
+        own->work.errors = own->errors;
+        for (size_t i = 0; i < GM_COUNT(own->resolutions); i++) {
+            own->resolutions[i] = ldexp((double)own->initial->points, (int)i - 1);
+            own->errors[i] = pow(10, -1 - (double)i);
+        }
+        own->resolutions[0] = fmax(3, floor(own->resolutions[0]));
+    }
+}
+
+static const char *title_of(struct own_field *own)
+{
+    enum { SHORT = 48 };
+    const struct gm_own_system *system = &own->system;
+    const struct gm_naming naming = gm_system_naming(system);
+    if (system->texts[GM_WORD_TITLE]) {
+        return system->texts[GM_WORD_TITLE];
+    }
+    char *formula = gm_formula_text(&system->graph, system->energy, &naming), *text = NULL;
+    const bool brief = formula && strlen(formula) <= SHORT;
+    if (brief && asprintf(&text, "Waves in the potential V = %s", formula) < 0) {
+        text = NULL;
+    }
+    free(formula);
+    const char *kept = gm_kept_texts_add(&own->texts, text);
+    return kept ? kept : "Waves in a potential of one’s own";
+}
+
+static bool make(struct own_field *own, const char *name, const char *const *words, char *sentence)
+{
+    struct gm_own_system *system = &own->system;
+    gm_refuse(sentence, "not enough memory");
+    if (!gm_own_wave_derive(&own->wave, system) || !make_rows(own)) {
+        return false;
+    }
+    const struct gm_system_item *jump = item_of(system, GM_WORD_JUMP);
+    own->track = (struct gm_track)GM_SURFACE_TRACK(gm_surface_record_u);
+    own->scene = (struct gm_scene){
+        .name = name,
+        .title = title_of(own),
+        .blurb = system->texts[GM_WORD_ABOUT] ? system->texts[GM_WORD_ABOUT] : "A field of one’s own.",
+        .watch = system->texts[GM_WORD_WATCH] ? system->texts[GM_WORD_WATCH] : "",
+        .time = "what light needs for a length of 1",
+        .size = sizeof *own->initial + parameter_count(own) * (sizeof(double) + 1),
+        .initial = own->initial,
+        .words = words,
+        .source = system->source,
+        .text = system->source,
+        .mark = gm_kept_texts_add(&own->texts, gm_written_mark(name, system->source)),
+        .parameters = own->rows,
+        .parameter_count = own->row_count,
+        .tracks = &own->track,
+        .track_count = 1,
+        .work = &own->work,
+        .settle = settle,
+        .setup = setup,
+        .close = close_problem,
+        .start = start,
+        .draw = draw,
+        .failure = tell_failure,
+    };
+    struct gm_problem problem;
+    if (!own->scene.mark || (jump && !open_tape(own, &own->jump, jump->nodes[0])) ||
+        !setup(own->initial, &problem, sentence)) {
+        return false;
+    }
+    const size_t points = problem.line.points;
+    double *y = malloc(problem.n * sizeof *y);
+    bool good = y && make_observables(own, sentence) && make_schemes(own, &problem, sentence);
+    if (good) {
+        gm_own_wave_levels(&problem, own->initial->timing.dt, y);
+        own->low = own->high = y[0];
+        for (size_t i = 0; i < points; i++) {
+            gm_range_add(&own->low, &own->high, y[i]);
+        }
+        if (!(own->high > own->low)) {
+            own->high += 1;
+            own->low -= 1;
+        }
+    }
+    free(y);
+    gm_own_wave_close(&problem);
+    make_work(own);
+    own->scene.observables = own->observables;
+    own->scene.observable_count = own->observable_count;
+    return good;
+}
+
+const struct gm_scene *gm_own_field_open(struct gm_own_system *system, const char *name,
+                                         const char *const *words, char *sentence)
+{
+    struct own_field *own = calloc(1, sizeof *own);
+    if (!own) {
+        gm_system_close(system);
+        gm_refuse(sentence, "not enough memory");
+        return NULL;
+    }
+    own->system = *system;
+    if (!make(own, name, words, sentence)) {
+        gm_own_field_close(&own->scene);
+        return NULL;
+    }
+    return &own->scene;
+}
+
+void gm_own_field_close(const struct gm_scene *scene)
+{
+    struct own_field *own = (struct own_field *)scene; /* which it is the first member of */
+    for (size_t i = 0; i < MOST_DENSITIES; i++) {
+        gm_tape_close(&own->densities[i]);
+    }
+    gm_tape_close(&own->jump);
+    gm_kept_texts_close(&own->texts);
+    gm_system_close(&own->system);
+    free(own->rows);
+    free(own->initial);
+    free(own);
+}

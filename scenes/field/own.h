@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_FIELD_OWN_H
+#define GM_SCENES_FIELD_OWN_H
+
+#include "core/formula/system.h"
+#include "scenes/frame/scene.h"
+
+/* Makes a scene of a system that is a field, and takes it: as gm_system_scene_open (scenes/ode/system.h) does
+   of all others. */
+const struct gm_scene *gm_own_field_open(struct gm_own_system *system, const char *name,
+                                         const char *const *words, char *sentence);
+void gm_own_field_close(const struct gm_scene *scene);
+
+#endif

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_SCENES_FIELD_WAVE_OBSERVABLES_H
+#define GM_SCENES_FIELD_WAVE_OBSERVABLES_H
+
+#include "scenes/field/field.h"
+
+/* What scenes of u_tt = u_xx - V'(u) have in common: rows of observables, and the schemes. */
+
+double gm_view_energy(const struct gm_view *view);
+double gm_view_own_energy(const struct gm_view *view);
+double gm_view_momentum(const struct gm_view *view);
+double gm_view_amplitude(const struct gm_view *view);
+double gm_view_energy_residual(const struct gm_view *view);
+double gm_view_momentum_residual(const struct gm_view *view);
+double gm_unit_momentum(const void *parameters);
+
+/* clang-format off */
+#define GM_WAVE_INVARIANTS                                                                                   \
+    GM_KEPT_OBSERVABLE("energy_error", gm_view_energy, "H", "energy error"),                                 \
+    GM_KEPT_OBSERVABLE("own_energy_error", gm_view_own_energy, "H", "error of the scheme’s own energy",      \
+                       .missing = "the scheme has no energy of its own"),                                    \
+    GM_KEPT_OBSERVABLE("momentum_error", gm_view_momentum, "P", "momentum error",                            \
+                       .scale = gm_unit_momentum, .scale_text = "1")
+#define GM_WAVE_LAWS                                                                                         \
+    GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),                                            \
+    GM_LOG_OBSERVABLE("local_energy_residual", gm_view_energy_residual, "residual of the local energy law",  \
+                      .missing = GM_NO_LAW),                                                                 \
+    GM_LOG_OBSERVABLE("local_momentum_residual", gm_view_momentum_residual,                                  \
+                      "residual of the local momentum law", .missing = GM_NO_LAW),                           \
+    GM_FORM_RESIDUAL
+/* clang-format on */
+
+extern const char *const gm_wave_schemes[]; /* NULL-terminated */
+
+#endif

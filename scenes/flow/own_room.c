@@ -1,0 +1,444 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rooms of one's own, from files: the scene that is made of one. Lengths, times and concentrations are in the
+   file's units. */
+#include "scenes/flow/own_room.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/flow/flows.h"
+
+/* What an observable of a room looks at. */
+struct subject {
+    size_t number; /* of the line, or of the hole */
+    double at[2];  /* of a probe */
+};
+
+enum { ROWS = 13, MOST_OBSERVED = GM_MOST_OBSERVABLES };
+
+struct gm_own_room {
+    struct gm_scene scene; /* first: a scene is found to be this */
+    struct gm_room room;
+    struct gm_flows initial;
+    char *path, *word, *mesh, *mark;
+    const char *words[2];
+    struct gm_parameter rows[ROWS];
+    char numbers[4][40];
+    const char *sides[GM_ROOM_SIDES]; /* names, by the number of the side */
+    struct gm_observable observables[MOST_OBSERVED];
+    struct subject subjects[MOST_OBSERVED];
+    bool overfull;                                          /* there are more */
+    const char *doubled;                                    /* a key that two of them have; NULL: none */
+    char observed[MOST_OBSERVED][2][2 * GM_ROOM_NAME + 32]; /* keys and titles */
+    size_t observable_count;
+};
+
+static const struct gm_own_room *rooms_of(const void *parameters)
+{
+    return ((const struct gm_flows *)parameters)->room;
+}
+
+static const struct subject *subject_of(const struct gm_view *view)
+{
+    const struct gm_own_room *own = rooms_of(view->parameters);
+    return &own->subjects[view->observable - own->observables];
+}
+
+static double sampled(const struct gm_view *view, struct gm_sample *sample)
+{
+    const struct subject *subject = subject_of(view);
+    return gm_flow_sample(gm_flow_of(view->problem), view->state, subject->at[0], subject->at[1], sample)
+               ? 0
+               : NAN;
+}
+
+static double probe_scalar(const struct gm_view *view)
+{
+    struct gm_sample sample = {0};
+    return sampled(view, &sample) + sample.theta;
+}
+
+static double probe_temperature(const struct gm_view *view)
+{
+    struct gm_sample sample = {0};
+    return sampled(view, &sample) + sample.temperature;
+}
+
+static double probe_speed(const struct gm_view *view)
+{
+    struct gm_sample sample = {0};
+    return sampled(view, &sample) + hypot(sample.u, sample.v);
+}
+
+/* Through the pieces of a side: air, or the scalar that goes with it. */
+static double through(const struct gm_view *view, bool scalar)
+{
+    const struct gm_flow *flow = gm_flow_of(view->problem);
+    const struct gm_complex *complex = flow->complex;
+    const double *theta = gm_flow_block(flow, view->state, GM_FLOW_THETA);
+    double sum = 0;
+    for (size_t i = 0; i < flow->openings; i++) {
+        const struct gm_opening *opening = &flow->opening[i];
+        size_t e = opening->first;
+        for (size_t k = 0; opening->side == subject_of(view)->number && k < opening->count; k++) {
+            const size_t next = gm_complex_next(complex, e);
+            const int v = complex->boundary_vertex[e], w = complex->boundary_vertex[next];
+            const double out = view->state[w] - view->state[v], part = scalar ? (theta[v] + theta[w]) / 2 : 1;
+            sum += (opening->inlet ? -out : out) * part;
+            e = next;
+        }
+    }
+    return sum;
+}
+
+static double opening_flow(const struct gm_view *view)
+{
+    return through(view, false);
+}
+
+static double opening_scalar_flow(const struct gm_view *view)
+{
+    return through(view, true);
+}
+
+static bool has_stepped(const struct gm_view *view)
+{
+    return view->run && view->run->steps > 0;
+}
+
+static double wall_heat(const struct gm_view *view)
+{
+    return has_stepped(view) ? gm_flow_heat(gm_flow_of(view->problem), view->state, subject_of(view)->number)
+                             : NAN;
+}
+
+static double temperature_mean(const struct gm_view *view)
+{
+    return gm_flow_temperature_mean(gm_flow_of(view->problem), view->state);
+}
+
+static double force_on(const struct gm_view *view, int component)
+{
+    double force[2];
+    const struct gm_flow *flow = gm_flow_of(view->problem);
+    return has_stepped(view) && gm_flow_force(flow, view->state, subject_of(view)->number, force)
+               ? force[component]
+               : NAN;
+}
+
+static double hole_drag(const struct gm_view *view)
+{
+    return force_on(view, 0);
+}
+
+static double hole_lift(const struct gm_view *view)
+{
+    return force_on(view, 1);
+}
+
+static double hole_circulation(const struct gm_view *view)
+{
+    return gm_flow_circulation(gm_flow_of(view->problem), view->state, subject_of(view)->number);
+}
+
+static bool read_mesh(const struct gm_own_room *own, const struct gm_flows *chosen,
+                      struct gm_triangulation *mesh, char *sentence)
+{
+    return gm_flows_file(own->mesh, (enum gm_star)chosen->star, mesh, sentence);
+}
+
+static void tell(const struct gm_own_room *own, const struct gm_fault *fault, char *sentence)
+{
+    size_t line = 0, column = 0;
+    gm_text_place(own->room.text, fault->offset, &line, &column);
+    gm_refuse(sentence, "%.120s:%zu:%zu: %.300s", own->path, line, column,
+              fault->sentence[0] ? fault->sentence : "not enough memory");
+}
+
+static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
+{
+    const struct gm_own_room *own = rooms_of(parameters);
+    const struct gm_flows *chosen = parameters;
+    struct gm_triangulation mesh;
+    struct gm_fault fault;
+    enum gm_boundary_fault boundary;
+    if (own->overfull) {
+        return gm_refuse(sentence,
+                         "a room has at most %d observables: two of an opening or a probe, three of a hole",
+                         MOST_OBSERVED);
+    }
+    if (own->doubled) {
+        return gm_refuse(sentence, "two of the room's names lead to the observable %s", own->doubled);
+    }
+    if (!read_mesh(own, chosen, &mesh, sentence)) {
+        return false;
+    }
+    struct gm_flow *flow = gm_room_flow(&own->room, &mesh, &fault, &boundary);
+    gm_triangulation_close(&mesh);
+    if (!flow) {
+        if (boundary != GM_BOUNDARY_OK && !fault.sentence[0]) {
+            return gm_flows_boundary(boundary, sentence);
+        }
+        tell(own, &fault, sentence);
+        return false;
+    }
+    flow->reynolds *= own->room.viscosity / chosen->viscosity;
+    flow->viscosity = chosen->viscosity;
+    flow->diffusivity = chosen->viscosity / chosen->schmidt;
+    flow->tracers = (size_t)chosen->tracers;
+    gm_flows_problem(problem, flow, "room");
+    return true;
+}
+
+static bool readable(const void *parameters, char *sentence)
+{
+    struct gm_triangulation mesh;
+    const bool good = read_mesh(rooms_of(parameters), parameters, &mesh, sentence);
+    if (good) {
+        gm_triangulation_close(&mesh);
+    }
+    return good;
+}
+
+/* A word of the line `units:`, for lengths, times; "". */
+static const char *unit_of(struct gm_picture *picture, const struct gm_own_room *own, int place)
+{
+    const char *at = own->room.units ? own->room.units : "";
+    for (; place > 0 && *at; place--) {
+        at += strcspn(at, ", ");
+        at += strspn(at, ", ");
+    }
+    return gm_picture_text(picture, "%.*s", (int)strcspn(at, ", "), at);
+}
+
+static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct gm_own_room *own = rooms_of(lanes[0]->parameters);
+    const struct gm_flow *flow = gm_flow_of(&lanes[0]->problem);
+    const char *length = unit_of(picture, own, 0), *time = unit_of(picture, own, 1);
+    const bool units = length[0] != '\0';
+    const char *degree = unit_of(picture, own, 2);
+    double high = 0, warm[2] = {flow->reference_temperature, flow->reference_temperature};
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        high = fmax(high, flow->theta[v]);
+        for (int k = 0; k < 2 && flow->heat; k++) {
+            warm[k] = k == 0 ? fmin(warm[k], flow->temperature[v]) : fmax(warm[k], flow->temperature[v]);
+        }
+    }
+    warm[1] = warm[1] > warm[0] ? warm[1] : warm[0] + 1;
+    /* what buoyancy makes of a free fall, a quarter of it: the fastest of convection in a closed room */
+    const double size = sqrt(flow->complex->total_area),
+                 speed = fmax(flow->speed, sqrt(fabs(flow->buoyancy) * (warm[1] - warm[0]) * size) / 4);
+    const struct gm_look look = {
+        .title = own->scene.title,
+        .told = {{"viscosity", offsetof(struct gm_flows, viscosity)},
+                 {"Schmidt number", offsetof(struct gm_flows, schmidt)}},
+        .clock_unit = time,
+        .axes = {units ? gm_picture_text(picture, "x / %s", length) : "x",
+                 units ? gm_picture_text(picture, "y / %s", length) : "y"},
+        .scalar_high = high > 0 ? high : 1,
+        .temperature = {warm[0], warm[1]},
+        .temperature_name = degree[0] ? gm_picture_text(picture, "temperature / %s", degree) : "temperature",
+        .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
+        .speed_high = 1.2 * speed,
+        .sides = own->sides,
+        .graphs = {flow->heat ? "temperature_mean" : "scalar_total",
+                   flow->heat ? "kinetic_energy" : "scalar_outflow"},
+    };
+    gm_flows_draw(lanes, count, picture, &look);
+}
+
+/* Adds an observable "NAME_what" of a subject; blanks and signs in names become _. What has no room, or a key
+   that is there already, is noted. */
+static void observe(struct gm_own_room *own, const char *name, const char *what, const char *title,
+                    double (*evaluate)(const struct gm_view *view), struct subject subject)
+{
+    const size_t i = own->observable_count;
+    if (i == MOST_OBSERVED) {
+        own->overfull = true;
+        return;
+    }
+    char *key = own->observed[i][0];
+    snprintf(key, sizeof own->observed[i][0], "%s_%s", name, what);
+    for (char *at = key; *at; at++) {
+        *at = (*at >= '0' && *at <= '9') || gm_is_letter(*at) ? *at : '_';
+    }
+    for (size_t k = 0; k < i; k++) {
+        own->doubled = !own->doubled && strcmp(own->observables[k].key, key) == 0 ? own->observables[k].key
+                                                                                  : own->doubled;
+    }
+    snprintf(own->observed[i][1], sizeof own->observed[i][1], "%s %s", name, title);
+    own->observables[i] = (struct gm_observable){
+        .key = key,
+        .title = own->observed[i][1],
+        .evaluate = evaluate,
+        .missing = evaluate == hole_drag || evaluate == hole_lift ? "there is no force before the first step"
+                   : evaluate == wall_heat                        ? "no heat has gone before the first step"
+                                                                  : NULL};
+    own->subjects[i] = subject;
+    own->observable_count++;
+}
+
+static bool make_observables(struct gm_own_room *own, const struct gm_triangulation *mesh)
+{
+    double *scratch = malloc((own->room.graph.count + 1) * sizeof *scratch);
+    if (!scratch) {
+        return false;
+    }
+    static const struct gm_observable common[] = {
+        GM_FLOWS_OF_ROOMS,
+        GM_FLOWS_OBTUSE,
+        GM_FLOWS_STAR_LEAST,
+    };
+    memcpy(own->observables, common, sizeof common);
+    own->observable_count = GM_COUNT(common);
+    const struct gm_room *room = &own->room;
+    const bool heat = !isnan(room->buoyancy);
+    if (heat) {
+        own->observables[own->observable_count++] =
+            (struct gm_observable)GM_OBSERVABLE("temperature_mean", temperature_mean, "mean temperature");
+    }
+    for (size_t i = 0; i < room->count; i++) {
+        const struct gm_room_line *line = &room->lines[i];
+        struct subject subject = {.number = i + 1};
+        if (line->word == GM_ROOM_INLET || line->word == GM_ROOM_OUTLET) {
+            observe(own, line->name, "flow", "flow", opening_flow, subject);
+            observe(own, line->name, "scalar_flow", "flow of pollutant", opening_scalar_flow, subject);
+        } else if (line->word == GM_ROOM_PROBE) {
+            gm_room_point(room, line, scratch, subject.at);
+            observe(own, line->name, "scalar", "concentration", probe_scalar, subject);
+            observe(own, line->name, "speed", "speed", probe_speed, subject);
+            if (heat) {
+                observe(own, line->name, "temperature", "temperature", probe_temperature, subject);
+            }
+        } else if (line->word == GM_ROOM_WALL && line->value[GM_ROOM_TEMPERATURE].place > 0) {
+            observe(own, line->name, "heat", "heat given to the air, over density and heat capacity",
+                    wall_heat, subject);
+        }
+    }
+    free(scratch);
+    for (size_t hole = 1; hole < mesh->complex->loops; hole++) {
+        char name[GM_ROOM_NAME];
+        gm_room_hole(mesh, mesh->complex, hole, name, sizeof name);
+        const struct subject subject = {.number = hole};
+        observe(own, name, "drag", "force along x, over the density", hole_drag, subject);
+        observe(own, name, "lift", "force along y, over the density", hole_lift, subject);
+        observe(own, name, "circulation", "circulation", hole_circulation, subject);
+    }
+    return true;
+}
+
+static void make_rows(struct gm_own_room *own)
+{
+    const struct gm_room *room = &own->room;
+    const double numbers[4] = {isnan(room->dt) ? 0.01 : room->dt, isnan(room->until) ? 10 : room->until,
+                               room->viscosity, room->viscosity / room->diffusivity};
+    for (int i = 0; i < 4; i++) {
+        gm_number_format(numbers[i], own->numbers[i], sizeof own->numbers[i]);
+    }
+    const struct gm_parameter rows[] = {
+        GM_DT(own->numbers[0], 1e-9, 1e6),
+        GM_UNTIL(own->numbers[1]),
+        GM_REAL_ROW(struct gm_flows, viscosity, "viscosity", own->numbers[2], 1e-12, 1e6,
+                    "kinematic viscosity", .logarithmic = true),
+        GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", own->numbers[3], 1e-6, 1e6,
+                    "Schmidt number, viscosity / diffusivity", .logarithmic = true),
+        GM_FLOWS_STAR,
+        GM_FLOWS_TRACERS("350"),
+        GM_FLOWS_LOOKS("scalar", "yes"),
+    };
+    memcpy(own->rows, rows, sizeof rows);
+    for (size_t i = 0; i < GM_COUNT(rows) && !isnan(room->buoyancy); i++) {
+        if (strcmp(rows[i].key, "show") == 0) {
+            own->rows[i].choices = gm_flows_warm_shows;
+            own->rows[i].standard = "temperature";
+        }
+    }
+    own->scene.parameters = own->rows;
+    own->scene.parameter_count = GM_COUNT(rows);
+}
+
+/* Its words, the mesh's path, and a mark: the name with a checksum of the text (FNV-1a). */
+static bool copy_words(struct gm_own_room *own, const char *name, const char *word, const char *path)
+{
+    uint32_t sum = UINT32_C(2166136261);
+    for (const char *at = own->room.text; *at; at++) {
+        sum = (sum ^ (unsigned char)*at) * UINT32_C(16777619);
+    }
+    if (asprintf(&own->mark, "%s:%08x", name, (unsigned)sum) < 0) {
+        own->mark = NULL;
+    }
+    const char *slash = own->room.mesh[0] == '/' ? NULL : strrchr(path, '/');
+    own->path = strdup(path);
+    if (asprintf(&own->mesh, "%.*s%s", slash ? (int)(slash + 1 - path) : 0, path, own->room.mesh) < 0) {
+        own->mesh = NULL;
+    }
+    own->words[0] = own->word = strdup(word);
+    return own->path && own->word && own->mesh && own->mark;
+}
+
+const struct gm_scene *gm_own_room_open(struct gm_room *room, const char *name, const char *word,
+                                        const char *path, char *sentence)
+{
+    static const char *const schemes[] = {"semi-implicit", NULL};
+    struct gm_own_room *own = calloc(1, sizeof *own);
+    struct gm_triangulation mesh;
+    if (!own) {
+        gm_room_close(room);
+        gm_refuse(sentence, "not enough memory");
+        return NULL;
+    }
+    own->room = *room;
+    bool good = copy_words(own, name, word, path) || gm_refuse(sentence, "not enough memory");
+    if (good && gm_flows_file(own->mesh, GM_STAR_AUTO, &mesh, sentence)) {
+        good = make_observables(own, &mesh) || gm_refuse(sentence, "not enough memory");
+        gm_triangulation_close(&mesh);
+    } else {
+        good = false;
+    }
+    if (!good) {
+        gm_own_room_close(&own->scene);
+        return NULL;
+    }
+    own->scene = (struct gm_scene){
+        .name = name,
+        .title = own->room.title ? own->room.title : "A room of one’s own",
+        .blurb = own->room.about ? own->room.about : "A room of one’s own.",
+        .watch = "",
+        .time = "that of its units",
+        .size = sizeof own->initial,
+        .initial = &own->initial,
+        .words = own->words,
+        .mark = own->mark,
+        .schemes = schemes,
+        .observables = own->observables,
+        .observable_count = own->observable_count,
+        .setup = setup,
+        .readable = readable,
+        .chosen = gm_flows_chosen,
+        .close = gm_flows_close,
+        .start = gm_flows_start,
+        .draw = draw,
+    };
+    make_rows(own);
+    for (size_t i = 0; i < own->room.count && i + 1 < GM_ROOM_SIDES; i++) {
+        own->sides[i + 1] = own->room.lines[i].name;
+    }
+    own->initial.room = own;
+    snprintf(own->initial.mesh, sizeof own->initial.mesh, "%s", own->mesh);
+    return &own->scene;
+}
+
+void gm_own_room_close(const struct gm_scene *scene)
+{
+    struct gm_own_room *own = (struct gm_own_room *)scene; /* which it is the first member of */
+    gm_room_close(&own->room);
+    free(own->path);
+    free(own->word);
+    free(own->mesh);
+    free(own->mark);
+    free(own);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rows of what is asked for. */
+#include "scenes/ode/asked.h"
+
+#define MODIFIED(power, powers)                                                                              \
+    {                                                                                                        \
+        .key = "modified_energy" #power "_error", .unit = "", .evaluate = gm_modified_error_##power,         \
+        .title = "error of the modified energy, up to Δt" powers, .logarithmic = true,                       \
+        .why = gm_modified_why                                                                               \
+    }
+#define INDICATOR(name, function, reason, words)                                                             \
+    {                                                                                                        \
+        .key = name, .title = words, .unit = "", .evaluate = function, .why = reason                         \
+    }
+
+const struct gm_observable gm_ode_asked[GM_ODE_ASKED] = {
+    MODIFIED(2, "²"),
+    MODIFIED(4, "⁴"),
+    MODIFIED(6, "⁶"),
+    INDICATOR("lyapunov", gm_lyapunov, gm_growth_why, "largest Lyapunov exponent"),
+    INDICATOR("lyapunov_change", gm_lyapunov_change, gm_growth_why,
+              "change of the exponent over the last half"),
+    INDICATOR("megno", gm_megno, gm_growth_why, "mean MEGNO"),
+    INDICATOR("megno_change", gm_megno_change, gm_growth_why, "change of MEGNO over the last half"),
+    {.key = "return_time",
+     .title = "time until the section is passed again",
+     .unit = "",
+     .evaluate = gm_return_time,
+     .recalls = true,
+     .why = gm_return_why},
+    INDICATOR("escape_time", gm_escape_time, gm_escape_why, "time until the orbit has left"),
+};

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The observables that every scene of ordinary differential equations has when they are asked for. */
+#ifndef GM_SCENES_ODE_ASKED_H
+#define GM_SCENES_ODE_ASKED_H
+
+#include "scenes/ode/indicators.h"
+#include "scenes/ode/modified.h"
+
+/* Errors of modified energies, which pictures with GM_SHOW_MODIFIED show, then indicators of chaos. */
+enum { GM_INDICATORS = 6, GM_ODE_ASKED = GM_MODIFIED_OBSERVABLES + GM_INDICATORS };
+extern const struct gm_observable gm_ode_asked[GM_ODE_ASKED];
+
+/* Of a scene of Hamiltonian systems that has GM_SHOW_ROW, and of any other. */
+#define GM_ASKED_OF_HAMILTONIAN                                                                              \
+    .asked = gm_ode_asked, .asked_count = GM_ODE_ASKED, .asked_shown = gm_modified_shown,                    \
+    .draw_asked = gm_draw_modified
+#define GM_ASKED_OF_EQUATIONS .asked = gm_ode_asked + GM_MODIFIED_OBSERVABLES, .asked_count = GM_INDICATORS
+
+#endif

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The orbit beside which others part is run once more, by the same scheme from the same start, with a vector
+   along it: so the lane's own run is never touched, and no time is spent where nobody asks. */
+#include "scenes/ode/indicators.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/indicators/growth.h"
+#include "core/ode/indicators/tangent.h"
+#include "scenes/frame/lane.h"
+
+/* ---- growth ---- */
+
+struct followed {
+    const struct gm_scheme *scheme; /* another one may take over */
+    struct gm_growth *growth;
+    double *start; /* of the last member, active components */
+    size_t n;
+    const char *why; /* NULL: there are numbers */
+};
+
+static void forget(void *data)
+{
+    struct followed *followed = data;
+    gm_growth_close(followed->growth);
+    free(followed->start);
+    free(followed);
+}
+
+/* Component c of the last member. */
+static double last_of(const struct gm_view *view, const double *state, size_t c)
+{
+    const size_t m = view->problem->m;
+    return state[c * m + m - 1];
+}
+
+/* NULL where memory is short, which is noted. */
+static struct followed *open_followed(const struct gm_view *view)
+{
+    struct gm_worked *worked = &view->worked[GM_WORKED_GROWTH];
+    struct followed *followed = calloc(1, sizeof *followed);
+    worked->data = followed;
+    worked->forget = forget;
+    if (!followed) {
+        return NULL;
+    }
+    followed->scheme = view->scheme;
+    followed->n = view->problem->n - 2 * view->problem->passive;
+    followed->start = malloc(followed->n * sizeof *followed->start);
+    for (size_t c = 0; followed->start && c < followed->n; c++) {
+        followed->start[c] = last_of(view, view->start, c);
+    }
+    if (!followed->start) {
+        return NULL;
+    }
+    if (strcmp(gm_tangent_word(view->scheme), "none") == 0) {
+        followed->why = "what the scheme remembers lies with a library: its steps have no derivative here";
+        return followed;
+    }
+    followed->growth = gm_growth_open(view->problem, view->scheme, &view->run->settings, view->t0, view->dt,
+                                      followed->start);
+    return followed->growth ? followed : NULL;
+}
+
+/* Whether the orbit that was followed is the lane's, to the last bit: it is not where that was changed on its
+   way. */
+static bool is_same(const struct gm_view *view, const struct followed *followed)
+{
+    const double *state = gm_growth_state(followed->growth);
+    bool same = true;
+    for (size_t c = 0; c < followed->n; c++) {
+        same = same && state[c] == last_of(view, view->state, c);
+    }
+    return same;
+}
+
+/* The orbit, followed up to the view's step; NULL where there are no numbers. */
+static const struct gm_growth *followed_to(const struct gm_view *view)
+{
+    struct gm_worked *worked = &view->worked[GM_WORKED_GROWTH];
+    struct followed *followed = worked->data;
+    const long steps = view->run->steps;
+    const bool earlier = followed && followed->growth && gm_growth_steps(followed->growth) > steps;
+    if (followed && (earlier || followed->scheme != view->scheme)) {
+        worked->data = NULL; /* another scheme, or an earlier step is looked at */
+        forget(followed);
+        followed = NULL;
+    }
+    followed = followed ? followed : open_followed(view);
+    if (!followed || !followed->growth) {
+        return NULL;
+    }
+    const bool left = !isnan(gm_escape_time(view));
+    followed->why = view->run->status != GM_OK               ? gm_status_name(view->run->status)
+                    : left                                   ? "the run was stopped: its orbit has left"
+                    : steps == 0                             ? "no step was made yet"
+                    : !gm_growth_to(followed->growth, steps) ? "a step beside the orbit fails"
+                    : !is_same(view, followed)               ? "the run was changed on its way"
+                                                             : NULL;
+    return followed->why ? NULL : followed->growth;
+}
+
+static struct gm_growth_values values_of(const struct gm_view *view)
+{
+    const struct gm_growth *growth = followed_to(view);
+    return growth ? gm_growth_values(growth) : (struct gm_growth_values){NAN, NAN, NAN, NAN};
+}
+
+double gm_lyapunov(const struct gm_view *view)
+{
+    return values_of(view).exponent;
+}
+
+double gm_lyapunov_change(const struct gm_view *view)
+{
+    return values_of(view).exponent_change;
+}
+
+double gm_megno(const struct gm_view *view)
+{
+    return values_of(view).megno;
+}
+
+double gm_megno_change(const struct gm_view *view)
+{
+    return values_of(view).megno_change;
+}
+
+const char *gm_growth_why(const struct gm_view *view)
+{
+    const struct followed *followed = view->worked[GM_WORKED_GROWTH].data;
+    return followed ? followed->why : NULL;
+}
+
+/* ---- coming back, and leaving ---- */
+
+/* The number of the scene's first section; its count of tracks where it has none. */
+static size_t section_of(const struct gm_scene *scene)
+{
+    size_t found = 0;
+    while (found < scene->track_count && !scene->tracks[found].section) {
+        found++;
+    }
+    return found;
+}
+
+double gm_return_time(const struct gm_view *view)
+{
+    const size_t section = section_of(view->scene);
+    if (section == view->scene->track_count || !view->tracks) {
+        return NAN;
+    }
+    /* a start on the section is no return */
+    const double least = 1e-9 * fabs(view->dt);
+    const struct gm_entries *entries = &view->tracks[section];
+    for (size_t i = 0; i < entries->count; i++) {
+        if (fabs(entries->times[i] - view->t0) > least) {
+            return fabs(entries->times[i] - view->t0);
+        }
+    }
+    return NAN;
+}
+
+const char *gm_return_why(const struct gm_view *view)
+{
+    return section_of(view->scene) < view->scene->track_count ? "the section was not passed yet"
+                                                              : "there is no section to pass";
+}
+
+double gm_escape_time(const struct gm_view *view)
+{
+    double (*const stop)(const struct gm_view *view) = view->scene->stop;
+    const bool stopped = stop && view->side != 0 && (stop(view) < 0) != (view->side < 0);
+    return stopped || view->run->status == GM_BLOW_UP ? fabs(view->t - view->t0) : NAN;
+}
+
+const char *gm_escape_why(const struct gm_view *view)
+{
+    (void)view;
+    return "the orbit has not left";
+}

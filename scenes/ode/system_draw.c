@@ -1,0 +1,669 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The picture of a system that somebody wrote: bodies and rods, or the phase plane, with what has been faint
+   behind what is now; the section; what is kept, and what is observed. */
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/frame/graph.h"
+#include "scenes/ode/system_draw.h"
+
+enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4, TURN = 12 };
+
+/* A path whose mean chord is longer, of the panel, is drawn as dots: between them it is not known. */
+static const double longest_chord = 0.05;
+/* The bright end of a path is this part of the whole run. */
+static const double bright = 0.15;
+
+static const struct gm_system_lane *own_of(const struct gm_lane *lane)
+{
+    return lane->parameters;
+}
+
+/* ---- formulas as they are read ---- */
+
+static const char *small_letter(char letter, bool above)
+{
+    static const char *const low[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+    static const char *const high[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    static const struct {
+        char letter;
+        const char *text;
+    } letters[] = {{'a', "ₐ"}, {'e', "ₑ"}, {'i', "ᵢ"}, {'o', "ₒ"},
+                   {'r', "ᵣ"}, {'u', "ᵤ"}, {'v', "ᵥ"}, {'x', "ₓ"}};
+    if (letter >= '0' && letter <= '9') {
+        return (above ? high : low)[(unsigned)(letter - '0') % 10];
+    }
+    for (size_t i = 0; i < GM_COUNT(letters) && !above; i++) {
+        if (letters[i].letter == letter) {
+            return letters[i].text;
+        }
+    }
+    return NULL;
+}
+
+static const char *greek(const char *name, size_t length)
+{
+    static const char *const letters[][2] = {
+        {"alpha", "α"}, {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"},  {"eps", "ε"},  {"epsilon", "ε"},
+        {"eta", "η"},   {"theta", "θ"}, {"kappa", "κ"}, {"lambda", "λ"}, {"mu", "μ"},   {"nu", "ν"},
+        {"xi", "ξ"},    {"rho", "ρ"},   {"sigma", "σ"}, {"tau", "τ"},    {"phi", "φ"},  {"chi", "χ"},
+        {"psi", "ψ"},   {"omega", "ω"}, {"pi", "π"},    {"Omega", "Ω"},  {"Delta", "Δ"}};
+    for (size_t i = 0; i < GM_COUNT(letters); i++) {
+        if (strlen(letters[i][0]) == length && memcmp(letters[i][0], name, length) == 0) {
+            return letters[i][1];
+        }
+    }
+    return NULL;
+}
+
+/* Names with Greek letters and indices below, powers above, a true minus: "p_x^2" as "pₓ²". */
+static const char *typeset(struct gm_picture *picture, const char *text)
+{
+    const size_t size = 4 * strlen(text) + 1;
+    char *typed = gm_picture_memory(picture, size), *to = typed;
+    if (!typed) {
+        return text;
+    }
+    for (const char *at = text; *at;) {
+        size_t letters = 0;
+        while (isalpha((unsigned char)at[letters])) {
+            letters++;
+        }
+        const char *put = letters > 0 ? greek(at, letters) : NULL;
+        size_t taken = letters > 0 ? letters : 1;
+        const bool behind = at > text && (isalnum((unsigned char)at[-1]) || at[-1] == ']');
+        if (letters == 0 && (at[0] == '^' || (at[0] == '_' && behind)) &&
+            !isalnum((unsigned char)at[1] ? at[2] : 'x')) {
+            put = small_letter(at[1], at[0] == '^');
+            taken = put ? 2 : 1;
+        } else if (letters == 0 && isdigit((unsigned char)at[0]) && at > text &&
+                   isalpha((unsigned char)at[-1])) {
+            put = small_letter(at[0], false);
+        } else if (at[0] == '[') {
+            const size_t digits = strspn(at + 1, "0123456789");
+            if (digits > 0 && at[1 + digits] == ']') {
+                for (size_t i = 0; i < digits; i++) {
+                    to = stpcpy(to, small_letter(at[1 + i], false));
+                }
+                at += digits + 2;
+                continue;
+            }
+        } else if (at[0] == '-') {
+            put = "−";
+        } else if (at[0] == '*') {
+            put = " ";
+        }
+        if (put) {
+            to = stpcpy(to, put);
+        } else {
+            memcpy(to, at, taken);
+            to += taken;
+        }
+        at += taken;
+    }
+    *to = '\0';
+    return typed;
+}
+
+/* A panel's name, "k_1 = 2, Verlet": its keys as they are read elsewhere, schemes as they are called. */
+static const char *typeset_name(struct gm_picture *picture, const char *name)
+{
+    const char *text = "";
+    while (name && *name) {
+        const size_t length = strcspn(name, ","), key = strcspn(name, "=");
+        const char *comma = name[length] ? "," : "";
+        if (key < length) {
+            text = gm_picture_text(picture, "%s%s%.*s%s", text,
+                                   typeset(picture, gm_picture_text(picture, "%.*s", (int)key, name)),
+                                   (int)(length - key), name + key, comma);
+        } else {
+            text = gm_picture_text(picture, "%s%.*s%s", text, (int)length, name, comma);
+        }
+        name += length + (name[length] == ',');
+    }
+    return text;
+}
+
+/* ---- the range that is shown ---- */
+
+struct range {
+    double low[2], high[2];
+};
+
+static const struct range nothing = {{1, 1}, {0, 0}};
+
+static void hold(struct range *range, const double *points, size_t count, size_t stride)
+{
+    for (size_t i = 0; i < count; i++) {
+        gm_range_add(&range->low[0], &range->high[0], points[i * stride]);
+        gm_range_add(&range->low[1], &range->high[1], points[i * stride + 1]);
+    }
+}
+
+static double extent(const struct range *range)
+{
+    return fmax(range->high[0] - range->low[0], range->high[1] - range->low[1]);
+}
+
+static size_t numbers_of(const struct gm_sight *sight)
+{
+    return 2 * sight->bodies + 4 * sight->rods;
+}
+
+/* Whether the members are a disc in the plane that is shown. */
+static bool is_disc(const struct gm_lane *lane, const struct gm_sight *sight)
+{
+    const struct gm_system_scene *own = own_of(lane)->own;
+    return lane->problem.m > 3 && own_of(lane)->shape == GM_SHAPE_DISC && own->system.n == 2 &&
+           sight->components[0] == (long)own->disc[0] && sight->components[1] == (long)own->disc[1] &&
+           !sight->angles[0] && !sight->angles[1];
+}
+
+/* What one lane has shown up to now. */
+static struct range lane_range(const struct gm_lane *lane, const struct gm_sight *sight, double *numbers)
+{
+    struct range range = nothing;
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
+    hold(&range, past->values, past->count * past->width / 2, 2);
+    hold(&range, trail->values, trail->count * trail->width / 2, 2);
+    if (is_disc(lane, sight)) {
+        const struct gm_entries *shapes = &lane->entries[GM_TRACK_SHAPES];
+        hold(&range, shapes->values, shapes->count * shapes->width / 2, 2);
+    }
+    const size_t m = view.problem->m, stride = 1 + m / 512;
+    for (size_t member = 0; member < m; member += stride) {
+        gm_system_values(&sight->tape, &view, m - 1 - member, numbers);
+        hold(&range, numbers, numbers_of(sight) / 2, 2);
+    }
+    return range;
+}
+
+/* How far the three directions of space are drawn from the origin. */
+static double space_reach(const struct range *range)
+{
+    return 1.08 * fmax(fmax(fabs(range->low[0]), fabs(range->high[0])),
+                       fmax(fabs(range->low[1]), fabs(range->high[1])));
+}
+
+static void hold_range(struct range *range, const struct range *other)
+{
+    for (size_t k = 0; k < 2; k++) {
+        gm_range_add(&range->low[k], &range->high[k], other->low[k]);
+        gm_range_add(&range->low[k], &range->high[k], other->high[k]);
+    }
+}
+
+/* Whether two lanes have the same system from the same start. */
+static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
+{
+    const struct gm_system_lane *one = own_of(a), *other = own_of(b);
+    return one->members == other->members && one->spread == other->spread && one->shape == other->shape &&
+           memcmp(one->values, other->values, (one->own->row_count - GM_SYSTEM_ROWS) * sizeof *one->values) ==
+               0;
+}
+
+/* What those lanes show that have the system of lane `like`, so that growth and decay are seen side by side;
+   but who runs away makes the others at most half as large. */
+static struct range range_like(const struct gm_lane *const *lanes, size_t count, size_t like,
+                               const struct range *ranges, const struct gm_sight *sight)
+{
+    struct range all = nothing, least = nothing;
+    size_t held = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (is_same(lanes[i], lanes[like])) {
+            const bool better =
+                ranges[i].high[0] >= ranges[i].low[0] && (held == 0 || extent(&ranges[i]) < extent(&least));
+            hold_range(&all, &ranges[i]);
+            least = better ? ranges[i] : least;
+            held++;
+        }
+    }
+    if (sight->in_space && sight->labels[0]) { /* and the three directions */
+        const double reach = space_reach(&least);
+        const double ends[] = {-reach, -reach, reach, reach};
+        hold(&all, ends, 2, 2);
+        hold(&least, ends, 2, 2);
+    }
+    const double room = fmax(0.5 * extent(&least), 1e-9);
+    for (size_t k = 0; k < 2 && held > 1; k++) {
+        all.low[k] = fmax(all.low[k], least.low[k] - room);
+        all.high[k] = fmin(all.high[k], least.high[k] + room);
+    }
+    return all;
+}
+
+/* Lanes of different systems, or starts, are side by side on one scale, unless one of them is so much
+   larger. */
+static const double largest_ratio = 4;
+
+/* The range of every lane's panel, in place of that of the lane. */
+static void set_ranges(const struct gm_lane *const *lanes, size_t count, const struct gm_sight *sight,
+                       struct range *ranges)
+{
+    struct range *own = ranges + count, all = nothing;
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < count; i++) {
+        own[i] = range_like(lanes, count, i, ranges, sight);
+        hold_range(&all, &own[i]);
+        least = fmin(least, extent(&own[i]));
+        most = fmax(most, extent(&own[i]));
+    }
+    for (size_t i = 0; i < count; i++) {
+        ranges[i] = most > largest_ratio * least ? nothing : all;
+        for (size_t k = 0; k < count; k++) {
+            if (lanes[k]->shown.panel == lanes[i]->shown.panel) {
+                hold_range(&ranges[i], &own[k]);
+            }
+        }
+    }
+}
+
+/* Bounds that move outwards in steps of an eighth of the range, about. */
+static void set_axis(struct gm_picture *picture, struct gm_axis *axis, const char *label, bool angle,
+                     double low, double high)
+{
+    const double size = fmax(fabs(low), fabs(high)), round_off = 1e-12 * size;
+    /* what stands still has no width of its own */
+    const double width = high - low > round_off ? 1.06 * (high - low) : size > 0 ? size : 1;
+    const double step = exp2(floor(log2(width))) / 8, margin = (width - (high - low)) / 2;
+    *axis = (struct gm_axis){.label = label ? typeset(picture, label) : "",
+                             .low = step * floor((low - margin) / step),
+                             .high = step * ceil((high + margin) / step)};
+    if (angle) {
+        *axis = (struct gm_axis){.label = axis->label, .scale = GM_PI, .low = -M_PI, .high = M_PI};
+    }
+}
+
+static double wrapped(double angle)
+{
+    return angle - 2 * M_PI * round(angle / (2 * M_PI));
+}
+
+static void wrap(const struct gm_sight *sight, double *point)
+{
+    for (size_t k = 0; k < 2; k++) {
+        point[k] = sight->angles[k] ? wrapped(point[k]) : point[k];
+    }
+}
+
+/* ---- paths ---- */
+
+/* The path of a body, from entry `first` on, and where it is now; broken where an angle starts anew. Returns
+   how many points, of room for twice the entries and two. */
+static size_t path_of(const struct gm_lane *lane, size_t track, const struct gm_sight *sight, size_t body,
+                      size_t first, const double *now, double *points)
+{
+    const struct gm_entries *entries = &lane->entries[track];
+    size_t count = 0;
+    for (size_t i = first; i <= entries->count; i++) {
+        double point[2];
+        memcpy(point, i < entries->count ? entries->values + i * entries->width + 2 * body : now + 2 * body,
+               sizeof point);
+        wrap(sight, point);
+        for (size_t k = 0; k < 2 && count > 0; k++) {
+            if (sight->angles[k] && fabs(point[k] - points[2 * count - 2 + k]) > M_PI) {
+                points[2 * count] = points[2 * count + 1] = NAN;
+                count++;
+                break;
+            }
+        }
+        memcpy(points + 2 * count, point, sizeof point);
+        count++;
+    }
+    return count;
+}
+
+/* Whether chords are short enough to be seen as a curve. */
+static bool is_curve(const struct gm_panel *panel, const double *points, size_t count)
+{
+    double sum = 0;
+    size_t chords = 0;
+    for (size_t i = 1; i < count; i++) {
+        const double length = hypot((points[2 * i] - points[2 * i - 2]) / (panel->x.high - panel->x.low),
+                                    (points[2 * i + 1] - points[2 * i - 1]) / (panel->y.high - panel->y.low));
+        sum += isfinite(length) ? length : 0;
+        chords += isfinite(length);
+    }
+    return chords == 0 || sum < longest_chord * (double)chords;
+}
+
+/* The first entry of the bright end. */
+static size_t bright_from(const struct gm_lane *lane, const struct gm_entries *past)
+{
+    const struct gm_timing *timing = lane->parameters;
+    const double whole = timing->until < GM_NEVER ? timing->until - lane->t0 : lane->run->t - lane->t0;
+    size_t first = past->count;
+    while (first > 0 && past->times[first - 1] > lane->run->t - bright * whole) {
+        first--;
+    }
+    return past->count - first < 24 ? (past->count > 24 ? past->count - 24 : 0) : first;
+}
+
+static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                      const struct gm_sight *sight, size_t body, const double *now, double *points)
+{
+    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
+    const enum gm_role role = gm_lane_role(lane->shown.colour);
+    const size_t count = path_of(lane, GM_TRACK_PAST, sight, body, 0, now, points);
+    if (is_curve(panel, points, count)) {
+        gm_mark_line(picture, panel, (struct gm_style){role, 0.3, 1.1, GM_SOLID}, points, count, false);
+        const size_t end = path_of(lane, GM_TRACK_PAST, sight, body, bright_from(lane, past), now, points);
+        gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2.2, GM_SOLID}, points, end);
+        return;
+    }
+    gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.25, .width = 1.6}, points,
+                   count);
+    const size_t recent = path_of(lane, GM_TRACK_TRAIL, sight, body, trail->count / 2, now, points);
+    if (is_curve(panel, points, recent)) {
+        gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2, GM_SOLID}, points, recent);
+    }
+}
+
+/* Where all members are, where they are no disc. */
+static void draw_members(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                         const struct gm_sight *sight, double *numbers)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const size_t m = view.problem->m, shown = m - 1 < 4096 ? m - 1 : 4096;
+    double *points = gm_picture_memory(picture, 2 * (shown + 1) * sizeof *points);
+    for (size_t body = 0; points && body < sight->bodies; body++) {
+        for (size_t i = 0; i < shown; i++) {
+            gm_system_values(&sight->tape, &view, i * (m - 1) / shown, numbers);
+            wrap(sight, numbers + 2 * body);
+            memcpy(points + 2 * i, numbers + 2 * body, 2 * sizeof *points);
+        }
+        gm_mark_points(
+            picture, panel,
+            (struct gm_style){gm_lane_role(lane->shown.colour), 0.6, shown > 400 ? 2 : 4, GM_SOLID}, points,
+            shown);
+    }
+}
+
+/* The disc as it was and is; the first shape in red. */
+static void draw_disc(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
+{
+    const struct gm_entries *shapes = &lane->entries[GM_TRACK_SHAPES];
+    const enum gm_role role = gm_lane_role(lane->shown.colour);
+    const size_t corners = shapes->width / 2, oldest = shapes->count > TURN ? shapes->count - TURN : 1;
+    for (size_t i = oldest; i < shapes->count; i++) {
+        const double *shape = shapes->values + i * shapes->width;
+        const double fresh = (double)(i + 1 - oldest) / (double)(shapes->count - oldest);
+        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.02 + 0.12 * fresh}, shape,
+                        corners);
+        gm_mark_line(picture, panel, (struct gm_style){role, 0.1 + 0.4 * fresh, 1, GM_SOLID}, shape, corners,
+                     true);
+    }
+    gm_mark_polygon(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.14}, shapes->values,
+                    corners);
+    gm_mark_line(picture, panel, (struct gm_style){GM_INITIAL, 0.9, 1.6, GM_SOLID}, shapes->values, corners,
+                 true);
+    const struct gm_system_scene *own = own_of(lane)->own;
+    const size_t m = lane->problem.m;
+    const double *y = gm_run_state(lane->run);
+    double *points = gm_picture_memory(picture, 2 * m * sizeof *points);
+    for (size_t i = 0; points && i + 1 < m; i++) {
+        points[2 * i] = y[own->disc[0] * m + i];
+        points[2 * i + 1] = y[own->disc[1] * m + i];
+    }
+    if (points && lane->run->t != lane->t0) {
+        gm_mark_polygon(picture, panel, (struct gm_style){.role = role, .alpha = 0.42}, points, m - 1);
+        gm_mark_line(picture, panel, (struct gm_style){role, 1, 2.4, GM_SOLID}, points, m - 1, true);
+    }
+}
+
+/* Where lines would be drawn that lead to no name: the three directions of space. */
+static void draw_space(struct gm_picture *picture, struct gm_panel *panel, const struct gm_sight *sight)
+{
+    const double reach = 0.8 * fmin(fmin(-panel->x.low, panel->x.high), fmin(-panel->y.low, panel->y.high));
+    const double ends[3][2] = {{1, 0}, {GM_OBLIQUE_X, GM_OBLIQUE_Y}, {0, 1}};
+    for (size_t k = 0; k < 3 && sight->labels[0]; k++) {
+        const double line[] = {-reach * ends[k][0], -reach * ends[k][1], reach * ends[k][0],
+                               reach * ends[k][1]};
+        gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.55, 1, GM_SOLID}, line, 2, false);
+        gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
+                     1.06 * line[2], 1.06 * line[3], GM_ANCHOR_CENTRE, typeset(picture, sight->labels[k]));
+    }
+}
+
+static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                      const struct gm_sight *sight, double *numbers)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    struct gm_view before = view;
+    before.state = view.start;
+    before.t = view.t0;
+    const enum gm_role role = gm_lane_role(lane->shown.colour);
+    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
+    const size_t most = past->count > trail->count ? past->count : trail->count;
+    double *points = gm_picture_memory(picture, 2 * (2 * most + 4) * sizeof *points);
+    if (!points) {
+        return;
+    }
+    if (is_disc(lane, sight)) {
+        draw_disc(picture, panel, lane);
+        return;
+    }
+    if (lane->problem.m > 1) {
+        draw_members(picture, panel, lane, sight, numbers);
+    }
+    gm_system_values(&sight->tape, &before, lane->problem.m - 1, numbers);
+    for (size_t body = 0; body < sight->bodies; body++) {
+        wrap(sight, numbers + 2 * body);
+        gm_mark_points(picture, panel, (struct gm_style){.role = GM_INITIAL, .alpha = 0.9, .width = 5},
+                       numbers + 2 * body, sight->fixed[body] ? 0 : 1);
+    }
+    gm_system_values(&sight->tape, &view, lane->problem.m - 1, numbers);
+    for (size_t body = 0; body < sight->bodies; body++) {
+        if (!sight->fixed[body]) {
+            draw_body(picture, panel, lane, sight, body, numbers, points);
+        }
+    }
+    for (size_t rod = 0; rod < sight->rods; rod++) {
+        gm_mark_line(picture, panel, (struct gm_style){GM_INK, 0.8, 3, GM_SOLID},
+                     numbers + 2 * sight->bodies + 4 * rod, 2, false);
+    }
+    for (int fixed = 1; fixed >= 0; fixed--) { /* what moves stands in front */
+        for (size_t body = 0; body < sight->bodies; body++) {
+            const struct gm_style style = {fixed ? GM_SECONDARY : role, 1, sight->rods > 0 ? 13 : 10,
+                                           GM_SOLID};
+            wrap(sight, numbers + 2 * body);
+            gm_mark_points(picture, panel, style, numbers + 2 * body,
+                           sight->fixed[body] == (fixed == 1) ? 1 : 0);
+        }
+    }
+}
+
+/* Axes of one unit where both are places, or nearly of one size. */
+static bool is_equal(const struct gm_sight *sight, const struct gm_panel *panel)
+{
+    const double ratio = (panel->x.high - panel->x.low) / (panel->y.high - panel->y.low);
+    return strcmp(sight->name, "view") == 0 ||
+           (!sight->angles[0] && !sight->angles[1] && ratio > 0.4 && ratio < 2.5);
+}
+
+static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    const struct gm_sight *sight = gm_system_sight(lanes[0]->parameters);
+    double *numbers = gm_picture_memory(picture, (numbers_of(sight) + 1) * sizeof *numbers);
+    struct range *ranges = gm_picture_memory(picture, 2 * count * sizeof *ranges);
+    if (!numbers || !ranges) {
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        ranges[i] = lane_range(lanes[i], sight, numbers);
+    }
+    set_ranges(lanes, count, sight, ranges);
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        if (walk.first) {
+            struct range range = ranges[0];
+            for (size_t i = 0; i < count; i++) {
+                range = lanes[i] == walk.lane ? ranges[i] : range;
+            }
+            panel = gm_walk_panel(picture, &walk, "");
+            panel->title = typeset_name(picture, panel->title);
+            set_axis(picture, &panel->x, sight->in_space ? NULL : sight->labels[0], sight->angles[0],
+                     range.low[0], range.high[0]);
+            set_axis(picture, &panel->y, sight->in_space ? NULL : sight->labels[1], sight->angles[1],
+                     range.low[1], range.high[1]);
+            panel->axes = sight->labels[0] && !sight->in_space;
+            panel->equal = is_equal(sight, panel);
+            if (sight->in_space) {
+                draw_space(picture, panel, sight);
+            }
+        }
+        draw_lane(picture, panel, walk.lane, sight, numbers);
+    }
+}
+
+/* ---- section and graphs ---- */
+
+static void set_section(struct gm_picture *picture, struct gm_panel *panel,
+                        const struct gm_lane *const *lanes, size_t count)
+{
+    const struct gm_sight *sight = &own_of(lanes[0])->own->section;
+    struct range range = nothing;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_entries *crossings = &lanes[i]->entries[GM_TRACK_SECTION];
+        hold(&range, crossings->values, crossings->count, 2);
+    }
+    for (size_t k = 0; k < 2; k++) {
+        const bool empty = range.low[k] > range.high[k];
+        set_axis(picture, k ? &panel->y : &panel->x, sight->labels[k], sight->angles[k],
+                 empty ? -1 : range.low[k], empty ? 1 : range.high[k]);
+    }
+    panel->axes = true;
+}
+
+static void draw_crossings(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
+{
+    const struct gm_sight *sight = &own_of(lane)->own->section;
+    const struct gm_entries *crossings = &lane->entries[GM_TRACK_SECTION];
+    double *points = gm_picture_memory(picture, 2 * (crossings->count + 1) * sizeof *points);
+    for (size_t i = 0; points && i < crossings->count; i++) {
+        memcpy(points + 2 * i, crossings->values + 2 * i, 2 * sizeof *points);
+        wrap(sight, points + 2 * i);
+    }
+    const double width = crossings->count < 60 ? 5 : crossings->count < 1000 ? 3.2 : 2.2;
+    gm_mark_points(picture, panel, (struct gm_style){gm_lane_role(lane->shown.colour), 0.75, width, GM_SOLID},
+                   points, points ? crossings->count : 0);
+}
+
+static const char *section_title(const struct gm_lane *lane)
+{
+    return own_of(lane)->own->stroboscopic ? "Stroboscopic section" : "Poincaré section";
+}
+
+static void draw_section(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, section_title(lanes[0]));
+    panel->title_role = GM_INK;
+    set_section(picture, panel, lanes, count);
+    for (size_t i = 0; i < count; i++) {
+        draw_crossings(picture, panel, lanes[i]);
+    }
+}
+
+static void draw_sections(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    struct gm_panel *panel = NULL;
+    for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
+        if (walk.first) {
+            panel = gm_walk_panel(picture, &walk, "");
+            panel->title = typeset_name(picture, panel->title);
+            set_section(picture, panel, lanes, count);
+        }
+        draw_crossings(picture, panel, walk.lane);
+    }
+}
+
+/* What is kept first, then what is observed. */
+static void draw_numbers(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                         size_t most)
+{
+    const struct gm_scene *scene = lanes[0]->scene;
+    const bool disc = lanes[0]->problem.m > 3 && own_of(lanes[0])->shape == GM_SHAPE_DISC;
+    for (int kept = 1; kept >= 0; kept--) {
+        for (size_t i = 0; i < scene->observable_count && most > 0; i++) {
+            const struct gm_observable *observable = &scene->observables[i];
+            const bool of_disc = strncmp(observable->key, "area", 4) == 0;
+            const bool swings = strcmp(observable->key, "energy") == 0; /* which tells nothing of a scheme */
+            if (observable->kept != (kept == 1) || (of_disc && (!disc || !observable->kept)) || swings) {
+                continue;
+            }
+            const bool log = observable->error || observable->logarithmic;
+            struct gm_graph graph = {
+                .observable = observable->key, .scale = log ? GM_LOG : GM_LINEAR, .highest = log};
+            graph.title = log ? NULL : typeset(picture, observable->title);
+            graph.calm_low = log ? 1e-8 : 0;
+            graph.calm_high = log ? 1e-4 : 0;
+            gm_draw_graphs(picture, lanes, count, &graph, 1);
+            most--;
+        }
+    }
+}
+
+/* "m = 1,  Δt = 0.01": what is the same in all lanes. */
+static const char *told(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    const struct gm_system_scene *own = own_of(lanes[0])->own;
+    const char *text = "";
+    char number[64];
+    size_t shown = 0;
+    for (size_t row = 0; row < own->first_start && shown < TOLD_PARAMETERS; row++) {
+        const struct gm_parameter *parameter = &own->rows[row];
+        const double value = gm_parameter_get(parameter, lanes[0]->parameters);
+        bool same = parameter->offset >= offsetof(struct gm_system_lane, values);
+        for (size_t i = 1; i < count; i++) {
+            same &= value == gm_parameter_get(parameter, lanes[i]->parameters);
+        }
+        if (same) {
+            gm_number_format(value, number, sizeof number);
+            const bool plain = value == 0 || (fabs(value) >= 1e-3 && fabs(value) < 1e6);
+            if (strlen(number) > 12 && plain) {
+                snprintf(number, sizeof number, "%.6g", value);
+            }
+            text = gm_picture_text(
+                picture, "%s%s%s = %s%s%s", text, shown ? ",  " : "", typeset(picture, parameter->key),
+                strlen(number) > 12 ? gm_power_text(picture, value) : typeset(picture, number),
+                parameter->unit[0] ? " " : "", parameter->unit);
+            shown++;
+        }
+    }
+    if (gm_one_step(lanes, count)) {
+        text = gm_picture_text(picture, "%s%sΔt = %s", text, shown ? ",  " : "",
+                               gm_step_text(picture, lanes[0]->run->dt));
+    }
+    return text;
+}
+
+void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct gm_system_lane *lane = own_of(lanes[0]);
+    const struct gm_system_scene *own = lane->own;
+    bool one_scheme = true;
+    for (size_t i = 1; i < count; i++) {
+        one_scheme &= lanes[i]->scheme == lanes[0]->scheme;
+    }
+    picture->title = gm_picture_text(picture, "%s, by %s",
+                                     own->system.texts[GM_WORD_TITLE] ? own->scene.title
+                                                                      : typeset(picture, own->scene.title),
+                                     one_scheme ? lanes[0]->scheme->title : gm_counted_schemes(lanes, count));
+    picture->subtitle = told(picture, lanes, count);
+    picture->caption = own->scene.watch;
+    picture->graphs_below = true;
+    gm_draw_clock(picture, lanes, count);
+    const bool only_section = own->has_section && lane->show == GM_SHOW_SECTION;
+    if (only_section) {
+        draw_sections(picture, lanes, count);
+    } else {
+        draw_states(picture, lanes, count);
+    }
+    if (own->has_section && lane->show == GM_SHOW_ALL) {
+        draw_section(picture, lanes, count);
+    }
+    draw_numbers(picture, lanes, count, MOST_GRAPHS - (own->has_section && !only_section ? 1 : 0));
+}

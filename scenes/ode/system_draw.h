@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The picture of a system of somebody's own: the panels that its components, sections and looks ask for. */
+#ifndef GM_SCENES_ODE_SYSTEM_DRAW_H
+#define GM_SCENES_ODE_SYSTEM_DRAW_H
+
+#include "scenes/ode/system_look.h"
+
+void gm_system_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);
+
+#endif

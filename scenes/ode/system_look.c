@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Formulas of a system that somebody wrote, in a view of its scene. */
+#include "scenes/ode/system_look.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
+{
+    const struct gm_system_scene *own = lane->own;
+    const size_t pairs = own->has_section ? GM_SHOW_SECTION + 1 : GM_SHOW_ALL + 1, show = (size_t)lane->show;
+    if (own->has_section && show == GM_SHOW_SECTION) {
+        return &own->section;
+    }
+    return &own->sights[show < pairs || show >= pairs + own->pair_count
+                            ? 0
+                            : show - pairs + (own->sight_count - own->pair_count)];
+}
+
+void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values)
+{
+    const struct gm_system_lane *lane = view->parameters;
+    const struct gm_own_system *system = &lane->own->system;
+    const size_t m = view->problem->m;
+    enum {
+        FEW = 256
+    }; /* after every step of a run that is looked at: nothing is allocated for a small one */
+    double few[FEW], *many = NULL, *variables = few;
+    if (system->variable_count > FEW) {
+        variables = many = malloc(system->variable_count * sizeof *many);
+    }
+    for (size_t i = 0; variables && i < system->variable_count; i++) {
+        variables[i] = NAN;
+    }
+    for (size_t i = 0; variables && i < system->n; i++) {
+        variables[i] = view->state[i * m + member];
+        variables[system->initial + i] = view->start[i * m + member];
+    }
+    for (size_t row = GM_SYSTEM_ROWS; variables && row < lane->own->first_start; row++) {
+        variables[lane->own->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+    }
+    if (variables) {
+        variables[system->n] = view->t;
+        gm_tape_values(tape, variables, values, 1);
+    }
+    for (size_t i = 0; !variables && i < tape->outputs; i++) {
+        values[i] = NAN;
+    }
+    free(many);
+}

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the scene of a system that somebody wrote consists of, and how its state is looked at. */
+#ifndef GM_SCENES_ODE_SYSTEM_LOOK_H
+#define GM_SCENES_ODE_SYSTEM_LOOK_H
+
+#include "core/ode/own/own.h"
+#include "core/tape.h"
+#include "scenes/frame/written.h"
+
+/* A way to look at the state: bodies and rods, or one point, in a plane. */
+struct gm_sight {
+    const char *name;      /* as show= says it */
+    size_t bodies, rods;   /* 2 numbers of a body, then 4 of a rod */
+    struct gm_tape tape;   /* of all variables to these numbers */
+    bool *fixed;           /* of each body: it does not move */
+    const char *labels[3]; /* of the axes; NULL: they have no names */
+    bool angles[2];        /* an axis is an angle */
+    long components[2];    /* an axis is this component of the state; -1: it is none */
+    bool in_space;         /* three coordinates, drawn obliquely */
+};
+
+enum { GM_SYSTEM_ROWS = 6 /* dt, until, members, spread, shape, show: the others are the system's own */ };
+enum { GM_SHAPE_DISC, GM_SHAPE_GRID, GM_SHAPE_LINE };
+enum { GM_SHOW_ALL, GM_SHOW_SECTION /* then planes, and last the modified energy, where there is one */ };
+enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
+enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_PREFERRED = 12 };
+
+/* The direction that leads away from the eye is drawn to the upper right, shortened. */
+#define GM_OBLIQUE_X 0.43
+#define GM_OBLIQUE_Y 0.25
+
+/* What follows from a system once. */
+struct gm_system_scene {
+    struct gm_scene scene;
+    struct gm_own_system system;
+    struct gm_own_model model;
+    struct gm_parameter *rows;
+    size_t *variables; /* of each row: its number among the system's */
+    size_t row_count, first_start;
+    struct gm_observable *observables;
+    struct gm_tape *formulas; /* of each observable */
+    size_t observable_count;
+    struct gm_track tracks[GM_SYSTEM_TRACKS];
+    struct gm_sight *sights; /* the first is what show=all shows; the last pair_count are planes */
+    size_t sight_count, pair_count;
+    const char **shows;
+    struct gm_sight section;
+    struct gm_tape where; /* what becomes 0 there, or its period, and what must be positive */
+    size_t conditions;
+    bool has_section, stroboscopic, turns; /* what becomes 0 is an angle */
+    struct gm_tape stop, exact, timing[3];
+    size_t disc[2]; /* the components that members differ in */
+    double radian;  /* 1 / the largest frequency at the start */
+    struct gm_work work;
+    struct gm_stability stability;
+    double values[5];
+    const char *schemes[GM_MOST_PREFERRED + 1];
+    struct gm_kept_texts texts;
+    struct gm_system_lane *initial;
+};
+
+/* A lane's parameters. */
+struct gm_system_lane {
+    struct gm_timing timing;
+    const struct gm_system_scene *own;
+    long members;
+    double spread;
+    int shape, show;
+    double values[]; /* of the rows from first_value on; behind them whether each row was given, as bytes */
+};
+
+/* The values of a tape for one member of a view's state. */
+void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values);
+/* What a lane shows of its state. */
+const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane);
+
+#endif
