@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/* Yardsticks: one scheme on one problem, written by hand or with Boost's odeint. The state changes in place.
- */
+/* Yardsticks: one scheme on one problem, written by hand or with Boost's odeint. The state changes in
+   place. */
 
 #define GM_HAND_STRENGTH 2.0
 

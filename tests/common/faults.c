@@ -227,7 +227,11 @@ FILE *fopen(const char *path, const char *mode)
 FILE *fdopen(int descriptor, const char *mode)
 {
     NEXT(fdopen)
-    return NO_FILE_HERE ? none() : next(descriptor, mode);
+    if (NO_FILE_HERE) {
+        errno = EIO;
+        return NULL;
+    }
+    return next(descriptor, mode);
 }
 
 ssize_t read(int descriptor, void *bytes, size_t size)
@@ -276,10 +280,11 @@ int mkdir(const char *path, mode_t mode)
     return NO_FILE_HERE ? refuse(ENOSPC) : (int)syscall(SYS_mkdirat, AT_FDCWD, path, mode);
 }
 
+/* A stream into memory is no file. */
 size_t fread(void *items, size_t size, size_t number, FILE *stream)
 {
     NEXT(fread)
-    if (NO_FILE_HERE) {
+    if (fileno(stream) >= 0 && NO_FILE_HERE) {
         stream->_flags |= ERROR_SEEN;
         errno = EIO;
         return 0;
@@ -290,7 +295,7 @@ size_t fread(void *items, size_t size, size_t number, FILE *stream)
 size_t fwrite(const void *items, size_t size, size_t number, FILE *stream)
 {
     NEXT(fwrite)
-    if (NO_FILE_HERE) {
+    if (fileno(stream) >= 0 && NO_FILE_HERE) {
         stream->_flags |= ERROR_SEEN;
         errno = ENOSPC;
         return 0;
@@ -319,7 +324,7 @@ int fflush(FILE *stream)
 int fclose(FILE *stream)
 {
     NEXT(fclose)
-    const bool full = fileno(stream) >= 0 && NO_FILE_HERE; /* a stream into memory is no file */
+    const bool full = fileno(stream) >= 0 && NO_FILE_HERE;
     if (full) {
         fill(stream);
     }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Folders that tests fill and leave empty. */
 #include "tests/common/folder.h"
 
 #include <dirent.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs to their end, for what tests measure of them. */
 #include "tests/common/laboratory.h"
 
 #include <math.h>

@@ -18,8 +18,8 @@ void gm_trial_close(struct gm_trial *trial);
 double gm_trial_end(const struct gm_trial *trial, const char *key);
 double gm_trial_max(const struct gm_trial *trial, const char *key);
 
-/* Runs all lanes that the words make; fails the test where one warns of having lost what the exact motion keeps,
-   or, if that is expected, where none does. */
+/* Runs all lanes that the words make; fails the test where one warns of having lost what the exact motion
+   keeps, or, if that is expected, where none does. */
 void gm_trial_expect_warning(const struct gm_scene *scene, const char *words, bool expected);
 
 /* The sentence that refuses these words; "" if they are accepted. */

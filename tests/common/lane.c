@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lanes for tests, opened by a request's words. */
 #include "tests/common/lane.h"
 
 #include <math.h>

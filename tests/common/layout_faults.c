@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The faults of a layout, as boxes that meet or leave the surface. */
 #include "tests/common/layout_faults.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Meshes of the folder of references, read as a user's are. */
 #include "tests/common/meshes.h"
 
 #include <stdio.h>
@@ -30,7 +31,7 @@ struct gm_triangulation mesh_of(const char *name)
     struct gm_triangulation_fault fault;
     size_t size = 0;
     char *text = mesh_text(name, &size);
-    require(gm_triangulation_read(text, size, &mesh, &fault));
+    require(gm_triangulation_read(text, size, GM_STAR_AUTO, &mesh, &fault));
     free(text);
     return mesh;
 }

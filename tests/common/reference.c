@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The reader of reference values. */
 #include "tests/common/reference.h"
 
 #include <stdbool.h>

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Checkpoints with a right checksum whose bytes are changed anywhere: the first byte chooses a render, then
+   nine bytes each say a place and what is written there. What is taken can be gone on with and drawn. */
 #include <libdeflate.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -11,9 +13,6 @@
 #include "app/request/drive.h"
 #include "render/picture/picture.h"
 #include "scenes/frame/lane_pack.h"
-
-/* Checkpoints with a right checksum whose bytes are changed anywhere: the first byte chooses a render, then
-   nine bytes each say a place and what is written there. What is taken can be gone on with and drawn. */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -90,7 +89,7 @@ static void go_on(struct gm_lane *lane)
     struct gm_picture *picture = gm_picture_open();
     require(picture != NULL);
     const struct gm_lane *const lanes[] = {lane};
-    lane->scene->draw(lanes, 1, picture);
+    gm_lanes_draw(lanes, 1, picture);
     gm_picture_close(picture);
 }
 

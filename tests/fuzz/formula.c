@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Any text as a system: it is read, with its equations and structure, or refused with a sentence. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/formula/equations.h"
 #include "core/formula/facts.h"
-
-/* Any text as a system: it is read, with its equations and structure, or refused with a sentence. */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The reader of Gmsh files against any bytes: a mesh whose parts agree, or a fault that says why. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
 #include "core/flow/gmsh.h"
-
-/* The reader of Gmsh files against any bytes: a mesh whose parts agree, or a fault that says why. */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -20,7 +19,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct gm_triangulation mesh;
     struct gm_triangulation_fault fault;
-    if (!gm_triangulation_read((const char *)data, size, &mesh, &fault)) {
+    if (!gm_triangulation_read((const char *)data, size, GM_STAR_AUTO, &mesh, &fault)) {
         require(fault.kind != GM_TRIANGULATION_OK && mesh.complex == NULL);
         return 0;
     }

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers and options of any words: a number that is understood is written so that it reads the same again,
+   and an option's value lies in its range or is refused with a sentence. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -6,9 +8,6 @@
 
 #include "app/commands/options.h"
 #include "core/parameter.h"
-
-/* Numbers and options of any words: a number that is understood is written so that it reads the same again,
-   and an option's value lies in its range or is refused with a sentence. */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,4 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What `again` reads: the texts of a PNG, of any bytes or of chunks whose checksums are right, then the
+   request and the changes that they name. Each is read, or refused with a sentence, which holds nothing that
+   a terminal would obey once it is tamed. */
 #include <libdeflate.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -10,10 +13,6 @@
 #include "app/output/provenance.h"
 #include "app/request/arguments.h"
 #include "render/cells/text.h"
-
-/* What `again` reads: the texts of a PNG, of any bytes or of chunks whose checksums are right, then the
-   request and the changes that they name. Each is read, or refused with a sentence, which holds nothing that
-   a terminal would obey once it is tamed. */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The parameter parser against any words: it reads them or gives a sentence; what it has read is written so
+   that it reads the same again. */
 #include "app/request/request.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* The parameter parser against any words: it reads them or gives a sentence; what it has read is written so
-   that it reads the same again. */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The reader of tours against any bytes: it reads them, or gives a sentence that names a line. */
 #include "app/tours/tour.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* The reader of tours against any bytes: it reads them, or gives a sentence that names a line. */
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fields run by words, for published numbers. */
 #include "tests/numbers/field_runs.h"
 
 #include <math.h>

@@ -181,8 +181,7 @@ static void energy_of_two(void **unused)
 }
 
 /* The largest relative change of the energy of two solitons on 25 nodes up to t = 2000; infinite if it ended
- * before.
- */
+ * before. */
 static double energy_error_for_long(const char *scheme, int density, double dt)
 {
     struct trial trial = {

@@ -28,6 +28,7 @@ offers() {
 offers 'render' ren
 offers 'room' run roo
 offers 'scheme=' run disc sch
+offers 'coordinates=' run system co
 offers 'system=oscillator system=pendulum' run disc system=
 offers 'outlet=dirichlet outlet=free outlet=soft' run room outlet=
 offers 'scheme=rk4,rk2' run disc scheme=rk4,rk2
@@ -53,6 +54,8 @@ offers '' run room mesh=a
 offers '' nonsense x
 # tours: those of the folder
 GEOMINT_TOURS=$2/share/tours
+GEOMINT_SYSTEMS=$2/share/systems # which tours show
+export GEOMINT_SYSTEMS
 export GEOMINT_TOURS
 offers "$(cd "$GEOMINT_TOURS" && ls | sed 's/\.tour$//')" tour ''
 offers 'mesh' tour me

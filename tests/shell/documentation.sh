@@ -23,13 +23,14 @@ cat >"$folder/bin/geomint" <<'SCRIPT'
 #!/bin/sh
 case " $* " in
 *' --size '*) ;;
-' render '* | ' figures '* | ' work-precision '* | ' stability '* | ' sweep '*' --out '*) set -- "$@" --size 160x90 ;;
+' render '* | ' figures '* | ' work-precision '* | ' stability '* | ' backward '* | ' sweep '*' --out '*) set -- "$@" --size 160x90 ;;
 esac
 exec "$GEOMINT_TESTED" "$@"
 SCRIPT
 chmod +x "$folder/bin/geomint"
-GEOMINT_TESTED=$geomint PATH=$folder/bin:$PATH
-export GEOMINT_TESTED PATH
+GEOMINT_TESTED=$geomint GEOMINT_SYSTEMS=$source/share/systems GEOMINT_KERNEL=$source XDG_CACHE_HOME=$folder/caches
+PATH=$folder/bin:$PATH
+export GEOMINT_TESTED GEOMINT_SYSTEMS GEOMINT_KERNEL XDG_CACHE_HOME PATH
 
 # blocks FILE KIND: the text of the blocks with that first line
 blocks() {

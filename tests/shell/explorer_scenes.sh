@@ -9,7 +9,7 @@ set -u
 # the scene's own parameters but the end, which `geomint run` alone knows, and what only a mesh file has
 keys_of() {
     "$geomint" list "$1" --json | sed 's|"observables".*||' | grep -o '"key":"[^"]*"' | sed 's/"key":"//; s/"//' |
-        grep -vxE 'until|compensated|binding|tau0|tolerance|inlet|lid'
+        grep -vxE 'until|compensated|binding|tau0|tolerance|inlet|lid|star'
 }
 
 open_scene() { # WORDS
@@ -53,7 +53,7 @@ done
 open_scene disc
 wait_for '^ +explicit +implicit +symplectic '
 wait_for '^ +Euler +Euler +Euler '
-wait_for '━ explicit Euler +(L   1|! lost)'
+wait_for '━ explicit Euler +(L +1|! lost)'
 wait_for '• symplectic Euler  SLA  1'
 keys q
 wait_for 'left 0'

@@ -123,6 +123,8 @@ settled | grep -q 'Moving with the flow' && fail "the tour is not over"
 keys l
 wait_for '▸ disc'
 keys End
+wait_for '▸ flat'
+keys Up
 wait_for '▸ worth'
 keys Enter
 wait_for 'What is it worth\? 1/5'

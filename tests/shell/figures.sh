@@ -2,16 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # geomint figures: the page, a figure that fails among others, an interruption. figures.sh GEOMINT
 set -u
-geomint=$1
-folder=$(mktemp -d) || exit 1
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-
-fail() {
-    printf 'FAILED: %s\n' "$1"
-    failures=$((failures + 1))
-}
+. "$(dirname "$0")/answers.sh"
 
 timeout 120 "$geomint" figures razafindralandy-1 razafindralandy-5 tyranowski-2 --quick --out page >out 2>err
 [ $? = 0 ] || fail "figures: $(cat err)"

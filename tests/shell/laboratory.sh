@@ -2,42 +2,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # work-precision and stability from the command line: laboratory.sh PROGRAM
 set -u
-program=$1
-folder=$(mktemp -d) || exit 99
-trap 'rm -rf "$folder"' EXIT
-failures=0
+. "$(dirname "$0")/answers.sh"
 
-fail()
-{
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
-
-# refused MESSAGE-PART WORDS...: exit status 1 and one sentence
-refused()
-{
-    part=$1
-    shift
-    "$program" "$@" >"$folder/out" 2>"$folder/err"
-    [ $? -eq 1 ] || fail "$* is not refused"
-    grep -q -- "$part" "$folder/err" || fail "$*: $(cat "$folder/err")"
-    [ "$(wc -l <"$folder/err")" -eq 1 ] || fail "$*: more than a sentence"
-}
-
-refused "which scene" work-precision
-refused "no scene" work-precision keplar
-refused "only scheme and dt" work-precision kepler eccentricity=.1,.2
-refused "no observable" work-precision kepler --measure energy-error
-refused "says nothing" work-precision kepler perturbation=.01 --measure position_error
-refused "nothing to measure" work-precision kepler until=0
-refused "which scene" stability
-refused "no stability map" stability disc
-refused "did you mean" stability --region rk44
-refused "no linear stability region" stability --region logh2
-refused "no scene" stability kepler --region rk4
+refused 1 "which scene" work-precision
+refused 1 "no scene" work-precision keplar
+refused 1 "only scheme and dt" work-precision kepler eccentricity=.1,.2
+refused 1 "no observable" work-precision kepler --measure energy-error
+refused 1 "says nothing" work-precision kepler perturbation=.01 --measure position_error
+refused 1 "nothing to measure" work-precision kepler until=0
+refused 1 "which scene" stability
+refused 1 "no stability map" stability disc
+refused 1 "did you mean" stability --region rk44
+refused 1 "no linear stability region" stability --region logh2
+refused 1 "no scene" stability kepler --region rk4
 
 # a small ladder: files, table, sentence
-"$program" work-precision kepler scheme=rk4,verlet dt=2*pi/50,2*pi/100,2*pi/200 until=2*pi --size 320x180 \
+"$geomint" work-precision kepler scheme=rk4,verlet dt=2*pi/50,2*pi/100,2*pi/200 until=2*pi --size 320x180 \
     --out "$folder" >"$folder/out" 2>"$folder/err" || fail "work-precision: $(cat "$folder/err")"
 [ -s "$folder/kepler-work-precision.png" ] || fail "no PNG"
 [ "$(wc -l <"$folder/kepler-work-precision.csv")" -eq 7 ] || fail "the CSV has other than 6 rows"
@@ -49,17 +29,22 @@ awk -F, '$2 == "rk4" { if (before && (before / $8 < 10 || before / $8 > 40)) exi
     "$folder/kepler-work-precision.csv" || fail "rk4 is not of order 4 in the CSV"
 
 # no exact solution: a reference run; any scene has it
-"$program" work-precision disc scheme=verlet,rk4 dt=.1,.05 until=1 points=8 --size 320x180 --out "$folder" \
+"$geomint" work-precision disc scheme=verlet,rk4 dt=.1,.05 until=1 points=8 --size 320x180 --out "$folder" \
     >"$folder/out" 2>&1 || fail "work-precision disc"
 grep -q 'against a run of' "$folder/out" || fail "no reference run is named"
 
+# an observable that is the distance from an exact solution serves where the problem brings none
+"$geomint" work-precision channel dt=0.02,0.01 until=0.1 --size 320x180 --out "$folder" >"$folder/out" 2>&1 ||
+    fail "work-precision channel: $(cat "$folder/out")"
+grep -q '^channel, solution_error' "$folder/out" || fail 'a channel is not measured by its solution'
+
 # another measure
-"$program" work-precision vortices scheme=rk4,gauss4 dt=.1,.05 until=1 strength=1 --measure angular_impulse_error \
+"$geomint" work-precision vortices scheme=rk4,gauss4 dt=.1,.05 until=1 strength=1 --measure angular_impulse_error \
     --size 320x180 --out "$folder" >"$folder/out" 2>&1 || fail "work-precision --measure"
 grep -q ',angular_impulse_error,' "$folder/vortices-work-precision.csv" || fail "the measure is not named in the CSV"
 
 # interrupted, it keeps what it has
-"$program" work-precision kepler until=4000*pi --size 320x180 --out "$folder/half" >"$folder/out" 2>&1 &
+"$geomint" work-precision kepler until=4000*pi --size 320x180 --out "$folder/half" >"$folder/out" 2>&1 &
 running=$!
 sleep 1
 kill -INT $running
@@ -67,7 +52,7 @@ wait $running
 [ $? -eq 130 ] || fail "interrupted work-precision does not exit with 130"
 [ -s "$folder/half/kepler-work-precision.csv" ] || fail "interrupted work-precision keeps nothing"
 
-"$program" stability stiff scheme=verlet until=10 --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
+"$geomint" stability stiff scheme=verlet until=10 --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
     fail "stability: $(cat "$folder/err")"
 [ -s "$folder/stiff-stability.png" ] || fail "no PNG of the map"
 grep -q '^stiff,verlet,50,2.0499.*,blow-up,blow-up,' "$folder/stiff-stability.csv" || fail "Verlet is not lost at 2.05"
@@ -78,7 +63,7 @@ grep -q 'bounded for all values up to 1.95' "$folder/out" || fail "no limit in t
 for words in 'kepler scheme=rk4,verlet dt=2*pi/50,2*pi/100,2*pi/200 until=2*pi' \
     'kepler scheme=explicit-euler,gauss4 dt=1,4 until=8' 'wave scheme=leapfrog dt=.01,.005 until=1'; do
     # shellcheck disable=SC2086
-    "$program" work-precision $words --size 320x180 --out "$folder" --json >"$folder/out" 2>"$folder/err" ||
+    "$geomint" work-precision $words --size 320x180 --out "$folder" --json >"$folder/out" 2>"$folder/err" ||
         fail "work-precision $words --json: $(cat "$folder/err")"
     [ "$(cat "$folder/err")" = "geomint: wrote $folder/${words%% *}-work-precision.png and $folder/${words%% *}-work-precision.csv" ] ||
         fail "work-precision does not say what it wrote: $(cat "$folder/err")"
@@ -103,7 +88,7 @@ for line in lines:
         assert (price["seconds"] is not None) == reached, price
 END
 done
-"$program" stability stiff scheme=verlet,midpoint until=10 --size 320x180 --out "$folder" --json >"$folder/out" 2>"$folder/err" ||
+"$geomint" stability stiff scheme=verlet,midpoint until=10 --size 320x180 --out "$folder" --json >"$folder/out" 2>"$folder/err" ||
     fail "stability --json: $(cat "$folder/err")"
 python3 - "$folder/out" "$folder/stiff-stability.csv" <<'END' || fail "stability --json: $(head -c 300 "$folder/out")"
 import csv, json, sys
@@ -118,14 +103,14 @@ for (line, cell), row in zip(cells, rows):
     assert (row["scheme"], row["verdict"], row["status"]) == (line["scheme"], cell["verdict"], cell["status"])
     assert (row["error"] == "") == (cell["error"] is None)
 END
-"$program" stability --region rk4 --size 320x180 --out "$folder" --json 2>"$folder/err" | python3 -c '
+"$geomint" stability --region rk4 --size 320x180 --out "$folder" --json 2>"$folder/err" | python3 -c '
 import json, sys
 told = json.load(sys.stdin)
 assert told["scheme"] == "rk4" and abs(told["imaginary_limit"] - 8 ** .5) < .01 and abs(told["real_limit"] - 2.785) < .01
 ' || fail "stability --region --json"
 
 # steady flows: the stream function's error falls with the square of the edge, whatever the step
-"$program" work-precision couette scheme=steady rows=12,24,48 dt=.2,.1 --size 320x180 --out "$folder" >"$folder/out" \
+"$geomint" work-precision couette scheme=steady rows=12,24,48 dt=.2,.1 --size 320x180 --out "$folder" >"$folder/out" \
     2>"$folder/err" || fail "work-precision couette: $(cat "$folder/err")"
 awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i == "rows") r = i; if ($i == "psi_error") e = i } }
     NR > 1 { error[$r] = $e }
@@ -135,7 +120,7 @@ awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) { if ($i == "rows") r = i; if ($i =
 grep -q 'Fewest rows: ' "$folder/out" || fail "couette: the edges are not compared"
 
 # Taylor-Green vortices against their exact solution: orders 1 and 2 in the step
-"$program" work-precision taylor-green columns=24 viscosity=.2 dt=.25,.125 until=1 --size 320x180 --out "$folder" \
+"$geomint" work-precision taylor-green columns=24 viscosity=.2 dt=.25,.125 until=1 --size 320x180 --out "$folder" \
     >"$folder/out" 2>"$folder/err" || fail "work-precision taylor-green: $(cat "$folder/err")"
 awk -F, '$2 == "semi-implicit" || $2 == "crank-nicolson" { rows++ } END { exit rows != 4 || NR != 5 }' \
     "$folder/taylor-green-work-precision.csv" || fail "taylor-green: entrants"
@@ -145,7 +130,7 @@ for scene in cavity room; do
     small='columns=10 rows=0 until=2'
     [ $scene = room ] && small='rows=10 columns=0 until=1'
     # shellcheck disable=SC2086
-    "$program" stability $scene $small --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
+    "$geomint" stability $scene $small --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
         fail "stability $scene: $(cat "$folder/err")"
     [ -s "$folder/$scene-stability.png" ] || fail "no PNG of the map of $scene"
     [ "$(wc -l <"$folder/$scene-stability.csv")" -eq 81 ] || fail "stability $scene: cells are missing"
@@ -154,16 +139,16 @@ for scene in cavity room; do
         fail "stability $scene: $(cat "$folder/out")"
 done
 
-"$program" stability --region rk4 --size 320x180 --out "$folder" >"$folder/out" 2>&1 || fail "stability --region"
+"$geomint" stability --region rk4 --size 320x180 --out "$folder" >"$folder/out" 2>&1 || fail "stability --region"
 grep -q 'imaginary z up to 2.82' "$folder/out" || fail "the region of rk4: $(cat "$folder/out")"
 [ -s "$folder/rk4-stability.png" ] || fail "no PNG of the region"
-"$program" stability --region rk2 --size 320x180 --out "$folder" >"$folder/out" || fail "the region of rk2"
+"$geomint" stability --region rk2 --size 320x180 --out "$folder" >"$folder/out" || fail "the region of rk2"
 grep -q 'real z from -2, for imaginary z up to 0;' "$folder/out" || fail "the region of rk2: $(cat "$folder/out")"
-"$program" stability --region verlet --size 320x180 --out "$folder" | grep -q 'up to h ω = 2$' || fail "Verlet's limit"
+"$geomint" stability --region verlet --size 320x180 --out "$folder" | grep -q 'up to h ω = 2$' || fail "Verlet's limit"
 
 # fields on a line: every scene has both, and the limits are the known ones
 for scene in sine-gordon kdv nls wave burgers; do
-    "$program" stability $scene --size 320x180 --out "$folder" >"$folder/$scene.txt" 2>"$folder/err" ||
+    "$geomint" stability $scene --size 320x180 --out "$folder" >"$folder/$scene.txt" 2>"$folder/err" ||
         fail "stability $scene: $(cat "$folder/err")"
     [ -s "$folder/$scene-stability.png" ] || fail "no PNG of the map of $scene"
 done
@@ -181,25 +166,25 @@ for words in 'sine-gordon scheme=leapfrog,box dt=.04,.02 until=1' 'kdv scheme=bo
     'nls scheme=box,split-step2 dt=.04,.02 until=1' 'wave scheme=leapfrog dt=.01,.005 until=1' \
     'burgers scheme=ftcs,crank-nicolson dt=.004,.002 until=.2'; do
     # shellcheck disable=SC2086
-    "$program" work-precision $words --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
+    "$geomint" work-precision $words --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" ||
         fail "work-precision $words: $(cat "$folder/err")"
     grep -q '^Cheapest by run time: ' "$folder/out" || fail "work-precision $words: no sentence"
 done
 
 # Burgers: the Courant numbers typed are those measured at every distance of the nodes; a shock begins at t = 1
-"$program" work-precision burgers scheme=ftcs,crank-nicolson dx=.04,.02,.01 courant=.5,.25 --size 320x180 \
+"$geomint" work-precision burgers scheme=ftcs,crank-nicolson dx=.04,.02,.01 courant=.5,.25 --size 320x180 \
     --out "$folder" >"$folder/out" 2>"$folder/err" || fail "work-precision burgers courant: $(cat "$folder/err")"
 awk -F, 'NR > 1 { ratio = $5 / $4; rows++; if (ratio != .5 && ratio != .25) wrong++
         if ($2 == "crank-nicolson" && ratio == .5) error[$4 + 0] = $9 }
     END { exit !(rows == 12 && !wrong && error[.02] / error[.01] > 3 && error[.02] / error[.01] < 5) }' \
     "$folder/burgers-work-precision.csv" || fail "Courant numbers: $(cat "$folder/burgers-work-precision.csv")"
-"$program" work-precision burgers test=shock until=2 scheme=ftcs dx=.02 dt=.002 --size 320x180 --out "$folder" \
+"$geomint" work-precision burgers test=shock until=2 scheme=ftcs dx=.02 dt=.002 --size 320x180 --out "$folder" \
     >"$folder/out" 2>"$folder/err" || fail "work-precision of the shock: $(cat "$folder/err")"
 grep -q ',500,2,ok,' "$folder/burgers-work-precision.csv" || fail "the shock's runs do not end at t = 2"
 
 # charts tell how they were made, and are measured again
 for chart in kepler-work-precision vortices-work-precision stiff-stability rk4-stability; do
-    "$program" again "$folder/$chart.png" --out "$folder/again" >"$folder/out" 2>&1 || fail "again $chart"
+    "$geomint" again "$folder/$chart.png" --out "$folder/again" >"$folder/out" 2>&1 || fail "again $chart"
     [ -s "$folder/again/$chart-again.png" ] || fail "again makes no PNG of $chart"
     [ "$(wc -l <"$folder/$chart.csv")" -eq "$(wc -l <"$folder/again/$chart-again.csv")" ] ||
         fail "again measures something else than $chart"
@@ -210,7 +195,7 @@ head -1 "$folder/again/vortices-work-precision-again.csv" | grep -q angular_impu
     fail "again forgets the measure"
 
 # a step that ends at the first t after until
-"$program" run kepler scheme=logh2 dt=2*pi/60 eccentricity=.9 until=10 --json >"$folder/out" || fail "logh2"
+"$geomint" run kepler scheme=logh2 dt=2*pi/60 eccentricity=.9 until=10 --json >"$folder/out" || fail "logh2"
 grep -Eq '"t":10\.[0-9]+' "$folder/out" || fail "logh2 does not end just after until: $(cat "$folder/out")"
 
 [ $failures -eq 0 ] && echo "all well"

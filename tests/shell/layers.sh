@@ -15,17 +15,18 @@ forbid() {
     fi
 }
 
-forbid core '(render|scenes|app|tests)/'
+forbid core '(render|scenes|app|library|tests)/'
 forbid core '(curses|ncurses|png|GL|EGL)'
-forbid render '(core|scenes|app|tests)/'
+forbid render '(core|scenes|app|library|tests)/'
 forbid render '(curses|ncurses)'
-forbid scenes '(app|tests)/'
+forbid scenes '(app|library|tests)/'
 forbid scenes 'render/(gl|drawing|vector|cells|layout|clock|files/[^r])'
-forbid app 'tests/'
+forbid app '(library|tests)/'
+forbid library '(app/(commands|explorer)|tests)/'
 
 # the floors of app: a room sees none above it, and the words of a command line stay with the commands
 above='commands|explorer'
-for floor in tours 'lanes studies figures data' output 'request cores'; do
+for floor in tours 'lanes studies figures data' output 'request cores' native; do
     for room in $floor; do
         forbid "app/$room" "app/($above)/"
     done
@@ -49,9 +50,16 @@ if [ -n "$found" ]; then
     status=1
 fi
 
+# what a scene asks of a scheme is told by its row or its family
+found=$(grep -rnE 'str(n?cmp|str)\([^,]*scheme->name, *"' scenes)
+if [ -n "$found" ]; then
+    printf 'a scene goes by the name of a scheme:\n%s\n' "$found"
+    status=1
+fi
+
 # every include of the project's own names its folder
-found=$(grep -rnE --include='*.[ch]' "${include}\"" core render scenes app tests |
-    grep -vE '"(core|render|scenes|app|tests)/')
+found=$(grep -rnE --include='*.[ch]' "${include}\"" core render scenes app library tests |
+    grep -vE '"(core|render|scenes|app|library|tests)/')
 if [ -n "$found" ]; then
     printf 'includes are rooted at the top folder:\n%s\n' "$found"
     status=1

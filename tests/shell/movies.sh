@@ -4,19 +4,9 @@
 # no movie. Every time there is a sentence and an exit status, and nothing of it outlives geomint; any file name will
 # do. movies.sh GEOMINT TOURS
 set -u
-geomint=$1
 tours=$2
-folder=$(mktemp -d) || exit 1
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-unset DISPLAY
-failures=0
+. "$(dirname "$0")/answers.sh"
 nap=$((1000000 + $$)) # seconds, a number that only our sleepers have
-
-fail() {
-    printf 'FAILED: %s\n' "$1"
-    failures=$((failures + 1))
-}
 
 # fake NAME, its script on standard input: what stands in ffmpeg's place
 fake() {
@@ -30,7 +20,7 @@ fake() {
 # so many frames that neither the pipe nor the queue holds them
 waves="disc --frames 20 --size 640x400"
 
-limited() { PATH=$folder/bin:$PATH timeout -k 5 100 "$@" 2>err </dev/null; }
+limited() { PATH=$folder/bin:$PATH timeout -k 5 240 "$@" 2>err </dev/null; }
 
 alone() {
     pgrep -f "sleep $nap" >/dev/null && {

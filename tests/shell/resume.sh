@@ -3,17 +3,7 @@
 # A render that was killed goes on by the same command, and shards make the frames of one render; the result is
 # that of a render that nobody disturbed, bit for bit. resume.sh GEOMINT
 set -u
-geomint=$1
-folder=$(mktemp -d) || exit 1
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-unset DISPLAY
-failures=0
-
-fail() {
-    printf 'FAILED: %s\n' "$1"
-    failures=$((failures + 1))
-}
+. "$(dirname "$0")/answers.sh"
 
 # kill_at SIGNAL COUNT FOLDER WORDS...: kills a render when FOLDER holds COUNT frames
 kill_at() {

@@ -176,6 +176,7 @@ def recording(name):
     session = yield from opened(f'{name} while it records', [geomint, 'disc'])
     session.keys('R')
     yield session.shows('● 0:0')
+    yield passed(0.3)  # a recording without a frame leaves no movie
     session.send(name)
     yield from ends(session, name)
     if name in POLITE and not os.path.getsize(os.path.join(session.folder, 'disc-0001.mp4')):

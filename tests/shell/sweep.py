@@ -143,6 +143,7 @@ def test_refusals(folder, one):
     says("--yes makes them", "sweep", "kepler", "eccentricity=0..0.9:1000000", "dt=1e-2..1e-1:1000000")
     says("is none of: ok, blow-up", "sweep", *SWEEP, "--table", one, "--retry", "bad")
     says("needs a table", "sweep", *SWEEP, "--shard", "1/2")
+    says("--table - is no file", "sweep", *SWEEP, "--table", "-")
     says("no observable", "sweep", *SWEEP, "--measure", "energy_eror")
     says("a sweep has none", "sweep", *SWEEP, "overlay=yes")
     # a full disk, in the middle of a row
@@ -241,6 +242,7 @@ def test_pictures(folder):
     with open(drawn, encoding="utf-8") as picture:
         check("<svg" in picture.read() and len(rows(drawn.replace(".svg", ".csv"))) == 4, "-o FILE.svg")
     says("--output - needs a table", "sweep", "kepler", "dt=1e-2,2e-2", "--output", "-", "--format", "pdf")
+    says("system has no observable", "sweep", "system", "rate=x=-k*x", "x=1", "k=0..1:3", "until=1", "--out", folder)
     says("of two, and not of 3", "sweep", "kepler", "dt=1,2", "eccentricity=0,0.1", "until=1,2", "--out", folder)
     says("up to 9 maps, and these are 20", "sweep", "kepler", "dt=1,2", "eccentricity=0,0.1", "--out", folder,
          "scheme=verlet,rk4,rk2,midpoint,gauss4", "--measure",
@@ -253,7 +255,7 @@ def test_memory(folder):
         words = ["kepler", f"eccentricity=0..0.9:{runs}", "dt=0.05", "until=0.1",
                  "--table", os.path.join(folder, f"{runs}.csv")]
         # a sanitizer would keep what was freed
-        kept = {"ASAN_OPTIONS": "quarantine_size_mb=0:thread_local_quarantine_size_kb=0"}
+        kept = {"ASAN_OPTIONS": "quarantine_size_mb=0:thread_local_quarantine_size_kb=0:intercept_tls_get_addr=0"}
         process = subprocess.Popen([geomint, "sweep", *words], stderr=subprocess.DEVNULL, env=os.environ | kept)
         _, status, usage = os.wait4(process.pid, 0)
         check(status == 0 and len(rows(words[-1])) == runs, f"{runs} rows")

@@ -3,30 +3,9 @@
 # Systems on the command line: those that the program brings are listed; what is wrong is said with its place.
 # systems.sh GEOMINT SYSTEMS
 set -u
-geomint=$1
 GEOMINT_SYSTEMS=$2
 export GEOMINT_SYSTEMS
-folder=$(mktemp -d) || exit 1
-trap 'rm -rf "$folder"' EXIT
-cd "$folder" || exit 1
-failures=0
-
-fail() {
-    printf 'FAILED: %s\n' "$1"
-    failures=$((failures + 1))
-}
-
-# refused STATUS PATTERN WORDS...: the first line on standard error holds the pattern
-refused() {
-    wanted=$1
-    pattern=$2
-    shift 2
-    timeout 60 "$geomint" "$@" >out 2>err </dev/null
-    got=$?
-    [ "$got" = "$wanted" ] || fail "geomint $*: exit $got, not $wanted: $(head -c 200 err)"
-    head -n 1 err | grep -q -- "$pattern" || fail "geomint $*: says \"$(cat err)\", not \"$pattern\""
-    [ -s out ] && fail "geomint $*: printed something"
-}
+. "$(dirname "$0")/answers.sh"
 
 for file in "$GEOMINT_SYSTEMS"/*.system; do
     name=$(basename "$file" .system)
@@ -37,14 +16,18 @@ for file in "$GEOMINT_SYSTEMS"/*.system; do
     "$geomint" list "$file" --json | python3 -c '
 import json, sys
 about = json.load(sys.stdin)
-assert about["title"] and about["equations"] and about["structure"] and "rk4" in about["schemes"]
-assert set(about["invariants"].values()) <= {"proved"}, about["invariants"]
-' || fail "list $name --json"
+assert about["title"] and about["equations"] and about["structure"]
+assert ("leapfrog" if about["kind"] == "field" else "rk4") in about["schemes"]
+# fifteen square roots exist together in one of 2^15 points: what holds them is tested, not proved; so is what
+# the parameters of the file alone have, as the symmetry of a bowl without a dent
+known = {"tested at random points"} if sys.argv[1] in ("outer-planets", "bowl") else {"proved"}
+assert set(about["invariants"].values()) <= known, about["invariants"]
+' "$name" || fail "list $name --json"
     for word in title reference watch; do
         grep -q "^$word: " "$file" || fail "$name has no $word"
     done
 done
-for n in 3 4 6 11; do
+for n in 3 4 6 11 100; do
     "$geomint" list toda N=$n --json | python3 -c '
 import json, sys
 about = json.load(sys.stdin)
@@ -52,11 +35,28 @@ assert len(about["equations"]) == 2 * int(sys.argv[1]) and set(about["invariants
 ' $n || fail "list toda N=$n"
 done
 
+# a no has the place of its term, of a derived one that of where it came from
+holds() {
+    "$geomint" list "$1" --long | grep -q -- "^  $2  *$3" || fail "list $1 --long: not \"$2 $3\""
+}
+holds driven-pendulum quadratic 'no  sin(q) (from line 11, column 31) is not of degree 2, in the rate of p'
+holds lotka-volterra volume 'no  .* (from line 13, column 16) contains'
+holds restricted-three-body separable 'no  y\*p_x (line 12, column 24) holds'
+cat >stiff.system <<'END'
+coordinates: a b
+H: (p_a^2 + p_b^2)/2 + 2500*b^2/2 - 1/sqrt(a^2 + b^2)
+start: a = 1, b = 0, p_a = 0, p_b = 1
+END
+holds ./stiff.system fast-linear 'yes'
+holds ./stiff.system kepler-split 'yes'
+"$geomint" list stiff.system --json | grep -q gautschi2 || fail 'a stiff linear part has no scheme of its own'
+
 printf 'coordinates: q\nH: p_q^2/2 + 2q\nstart: q = 1, p_q = 0\n' >wrong.system
 refused 1 'wrong.system:2:15: there is no operator' list wrong.system
 [ "$(sed -n 2p err)" = '    H: p_q^2/2 + 2q' ] && [ "$(sed -n 3p err)" = '                  ^' ] || fail "no caret: $(cat err)"
 printf 'coordinates: q\nH: p_q^2 + \033[31mq\n' >wild.system
 refused 1 '0x1b' list wild.system
+refused 1 "^geomint: bracket= takes the place of a line in a system's file" run system H='x^2 + y^2' bracket='[x, y] = 1' x=1 y=0
 grep -q "$(printf '\033')" err && fail 'an escape reached the terminal'
 printf 'H: ' >zero.system
 head -c 3 /dev/zero >>zero.system
@@ -75,5 +75,207 @@ refused 1 'takes parameters with numbers' list toda N
 refused 1 'outside of its range' list toda N=2
 refused 1 'of a system' list kepler --latex
 refused 1 'names of scenes' list nothing
+
+# every one of them runs, is drawn, and is made again without its file
+for file in "$GEOMINT_SYSTEMS"/*.system; do
+    name=$(basename "$file" .system)
+    "$geomint" run "$name" steps=20 --json >out 2>err || fail "run $name: $(cat err)"
+    python3 -c '
+import json
+run = json.load(open("out"))
+assert run["status"] == "ok" and run["steps"] == 20, run
+for key, value in run["observables"].items():
+    # what the rotor keeps between its kicks is no energy of both
+    limit = 1 if run["scene"] == "kicked-rotor" else 0.05
+    assert value is None or not key.endswith("_error") or value < limit, (key, value)
+' || fail "run $name"
+done
+cp "$GEOMINT_SYSTEMS/lotka-volterra.system" mine.system
+"$geomint" render ./mine.system a=1,2 until=3 --size 200x120 -o first.svg 2>err || fail "render: $(cat err)"
+rm mine.system
+"$geomint" again first.svg -o second.svg 2>err || fail "again: $(cat err)"
+cmp -s first.svg second.svg || fail 'again makes another picture'
+
+# a field: an explicit scheme beyond its limit says so; another V stands behind the name; a ring that is open is refused
+"$geomint" run phi4 scheme=leapfrog dt=0.11 until=1000 points=800 --json >out 2>err
+[ $? = 2 ] && grep -q 'beyond 0.0997.*, the limit of linear theory' out || fail "phi4 beyond the limit: $(cat out err)"
+"$geomint" run klein-gordon V=0 steps=1 --json >out 2>err || fail "klein-gordon V=0: $(cat err)"
+"$geomint" run double-sine-gordon half_length=1 2>err
+[ $? = 1 ] && grep -q 'ring' err || fail "double-sine-gordon on a short ring: $(cat err)"
+
+# value FILE KEY: of the first lane
+value() {
+    python3 -c 'import json, sys; run = json.loads(open(sys.argv[1]).readline())
+for key in sys.argv[2].split("."): run = run[int(key) if key.isdigit() else key]
+print(run)' "$1" "$2"
+}
+
+# what is typed is listed like a file; a file may begin with the mark of UTF-8; parameters hold elements of lists
+"$geomint" list system H='p^2/2 + k*q^4' k=2 q='sum(i = 1 .. 3, i)' p=0 --json | python3 -c '
+import json, sys
+about = json.load(sys.stdin)
+assert about["kind"] == "canonical" and about["structure"]["separable"]["holds"], about
+' || fail 'list system H='
+"$geomint" list system H='p^2/2 + k*q^4' q=1 p=0 >out 2>err
+[ $? = 1 ] && grep -q 'not given: k=' err || fail "list system without k: $(cat err)"
+printf '\357\273\277parameter: c = m[1]*2 + d\nparameter: d = m[2]\nparameter: m[1..N] = 1, 2\nparameter: N = 2\n' >marked.system
+printf 'rate: x = c*x\nstart: x = 1\ndt: 0.1\nuntil: 1\n' >>marked.system
+"$geomint" run marked.system 'm[1]=3' --json >out && [ "$(value out parameters.c)" = 8 ] || fail "marked: $(cat out)"
+"$geomint" run system H='p^2/2 + q^2/2' q='sum(i = 1 .. 3, i)' p=0 until=1 dt=0.1 --json >out
+[ "$(value out parameters.q)" = 6 ] || fail "a start that is a sum: $(cat out)"
+printf 'coordinates: q\nH: p_q^2/2 + q^2/2\nobserve: area = q\nstart: q = 1, p_q = 0\n' >area.system
+"$geomint" run area.system >out 2>err
+[ $? = 1 ] && grep -q 'two observables area' err || fail "two areas: $(cat err)"
+
+# scenes that the program brings, typed as formulas: the same numbers
+"$geomint" run henon-heiles scheme=rk4 dt=0.01 steps=1000 --json --state >built 2>err || fail "henon-heiles: $(cat err)"
+p1=$(python3 -c 'print(repr((2 * (1/12 - (0.01/2 - 0.001/3)) - 0.01) ** 0.5))')
+"$geomint" run system H='(p1^2 + p2^2 + q1^2 + q2^2)/2 + q1^2*q2 - q2^3/3' q1=0 q2=0.1 p1=$p1 p2=0.1 scheme=rk4 \
+    dt=0.01 steps=1000 --json --state >typed 2>err || fail "system: $(cat err)"
+python3 -c '
+import json
+built, typed = (json.load(open(name))["state"] for name in ("built", "typed"))
+assert max(abs(a - b) for a, b in zip(built, typed)) < 1e-13, (built, typed)
+' || fail 'a scene and its formula differ'
+
+# the eight closes after its period; what follows from a parameter follows
+"$geomint" run figure-eight scheme=gauss8 dt=6.325913983/1000 steps=1000 --json --state >eight || fail figure-eight
+python3 -c '
+import json
+seen = json.load(open("eight"))
+start = [seen["parameters"]["%s[%d]" % (c, i)] for c in "xyuv" for i in (1, 2, 3)]
+assert max(abs(a - b) for a, b in zip(seen["state"], start, strict=True)) < 1e-9, seen["state"]
+' || fail 'the eight is open'
+printf 'parameter: a = 1\nparameter: b = 2*a\nrate: x = b*x\nstart: x = a\ndt: a/10\nuntil: 1\n' >follow.system
+"$geomint" run follow.system a=3,1 --json >out || fail follow
+[ "$(value out parameters.b)" = 6.0 ] || [ "$(value out parameters.b)" = 6 ] || fail "b does not follow: $(cat out)"
+[ "$(value out parameters.x)" = 3 ] || fail "x does not follow: $(cat out)"
+
+# a run that is stopped is well; one that leads to no number says where
+printf 'rate: x = -1\nstart: x = 1\nstop: x\ndt: 0.125\nuntil: 3\n' >stop.system
+"$geomint" run stop.system --json >out || fail 'a stopped run is not well'
+python3 -c 'import json, sys
+end = json.load(open("out"))
+sys.exit(not (end["stopped"] and 0 <= end["t"] - 1 < 1e-14 and end["steps"] == 9))' || fail "stopped: $(cat out)"
+printf 'coordinates: x\nH: (p_x^2 + x^2)/2\nstart: x = 1, p_x = 0\nstop: x\nuntil: 100\n' >quarter.system
+"$geomint" run quarter.system scheme=gauss8 dt=0.1 --json --state >out || fail quarter
+python3 -c 'import json, math; end = json.load(open("out")); assert abs(end["t"] - math.pi/2) < 1e-12 and abs(end["state"][0]) < 1e-15' ||
+    fail "a quarter of a turn: $(cat out)"
+"$geomint" work-precision quarter.system scheme=gauss8,verlet --json >out || fail 'work-precision of what is stopped'
+python3 -c '
+import json
+points = [point for line in open("out") for point in json.loads(line)["points"]]
+assert points and all(1.5 < point["t"] < 1.6 and point["status"] == "ok" for point in points), points
+' || fail "work-precision does not stop: $(cat out)"
+# what begins where it would stop, or on its section, has not passed it, whichever way it goes
+for way in -1 1; do
+    printf 'coordinates: x y\nH: (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2)\nstart: x = 1, y = 0, p_x = 0, p_y = %s\nstop: y\n' $way >half.system
+    "$geomint" run half.system scheme=gauss8 dt=0.01 until=20 --json >out || fail half
+    python3 -c 'import json, math; end = json.load(open("out")); assert end["stopped"] and abs(end["t"] - math.pi) < 1e-12' ||
+        fail "half a turn: $(cat out)"
+    sed 's/stop: y/section: y = 0; x, p_x/' half.system >turns.system
+    "$geomint" run turns.system scheme=gauss8 dt=0.01 until=10 --json --save-tracks turns.npz >out || fail turns
+    python3 - turns.npz <<'END' || fail "sections from the start on, p_y = $way"
+import array, math, sys, zipfile
+with zipfile.ZipFile(sys.argv[1]) as tracks:
+    name = next(name for name in tracks.namelist() if "section" in name and name.endswith("t.npy"))
+    times = array.array("d", tracks.read(name)[128:])
+assert [round(t / math.pi, 9) for t in times] in ([1, 2, 3], [2], [1, 3]), times
+END
+done
+# gone on with from a checkpoint, a run stops where the undisturbed one does
+for start in 'q = 0, p = 1' 'q = 1e-17, p = -1'; do
+    printf 'coordinates: q\nmomenta: p\nH: (p^2 + q^2)/2\nstart: %s\nstop: q\ndt: 0.01\n' "$start" >on.system
+    "$geomint" run on.system until=20 >whole || fail 'on the surface'
+    "$geomint" run on.system steps=50 --checkpoint on.check >/dev/null || fail 'a checkpoint'
+    "$geomint" run on.system until=20 --continue on.check >parts || fail 'gone on with'
+    [ "$(grep -v seconds whole)" = "$(grep -v seconds parts)" ] || fail "gone on with, it stops elsewhere: $(cat parts)"
+done
+# a quotient that is infinite on the way to a finite rate
+"$geomint" run system 'rate=y=1/(1+1/(abs(y)*sqrt(abs(y))))' y=0 dt=0.1 until=1 scheme=rk4 >out || fail 'an infinite quotient'
+printf 'coordinates: q\nmomenta: p\nH: (p^2 + q^2)/2\nstart: q = pi/2, p = 1\nstop: cos(q)\n' >edge.system
+"$geomint" run edge.system scheme=gauss8 dt=0.01 until=20 --json >out || fail edge
+value out t | grep -q '^1.133' || fail "cos(pi/2) is 0 but for round-off: $(cat out)"
+printf 'coordinates: a b\nL: (v_a^2 + sin(a)^2*v_b^2)/2\nstart: a = 1, b = 0, v_a = -1, v_b = 0\n' >pole.system
+"$geomint" run pole.system dt=0.5 until=5 scheme=rk4 --json >out
+[ $? = 2 ] || fail 'a singular transform, and no failure'
+value out message | grep -q 'momenta do not determine velocities.* where a = 0, b = 0' || fail "singular: $(value out message)"
+"$geomint" run system H='p^2/2 - sqrt(q)' q=0.1 p=-1 dt=0.1 until=3 scheme=verlet --json >out
+[ $? = 2 ] || fail 'no number, and no failure'
+value out message | grep -q 'sqrt(q) is not finite where q = -' || fail "a failure says: $(value out message)"
+
+# what has an exact solution is measured by it; members are a disc, and its area is kept
+printf 'rate: x = -x\nstart: x = 2\nexact: x = x(0)*exp(-t)\ndt: 0.01\nuntil: 1\n' >decay.system
+"$geomint" run decay.system scheme=rk4 --json >out || fail decay
+python3 -c 'import json; assert 0 < json.load(open("out"))["observables"]["solution_error"] < 1e-10' || fail exact
+# a grid and a line, whose last one is in the middle; sections are those of every member
+"$geomint" run system H='p^2/2 + q^2/2' q=1 p=2 members=5 spread=0.5 shape=grid steps=0 scheme=verlet --json --state >out || fail grid
+grep -q '"state":\[0.5,1.5,0.5,1.5,1,1.5,1.5,2.5,2.5,2\]' out || fail "grid: $(grep -o '"state":[^]]*' out)"
+"$geomint" run system H='p^2/2 + q^2/2' q=1 p=2 members=4 spread=0.5 shape=line steps=0 scheme=verlet --json --state >out || fail line
+grep -q '"state":\[0.5,1,1.5,1,2,2,2,2\]' out || fail "line: $(grep -o '"state":[^]]*' out)"
+"$geomint" run system H='p^2/2 + q^2/2' q=1 p=0 members=33 spread=0.1 dt=0.1 until=20 scheme=verlet --json >out || fail disc
+python3 -c '
+import json
+seen = json.load(open("out"))["observables"]
+assert abs(seen["area"] - 16 * 0.01 * 0.19509032201612825) < 1e-9 and seen["area_error"] < 1e-12, seen
+' || fail 'the disc'
+
+refused 1 'in H=, column 10: there is no operator' run system H='p^2/2 + 2q' q=1 p=0
+grep -q '^ *^$' err || fail 'no caret below a typed formula'
+refused 1 'not given: p= k=' run system H='p^2/2 + k*q^2' q=1
+refused 1 'needs a formula' run system q=1
+refused 1 'did you mean cos' run system H='p^2/2 + cso(q)' q=1 p=0
+status 0 run system L='v_q^2/2 + cos(q)' q=1 v_q=0 dt=0.1 until=1 scheme=midpoint
+cp out written
+status 0 run system L='v^2/2 + cos(q)' q=1 v=0 dt=0.1 until=1 scheme=midpoint
+sed 's/seconds.*//' written >one
+sed 's/seconds.*//' out >two
+cmp -s one two || fail 'a velocity called v is another one than v_q'
+status 0 run system L='(v1^2 + v2^2)/2 - q1^2*q2^2' q1=1 q2=0.5 v1=0 v2=0.1 dt=0.1 until=1 scheme=midpoint
+status 0 run system H='p^2/2 + k_q*q^2/2' q=1.5e11 p=0 k_q=1 dt=0.1 until=1 scheme=verlet
+refused 1 'takes one value' run toda N=3,4
+refused 1 'did you mean members' run lorenz membrs=3
+refused 3 'No such file' run none.system
+refused 3 'No such file' sweep none.system x=1,2
+refused 3 'No such file' work-precision none.system
+refused 3 'No such file' stability none.system
+printf 'coordinates: q\nH: p_q^2/2\nstart: q = 1, p_q = 0\nschemes: vrlet\n' >scheme.system
+refused 1 'vrlet is no scheme' run scheme.system
+sed 's/^schemes: .*/members: few/' scheme.system >members.system
+refused 1 'members: few is no whole number' run members.system
+# what two systems of one name must not share
+"$geomint" run system H='p^2/2 - cos(q)' q=1 p=0 dt=0.1 until=1 --checkpoint one.ck >/dev/null 2>&1 || fail checkpoint
+refused 3 'checkpoint of something else' run system H='p^2/2 - 2*cos(q)' q=1 p=0 dt=0.1 until=2 --continue one.ck
+"$geomint" sweep system H='p^2/2 - cos(q)' q=0.5..1:2 p=0 dt=0.1 until=1 --table one.csv >/dev/null 2>&1 || fail sweep
+refused 3 'not a table of this sweep' sweep system H='p^2/2 - 9*cos(q)' q=0.5..1:2 p=0 dt=0.1 until=1 --table one.csv
+"$geomint" run toda N=3 until=0.1 --save toda.csv >/dev/null 2>&1 || fail save
+head -n 1 toda.csv | grep -q '^t,q\[0\],q\[1\],q\[2\],p\[0\],p\[1\],p\[2\]$' || fail "columns: $(head -n 1 toda.csv)"
+printf 'coordinates: x y\nH: (p_x^2 + p_y^2)/2\nconstraint: x^2 + y^2 - 1\nstart: x = 1, y = 0, p_x = 0, p_y = 1\n' >bead.system
+"$geomint" run bead.system until=10 dt=0.1 scheme=rattle2 --json | grep -q '"constraint_defect":[0-9.]*e-1[4-9]' ||
+    "$geomint" run bead.system until=10 dt=0.1 scheme=rattle2 --json | grep -q '"constraint_defect":0' || fail 'a bead on its ring'
+refused 1 'the start breaks the constraints: they are off by 3' run bead.system x=2 until=1
+refused 1 'needs\|lacks\|fit' run bead.system scheme=verlet until=1
+sed 's/(p_x^2 + p_y^2)/(1 + x^2)*(p_x^2 + p_y^2)/' bead.system >heavy.system
+refused 1 'constraints take L, or H = T(p) + V(q) with a quadratic T' run heavy.system until=1
+refused 1 'in H=, column 7: H is not finite at the start' run system H='p^2/2+log(q)' q=-1 p=0
+printf 'components: x\nparameter: a = 1\nparameter: k = 2*a; 0 .. 3\nrate: x = -k*x\nstart: x = 1\nuntil: 1\n' >range.system
+refused 1 'k is 18 with these values' run range.system a=9
+sed 's/^until: .*/dt: -0.1/' range.system >dt.system
+refused 1 'dt.system:6:5: dt is -0.1' run dt.system
+printf 'coordinates: q\nH: p_q^2/2 + q\nobserve: energy_error = q\nstart: q = 1, p_q = 0\n' >twice.system
+refused 1 'two observables energy_error' run twice.system
+printf 'title: evil \033[31m\nrate: x = -x\nstart: x = 1\n' >wild.system
+status 0 list wild.system
+grep -q "$(printf '\033')" out && fail 'an escape of a file reached the terminal'
+"$geomint" stability driven-pendulum scheme=rk4 eps=0 q=0 until=2 --out maps 2>err | grep -q '^ω is .*: 1 here$' ||
+    fail 'stability does not tell its unit'
+"$geomint" complete run doub | grep -q '^double-pendulum' || fail 'systems are not completed'
+"$geomint" complete run lorenz rh | grep -q '^rho=' || fail 'keys of systems are not completed'
+
+# their names
+refused 1 'did you mean lorenz' run lorentz
+status 0 list systems
+grep -q '^lorenz  *The butterfly' out || fail "list systems: $(head -n 3 out)"
+
 [ $failures = 0 ] && echo 'all as it should be'
 exit $failures

@@ -161,6 +161,10 @@ class Terminal:
                 self.read_on += passed
                 self.parse()
 
+    def until(self, condition):
+        """Reads until the condition holds. True if it did: a machine may be slow, but not for ever."""
+        return self.run(60, condition)
+
     def settle(self, seconds=20):
         """Until nothing was written for a while."""
         end = time.monotonic() + seconds

@@ -303,11 +303,11 @@ static void fields_are_mapped_at_every_pixel(void **state)
             }
             unsigned char *rgb = paint(picture, backends[b], WIDTH, HEIGHT);
             /* Half way it has the map's middle colour, not the mean of its ends. */
-            const struct gm_rgb middle = gm_map_colour(GM_MAP_SEQUENTIAL, GM_THEME_DARK, 0.5);
+            const struct gm_rgb middle = gm_colour_map_at(GM_MAP_SEQUENTIAL, GM_THEME_DARK, 0.5);
             assert_true(distance(pixel(rgb, WIDTH / 2, HEIGHT / 2), middle) <= 12);
             assert_true(distance(pixel(rgb, WIDTH / 2, HEIGHT / 3), middle) <= 12);
             assert_true(distance(pixel(rgb, 40, HEIGHT / 2),
-                                 gm_map_colour(GM_MAP_SEQUENTIAL, GM_THEME_DARK, 0.0)) <= 60);
+                                 gm_colour_map_at(GM_MAP_SEQUENTIAL, GM_THEME_DARK, 0.0)) <= 60);
             free(rgb);
             gm_picture_close(picture);
         }

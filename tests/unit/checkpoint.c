@@ -79,13 +79,7 @@ static void open_render(struct render *render, char *words[], int count)
     render->lane = open_lane(render);
     struct gm_drive drive = {.lane = render->lane, .request = &render->request};
     const double t = gm_schedule_time(&render->schedule, FRAME);
-    while (render->lane->run->t < t - 1e-9 && render->lane->run->status == GM_OK) {
-        const long before = render->lane->run->steps;
-        assert_true(gm_drive_to(&drive, gm_drive_step_at(&drive, t), true, message));
-        if (render->lane->run->steps == before) {
-            break;
-        }
-    }
+    assert_true(gm_drive_until(&drive, t, true, message));
     assert_true(render->lane->run->steps > 0);
     const struct gm_lane *const lanes[LANES] = {render->lane};
     assert_true(gm_checkpoint_write(render->path, &render->frames, FRAME, lanes, LANES, message));
@@ -102,8 +96,8 @@ static void close_render(struct render *render)
     free(render->bytes);
 }
 
-/* Writes the bytes with the checksum that they have; it lies before the number of lanes, at the head's end.
- */
+/* Writes the bytes with the checksum that they have; it lies before the number of lanes, at the head's
+   end. */
 static void write_forged(const struct render *render, const unsigned char *bytes)
 {
     unsigned char *copy = malloc(render->size);
@@ -134,7 +128,7 @@ static bool is_taken(struct render *render)
         struct gm_picture *picture = gm_picture_open();
         assert_non_null(picture);
         const struct gm_lane *const lanes[LANES] = {lane};
-        lane->scene->draw(lanes, LANES, picture);
+        gm_lanes_draw(lanes, LANES, picture);
         gm_picture_close(picture);
     }
     gm_lane_close(lane);

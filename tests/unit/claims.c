@@ -18,6 +18,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/implicit_runge_kutta.h"
 #include "core/ode/families/splitting.h"
+#include "core/ode/families/variational.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 #include "core/schemes.h"
@@ -132,6 +133,10 @@ static void properties_that_are_false(void **unused)
         {"semi-implicit", GM_KEEPS_QUADRATIC},
         {"steady", GM_KEEPS_LINEAR},
         {"rk4", GM_KEEPS_BILINEAR},
+        {"rk4", GM_KEEPS_MOMENTUM_MAPS},
+        {"variational-simpson4", GM_KEEPS_ENERGY},
+        {"shake2", GM_KEEPS_HIDDEN},
+        {"shake2", GM_SYMMETRIC},
         {"trapezoidal", GM_KEEPS_BILINEAR},
         {"avf2", GM_KEEPS_BILINEAR},
         {"discrete-gradient2", GM_KEEPS_BILINEAR},
@@ -210,6 +215,60 @@ static void a_wrong_digit_of_gauss4(void **unused)
     assert_false(gm_certify(&wrong).holds);
 }
 
+/* What is claimed of constraints and of friction, by schemes that know nothing of them. */
+static void structure_that_is_not_asked_for(void **unused)
+{
+    (void)unused;
+    static const struct {
+        unsigned facet;
+        enum gm_claim claim;
+        unsigned bit;
+    } wrong[] = {{GM_NEEDS_CONSTRAINTS, GM_KEEPS_CONSTRAINTS, 15},
+                 {GM_NEEDS_CONSTRAINTS, GM_KEEPS_HIDDEN, 16},
+                 {GM_NEEDS_CONSTRAINTS, GM_SYMPLECTIC, 0},
+                 {GM_NEEDS_CONSTRAINTS, GM_KEEPS_MOMENTUM_MAPS, 13},
+                 {GM_NEEDS_FRICTION, GM_CONFORMAL, 14}};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        struct gm_scheme scheme = changed("rk4");
+        scheme.needs = wrong[i].facet;
+        scheme.claims = wrong[i].claim;
+        const struct gm_certificate certificate = gm_certify(&scheme);
+        assert_true(certificate.order_holds);
+        assert_false(certificate.holds);
+        assert_true(certificate.claims[wrong[i].bit].measured);
+        assert_true(certificate.claims[wrong[i].bit].defect > 1e-11);
+    }
+}
+
+/* A weight of a quadrature, a point of it, friction as a force like others. */
+static void a_wrong_digit_of_a_discrete_lagrangian(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"variational-simpson4", "variational-galerkin4",
+                                        "variational-galerkin6", "constrained-lobatto4",
+                                        "constrained-lobatto6"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        struct gm_scheme wrong = changed(names[i]);
+        struct gm_variational_row digit = *(const struct gm_variational_row *)wrong.coefficients;
+        digit.b[0] += 1e-3;
+        digit.b[1] -= 2e-3;
+        digit.b[2] += 1e-3;
+        wrong.coefficients = &digit;
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        if (certificate.order_holds || !certificate.claims[0].holds) {
+            fail_msg("%s with wrong weights: order %.2f", names[i], certificate.order);
+        }
+    }
+    struct gm_scheme wrong = changed("conformal-midpoint2");
+    struct gm_variational_row plain = *(const struct gm_variational_row *)wrong.coefficients;
+    plain.damped = false;
+    wrong.coefficients = &plain;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_true(certificate.order_holds);
+    assert_false(certificate.holds);
+    assert_true(certificate.claims[14].defect > 1e-6);
+}
+
 /* One order more than it has is found out for every scheme, whatever its family measures it by. */
 static void one_order_too_many(void **unused)
 {
@@ -219,6 +278,48 @@ static void one_order_too_many(void **unused)
         if (wrong.order > 0 && wrong.order < 5) {
             wrong.order++;
             assert_false(gm_certify(&wrong).order_holds);
+        }
+    }
+}
+
+static struct gm_progress late(const struct gm_task *task)
+{
+    struct gm_task other = *task;
+    other.dt *= 1.001;
+    other.scheme = gm_scheme_find("rk4");
+    return gm_scheme_loop(other.scheme, task->problem)(&other);
+}
+
+static struct gm_progress of_rk2(const struct gm_task *task)
+{
+    struct gm_task other = *task;
+    other.scheme = gm_scheme_find("rk2");
+    return gm_scheme_loop(other.scheme, task->problem)(&other);
+}
+
+static struct gm_progress of_euler(const struct gm_task *task)
+{
+    struct gm_task other = *task;
+    other.scheme = gm_scheme_find("explicit-euler");
+    return gm_scheme_loop(other.scheme, task->problem)(&other);
+}
+
+/* Theory sees the tableau alone: a loop that does not do what the right tableau says is found by
+   measuring. */
+static void a_wrong_loop_of_a_right_tableau(void **unused)
+{
+    (void)unused;
+    gm_loop *const loops[] = {late, of_euler, of_rk2};
+    for (size_t i = 0; i < sizeof loops / sizeof loops[0]; i++) {
+        struct gm_scheme wrong = changed("rk4");
+        struct gm_family family = *wrong.family;
+        family.over_kernels = 0;
+        family.loop = loops[i];
+        wrong.family = &family;
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        assert_true(certificate.theory.known && certificate.theory_holds);
+        if (certificate.order_holds || fabs(certificate.order - (double)i) > 0.1) {
+            fail_msg("wrong loop %zu: order %.2f", i, certificate.order);
         }
     }
 }
@@ -424,7 +525,10 @@ int main(void)
         cmocka_unit_test(what_cannot_be_measured),
         cmocka_unit_test(the_misprint_of_rk4sym),
         cmocka_unit_test(a_wrong_digit_of_gauss4),
+        cmocka_unit_test(structure_that_is_not_asked_for),
+        cmocka_unit_test(a_wrong_digit_of_a_discrete_lagrangian),
         cmocka_unit_test(one_order_too_many),
+        cmocka_unit_test(a_wrong_loop_of_a_right_tableau),
         cmocka_unit_test(a_wrong_digit_of_a_composition),
         cmocka_unit_test(a_wrong_digit_of_a_tableau),
         cmocka_unit_test(nystrom_needs_a_quadratic_kinetic_energy),

@@ -504,7 +504,7 @@ static struct gm_flow *torus(double viscosity)
         triangles[i] = (int)corners[i];
     }
     struct gm_complex *complex = gm_complex_open(reference("torus_vertices", 160), 80, triangles, 160,
-                                                 (const double[]){1, 1}, NULL, &fault);
+                                                 (const double[]){1, 1}, GM_STAR_CIRCUMCENTRIC, NULL, &fault);
     assert_non_null(complex);
     assert_int_equal(complex->boundary, 0);
     assert_int_equal((long)complex->vertices - (long)complex->edges + (long)complex->triangles, 0);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is read of Gmsh files, and what is refused and how. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +17,7 @@ static struct gm_triangulation_fault fault_of(const char *text, size_t size)
 {
     struct gm_triangulation mesh;
     struct gm_triangulation_fault fault;
-    assert_false(gm_triangulation_read(text, size, &mesh, &fault));
+    assert_false(gm_triangulation_read(text, size, GM_STAR_CIRCUMCENTRIC, &mesh, &fault));
     assert_null(mesh.complex);
     return fault;
 }
@@ -67,7 +68,58 @@ static void good_files(void **unused)
     gm_triangulation_close(&mesh);
 }
 
+/* One mesh in the four formats. */
+static void formats(void **unused)
+{
+    (void)unused;
+    struct gm_triangulation first = mesh_of("hole.msh");
+    static const char *const others[] = {"hole-binary.msh", "hole-2.2.msh", "hole-2.2-binary.msh"};
+    assert_int_equal(first.complex->loops, 2);
+    assert_int_equal(gm_triangulation_group(&first, "pillar"), 5);
+    for (size_t i = 0; i < 3; i++) {
+        struct gm_triangulation mesh = mesh_of(others[i]);
+        const size_t vertices = mesh.complex->vertices, triangles = mesh.complex->triangles;
+        assert_int_equal(vertices, first.complex->vertices);
+        assert_int_equal(triangles, first.complex->triangles);
+        assert_int_equal(mesh.groups, first.groups);
+        for (size_t v = 0; v < 2 * vertices; v++) { /* 2.2 writes 16 digits */
+            assert_true(fabs(mesh.complex->point[v] - first.complex->point[v]) < 1e-14);
+        }
+        assert_memory_equal(mesh.complex->triangle, first.complex->triangle, 3 * triangles * sizeof(int));
+        assert_memory_equal(mesh.edge_group, first.edge_group, mesh.complex->edges * sizeof(int));
+        gm_triangulation_close(&mesh);
+    }
+    gm_triangulation_close(&first);
+}
+
+/* Triangles that are not Delaunay have cells of thirds, and operators that are those of linear elements. */
+static void stars(void **unused)
+{
+    (void)unused;
+    struct gm_triangulation mesh = mesh_of("obtuse.msh");
+    const struct gm_complex *complex = mesh.complex;
+    assert_int_equal(complex->star, GM_STAR_BARYCENTRIC);
+    assert_true(complex->star_least < 0 && complex->obtuse > 0);
+    double *cell = calloc(complex->vertices, sizeof *cell);
+    for (size_t k = 0; k < 3 * complex->triangles; k++) {
+        const double *a = complex->point + 2 * complex->triangle[k / 3 * 3],
+                     *b = complex->point + 2 * complex->triangle[k / 3 * 3 + 1],
+                     *c = complex->point + 2 * complex->triangle[k / 3 * 3 + 2];
+        cell[complex->triangle[k]] += ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) / 6;
+    }
+    for (size_t v = 0; v < complex->vertices; v++) {
+        assert_true(fabs(cell[v] - complex->star0[v]) < 1e-15);
+    }
+    free(cell);
+    gm_triangulation_close(&mesh);
+    mesh = mesh_of("lshape.msh"); /* obtuse, but Delaunay */
+    assert_int_equal(mesh.complex->star, GM_STAR_CIRCUMCENTRIC);
+    gm_triangulation_close(&mesh);
+}
+
 #define HEAD "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+#define OLD "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+#define OLD_SQUARE "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1.1 1 0\n4 0 1.2 0\n$EndNodes\n"
 #define SQUARE "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1.1 1 0\n0 1.2 0\n$EndNodes\n"
 #define ELEMENTS(text) "$Elements\n" text "$EndElements\n"
 
@@ -81,8 +133,17 @@ static void sentences(void **unused)
     } cases[] = {
         {"", GM_TRIANGULATION_NOT_GMSH, 1},
         {"solid cube", GM_TRIANGULATION_NOT_GMSH, 1},
-        {"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", GM_TRIANGULATION_VERSION, 2},
-        {"$MeshFormat\n4.1 1 8\n", GM_TRIANGULATION_BINARY, 2},
+        {"$MeshFormat\n3.0 0 8\n$EndMeshFormat\n", GM_TRIANGULATION_VERSION, 2},
+        {"$MeshFormat\n4.1 2 8\n", GM_TRIANGULATION_SYNTAX, 2},
+        {"$MeshFormat\n4.1 0 4\n", GM_TRIANGULATION_SYNTAX, 2},
+        {"$MeshFormat\n4.1 1 8\n", GM_TRIANGULATION_TRUNCATED, 0},
+        {"$MeshFormat\n4.1 1 8\n\1\1\1\1", GM_TRIANGULATION_BYTES, 0},
+        {OLD, GM_TRIANGULATION_EMPTY, 0},
+        {OLD "$Nodes\n9\n1 0 0 0\n", GM_TRIANGULATION_TRUNCATED, 5},
+        {OLD OLD_SQUARE "$Elements\n1\n1 3 2 1 1 1 2 3 4\n$EndElements\n", GM_TRIANGULATION_ELEMENT, 13},
+        {OLD OLD_SQUARE "$Elements\n1\n1 9 2 1 1 1 2 3 4 5 6\n$EndElements\n", GM_TRIANGULATION_ELEMENT, 13},
+        {OLD OLD_SQUARE "$Elements\n1\n1 2 2 1 1 1 2 7\n$EndElements\n", GM_TRIANGULATION_UNKNOWN_NODE, 13},
+        {OLD OLD_SQUARE "$Elements\n2\n1 2 2 1 1 1 2 3\n$EndElements\n", GM_TRIANGULATION_SYNTAX, 14},
         {HEAD, GM_TRIANGULATION_EMPTY, 0},
         {HEAD SQUARE, GM_TRIANGULATION_EMPTY, 0},
         {HEAD "$Nodes\n1 99999999 1 4\n", GM_TRIANGULATION_HUGE, 5},
@@ -124,21 +185,25 @@ static void sentences(void **unused)
 static void cut_anywhere(void **unused)
 {
     (void)unused;
-    size_t size = 0, read = 0;
-    char *text = mesh_text("square-small.msh", &size);
-    for (size_t end = 0; end < size; end++) {
-        char *part = malloc(end + 1); /* so that an overrun is seen */
-        struct gm_triangulation mesh;
-        struct gm_triangulation_fault fault;
-        memcpy(part, text, end);
-        if (gm_triangulation_read(part, end, &mesh, &fault)) {
-            read++;
-            gm_triangulation_close(&mesh);
+    static const char *const files[] = {"square-small.msh", "hole-2.2.msh", "hole-binary.msh",
+                                        "hole-2.2-binary.msh"};
+    for (int file = 0; file < 4; file++) {
+        size_t size = 0, read = 0;
+        char *text = mesh_text(files[file], &size);
+        for (size_t end = 0; end < size; end += 1 + (file > 0) * 7) {
+            char *part = malloc(end + 1); /* so that an overrun is seen */
+            struct gm_triangulation mesh;
+            struct gm_triangulation_fault fault;
+            memcpy(part, text, end);
+            if (gm_triangulation_read(part, end, GM_STAR_AUTO, &mesh, &fault)) {
+                read++;
+                gm_triangulation_close(&mesh);
+            }
+            free(part);
         }
-        free(part);
+        assert_true(read <= 2); /* without its last line end */
+        free(text);
     }
-    assert_true(read <= 2); /* without its last line end */
-    free(text);
 }
 
 /* Boundaries that make no room. */
@@ -155,7 +220,7 @@ static void boundaries(void **unused)
         inlet++;
     }
     sides[(inlet + 1) % n] = GM_EDGE_WALL;
-    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SEVERAL);
+    assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SHORT);
     sides[(inlet + 2) % n] = GM_EDGE_WALL;
     assert_int_equal(gm_flow_set_boundary(flow, sides, 1, GM_VERTEX_SOFT, 1), GM_BOUNDARY_SHORT);
     sides[inlet] = GM_EDGE_WALL;
@@ -175,7 +240,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(good_files),   cmocka_unit_test(broken_files), cmocka_unit_test(sentences),
-        cmocka_unit_test(cut_anywhere), cmocka_unit_test(boundaries),
+        cmocka_unit_test(cut_anywhere), cmocka_unit_test(boundaries),   cmocka_unit_test(formats),
+        cmocka_unit_test(stars),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,7 +30,7 @@ static char *draw(int count, char *words[])
         lanes[i] = lane;
     }
     struct gm_picture *picture = gm_picture_open();
-    request.scene->draw(lanes, request.count, picture);
+    gm_lanes_draw(lanes, request.count, picture);
     char *text = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
@@ -45,8 +45,8 @@ static char *draw(int count, char *words[])
     return text;
 }
 
-/* Whether two words agree: the same text, or numbers close to each other. Numbers at round-off agree as such.
- */
+/* Whether two words agree: the same text, or numbers close to each other. Numbers at round-off agree as
+   such. */
 static int agree(const char *a, const char *b)
 {
     char *a_end = NULL, *b_end = NULL;

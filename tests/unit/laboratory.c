@@ -417,8 +417,8 @@ static void best_pairs(void **unused)
     assert_true(best[0].error == 9.9e-2 && best[1].error == 1e-2 && best[2].error == 1e-3);
 }
 
-/* The map of the stiff springs says how each scheme ends: Verlet at 1.95 and 2.05, RK4 and the implicit ones.
- */
+/* The map of the stiff springs says how each scheme ends: Verlet at 1.95 and 2.05, RK4 and the implicit
+   ones. */
 static void verdicts(void **unused)
 {
     (void)unused;

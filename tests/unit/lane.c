@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "app/request/request.h"
+#include "app/request/system.h"
 #include "core/flow/flow.h"
 #include "core/memory.h"
 #include "core/schemes.h"
@@ -212,7 +213,7 @@ static void clocks_follow_the_step(void **unused)
         struct gm_picture *picture = gm_picture_open();
         assert_true(lane && picture);
         advance(lane, BEFORE);
-        lane->scene->draw((const struct gm_lane *const *)&lane, 1, picture);
+        gm_lanes_draw((const struct gm_lane *const *)&lane, 1, picture);
         assert_string_equal(picture->clock, wanted[i].clock);
         gm_picture_close(picture);
         gm_lane_close(lane);
@@ -246,6 +247,48 @@ static void losses_are_told(void **unused)
     }
 }
 
+/* Where a section is passed, and where a run is stopped, is as good as the scheme is: x = cos(t) of an
+   oscillator, by steps that do not meet the zeros. */
+static void crossings_are_found_by_the_scheme(void **unused)
+{
+    (void)unused;
+    char *words[] = {"section.system", "dt=0.1"}, message[GM_MESSAGE];
+    static const struct {
+        const char *scheme;
+        double bound;
+    } runs[] = {{"gauss8", 1e-12}, {"gauss6", 1e-7}, {"rk4", 1e-4}};
+    assert_true(gm_system_recall("section.system",
+                                 "H: (p_x^2 + x^2)/2\ncoordinates: x\nstart: x = 1, p_x = 0\n"
+                                 "section: x = 0, p_x > 0; x, p_x\nstop: t + 0.1*p_x - 30.5\n"));
+    for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
+        int status = 0;
+        const struct gm_scene *scene = gm_system_scene(2, words, &status, message);
+        assert_non_null(scene);
+        void *parameters = gm_scene_defaults(scene);
+        assert_non_null(parameters);
+        ((struct gm_timing *)parameters)->dt = 0.1;
+        const struct gm_settings settings = {0};
+        struct gm_lane *lane =
+            gm_lane_open(scene, parameters, &settings, gm_scheme_find(runs[k].scheme), message);
+        assert_non_null(lane);
+        gm_lane_to(lane, 1000, 100);
+        const struct gm_entries *entries = &lane->entries[scene->track_count - 1];
+        for (size_t i = 0; i < entries->count; i++) {
+            const double wanted = 1.5 * M_PI + 2 * M_PI * (double)i;
+            if (!(fabs(entries->times[i] - wanted) < runs[k].bound)) {
+                fail_msg("%s crosses at %.17g, not %.17g", runs[k].scheme, entries->times[i], wanted);
+            }
+        }
+        assert_int_equal(entries->count, 5);
+        /* t - sin(t)/10 = 30.5: the state is just beyond it */
+        const double t = lane->run->t, *state = gm_run_state(lane->run), beyond = t + 0.1 * state[1] - 30.5;
+        assert_true(gm_lane_stopped(lane) && beyond >= 0 && beyond < 1e-13);
+        assert_true(fabs(t - 0.1 * sin(t) - 30.5) < runs[k].bound);
+        gm_lane_close(lane);
+        free(parameters);
+    }
+}
+
 static bool find_no_mesh(const void *own, const struct gm_problem *problem, const struct gm_scheme *scheme,
                          double *y, char *sentence)
 {
@@ -275,9 +318,13 @@ static void refused_memory_is_no_fault_of_a_mesh(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(clocks_follow_the_step),    cmocka_unit_test(packed_lanes_go_on),
-        cmocka_unit_test(losses_are_told),           cmocka_unit_test(refused_memory_is_no_fault_of_a_mesh),
-        cmocka_unit_test(channels_have_their_walls), cmocka_unit_test(damaged_bytes_are_refused),
+        cmocka_unit_test(clocks_follow_the_step),
+        cmocka_unit_test(packed_lanes_go_on),
+        cmocka_unit_test(losses_are_told),
+        cmocka_unit_test(refused_memory_is_no_fault_of_a_mesh),
+        cmocka_unit_test(channels_have_their_walls),
+        cmocka_unit_test(damaged_bytes_are_refused),
+        cmocka_unit_test(crossings_are_found_by_the_scheme),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

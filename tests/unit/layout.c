@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Layouts on surfaces of any size: labels meet no other and stay inside, every lane has its key. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -388,6 +389,10 @@ static void numbers_are_whole(void **state)
         assert_string_equal(gm_labels_shorten_number(&list, GM_TEXT_LABEL, cases[i].text, width),
                             cases[i].shown);
     }
+    /* nor a part of a bracket */
+    const char *const whole = "energy error  |H − H₀| / max(|H₀|, 1/2)";
+    const double width = letters_width(metrics.self, GM_TEXT_LABEL, "energy error  |H − H₀| / max(|H₀|, 1");
+    assert_string_equal(gm_labels_shorten(&list, GM_TEXT_LABEL, whole, width), "energy error");
     gm_picture_close(picture);
 }
 
@@ -472,7 +477,7 @@ static void notes_stay_in_their_frame(void **state)
     (void)state;
     static const char first[] = "Lax-Wendroff,", second[] = "invariant";
     size_t lines[3] = {0};
-    for (double width = 140; width <= 1280; width *= 1.15) {
+    for (double width = 70; width <= 1280; width *= 1.15) {
         struct gm_metrics metrics = metrics_of(width, 400);
         struct gm_picture *picture = picture_of(1, 0, false, false);
         picture->first->axes = true;

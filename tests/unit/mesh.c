@@ -164,8 +164,8 @@ static double rate_defect(const struct gm_mesh *mesh, const double *state)
     return jump / size;
 }
 
-/* In flight from any strategy to any other: the new one starts on its own kind of mesh, near the old field.
- */
+/* In flight from any strategy to any other: the new one starts on its own kind of mesh, near the old
+   field. */
 static void strategies_take_over(void **unused)
 {
     (void)unused;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pictures as data: lines that break, level lines, calm ranges, the text of them. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pictures of all scenes: every observable that they ask for is there, and they can be read at any size.
- */
+/* The pictures of all scenes: every observable that they ask for is there, and they can be read at any
+   size. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -51,8 +51,7 @@ static bool draw(const char *arguments, long steps, struct drawn *drawn, char *m
             gm_lane_record(drawn->lanes[i]);
         }
     }
-    drawn->request.scene->draw((const struct gm_lane *const *)drawn->lanes, drawn->request.count,
-                               drawn->picture);
+    gm_lanes_draw((const struct gm_lane *const *)drawn->lanes, drawn->request.count, drawn->picture);
     return true;
 }
 
@@ -135,8 +134,8 @@ static bool has_whole_title(const struct gm_layout *layout, const char *title)
     return strcmp(told, title) == 0;
 }
 
-/* Whether frames, colour bars and labels leave a third of the surface empty in one piece, from edge to edge.
- */
+/* Whether frames, colour bars and labels leave a third of the surface empty in one piece, from edge to
+   edge. */
 static bool has_empty_third(const struct gm_layout *layout, const struct gm_metrics *metrics)
 {
     enum { PARTS = 60 };
@@ -289,8 +288,52 @@ static void graphs_say_what_they_show(void **state)
         assert_true(gm_lane_observe(drawn.lanes[i], (size_t)charge) < 1e-12);
     }
     close_drawn(&drawn);
+    /* a flow has a panel of its own whatever its colour stands for */
+    open_drawn("poiseuille rows=8 scheme=semi-implicit,crank-nicolson dt=0.05,0.1", 2, &drawn);
+    panel_titled(drawn.picture, "semi-implicit, Δt = 0.1");
+    panel_titled(drawn.picture, "Crank–Nicolson, Δt = 0.05");
+    close_drawn(&drawn);
     open_drawn("couette rows=8", 3, &drawn);
     panel_titled(drawn.picture, "divergence");
+    close_drawn(&drawn);
+}
+
+/* Whether a text among the marks stands there, whole, in one line or in two. */
+static bool has_note(const struct gm_layout *layout, const char *text)
+{
+    for (size_t i = 0; i < layout->label_count; i++) {
+        const struct gm_label *label = &layout->labels[i];
+        const size_t length = strlen(label->text);
+        if (label->among_marks && strncmp(text, label->text, length) == 0 &&
+            (text[length] == '\0' || (text[length] == ' ' && i + 1 < layout->label_count &&
+                                      strcmp(text + length + 1, layout->labels[i + 1].text) == 0))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The names of curves that end close to each other find their places in a small picture too. */
+static void every_curve_over_frames_is_named(void **state)
+{
+    (void)state;
+    struct drawn drawn;
+    open_drawn("burgers scheme=ftcs,lax-wendroff,ftcs-invariant,lax-wendroff-invariant lambda=0,0.5,1", 100,
+               &drawn);
+    struct gm_metrics metrics = metrics_of(300, 200);
+    metrics.self = &metrics;
+    const struct gm_layout *layout = gm_layout_make(drawn.picture, &metrics);
+    const struct gm_panel *graph = panel_titled(drawn.picture, "largest error so far");
+    size_t names = 0;
+    for (const struct gm_mark *mark = graph->first; mark; mark = mark->next) {
+        if (mark->kind == GM_MARK_TEXT) {
+            names++;
+            if (!has_note(layout, mark->text)) {
+                fail_msg("%s has no name at 300x200", mark->text);
+            }
+        }
+    }
+    assert_int_equal(names, 4);
     close_drawn(&drawn);
 }
 
@@ -344,6 +387,7 @@ int main(void)
         cmocka_unit_test(the_volume_fills_its_graph),
         cmocka_unit_test(an_orbit_that_leaves_is_followed),
         cmocka_unit_test(graphs_say_what_they_show),
+        cmocka_unit_test(every_curve_over_frames_is_named),
         cmocka_unit_test(a_mesh_file_leaves_no_rows),
         cmocka_unit_test(a_walk_goes_panel_by_panel),
     };

@@ -290,8 +290,8 @@ static void gsl_is_left_where_it_is_refused_memory(void **unused)
     assert_int_equal(gm_memory_refusals(), before + 1);
 }
 
-/* Explicit Euler on the oscillator: |y| = (1 + dt^2)^(n/2) |y_0|, so the step that leaves the bound is known.
- */
+/* Explicit Euler on the oscillator: |y| = (1 + dt^2)^(n/2) |y_0|, so the step that leaves the bound is
+   known. */
 static void blow_up_is_found_to_the_step(void **unused)
 {
     (void)unused;
@@ -329,8 +329,8 @@ static void blow_up_is_found_to_the_step(void **unused)
     gm_run_close(near);
 }
 
-/* Implicit Euler with so large a step that p' = -q (1 + p^2), q' = p (1 + q^2) leaves Newton without a root.
- */
+/* Implicit Euler with so large a step that p' = -q (1 + p^2), q' = p (1 + q^2) leaves Newton without a
+   root. */
 static void failed_solves_are_told(void **unused)
 {
     (void)unused;
@@ -440,6 +440,9 @@ static void runs_end_where_they_are_to(void **unused)
     assert_int_equal(gm_run_steps_at(run, 1.04), 10);
     assert_int_equal(gm_run_until(run, 1.04), GM_OK);
     assert_int_equal(run->steps, 10);
+    /* a picture of a time shows the last step that is not after it */
+    assert_true(gm_run_steps_by(run, 1.19) == 11 && gm_run_steps_by(run, 1.2) == 12 &&
+                gm_run_steps_by(run, 0.5) == 5);
     assert_int_equal(gm_run_until(run, 0.5), GM_OK);
     assert_int_equal(run->steps, 10); /* behind it: nothing */
     gm_run_set_step(run, -0.05);
@@ -455,6 +458,8 @@ static void runs_end_where_they_are_to(void **unused)
     struct gm_run *counts = open_run(&kepler, gm_scheme_find("logh2"), &settings_of[0], 0.1);
     assert_int_equal(gm_run_until(chooses, 1), GM_OK);
     assert_true(chooses->t >= 1 && chooses->steps > 1);
+    assert_true(gm_run_steps_by(chooses, chooses->t) == chooses->steps &&
+                gm_run_steps_by(chooses, 2) == chooses->steps + 1);
     gm_run_to(counts, chooses->steps - 1, 1);
     assert_true(counts->t < 1);
     assert_true(gm_run_goes_on(counts, LONG_MAX, 1) && gm_run_goes_on(chooses, LONG_MAX, 1.1));

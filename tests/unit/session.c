@@ -6,16 +6,25 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/eventfd.h>
+#include <time.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
+#include "app/explorer/view/prompt.h"
 #include "app/explorer/view/search.h"
+#include "app/explorer/view/studies.h"
 #include "app/lanes/session.h"
 #include "app/lanes/slider.h"
+#include "app/request/arguments.h"
 #include "app/request/drive.h"
 #include "core/schemes.h"
+#include "tests/common/folder.h"
+#include "tests/common/meshes.h"
 
 static char message[GM_MESSAGE];
 
@@ -198,7 +207,7 @@ struct numbers {
 
 static void move(const struct gm_parameter *row, struct numbers *numbers, int direction, bool fine)
 {
-    char text[GM_VALUE_TEXT];
+    char text[GM_TEXT_SIZE];
     assert_true(gm_slider_next(row, numbers, direction, fine, text));
     assert_true(gm_number_parse(text, &numbers->value));
 }
@@ -233,7 +242,7 @@ static void sliders_move_finely(void **unused)
     move(&wide, &numbers, 1, true);
     assert_true(fabs(coarse - 10 * numbers.value) < 1e-12);
     numbers.value = 0.9999;
-    char text[GM_VALUE_TEXT];
+    char text[GM_TEXT_SIZE];
     assert_false(gm_slider_next(&narrow, &numbers, 1, true, text));
 }
 
@@ -246,7 +255,7 @@ static void sliders_tell_places(void **unused)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         double before = -INFINITY;
         for (double place = 0; place <= 1; place += 1. / 16) {
-            char text[GM_VALUE_TEXT];
+            char text[GM_TEXT_SIZE];
             struct numbers numbers;
             assert_true(gm_slider_at(&rows[i], place, text));
             assert_true(gm_number_parse(text, &numbers.value));
@@ -261,7 +270,7 @@ static void sliders_tell_places(void **unused)
     assert_true(gm_slider_position(&rows[1], &other) - gm_slider_position(&rows[1], &numbers) > 0.25);
     /* and no part of it is for what no one means */
     const struct gm_parameter endless = NUMBER("1000", -1e300, 1e300, false);
-    char text[GM_VALUE_TEXT];
+    char text[GM_TEXT_SIZE];
     assert_true(gm_slider_at(&endless, 1, text) && gm_number_parse(text, &other.value));
     assert_true(other.value <= 1e9);
     numbers.value = 0.255;
@@ -312,7 +321,7 @@ static int marks_of(const struct gm_session *session, double t)
 {
     struct gm_picture *picture = gm_picture_open();
     assert_non_null(picture);
-    session->scene->draw((const struct gm_lane *const *)session->lanes, session->count, picture);
+    gm_lanes_draw((const struct gm_lane *const *)session->lanes, session->count, picture);
     const int marks = marks_at(picture, t);
     gm_picture_close(picture);
     return marks;
@@ -385,7 +394,7 @@ static void sliders_walk_through_words(void **unused)
     (void)unused;
     const struct gm_scene *scene = gm_scene_find("channel");
     const struct gm_parameter *row = gm_scene_parameter(scene, "outlet");
-    char text[GM_VALUE_TEXT];
+    char text[GM_TEXT_SIZE];
     void *own = calloc(1, scene->size);
     static const char *const order[] = {"soft", "dirichlet", "free", "soft"};
     assert_non_null(own);
@@ -411,6 +420,114 @@ static void sliders_walk_through_words(void **unused)
     assert_false(gm_slider_next(mesh, room, 1, false, text));
     free(room);
     free(own);
+}
+
+static const struct gm_shot *next_shot(struct gm_worker *worker)
+{
+    const struct gm_shot *shot = NULL;
+    gm_worker_want(worker);
+    for (int i = 0; i < 20000 && !shot; i++) {
+        shot = gm_worker_take(worker);
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    }
+    assert_non_null(shot);
+    return shot;
+}
+
+static size_t place_of(const struct gm_shot *shot, const char *key)
+{
+    for (size_t i = 0; i < shot->parameter_count; i++) {
+        if (strcmp(shot->parameters[i].row->key, key) == 0) {
+            return i;
+        }
+    }
+    fail_msg("there is no %s", key);
+    return 0;
+}
+
+/* Types an answer for a parameter, a key at a time; returns what the session made of it. */
+static const struct gm_shot *type_value(struct gm_worker *worker, struct gm_face *face, const char *key,
+                                        const char *value)
+{
+    const struct gm_shot *shot = next_shot(worker);
+    const unsigned long told = shot->message_number;
+    const size_t place = face->parameter = place_of(shot, key);
+    struct gm_keystroke press = {0, face, shot, worker};
+    gm_prompt_open(&press, GM_PROMPT_VALUE);
+    for (; *value; value++) {
+        press.key = *value;
+        gm_prompt_press(&press);
+    }
+    char typed[GM_TYPED];
+    snprintf(typed, sizeof typed, "%s", face->typed);
+    press.key = '\n';
+    gm_prompt_press(&press);
+    for (int i = 0; i < 1000; i++) {
+        shot = next_shot(worker);
+        if (strcmp(shot->parameters[place].value, typed) == 0 || shot->message_number != told) {
+            return shot;
+        }
+    }
+    fail_msg("%s = %s is neither taken nor refused", key, typed);
+    return NULL;
+}
+
+/* Texts are whole in shots, in the words of a study and in what is typed, up to the most bytes of a text; a
+   longer one is refused. */
+static void long_texts_stay_whole(void **unused)
+{
+    (void)unused;
+    char folder[128], path[224], other[232], words[232], longer[GM_TEXT_SIZE + 8];
+    folder_make(folder, sizeof folder);
+    snprintf(path, sizeof path, "%s/a mesh whose path with its blanks is of more than sixty-four bytes.msh",
+             folder);
+    snprintf(other, sizeof other, "%s.2", path);
+    snprintf(words, sizeof words, "mesh=%s", path);
+    size_t size;
+    char *text = mesh_text("room-small.msh", &size);
+    const char *const paths[] = {path, other};
+    for (size_t i = 0; i < 2; i++) {
+        FILE *file = fopen(paths[i], "w");
+        assert_non_null(file);
+        assert_int_equal(fwrite(text, 1, size, file), size);
+        assert_int_equal(fclose(file), 0);
+    }
+    free(text);
+
+    char *typed[] = {"room", words, "inlet=inlet", "outlet=outlet", "tracers=0"};
+    struct gm_request request;
+    const int wake = eventfd(0, 0);
+    assert_true(gm_request_parse(&request, 5, typed, 1, message));
+    struct gm_worker *worker = gm_worker_open(&request, wake, NULL, message);
+    assert_non_null(worker);
+    gm_request_close(&request);
+
+    const struct gm_shot *shot = next_shot(worker);
+    assert_string_equal(shot->parameters[place_of(shot, "mesh")].value, path);
+    struct gm_studies studies = {0};
+    gm_studies_begin(&studies, 'm', shot, wake);
+    assert_non_null(studies.studies[GM_STUDY_STABILITY]);
+    struct gm_arguments arguments = {0};
+    assert_true(gm_arguments_split(&arguments, gm_study_words(studies.studies[GM_STUDY_STABILITY])));
+    bool whole = false;
+    for (int i = 0; i < arguments.count; i++) {
+        whole = whole || strcmp(arguments.words[i], words) == 0;
+    }
+    assert_true(whole);
+    gm_arguments_close(&arguments);
+    gm_studies_close(&studies);
+
+    struct gm_face face = {0};
+    shot = type_value(worker, &face, "mesh", other);
+    assert_string_equal(shot->parameters[place_of(shot, "mesh")].value, other);
+    memset(longer, 'x', sizeof longer - 1);
+    longer[sizeof longer - 1] = '\0';
+    shot = type_value(worker, &face, "mesh", longer);
+    assert_non_null(strstr(shot->message, "mesh cannot be xxx"));
+    assert_string_equal(shot->parameters[place_of(shot, "mesh")].value, other);
+    gm_worker_close(worker, message);
+    close(wake);
+    folder_remove(folder);
 }
 
 /* The order of a search's answers: what is called so, what begins so, a word in it that does, any place. */
@@ -448,6 +565,7 @@ int main(void)
         cmocka_unit_test(names_follow_changes),  cmocka_unit_test(sliders_move_finely),
         cmocka_unit_test(sliders_tell_places),   cmocka_unit_test(switches_are_told),
         cmocka_unit_test(searches_prefer_names), cmocka_unit_test(sliders_walk_through_words),
+        cmocka_unit_test(long_texts_stay_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

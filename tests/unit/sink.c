@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "render/files/sink.h"
-#include "tests/common/folder.h"
-
+/* Frames to files and movies: complete or not there, and a sentence where one cannot be made. */
 #include <malloc.h>
 #include <png.h>
 #include <setjmp.h>
@@ -17,6 +15,9 @@
 #include <unistd.h>
 
 #include <cmocka.h>
+
+#include "render/files/sink.h"
+#include "tests/common/folder.h"
 
 enum { MESSAGE = 512 };
 

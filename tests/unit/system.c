@@ -86,6 +86,42 @@ static void expect_facts(const char *line, char *words, const char *term)
     free(text);
 }
 
+/* The nodes that make a facet, as text. */
+static void expect_nodes(const char *line, const char *word, const char *expected)
+{
+    struct gm_own_system system;
+    struct gm_fault fault;
+    struct gm_finding findings[GM_FACTS];
+    char *text = lines_of(line), *found = NULL;
+    size_t size = 0;
+    if (!open_text(&system, text, &fault)) {
+        fail_msg("%s: %s", line, fault.sentence);
+    }
+    assert_true(gm_facts_find(&system, findings));
+    enum gm_fact fact = 0;
+    while (fact < GM_FACTS && strcmp(gm_fact_word(fact), word) != 0) {
+        fact++;
+    }
+    assert_true(fact < GM_FACTS && findings[fact].holds && findings[fact].nodes);
+    const size_t count = fact == GM_FACT_FAST_LINEAR ? system.n : fact == GM_FACT_CONFORMAL ? 1 : 3;
+    const struct gm_naming naming = gm_system_naming(&system);
+    FILE *out = open_memstream(&found, &size);
+    assert_non_null(out);
+    for (size_t i = 0; i < count; i++) {
+        char *node = gm_formula_text(&system.graph, findings[fact].nodes[i], &naming);
+        assert_non_null(node);
+        fprintf(out, "%s%s", i == 0 ? "" : "; ", node);
+        free(node);
+    }
+    fclose(out);
+    if (strcmp(found, expected) != 0) {
+        fail_msg("%s: %s is %s, not %s", line, word, found, expected);
+    }
+    free(found);
+    gm_system_close(&system);
+    free(text);
+}
+
 static void structure_is_recognised(void **unused)
 {
     (void)unused;
@@ -94,7 +130,8 @@ static void structure_is_recognised(void **unused)
     FILE *file = reference_file("formulas.test");
     while (fgets(line, sizeof line, file)) {
         line[strcspn(line, "\n")] = '\0';
-        if (strncmp(line, "facts | ", 8) != 0) {
+        const bool is_facts = strncmp(line, "facts | ", 8) == 0;
+        if (!is_facts && strncmp(line, "nodes | ", 8) != 0) {
             continue;
         }
         char *words = strstr(line + 8, " | "), *term = NULL;
@@ -104,14 +141,16 @@ static void structure_is_recognised(void **unused)
         term = strstr(words, " |");
         assert_non_null(term);
         *term = '\0';
-        expect_facts(line + 8, words, term + 2 + strspn(term + 2, " "));
+        term += 2 + strspn(term + 2, " ");
+        is_facts ? expect_facts(line + 8, words, term) : expect_nodes(line + 8, words, term);
         count++;
     }
     fclose(file);
-    assert_true(count >= 40);
+    assert_true(count >= 80);
 }
 
-/* -- equations by hand; p: the parameters in the order of the file ----------------------------------------- */
+/* -- equations by hand; p: the parameters in the order of the file
+   ----------------------------------------- */
 
 static void double_pendulum(const double *p, double t, const double *y, double *f)
 {
@@ -229,7 +268,7 @@ static void equations_are_those_by_hand(void **unused)
             fail_msg("%s: %s", eight[k].name, fault.sentence);
         }
         assert_int_equal(system.n, eight[k].n);
-        double *variables = gm_equations_start(&system);
+        double *variables = gm_equations_start(&system, NULL);
         double *values = malloc(system.graph.count * sizeof *values);
         assert_true(variables && values);
         srand(3);
@@ -279,7 +318,7 @@ static void lagrangians_are_transformed(void **unused)
     if (!open_text(&system, text, &fault)) {
         fail_msg("%s", fault.sentence);
     }
-    double *variables = gm_equations_start(&system);
+    double *variables = gm_equations_start(&system, NULL);
     double *values = malloc(system.graph.count * sizeof *values);
     assert_true(variables && values);
     gm_formula_evaluate(&system.graph, system.graph.count, variables, values);
@@ -291,6 +330,60 @@ static void lagrangians_are_transformed(void **unused)
     free(values);
     free(variables);
     gm_system_close(&system);
+}
+
+/* What a Lagrangian keeps is proved with dL/dv in place of the momenta; velocities are found from momenta. */
+static void lagrangians_are_checked(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        size_t checked, proved;
+        double velocity; /* of the first coordinate at the start */
+    } rows[] = {
+        {"coordinates: a b\nL: (v_a^2 + v_b^2)/2 - (a^2 + b^2)^2\ninvariant: l = a*p_b - b*p_a\n"
+         "invariant: E = (p_a^2 + p_b^2)/2 + (a^2 + b^2)^2\nsymmetry: a = -b, b = a\n"
+         "start: a = 1, b = 2, p_a = 3, p_b = 4\n",
+         3, 3, 3},
+        /* a mass that depends on the place; of the velocities one is given */
+        {"coordinates: r phi\nparameter: m = 2\nL: m*(v_r^2 + r^2*v_phi^2)/2 + 1/r\n"
+         "invariant: l = p_phi\ninvariant: E = p_r^2/(2*m) + p_phi^2/(2*m*r^2) - 1/r\n"
+         "start: r = 2, phi = 0, p_r = 0.5, v_phi = 0.25\n",
+         2, 2, .25},
+        /* relativistic: v = p / sqrt(1 + p^2 / 100) */
+        {"coordinates: q\nL: -100*sqrt(1 - v_q^2/100)\ninvariant: p = p_q\nstart: q = 1, p_q = 24\n", 1, 1,
+         24 / 2.6},
+        {"coordinates: q\nL: exp(v_q)\ninvariant: p = p_q\nstart: q = 1, p_q = 5\n", 1, 1,
+         1.60943791243410037},
+        {"coordinates: a b\nL: v_a^2/2 + v_a*v_b + v_b^2 + b*v_a\ninvariant: p = p_a\n"
+         "start: a = 1, b = 2, p_a = 3, p_b = 4\n",
+         1, 1, -2}, /* v_a + v_b + 2 = 3, v_a + 2 v_b = 4 */
+        /* how velocities change is not known to the graph */
+        {"coordinates: q\nL: v_q^2/2\ninvariant: v = v_q\nstart: q = 1, p_q = 5\n", 1, 0, 5},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+        struct gm_own_system system;
+        struct gm_fault fault;
+        size_t checked = 0, proved = 0;
+        if (!open_text(&system, rows[k].text, &fault)) {
+            fail_msg("%s: %s", rows[k].text, fault.sentence);
+        }
+        for (size_t i = 0; i < system.item_count; i++) {
+            const enum gm_system_word word = system.items[i].word;
+            checked += word == GM_WORD_INVARIANT || word == GM_WORD_SYMMETRY;
+            proved += (word == GM_WORD_INVARIANT || word == GM_WORD_SYMMETRY) &&
+                      system.items[i].check == GM_ZERO_PROVED;
+        }
+        double *start = gm_equations_start(&system, NULL);
+        assert_non_null(start);
+        if (checked != rows[k].checked || proved != rows[k].proved ||
+            !(fabs(start[system.velocities] - rows[k].velocity) <= 4e-16 * fabs(rows[k].velocity))) {
+            fail_msg("%s: %zu of %zu proved, velocity %.17g", rows[k].text, proved, checked,
+                     start[system.velocities]);
+        }
+        free(start);
+        gm_system_close(&system);
+    }
 }
 
 #define CANONICAL "coordinates: q\nstart: q = 1, p_q = 0\n"
@@ -307,13 +400,19 @@ static const struct {
     {"  H: q", 1, 3, "there is none before it"},
     {"titel: x\n", 1, 1, "no line \"titel\"; did you mean title"},
     {"H:\n", 1, 3, "says nothing"},
-    {"H: q\nH: q\n", 2, 1, "said twice, first in line 1"},
+    {"H: q\nH: q\n", 2, 1, "said twice"},
     {"H: q\nL: q\n", 1, 1, "a system with L has no line \"H\""},
     {"H: q\nrate: q = 1\n", 1, 1, "a system with rates has no line \"H\""},
     {"bracket: x y = 1\n", 1, 1, "needs H"},
     {"H: q^2\n", 1, 1, "needs a line \"coordinates\""},
     {CANONICAL "H: p_q^2 + qq\n", 3, 12, "no name qq; did you mean q"},
     {CANONICAL "H: p_q^2 + 2q\n", 3, 13, "2*q"},
+    {CANONICAL "H: q\ndt: -1\n", 4, 5, "dt is -1, and has to be above 0"},
+    {CANONICAL "H: q\nuntil: 0 - 3\n", 4, 8, "until is -3, and has to be 0 or more"},
+    {CANONICAL "H: q\nparameter: k = 5; 10 .. 1\n", 4, 19, "10 is above 1"},
+    {CANONICAL "H: q\nsection: every -1; q, p_q\n", 4, 16, "has to be above 0"},
+    {CANONICAL "H: q\nview: q, 0\nview: q, 0, 0\n", 5, 7,
+     "3 coordinates, and those of the lines before are 2"},
     {CANONICAL "H: p_q^2 + coz(q)\n", 3, 12, "did you mean cos"},
     {CANONICAL "H: p_q^2\n  + sin(q\n", 4, 10, "ends where ) was expected"},
     {"geomint: 2\n" CANONICAL "H: p_q^2\n", 1, 10, "format 1, not 2"},
@@ -321,6 +420,11 @@ static const struct {
     {"coordinates: sin\nH: q\n", 1, 14, "the name sin is reserved"},
     {"coordinates: dt\nH: q\n", 1, 14, "the name dt is reserved"},
     {"coordinates: q\nparameter: until = 2\nH: q\n", 2, 12, "the name until is reserved"},
+    {"coordinates: q\nH: q\nobserve: status = q\nstart: q = 1, p_q = 0\n", 3, 10,
+     "the name status is reserved"},
+    {"\xef\xbb\xbf"
+     "coordinates: dt\nH: q\n",
+     1, 14, "the name dt is reserved"},
     {"coordinates: q\nparameter: q = 2\nH: q\n", 1, 14, "q is defined twice, first in line 2"},
     {"coordinates: q\nmomenta: a b\nH: q\n", 2, 1, "2 momenta for 1 coordinates"},
     {"coordinates: q\nH: q^2 + p_q^2\nstart: q = 1\n", 4, 1, "p_q has no value at the start"},
@@ -341,6 +445,19 @@ static const struct {
     {"coordinates: q[1..2]\nH: q[3]\n", 2, 4, "q[3] lies outside of q[1] .. q[2]"},
     {CANONICAL "H: p_q^2/2 + 1/(q - 1)\n", 3, 14, "not finite at the start"},
     {CANONICAL "H: p_q^2/2\nconstraint: q - 2\n", 4, 13, "breaks this constraint"},
+    {CANONICAL "H: p_q^2/2\nconstraint: q^2 + p_q\n", 4, 13, "a constraint holds coordinates and parameters"},
+    {"coordinates: x y\nH: (p_x^2 + p_y^2)/2\nconstraint: x^2 + y^2 - 1\n"
+     "start: x = 1, y = 0, p_x = 0.5, p_y = 1\n",
+     3, 13, "its rate of change is 1, not 0"},
+    {"coordinates: x y\nL: (v_x^2 + v_y^2)/2\nconstraint: x^2 + y^2 - 1\n"
+     "start: x = 1, y = 0, v_x = 0.5, v_y = 1\n",
+     3, 13, "its rate of change is 1, not 0"},
+    {"coordinates: x y z\nH: (p_x^2 + p_y^2 + p_z^2)/2\nconstraint: x^2 + y^2 - 1\nconstraint: 3*(x^2 + y^2) - 3\n"
+     "start: x = 1, y = 0, z = 0, p_x = 0, p_y = 1, p_z = 0\n",
+     4, 13, "the derivatives of 2 have the rank 1"},
+    {"coordinates: x y\nH: (p_x^2 + p_y^2)/2\nconstraint: x^2 + 2*y^2 - 1\nsymmetry: x = -y, y = x\n"
+     "start: x = 1, y = 0, p_x = 0, p_y = 1\n",
+     4, 11, "this is no symmetry: it changes H, or a constraint"},
     {CANONICAL "H: p_q^2/2\ninvariant: a = q\n", 4, 12, "a is no invariant"},
     {CANONICAL "H: p_q^2/2 + q^2\nsymmetry: q = 1\n", 4, 11, "no symmetry: it changes H"},
     {CANONICAL "H: p_q^2/2\nforce: p_q = 1\n", 4, 8, "a force acts on a coordinate"},
@@ -352,7 +469,14 @@ static const struct {
     {CANONICAL "H: p_q^2/2\nobserve: q[1] = 0\n", 4, 12, "no index"},
     {CANONICAL "H: p_q^2/2\nobserve: q = 0\n", 4, 10, "q is defined twice, first in line 1"},
     {CANONICAL "H: p_q^2/2\ndt: q\n", 4, 5, "q is no parameter"},
-    {"coordinates: q\nL: v_q*q\nstart: q = 1, v_q = 0\n", 1, 1, "Legendre transform of L is singular"},
+    {"coordinates: q\nL: v_q*q\nstart: q = 1, v_q = 0\n", 1, 1, "singular at the start, q = 1: momenta"},
+    {"coordinates: a b\nL: (v_a + v_b)^2\nstart: a = 1, b = 0.5, p_a = 1, p_b = 1\n", 1, 1,
+     "singular at the start, a = 1, b = 0.5: momenta"},
+    {"coordinates: a b\nL: (v_a^2 + sin(a)^2*v_b^2)/2\nstart: a = pi, b = 0, v_a = 0, v_b = 1\n", 1, 1,
+     "singular at the start, a = 3.14159, b = 0: momenta"},
+    {"coordinates: q\nL: v_q^2/2 - q^2\nstart: q = 1, v_q = 0\ninvariant: a = p_q\n", 4, 12,
+     "a is no invariant"},
+    {"coordinates: q\nL: v_q^2/2 - q^2\nstart: q = 1, v_q = 0\nsymmetry: q = 1\n", 4, 11, "it changes L"},
     {THREE "rate: x = y\nrate: y = z\n", 1, 1, "there is no rate of z"},
     {THREE "rate: x = y\nrate: x = z\n", 4, 7, "rate: x is said twice"},
     {THREE "bracket: x y = z\nbracket: y z = x*y\nbracket: z x = y*z\nH: x\n", 1, 1,
@@ -394,9 +518,8 @@ static void what_is_wrong_is_named(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(structure_is_recognised),
-        cmocka_unit_test(equations_are_those_by_hand),
-        cmocka_unit_test(lagrangians_are_transformed),
+        cmocka_unit_test(structure_is_recognised),     cmocka_unit_test(equations_are_those_by_hand),
+        cmocka_unit_test(lagrangians_are_transformed), cmocka_unit_test(lagrangians_are_checked),
         cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

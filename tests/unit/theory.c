@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Theory against what is known of methods, against errors planted in every coefficient, and, for splittings, against
-   the coefficients of Lyndon words, which share nothing with trees. */
+/* Theory against what is known of methods, against errors planted in every coefficient, and, for splittings,
+   against the coefficients of Lyndon words, which share nothing with trees. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -312,9 +312,9 @@ static void balls(void **unused)
     assert_true(gm_ball_written(0.75).radius == 0 && gm_ball_written(-0.1).radius == 0.5e-15);
 }
 
-/* The coefficient of a word in the product of the flows exp(c_i X_i), against 1 / n! of exp(A + B): a splitting is
-   of order p if, and only if, that of every Lyndon word of at most p letters is right. Hairer, Lubich & Wanner
-   (2006), III.5.3; Murua & Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079. */
+/* The coefficient of a word in the product of the flows exp(c_i X_i), against 1 / n! of exp(A + B): a
+   splitting is of order p if, and only if, that of every Lyndon word of at most p letters is right. Hairer,
+   Lubich & Wanner (2006), III.5.3; Murua & Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079. */
 static long double word_defect(const struct gm_coefficients *coefficients, unsigned word, int letters)
 {
     long double part[12] = {1}, factorial = 1;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Ticks of axes: round values, of any range three to six, whose labels differ. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=sh
+# For tests of what the program answers: sourced with the program as $1. The test is then in an empty folder of
+# its own; `fail` counts in `failures`, with which it ends.
+
+geomint=$(realpath "$1")
+folder=$(mktemp -d) || exit 1
+trap 'chmod -R u+w "$folder"; rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+unset DISPLAY
+failures=0
+
+fail() {
+    printf 'FAILED: %s\n' "$*"
+    failures=$((failures + 1))
+}
+
+# What else every answer is looked at for, with the command as its words; a test may bring its own.
+inspect() { :; }
+
+# status STATUS WORDS...: the exit status, without a sign of a crash; what it said is in out and err
+status() {
+    wanted=$1
+    shift
+    timeout 240 "$geomint" "$@" >out 2>err </dev/null
+    got=$?
+    [ "$got" = "$wanted" ] || fail "geomint $*: exit $got, not $wanted: $(head -c 300 err)"
+    grep -qiE 'sanitizer|assert|segmentation' err && fail "geomint $*: $(head -n 3 err)"
+    inspect "$@"
+    return 0
+}
+
+# refused STATUS PATTERN WORDS...: one sentence on standard error that holds the pattern; further lines, as that
+# of a file with a mark below, are indented
+refused() {
+    wanted=$1
+    pattern=$2
+    shift 2
+    status "$wanted" "$@"
+    [ "$(grep -vc '^  ' err)" = 1 ] || fail "geomint $*: not one sentence: $(cat err)"
+    head -n 1 err | grep -q -- "$pattern" || fail "geomint $*: says \"$(cat err)\", not \"$pattern\""
+}

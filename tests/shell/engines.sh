@@ -1,0 +1,92 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Engines on the command line: the same numbers, told which; a second start needs no compiler; the cache listed and
+# emptied; what is refused. engines.sh GEOMINT SOURCE
+set -u
+GEOMINT_KERNEL=$2
+GEOMINT_SYSTEMS=$2/share/systems
+GEOMINT_COMPILER_SECONDS=200 # the machine may have much else to do
+export GEOMINT_KERNEL GEOMINT_SYSTEMS GEOMINT_COMPILER_SECONDS
+. "$(dirname "$0")/answers.sh"
+XDG_CACHE_HOME=$folder/caches
+export XDG_CACHE_HOME
+
+# numbers ENGINE WORDS...: what the program tells, but for the engine and the seconds
+numbers() {
+    engine=$1
+    shift
+    status 0 run "$@" --json --state --engine "$engine"
+    sed -E 's/"engine":"[a-z]*",//; s/"seconds":[^,]*,//' out
+}
+
+numbers interpreted figure-eight until=20 scheme=verlet >interpreted
+grep -q '"engine":"interpreted"' out || fail "an interpreted run tells no engine"
+numbers native figure-eight until=20 scheme=verlet >native
+grep -q '"engine":"native"' out || fail "a native run tells no engine: $(cat err)"
+cmp -s interpreted native || fail "the engines' numbers differ"
+entries=$(ls "$XDG_CACHE_HOME/geomint" | wc -l)
+[ "$entries" = 1 ] || fail "$entries files in the cache, not 1"
+
+# no compiler is needed twice
+real=$PATH
+mkdir bin
+printf '#!/bin/sh\necho called >>"%s/calls"\nexec "%s" "$@"\n' "$folder" "$(command -v cc)" >bin/cc
+chmod +x bin/cc
+PATH=$folder/bin:$PATH
+for until in 20 21; do
+    status 0 run figure-eight until=$until scheme=verlet --engine native --json
+    grep -q '"engine":"native"' out || fail "with a compiler of its own: $(cat err)"
+done
+[ "$(wc -l <calls)" = 1 ] || fail "the compiler was called $(wc -l <calls) times, not once"
+# one that spoils the cache, or is sent away while it works, leaves the interpreter
+printf '#!/bin/sh\nchmod 755 "$TMPDIR"\n' >bin/cc
+status 0 run lorenz until=1 --engine native
+grep -q 'nobody else may open' err || fail "a cache that is spoilt meanwhile: $(cat err)"
+chmod 700 "$XDG_CACHE_HOME/geomint"
+printf '#!/bin/sh\nexec sleep 100\n' >bin/cc
+timeout -s INT 2 "$geomint" run lorenz until=1 --engine native >out 2>err
+code=$?
+[ "$code" = 124 ] || [ "$code" = 130 ] || fail "interrupted while it compiles: $code"
+printf '#!/bin/sh\nexit 1\n' >bin/cc
+PATH=$real
+
+# of several processes at once one entry stays
+status 0 cache --clear
+for i in 1 2 3; do
+    "$geomint" run figure-eight until=21 scheme=yoshida4 --engine native --json >out$i 2>err$i &
+done
+wait
+for i in 1 2 3; do
+    grep -q '"engine":"native"' out$i || fail "beside others: $(cat err$i)"
+done
+entries=$(ls "$XDG_CACHE_HOME/geomint" | wc -l)
+[ "$entries" = 1 ] || fail "$entries files in the cache, not 1, after others"
+
+status 0 cache
+grep -q '^1 kernel of [0-9]* bytes in ' out || fail "cache tells $(cat out)"
+status 0 cache --clear
+grep -q '^1 removed from ' out || fail "cache --clear tells $(cat out)"
+[ -z "$(ls "$XDG_CACHE_HOME/geomint")" ] || fail "cache --clear leaves $(ls "$XDG_CACHE_HOME/geomint")"
+
+# where it cannot be had a sentence says why, and the numbers are there
+PATH=$folder/bin:/usr/bin:/bin
+numbers native figure-eight until=20 scheme=verlet,ruth3 >other
+[ "$(grep -c interpreted: err)" = 1 ] || fail "with a compiler that fails: $(cat err)"
+head -n 1 other | sed 's/"message":"[^"]*",//' >one
+sed 's/"message":"[^"]*",//' interpreted | cmp -s - one || fail "with a compiler that fails the numbers differ"
+PATH=$real
+status 0 run system L='v_q^2/2 - q^2/2' q=1 p=0 until=1 --engine native
+grep -q 'Lagrangian' err || fail "a Lagrangian is native: $(cat err)"
+GEOMINT_KERNEL=$folder status 0 run lorenz until=1 --engine native
+grep -q 'interpreted: the compiler failed' err || fail "without sources: $(cat err)"
+[ -z "$(ls "$XDG_CACHE_HOME/geomint")" ] || fail "what failed leaves $(ls "$XDG_CACHE_HOME/geomint")"
+# a built-in problem has no engine
+status 0 run kepler until=1 --json --engine native
+grep -q '"engine"' out && fail "a built-in problem tells an engine"
+
+refused 1 'none of: auto, interpreted, native' run lorenz --engine fast
+refused 1 'takes no word' cache everything
+refused 1 'no option --engine' certify rk4 --engine native
+chmod 755 "$XDG_CACHE_HOME/geomint"
+refused 3 'nobody else may open' cache
+exit "$((failures > 0))"

@@ -1,0 +1,161 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The prompts of the explorer: a system of one's own is typed, corrected, edited and saved; so is a scheme.
+# Usage: explorer_own.sh GEOMINT SYSTEMS
+set -u
+
+. "$(dirname "$0")/tmux.sh"
+
+open() { # WORDS
+    keys "clear; GEOMINT_SYSTEMS='$systems' \"$geomint\" $*; echo \"left \$?\"" Enter
+}
+
+# caret TEXT: below the first letter of TEXT stands the caret
+caret() {
+    local i line before
+    for ((i = 0; i < 100; i++)); do
+        before=
+        while IFS= read -r line; do
+            [[ $before == *"$1"* && $line =~ ^\ *\^\ *$ ]] && {
+                before=${before%%"$1"*}
+                line=${line%%^*}
+                [ "${#before}" = "${#line}" ] && return 0
+            }
+            before=$line
+        done < <(screen)
+        sleep 0.1
+    done
+    fail "no caret below $1"
+}
+
+systems=$(realpath "$2")
+for size in 80x24 160x45; do
+    start $size TERM=tmux-256color GEOMINT_COLOURS=truecolor
+    rm -f "$folder"/*.system
+    # from the start screen: the example, something wrong, and right again
+    open
+    wait_for 'Type to search'
+    keys own
+    wait_for '▸ your own system'
+    wait_for 'rigid-body' # the systems that have a name
+    keys Enter
+    wait_for 'H=p\^2/2 - cos\(q\)▏ q=2 p=0'
+    wait_for 'That is right'
+    keys ' + 2q'
+    wait_for 'there is no operator'
+    caret 'q▏ q=2'
+    keys Enter
+    keys BSpace BSpace BSpace BSpace BSpace
+    wait_for 'That is right'
+    keys End ' k=3'
+    wait_for 'no parameter "k"'
+    caret 'k=3'
+    keys BSpace BSpace BSpace BSpace
+    wait_for 'That is right'
+    keys Enter
+    wait_for 'SCHEMES'
+    wait_for '[▸ ] q +2 '
+    # edited: what runs stays until the line is right and entered
+    keys e
+    wait_for 'H=p\^2/2 - cos\(q\)▏'
+    keys '*cso(q)'
+    wait_for 'did you mean cos'
+    wait_for 'SCHEMES'
+    keys Escape
+    wait_gone 'did you mean'
+    keys e
+    wait_for 'cos\(q\)▏'
+    keys '*k' End ' k=2'
+    wait_for 'That is right'
+    keys Enter
+    wait_for '[▸ ] k +2 '
+    # told as a shell reads it, and saved
+    keys y
+    wait_for "H='p\^2/2 - cos\(q\)\*k'"
+    keys s
+    wait_for 'Saved system-0001.system'
+    keys q
+    wait_for 'left 0'
+    grep -q '^parameter: k = 2$' "$folder/system-0001.system" || fail "saved: $(cat "$folder/system-0001.system")"
+    open ./system-0001.system
+    wait_for 'SCHEMES'
+    # of a file its formula is edited, behind its name
+    keys e
+    wait_for 'system-0001.system H=p\^2/2 - cos\(q\)\*k▏'
+    keys ' + q^2/8'
+    wait_for 'That is right'
+    keys Enter
+    wait_gone 'That is right'
+    keys y
+    wait_for "system-0001.system H='p\^2/2"
+    keys Escape
+    wait_for 'SCHEMES'
+    # what is typed ahead is for the page that opens
+    keys y s
+    wait_for 'Saved system-0001-0001.system'
+    keys Escape
+    wait_for 'SCHEMES'
+    [ $size = 80x24 ] || continue
+
+    # a scheme, switched to and forked with
+    keys s
+    wait_for 'SWITCH TO'
+    keys 'your own'
+    wait_for '▸ +your own scheme'
+    keys Enter
+    wait_for 'composition\(verlet;'
+    wait_for 'That is right'
+    keys C-u 'composition(verlet; 1, 0.5)'
+    wait_for 'the steps sum to 1.5'
+    keys Enter
+    keys C-u 'composition(vrlet; 1)'
+    wait_for 'vrlet'
+    keys Escape
+    wait_for 'SCHEMES'
+    keys f
+    wait_for 'FORK WITH'
+    keys 'your own'
+    wait_for '▸ +your own scheme'
+    keys Enter
+    wait_for 'That is right'
+    keys C-u 'runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)'
+    wait_for 'That is right'
+    keys Enter
+    wait_gone 'That is right'
+    wait_for '▸.*\(b: 0\.25, 0\.75\)'
+    keys q
+    wait_for 'left 0'
+done
+
+# nothing breaks it: control characters, letters of two cells, halves of them, a long paste, deep parentheses
+start 60x14 TERM=tmux-256color
+open
+wait_for 'Type to search'
+keys own Enter
+wait_for 'H=p'
+keys C-u
+keys -H 00 01 02 1d e6 bc a2 c3
+keys -l 'H=漢字é+1 q=1 p=0'
+wait_for 'no character of a formula|H=\?\?é'
+screen | LC_ALL=C grep -q "$(printf '[\001-\010\016-\037]')" && fail 'a control character is shown'
+keys C-u
+head -c 100000 /dev/zero | tr '\0' x | tm load-buffer -
+tm paste-buffer -t "$pane"
+wait_for 'A line has room for'
+keys C-u
+printf 'H=%400sq%400s q=1 p=0' '' '' | sed 's/ \{400\}q/(&/; s/q \{400\}/&)/' | tr -s ' ' | tm load-buffer -
+tm paste-buffer -t "$pane"
+keys C-u
+tm resize-window -t "$pane" -x 30 -y 6
+keys -l 'H=p^2/2 q=1 p='
+wait_for 'p=▏'
+tm resize-window -t "$pane" -x 80 -y 24
+keys 1
+wait_for 'That is right'
+keys Enter
+wait_for 'SCHEMES'
+keys q
+wait_for 'left 0'
+
+[ "$failures" = 0 ] && echo "explorer, one's own: all passed"
+exit $((failures > 0))

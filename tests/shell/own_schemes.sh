@@ -1,0 +1,198 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Schemes of one's own on the command line: those that the program brings hold what they claim, a wrong one does not, a
+# picture is made again without the file, and what cannot be read is said with its place. own_schemes.sh GEOMINT SCHEMES
+set -u
+schemes=$2
+. "$(dirname "$0")/answers.sh"
+
+for file in "$schemes"/*.scheme; do
+    name=$(basename "$file")
+    "$geomint" certify "$file" --json >out 2>err || fail "certify $name: exit $?: $(cat err)"
+    python3 -c '
+import json, sys
+about = json.load(open("out"))
+assert about["holds"] and about["theory"]["order"] == about["order"], about
+' || fail "certify $name: what theory says"
+    for word in title about reference kind order claims; do
+        grep -q "^$word: " "$file" || fail "$name has no $word"
+    done
+done
+
+# one and the same run, by name, by file and as a word
+cat >gauss.scheme <<'END'
+geomint: 1
+kind: runge-kutta      # the rows of gauss4
+let: s = sqrt(3)
+a: 1/4, 1/4 - s/6
+ | 1/4 + s/6, 1/4
+b: 1/2, 1/2
+END
+word='runge-kutta(1/4, 1/4 - sqrt(3)/6 | 1/4 + sqrt(3)/6, 1/4; 1/2, 1/2)'
+"$geomint" run kepler "scheme=gauss4,./gauss.scheme,$word" steps=100 --state --json >out 2>err || fail "run: $(cat err)"
+python3 -c '
+import json, sys
+lanes = [json.loads(line) for line in open("out")]
+assert [lane["scheme"] for lane in lanes] == ["gauss4", "./gauss.scheme", sys.argv[1]]
+for lane in lanes:
+    for key in "scheme", "seconds", "parameters":
+        lane.pop(key)
+assert lanes[0] == lanes[1] == lanes[2], lanes
+' "$word" || fail 'the three ways to say gauss4 differ'
+"$geomint" run kepler "scheme=$word,rk4" steps=9 --csv out.csv >/dev/null || fail 'run --csv'
+python3 -c '
+import csv, sys
+rows = list(csv.reader(open("out.csv")))
+assert len({len(row) for row in rows}) == 1 and {row[2] for row in rows[1:]} == {sys.argv[1], "rk4"}
+' "$word" || fail 'the scheme is no cell of the table'
+
+# a picture knows it without the file, from another folder
+mkdir made again
+"$geomint" render kepler scheme=./gauss.scheme,rk4 until=3 --size 160x90 -o made/a.png 2>err || fail "render: $(cat err)"
+cp made/a.png again/
+mv gauss.scheme elsewhere.scheme
+(cd again && "$geomint" again a.png --out . 2>../err >../out) || fail "again: $(cat err)"
+mv elsewhere.scheme gauss.scheme
+
+# a file that names another one, from its own folder
+mkdir -p deep
+printf 'kind: composition\nbase: ../gauss.scheme\nsteps: 1/2, 1/2\n' >deep/twice.scheme
+"$geomint" certify deep/twice.scheme >out 2>err || fail "certify deep/twice.scheme: $(cat err)"
+grep -q 'order 4, measured' out || fail "deep/twice.scheme: $(cat out)"
+"$geomint" stability --region deep/twice.scheme --json >out 2>err || fail "stability --region: $(cat err)"
+"$geomint" stability henon-heiles scheme=deep/twice.scheme,rk4 >out 2>err || fail "stability: $(cat err)"
+"$geomint" work-precision kepler scheme=./gauss.scheme,best until=2 --out . >out 2>err || fail "work-precision: $(cat err)"
+[ "$(grep -c '^gauss\|^midpoint\|^rk4sym' out)" -ge 2 ] || fail "best: $(cat out)"
+"$geomint" sweep kepler 'scheme=composition(verlet; 1/2, 1/2),verlet' dt=0.05,0.1 until=5 --table table.csv >/dev/null 2>err ||
+    fail "sweep: $(cat err)"
+python3 -c '
+import csv
+rows = list(csv.DictReader(open("table.csv")))
+assert len(rows) == 4 and {row["status"] for row in rows} == {"ok"}, rows
+' || fail "sweep: $(cat table.csv)"
+
+# a wrong one
+"$geomint" certify 'explicit(order: 4; 0,0,0,0|1/2,0,0,0|0,1/2,0,0|0,0,1,0; 1/3,1/6,1/3,1/6)' >out 2>err
+[ $? = 4 ] || fail 'weights exchanged: not refuted'
+grep -q 'most that of t\[t\]' out || fail "weights exchanged: $(cat out)"
+"$geomint" certify 'runge-kutta(claims: symplectic; 1/2, 0 | 1/2, 1/2; 1/2, 1/2)' >out 2>err
+[ $? = 4 ] || fail 'no symplectic tableau: not refuted'
+
+printf 'kind: runge-kutta\na: 1, 2\nb: 1\n' >wrong.scheme
+refused 1 'wrong.scheme:2:4: a has 1 rows of 2 entries: it is not square' certify wrong.scheme
+[ "$(sed -n 2p err)" = '    a: 1, 2' ] && [ "$(sed -n 3p err)" = '       ^' ] || fail "no caret: $(cat err)"
+refused 1 'scheme, column 21: the steps sum to 2, not to 1' run disc 'scheme=composition(verlet; 1, 1)' until=1
+[ "$(sed -n 3p err)" = '                        ^' ] || fail "no caret: $(cat err)"
+printf 'kind: adjoint\nbase: me.scheme\n' >me.scheme
+refused 1 'me.scheme is made of itself' certify me.scheme
+refused 1 'no kind of scheme "runge-kuta(...)"; did you mean runge-kutta(...)$' run disc 'scheme=runge-kuta(0 0; 1/2 1/2)'
+refused 1 'no kind of scheme "xyzzy(...)"; docs/own-schemes.md names them$' certify 'xyzzy(rk4)'
+printf 'kind: adjoint\nbase: other.scheme\n' >me.scheme
+printf 'kind: composition\nbase: me.scheme\nsteps: 1\n' >other.scheme
+refused 1 'me.scheme is made of itself' run disc scheme=me.scheme until=1
+printf 'kind: adjoint\nbase: ./me.scheme\n' >me.scheme
+refused 1 'me.scheme is made of itself' run disc scheme=me.scheme until=1
+refused 1 'cannot be shown' certify "$(printf 'a\033[31m.scheme')"
+for share in 1 2; do
+    "$geomint" sweep kepler 'scheme=adjoint(rk4),rk4' dt=0.01..0.03:3 until=1 --table shares.csv --shard $share/2 \
+        >/dev/null 2>&1 || fail "share $share of a sweep"
+done
+status 0 sweep --join shares.csv
+[ "$(wc -l <shares.csv)" = 7 ] || fail 'a sweep with a scheme of its own is not joined'
+refused 3 'none.scheme could not be read' run disc scheme=none.scheme until=1
+refused 3 'none.scheme could not be read' certify none.scheme
+refused 3 'none.scheme could not be read' stability --region none.scheme
+printf 'kind: explicit\na: 0\nb: 1 \033[31m\n' >wild.scheme
+refused 1 'wild.scheme:3:6' certify wild.scheme
+grep -q "$(printf '\033')" err && fail 'an escape reached the terminal'
+
+# what stands in the way of a file
+printf '\357\273\277kind: explicit\na: 0\nb: 1\n' >marked.scheme
+status 0 certify marked.scheme
+head -c 1100000 /dev/zero | tr '\0' '#' >large.scheme
+refused 3 'large.scheme could not be read: it has 1.04904 MB, more than 1' certify large.scheme
+refused 1 'the word says that it is of the kind runge-kutta' certify 'runge-kutta(kind: explicit; 1/2; 1)'
+refused 1 'the drifts sum to 0.3, not to 1' run kepler 'scheme=splitting(0.1, 0.2; 1)' until=1
+status 0 work-precision kepler scheme=best,rk4 until=2 --out .
+status 0 work-precision kepler scheme=rk4,best,rk2 until=2 --out .
+
+# a switch in flight to a word with commas, and again from the picture alone
+switched='0:5:scheme=composition(verlet; 1/2, 1/2),0:8:dt=0.02'
+"$geomint" render kepler scheme=rk4 until=1 --changes "$switched" --size 160x90 -o switched.png >out 2>err ||
+    fail "render --changes: $(cat err)"
+mkdir once
+(cd once && "$geomint" again ../switched.png --out . >../out 2>../err) || fail "again of a switch: $(cat err)"
+cmp -s switched.png once/*.png || fail 'again of a switch paints another picture'
+
+# a tour finds its schemes from its own folder
+mkdir -p class/schemes
+cp gauss.scheme class/schemes/
+printf 'title: A tour\nstep: One\nsay: Look.\nshow: kepler scheme=./schemes/gauss.scheme,rk4 until=1\n' >class/a.tour
+status 0 tour class/a.tour --list
+
+# on a system
+status 0 certify verlet --on henon-heiles --json
+python3 - out <<'END' || fail 'certify --on --json'
+import json, sys
+about = json.load(open(sys.argv[1]))
+assert about["system"] == "henon-heiles" and about["holds"] and abs(about["measured"]["order"] - 2) < 0.05
+assert about["measured"]["symplectic"] < 1e-10 and about["measured"]["keeps linear invariants"] is None
+assert about["properties"]["keeps linear invariants"]["reason"], about
+END
+status 0 certify verlet --on system 'H=p^2/2 + abs(q)' q=1 p=0 dt=0.1 --json
+grep -q '"order":null,"order_reason":"the system is not smooth' out || fail "a rough system: $(cat out)"
+status 0 certify gauss4 --on kepler eccentricity=0.3 dt=0.02
+grep -q 'keeps quadratic invariants *holds *defect.*angular_momentum' out || fail "angular momentum: $(cat out)"
+printf 'geomint: 1\ncomponents: x y z\nrate: x = 10*(y - x)\nrate: y = 28*x - y - x*z\nrate: z = x*y - 8/3*z\nstart: x = 1, y = 1, z = 1\n' >butterfly.system
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4\nstart: q = 1, p = 0\n' >quartic.system
+status 0 certify rk4 --on ./butterfly.system dt=0.01
+grep -q 'symplectic *not claimed *the system has no Hamiltonian' out || fail "no Hamiltonian: $(cat out)"
+"$geomint" certify 'explicit(claims: symplectic; order: 1; 0; 1)' --on henon-heiles >out 2>err
+[ $? = 4 ] || fail 'a false claim holds on a system'
+refused 1 'verlet does not fit' certify verlet --on ./butterfly.system
+refused 1 'no scene "nowhere"' certify rk4 --on nowhere
+refused 1 'takes ordinary differential equations' certify leapfrog --on sine-gordon
+refused 1 'one scheme and one value' certify rk4 --on kepler dt=0.1,0.2
+
+# conjugate to Verlet, and stable as it is; the coefficients cancel to noise
+status 0 certify 'processed(verlet; splitting(1/3; 1/7))'
+grep -q 'stable on the oscillator up to . dt = 2$' out || fail "a processed Verlet: $(grep stable out)"
+
+# the diagram of the order, made again without the files
+mkdir -p drawn
+printf 'kind: composition\nbase: verlet\nsteps: 1/2, 1/2\n' >halves.scheme
+status 0 certify halves.scheme --on ./quartic.system dt=0.01 -o drawn/a.png --size 320x200 --title Halves
+grep -q 'wrote drawn/a.png and drawn/a.csv' err || fail "certify -o: $(cat err)"
+python3 - drawn/a.csv <<'END' || fail 'the table of the order'
+import csv, math, sys
+rows = list(csv.DictReader(open(sys.argv[1])))
+a, b = rows[2], rows[-1]
+slope = math.log(float(a["error"]) / float(b["error"])) / math.log(float(a["dt"]) / float(b["dt"]))
+assert len(rows) > 10 and abs(slope - 2) < 0.05, slope
+END
+rm halves.scheme quartic.system
+status 0 again drawn/a.png -o drawn/b.png
+cmp drawn/a.png drawn/b.png || fail 'a diagram of the order is not made again'
+status 0 certify crank-nicolson --out drawn
+[ -s drawn/order.png ] || fail 'certify --out draws nothing'
+refused 1 'no diagram: the order of leapfrog' certify leapfrog -o drawn/c.png
+refused 1 'the diagram of one scheme' certify all -o drawn/c.png
+[ ! -e drawn/c.png ] || fail 'a diagram of nothing'
+
+# with the digits that are missing
+status 0 certify 'composition(verlet; order: 4; 1.3512, -1.7024, 1.3512)' --polish polished.scheme
+grep -q '1.35120719195965763404768780897' polished.scheme || fail "polished: $(cat polished.scheme)"
+status 0 certify polished.scheme
+printf '# my own\nkind: composition\nbase: verlet\norder: 4\nsteps: g, 1 - 2*g, g\nlet: g = 1.35120819 # typed\n' >typed.scheme
+"$geomint" certify typed.scheme >/dev/null 2>&1
+[ $? = 4 ] || fail 'a wrong digit holds'
+status 0 certify typed.scheme --polish better.scheme --json
+status 0 certify better.scheme
+grep -q '^let: g = 1.35120719195965763404768780897 # typed$' better.scheme || fail "polished: $(cat better.scheme)"
+refused 1 'would overwrite' certify typed.scheme --polish ./typed.scheme
+refused 1 'no coefficients near these' certify 'composition(verlet; order: 4; 0.50001, 0.49999)' --polish x.scheme
+refused 1 'not a scheme of the program' certify rk4 --polish x.scheme
+[ ! -e x.scheme ] || fail 'a file was written for nothing'
+
+[ $failures = 0 ] && echo 'all as it should be'
+exit $failures

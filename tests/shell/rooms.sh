@@ -1,0 +1,120 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Rooms of files: numbers, and what is wrong with one, in a sentence. rooms.sh GEOMINT ROOMS
+set -u
+rooms=$2
+meshes=$(cd "$(dirname "$0")/../reference/meshes" && pwd) || exit 1
+. "$(dirname "$0")/answers.sh"
+
+# NAME in the JSON of a run that went well, between two numbers
+within() {
+    python3 -c 'import json, sys; run = json.load(open("out")); value = run["observables"][sys.argv[1]]
+assert run["status"] == "ok" and float(sys.argv[2]) <= value <= float(sys.argv[3]), (sys.argv[1:], value)' "$@" ||
+        fail "$*"
+}
+
+# what enters leaves, budgets close, and there is a force on the desk
+status 0 run "$rooms/office.room" until=2 --json
+within door_flow 0.11999 0.12001
+within vent_flow 0.05 0.05
+within window_flow 0.1 0.1
+within hatch_flow 0.06999 0.07001
+within door_scalar_flow 0.11999 0.12001
+within budget_defect 0 1e-12
+within divergence 0 2.3e-16
+within desk_drag 0.0060 0.0069
+# the benchmark's drag, 5.57 to 5.59 times 0.002, within 10 % on a coarse mesh
+status 0 run "$rooms/cylinder.room" scheme=steady steps=12 --json
+within cylinder_drag 0.0100 0.0118
+within cylinder_lift -2e-5 2e-5
+within cylinder_circulation -3e-4 3e-4 # U D is 0.02
+# what the program brings goes by name, and is listed
+GEOMINT_ROOMS=$rooms
+export GEOMINT_ROOMS
+status 0 run lab until=1 --json
+grep -q '"scene":"lab"' out || fail "a room is not known by its name"
+within supply_flow 0.23999 0.24001
+within hood_flow 0.19999 0.20001
+within door_flow 0.03999 0.04001
+status 0 list lab
+grep -q 'supply_scalar_flow' out || fail "list does not know what a room observes"
+status 0 list "$rooms/lab.room" --json
+grep -q '"observables":\[.*"chemist_speed"' out || fail "list FILE.room --json"
+refused 3 'nowhere.room could not be read' list ./nowhere.room
+status 0 complete run he
+grep -q '^heated' out || fail "a room is not offered"
+
+# warm air rises; what the walls give stays in the room
+status 0 run "$rooms/heated.room" until=5 --json
+within temperature_mean 290.5 291.5
+within heater_heat 1 4
+within window_heat -2 -0.1
+within heater_circulation -1 1
+within seat_temperature 289 292
+status 0 run "$rooms/heated.room" until=1 scheme=crank-nicolson show=temperature --json
+status 0 render "$rooms/office.room" until=0.1 --size 320x200 --out pictures
+[ -s pictures/office-render.png ] || fail "no picture of a room"
+
+# a mesh with two inlets and two outlets by the short form; the lists are groups, and not lanes
+status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 steps=2 --json
+[ "$(wc -l <out)" -eq 1 ] || fail "groups became lanes"
+status 0 run room outlet=soft,free rows=10 columns=0 steps=1 --json
+[ "$(wc -l <out)" -eq 2 ] || fail "outlets are lanes without a mesh"
+refused 1 'the group "door" is named twice$' run room "mesh=$meshes/hole.msh" inlet=door,door outlet=window steps=1
+refused 1 'no physical group "dor" of curves; .* door, vent, window, hatch, pillar' \
+    run room "mesh=$meshes/hole.msh" inlet=dor outlet=window steps=1
+refused 1 'on the wall of a hole' run room "mesh=$meshes/hole.msh" inlet=pillar outlet=window steps=1
+refused 3 'must be Delaunay, or star=barycentric$' run room "mesh=$meshes/hole.msh" star=circumcentric inlet=door outlet=window steps=1
+refused 1 'star= has no effect here' run room star=barycentric steps=1
+
+# wrong ones: the lines of a good room, of which one is another
+wrong() {
+    cp "$meshes/hole.msh" .
+    { printf '%s\n' 'mesh: hole.msh' 'viscosity: 0.01' 'inlet: door  flow = 0.2  scalar = 1' 'outlet: window'
+        printf '%b\n' "$2"; } | sed "${3:-}" >wrong.room
+    refused 1 "$1" run ./wrong.room steps=1
+}
+wrong 'wrong.room:5:1: a room has no line inlt:' 'inlt: vent flow = 1'
+wrong 'wrong.room:5:8: inlet: needs speed = or flow =' 'inlet: vent'
+wrong 'wrong.room:5:13: inlet: takes speed =, flow =, scalar =, temperature =' 'inlet: vent tangential = 1'
+wrong 'wrong.room:5:20: a flow is a number that is not negative' 'inlet: vent flow = -1'
+wrong 'the speed is not finite at (0, ' 'inlet: vent speed = 1/(x*y)'
+wrong 'wrong.room:5:21: .*did you mean' 'inlet: vent speed = sinn(s)'
+wrong 'may not change in time' 'inlet: vent speed = t'
+wrong 'door is named twice' 'inlet: door flow = 1'
+wrong 'no physical group "dor" on its boundary (there are: door, vent, window, hatch, pillar)' 'wall: dor'
+wrong 'printer at (2, 1.4) is not in the room' 'source: printer x = 2 y = 1.4 rate = 1'
+wrong 'wrong.room:5:28: a temperature needs a line buoyancy:' 'wall: pillar temperature = 300'
+wrong 'buoyancy: needs a temperature =' 'buoyancy: 0.03'
+wrong 'buoyancy: is a finite number' 'wall: pillar temperature = 1\nbuoyancy: inf'
+wrong 'reference-temperature: needs a temperature =' 'reference-temperature: 290'
+wrong 'what pillar gives is not finite' 'wall: pillar temperature = 1/0\nbuoyancy: 1'
+wrong 'the temperature is not finite at' 'start: temperature = 1/(x-x)\nbuoyancy: 1'
+wrong 'start: needs scalar = or temperature =' 'start:'
+wrong 'start: takes scalar =, temperature =' 'start: rate = 1'
+wrong 'viscosity: and reynolds: say the same' 'reynolds: 100'
+wrong 'diffusivity: and schmidt: say the same' 'diffusivity: 1\nschmidt: 1'
+wrong 'schmidt: is a positive number' 'schmidt: 0'
+wrong 'source: needs rate =' 'source: printer x = 1 y = 1'
+wrong 'viscosity: is a positive number' '' 's/0.01/-1/'
+wrong 'a room needs a line viscosity:' '' '/viscosity/d'
+wrong 'an inlet but no outlet' '' '/outlet/d'
+wrong 'what enters does not leave' '' 's/outlet: window/outlet: window flow = 0.1/'
+wrong 'on the wall of a hole' 'inlet: pillar flow = 1'
+wrong 'wrong.room:5:18: scalar: needs = and a value' 'wall: dor scalar nonsense here = 1'
+wrong 'wrong.room:5:12: x: needs = and a value' 'probe: q x 3'
+wrong 'wrong.room:5:21: the speed is not finite' 'inlet: vent speed = 1/(s-s)'
+wrong 'no more enters by the profile' 'inlet: vent flow = 0.05 speed = sin(2*pi*s)'
+wrong 'no more enters by the profile' 'inlet: vent speed = -0.01'
+wrong 'start: is given twice' 'start: scalar = 1\nstart: scalar = 2'
+wrong 'two of the room.s names lead to the observable a_b_scalar' 'probe: a-b x = 1 y = 1\nprobe: a_b x = 1 y = 1'
+wrong 'at most 128 observables' "$(for i in $(seq 70); do printf 'probe: p%s x = 1 y = 1\\n' "$i"; done)"
+# balanced, but for round-off
+printf '%s\n' 'mesh: hole.msh' 'viscosity: 0.01' 'inlet: door flow = 0.3' 'outlet: window flow = 0.1' \
+    'outlet: vent flow = 0.2' 'outlet: hatch' >even.room
+status 0 run ./even.room steps=1
+refused 3 'missing.room could not be read' run ./missing.room
+sed 's/hole.msh/missing.msh/' wrong.room >lost.room
+refused 3 'missing.msh could not be read' run ./lost.room
+
+[ "$failures" = 0 ]

@@ -1,0 +1,316 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Waves in a potential that somebody wrote: the built-in equation typed again gives its numbers, phi^4 those
+   of steps that are written here once more, the quotient of V does not cancel, and what is refused. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/field/multisymplectic.h"
+#include "core/field/own/potential.h"
+#include "core/field/problems/sine_gordon.h"
+#include "core/field/problems/wave.h"
+#include "core/formula/equations.h"
+#include "core/run.h"
+#include "core/schemes.h"
+
+enum { POINTS = 200, SIZE = 2 * POINTS + 1 };
+#define HALF 20.0
+
+static const struct gm_settings no_settings;
+static const char *const all[] = {"leapfrog",     "energy-conserving", "box",       "euler-box",
+                                  "midpoint-box", "gauss-box2",        "gauss-box3"};
+
+struct typed {
+    struct gm_own_system system;
+    struct gm_own_wave wave;
+    struct gm_problem problem;
+};
+
+static void open_typed(struct typed *typed, const char *text)
+{
+    struct gm_fault fault;
+    if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
+        fail_msg("%s: %s", text, fault.sentence);
+    }
+    assert_true(gm_own_wave_derive(&typed->wave, &typed->system));
+    double *values = gm_equations_start(&typed->system, NULL);
+    assert_true(gm_own_wave_open(&typed->problem, &typed->wave, values));
+    free(values);
+    typed->problem.line = (struct gm_line){POINTS, 2 * HALF / POINTS, -HALF, 0};
+    typed->problem.n = SIZE;
+}
+
+static void close_typed(struct typed *typed)
+{
+    gm_own_wave_close(&typed->problem);
+    gm_system_close(&typed->system);
+}
+
+/* The state after so many steps, and the residual of the multisymplectic law there, where that is asked
+   for. */
+static void advance(const struct gm_problem *problem, const char *name, double dt, long steps, double *y,
+                    double *residual)
+{
+    const struct gm_scheme *scheme = gm_scheme_find_for(name, problem);
+    struct gm_run *run = gm_run_open(problem, scheme, &no_settings, 0, dt, y);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, steps), GM_OK);
+    memcpy(y, gm_run_state(run), SIZE * sizeof *y);
+    if (residual) {
+        *residual = gm_form_residual(problem, scheme, dt, y, gm_run_memory(run));
+    }
+    gm_run_close(run);
+}
+
+static double distance(const double *a, const double *b)
+{
+    double largest = 0;
+    for (size_t i = 0; i < SIZE; i++) {
+        largest = fmax(largest, fabs(a[i] - b[i]));
+    }
+    return largest;
+}
+
+/* A kink, too, which is 2 pi higher at the other end. */
+static void typed_again_it_is_the_built_in_equation(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {
+        "field: u\nV: 1 - cos(u)\nlet: g = sqrt(1 - 1/4)\nstart: u = 0, u_t = 4*g/cosh(g*x)\n"
+        "exact: u = 4*atan(g*sin(t/2)/(cosh(g*x)/2))\n",
+        "field: phi\nV: 2*sin(phi/2)^2\nparameter: c = 0.9\nlet: g = 1/sqrt(1 - c^2)\n"
+        "start: phi = 4*atan(exp(g*x)), phi_t = -2*c*g/cosh(g*x)\n"
+        "exact: phi = 4*atan(exp(g*(x - c*t)))\n"};
+    static const struct gm_sine_gordon exact[] = {{.initial = GM_BREATHER, .frequency = 0.5},
+                                                  {.initial = GM_KINK, .velocity = 0.9}};
+    for (size_t which = 0; which < 2; which++) {
+        struct typed typed;
+        open_typed(&typed, texts[which]);
+        struct gm_problem built_in = gm_problem_sine_gordon;
+        built_in.parameters = &exact[which];
+        typed.problem.line.jump = gm_sine_gordon_jump(&exact[which]);
+        built_in.line = typed.problem.line;
+        built_in.n = SIZE;
+        for (size_t s = 0; s < sizeof all / sizeof *all; s++) {
+            const double dt = strcmp(all[s], "midpoint-box") == 0 ? 0.05 : 0.1;
+            double ours[SIZE], theirs[SIZE];
+            gm_own_wave_levels(&typed.problem, dt, ours);
+            gm_sine_gordon_levels(&built_in, 0, dt, theirs);
+            assert_true(distance(ours, theirs) < 1e-13);
+            advance(&typed.problem, all[s], dt, 60, ours, NULL);
+            advance(&built_in, all[s], dt, 60, theirs, NULL);
+            if (!(distance(ours, theirs) <= 1e-12)) {
+                fail_msg("%s, %zu: %.2e", all[s], which, distance(ours, theirs));
+            }
+        }
+        close_typed(&typed);
+    }
+}
+
+#define PHI4 "field: u\nV: (u^2 - 1)^2/4\nstart: u = 1 + exp(-x^2)/2, u_t = x*exp(-x^2)\n"
+
+/* u + d u at the start and behind one step, of phi^4: Taylor's formula with derivatives by hand. */
+static double phi4_start(double x, double t)
+{
+    const double e = exp(-x * x), u = 1 + e / 2, v = x * e;
+    const double bend = (2 * x * x - 1) * e, bend_v = (4 * x * x * x - 6 * x) * e;
+    const double u2 = bend - (u * u * u - u), u3 = bend_v - (3 * u * u - 1) * v;
+    return u + t * (v + t / 2 * (u2 + t / 3 * u3));
+}
+
+/* Leapfrog and the energy-conserving scheme once more: the quotient of V is (a + b) (a^2 + b^2 - 2) / 4. */
+static void phi4_moves_as_written_by_hand(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    open_typed(&typed, PHI4);
+    const double dt = 0.05, dx = 2 * HALF / POINTS;
+    for (int conserving = 0; conserving < 2; conserving++) {
+        double y[SIZE], past[POINTS], now[POINTS], next[POINTS];
+        gm_own_wave_levels(&typed.problem, dt, y);
+        for (size_t i = 0; i < POINTS; i++) {
+            const double x = -HALF + (double)i * dx;
+            past[i] = phi4_start(x, 0);
+            now[i] = y[POINTS + i];
+            assert_true(fabs(y[i] - past[i]) < 1e-14 && fabs(now[i] - phi4_start(x, dt)) < 2e-5);
+        }
+        for (int step = 1; step < 100; step++) {
+            for (size_t i = 0; i < POINTS; i++) {
+                const double bend =
+                    (now[(i + 1) % POINTS] - 2 * now[i] + now[(i + POINTS - 1) % POINTS]) / (dx * dx);
+                const double b = past[i], force = now[i] * now[i] * now[i] - now[i];
+                double a = 2 * now[i] - b + dt * dt * (bend - force);
+                for (int k = 0; conserving && k < 60; k++) {
+                    a = 2 * now[i] - b + dt * dt * (bend - (a + b) * (a * a + b * b - 2) / 4);
+                }
+                next[i] = a;
+            }
+            memcpy(past, now, sizeof now);
+            memcpy(now, next, sizeof now);
+        }
+        advance(&typed.problem, conserving ? "energy-conserving" : "leapfrog", dt, 100, y, NULL);
+        double error = 0;
+        for (size_t i = 0; i < POINTS; i++) {
+            error = fmax(error, fabs(y[i] - now[i]));
+        }
+        if (!(error < 1e-12)) {
+            fail_msg("%s: %.2e", conserving ? "energy-conserving" : "leapfrog", error);
+        }
+    }
+    close_typed(&typed);
+}
+
+/* Every scheme that claims the law keeps it; the one that does not is the control. */
+static void the_multisymplectic_law_holds(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    open_typed(&typed, PHI4);
+    for (size_t s = 0; s < sizeof all / sizeof *all; s++) {
+        const struct gm_scheme *scheme = gm_scheme_find_for(all[s], &typed.problem);
+        double y[SIZE];
+        gm_own_wave_levels(&typed.problem, 0.05, y);
+        double residual;
+        advance(&typed.problem, all[s], 0.05, 20, y, &residual);
+        const bool claims = scheme->claims & GM_MULTISYMPLECTIC;
+        if (!(claims ? residual < 1e-8 : residual > 1e-6)) {
+            fail_msg("%s: %.2e", all[s], residual);
+        }
+    }
+    close_typed(&typed);
+}
+
+/* exp: the quotient is exp(b) expm1(a - b) / (a - b), however near the two are, or far; its derivative
+   too. */
+static void the_quotient_does_not_cancel(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    open_typed(&typed, "field: u\nV: exp(u)\nstart: u = 0, u_t = 0\n");
+    const struct gm_wave *wave = gm_field_of(&typed.problem)->wave;
+    static const double gaps[] = {1e-14, 1e-9, 1e-5, 1e-2, 0.3, 2, 9, 40};
+    for (size_t i = 0; i < sizeof gaps / sizeof *gaps; i++) {
+        const double b = 0.25, a = b + gaps[i], h = a - b, exact = exp(b) * expm1(h) / h;
+        const double found = wave->quotient(&typed.problem, a, b);
+        if (!(fabs(found - exact) <= 2e-14 * exact) || found != wave->quotient(&typed.problem, b, a)) {
+            fail_msg("gap %g: %.17g, not %.17g", h, found, exact);
+        }
+        /* [exp(a) - q] / h; where that cancels q is exp(b) (1 + h/2 + ..) */
+        const double slope = h > 1e-2 ? (exp(a) - exact) / h : exp(b) * (0.5 + h / 3 + h * h / 8);
+        if (h <= 2 && !(fabs(wave->quotient_slope(&typed.problem, a, b) - slope) <= 1e-6 * slope)) {
+            fail_msg("gap %g: slope %.17g, not %.17g", h, wave->quotient_slope(&typed.problem, a, b), slope);
+        }
+    }
+    close_typed(&typed);
+}
+
+/* Near a vacuum V' is rounding, and the quotient of V(a) - V(b) would be noise over nothing: with x = a - 1,
+   y = b - 1 it is (2 + x + y) (2 x + 2 y + x^2 + y^2) / 4 for phi^4. */
+static void the_quotient_holds_at_rest(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    open_typed(&typed, PHI4);
+    const struct gm_wave *wave = gm_field_of(&typed.problem)->wave;
+    for (int k = 1; k < 400; k++) {
+        const double a = 1 + 1e-10 * k * k, b = a + 3e-15 * k, x = a - 1, y = b - 1;
+        const double exact = (2 + x + y) * (2 * x + 2 * y + x * x + y * y) / 4,
+                     found = wave->quotient(&typed.problem, a, b);
+        if (!(fabs(found - exact) <= 1e-15)) {
+            fail_msg("%g and %g from 1: %.17g, not %.17g", x, y, found, exact);
+        }
+    }
+    close_typed(&typed);
+}
+
+#define FIELD "field: u\nstart: u = cos(pi*x/20), u_t = 0\n"
+static const struct {
+    const char *text, *sentence;
+} refused[] = {
+    {"field: u\nstart: u = 0, u_t = 0\n", "a field needs V"},
+    {"V: u^2\n", "which a line \"field\" names"},
+    {"field: u v\nV: u^2\n", "a field has one name"},
+    {FIELD "V: abs(u)\n", "V has to be smooth, and abs is not"},
+    {FIELD "V: max(u, 0)^2\n", "V has to be smooth, and max is not"},
+    {FIELD "V: mod(u, 2)\n", "V has to be smooth, and mod is not"},
+    {FIELD "V: u^2*x\n", "V does not hold x"},
+    {FIELD "V: u*t\n", "V does not hold t"},
+    {FIELD "V: u_x^2\n", "V does not hold u_x"},
+    {FIELD "V: u^2\nH: u\n", "a system with a field has no line \"H\""},
+    {FIELD "V: u^2\nmembers: 3\n", "a system with a field has no line \"members\""},
+    {FIELD "V: u^2\npoints: 2\n", "points is 2, and has to be a whole number from 3 to 1e7"},
+    {FIELD "V: u^2\npoints: 12.5\n", "has to be a whole number"},
+    {FIELD "V: u^2\nhalf_length: -1\n", "half_length is -1, and has to be"},
+    {FIELD "V: u^2\nexact: u = u\n", "does not hold u"},
+    {FIELD "V: u^2\nexact: u_t = x\n", "exact: is of u alone"},
+    {FIELD "V: u^2\ninvariant: m = t\n", "a density does not hold t"},
+    {FIELD "V: u^2\nparameter: points = 3\n", "the name points is reserved"},
+    {FIELD "V: u^2\nparameter: x = 3\n", "x is defined twice"},
+    {"field: u\nV: u^2\nstart: u = t, u_t = 0\n", "the start of a field does not hold t"},
+    {"field: u\nV: u^2\nstart: u = x\n", "u_t has no value at the start"},
+};
+
+static void what_is_wrong_is_said(void **unused)
+{
+    (void)unused;
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        struct gm_own_system system;
+        struct gm_fault fault;
+        if (gm_equations_open(&system, refused[i].text, strlen(refused[i].text), NULL, 0, &fault)) {
+            fail_msg("accepted: %s", refused[i].text);
+        }
+        if (!strstr(fault.sentence, refused[i].sentence)) {
+            fail_msg("%s: %s", refused[i].text, fault.sentence);
+        }
+        gm_system_close(&system);
+    }
+}
+
+static void a_field_closes_on_its_ring(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        double jump;
+        const char *sentence; /* NULL: it closes */
+    } rings[] = {
+        {"field: u\nV: 1 - cos(u)\nstart: u = 4*atan(exp(x)), u_t = 0\n", 2 * M_PI, NULL},
+        {"field: u\nV: 1 - cos(u)\nstart: u = 4*atan(exp(x)), u_t = 0\n", 0, "does not close on the ring"},
+        {"field: u\nV: (u^2 - 1)^2/4\nstart: u = tanh(x/sqrt(2)), u_t = 0\n", 2, "V' does not repeat"},
+        {"field: u\nV: u^2\nstart: u = 1/x, u_t = 0\n", 0, "is not finite where x = 0"},
+        {"field: u\nV: u^2\nstart: u = exp(-x^2), u_t = 0\n", 0, NULL},
+        {"field: u\nV: u^2\nstart: u = 3, u_t = 0\n", 0, NULL},
+    };
+    for (size_t i = 0; i < sizeof rings / sizeof *rings; i++) {
+        struct typed typed;
+        char sentence[400] = "";
+        open_typed(&typed, rings[i].text);
+        typed.problem.line.jump = rings[i].jump;
+        const bool closes = gm_own_wave_closes(&typed.problem, "u", sentence, sizeof sentence);
+        if (closes != !rings[i].sentence || (!closes && !strstr(sentence, rings[i].sentence))) {
+            fail_msg("%s: %s", rings[i].text, sentence);
+        }
+        close_typed(&typed);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(typed_again_it_is_the_built_in_equation),
+        cmocka_unit_test(phi4_moves_as_written_by_hand),
+        cmocka_unit_test(the_multisymplectic_law_holds),
+        cmocka_unit_test(the_quotient_does_not_cancel),
+        cmocka_unit_test(the_quotient_holds_at_rest),
+        cmocka_unit_test(what_is_wrong_is_said),
+        cmocka_unit_test(a_field_closes_on_its_ring),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

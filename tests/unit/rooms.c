@@ -1,0 +1,604 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Flows on triangles of any shape, around holes and through several openings, against exact solutions. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/flow/boundary.h"
+#include "core/flow/rectangle.h"
+#include "core/flow/start.h"
+#include "core/run.h"
+#include "core/schemes.h"
+#include "tests/common/meshes.h"
+
+static const double plane[2] = {0, 0};
+
+/* A number in [-1, 1] that is the same everywhere. */
+static double scatter(unsigned i)
+{
+    i = (i + 0x9e3779b9u) * 0x85ebca6bu;
+    i = (i ^ (i >> 15)) * 0xc2b2ae35u;
+    return (double)((i ^ (i >> 13)) & 0xffffu) / 32767.5 - 1;
+}
+
+struct points {
+    double *at;
+    int *corner;
+    size_t vertices, triangles;
+};
+
+/* A grid of columns by rows cells, each of two triangles; around: its left side is its right one. */
+static struct points grid(int columns, int rows, bool around)
+{
+    const int across = around ? columns : columns + 1;
+    struct points points = {malloc(2 * sizeof(double) * (size_t)(across * (rows + 1))),
+                            malloc(6 * sizeof(int) * (size_t)(columns * rows)), (size_t)(across * (rows + 1)),
+                            (size_t)(2 * columns * rows)};
+    assert_true(points.at && points.corner);
+    for (int j = 0; j < rows; j++) {
+        for (int i = 0; i < columns; i++) {
+            const int a = j * across + i, b = j * across + (i + 1) % across, c = b + across, d = a + across;
+            const int straight[6] = {a, b, c, a, c, d}, other[6] = {a, b, d, b, c, d};
+            memcpy(points.corner + 6 * (j * columns + i), (i + j) % 2 ? other : straight, sizeof other);
+        }
+    }
+    return points;
+}
+
+static struct gm_flow *flow_of_points(struct points *points, enum gm_star star)
+{
+    struct gm_triangulation_fault fault;
+    struct gm_complex *complex = gm_complex_open(points->at, points->vertices, points->corner,
+                                                 points->triangles, plane, star, NULL, &fault);
+    assert_non_null(complex);
+    free(points->at);
+    free(points->corner);
+    struct gm_flow *flow = gm_flow_open(complex);
+    assert_non_null(flow);
+    return flow;
+}
+
+static struct gm_run *open_run(const struct gm_flow *flow, struct gm_problem *problem, const char *scheme,
+                               double dt, const double *start)
+{
+    const struct gm_settings settings = {0};
+    *problem = (struct gm_problem){
+        .name = "flow", .n = gm_flow_size(flow), .m = 1, .kind = &gm_kind_flow, .parameters = flow};
+    struct gm_run *run = gm_run_open(problem, gm_scheme_find(scheme), &settings, 0, dt, start);
+    assert_non_null(run);
+    return run;
+}
+
+/* L. Kovasznay, Proc. Camb. Phil. Soc. 44 (1948) 58: a steady flow behind a grid, Re = 40. */
+static double rate(void)
+{
+    return 20 - sqrt(400 + 4 * M_PI * M_PI);
+}
+
+static double kovasznay_psi(double x, double y)
+{
+    return y - exp(rate() * x) * sin(2 * M_PI * y) / (2 * M_PI);
+}
+
+static void kovasznay_velocity(double x, double y, double u[2])
+{
+    u[0] = 1 - exp(rate() * x) * cos(2 * M_PI * y);
+    u[1] = rate() / (2 * M_PI) * exp(rate() * x) * sin(2 * M_PI * y);
+}
+
+/* p + |u|^2 / 2 */
+static double kovasznay_pressure(double x, double y)
+{
+    double u[2];
+    kovasznay_velocity(x, y, u);
+    return -exp(2 * rate() * x) / 2 + (u[0] * u[0] + u[1] * u[1]) / 2;
+}
+
+enum { PSI, VELOCITY, PRESSURE, ERRORS };
+
+/* A mesh of [0, 3/2] x [0, 1]: acute triangles, shaken, or right-angled ones that are shaken until they are
+   not even Delaunay. */
+static struct gm_flow *open_mesh(int n, bool acute, enum gm_star star)
+{
+    struct gm_triangulation_fault fault;
+    if (acute) {
+        const struct gm_rectangle rectangle = {.width = 1.5,
+                                               .height = 1,
+                                               .edges = 3 * n / 2,
+                                               .strips = gm_rectangle_strips(1.5, 1, 3 * n / 2, false),
+                                               .irregular = 0.3};
+        struct gm_complex *complex = gm_rectangle_open(&rectangle, &fault);
+        assert_non_null(complex);
+        struct points points = {malloc(2 * complex->vertices * sizeof(double)),
+                                malloc(3 * complex->triangles * sizeof(int)), complex->vertices,
+                                complex->triangles};
+        assert_true(points.at && points.corner);
+        memcpy(points.at, complex->point, 2 * complex->vertices * sizeof(double));
+        memcpy(points.corner, complex->triangle, 3 * complex->triangles * sizeof(int));
+        gm_complex_close(complex);
+        return flow_of_points(&points, star);
+    }
+    const int across = 3 * n / 2 + 1;
+    struct points points = grid(3 * n / 2, n, false);
+    for (size_t v = 0; v < points.vertices; v++) {
+        const int i = (int)v % across, j = (int)v / across;
+        const double shaken = i > 0 && i + 1 < across && j > 0 && j < n ? 0.22 / n : 0;
+        points.at[2 * v] = (double)i / n + shaken * scatter(2 * (unsigned)v);
+        points.at[2 * v + 1] = (double)j / n + shaken * scatter(2 * (unsigned)v + 1);
+    }
+    return flow_of_points(&points, star);
+}
+
+/* The errors of the steady state on [-1/2, 1] x [-1/2, 1/2]. */
+static void kovasznay(struct gm_flow *flow, double error[ERRORS])
+{
+    for (size_t v = 0; v < 2 * flow->complex->vertices; v++) {
+        flow->complex->point[v] -= 0.5;
+    }
+    const struct gm_complex *complex = flow->complex;
+    flow->viscosity = 1.0 / 40;
+    flow->reynolds = 40;
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const int v = complex->boundary_vertex[b], w = complex->boundary_vertex[gm_complex_next(complex, b)];
+        const double *p = complex->point + 2 * v, *q = complex->point + 2 * w;
+        flow->kind[v] = GM_VERTEX_FIXED;
+        flow->psi[v] = kovasznay_psi(p[0], p[1]);
+        /* the circulation that each half of a boundary edge adds, by Simpson's rule */
+        for (int half = 0; half < 2; half++) {
+            static const double weight[3] = {1, 4, 1};
+            for (int k = 0; k < 3; k++) {
+                const double s = half * 0.5 + k * 0.25;
+                double u[2];
+                kovasznay_velocity(p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1]), u);
+                flow->sheet[half ? w : v] += weight[k] / 12 * (u[0] * (q[0] - p[0]) + u[1] * (q[1] - p[1]));
+            }
+        }
+    }
+    double *start = malloc(gm_flow_size(flow) * sizeof *start);
+    double *pressure = malloc(complex->triangles * sizeof *pressure);
+    assert_true(start && pressure && gm_flow_start_irrotational(flow, start));
+    struct gm_problem problem;
+    struct gm_run *run = open_run(flow, &problem, "steady", 1, start);
+    gm_run_advance(run, 9);
+    assert_int_equal(run->status, GM_OK);
+    const double *y = gm_run_state(run);
+    assert_true(gm_flow_pressure(flow, y, pressure));
+    memset(error, 0, ERRORS * sizeof *error);
+    double mean = 0;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        const double *p = complex->point + 2 * v;
+        error[PSI] += complex->star0[v] * pow(y[v] - kovasznay_psi(p[0], p[1]), 2);
+    }
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t t = 0; t < complex->triangles; t++) {
+            double c[6], u[2], exact[2], centre[2];
+            gm_complex_corners(complex, t, c);
+            gm_complex_centre(complex, t, centre);
+            gm_flow_velocity(complex, y, t, u);
+            kovasznay_velocity((c[0] + c[2] + c[4]) / 3, (c[1] + c[3] + c[5]) / 3, exact);
+            const double off = pressure[t] - kovasznay_pressure(centre[0], centre[1]);
+            mean += pass ? 0 : complex->area[t] / complex->total_area * off;
+            error[PRESSURE] += pass ? complex->area[t] * pow(off - mean, 2) : 0;
+            error[VELOCITY] +=
+                pass ? complex->area[t] * (pow(u[0] - exact[0], 2) + pow(u[1] - exact[1], 2)) : 0;
+        }
+    }
+    for (int k = 0; k < ERRORS; k++) {
+        error[k] = sqrt(error[k]);
+    }
+    gm_run_close(run);
+    free(start);
+    free(pressure);
+    gm_flow_close(flow);
+}
+
+/* Orders over three meshes, from 16 to 64 cells a length; with GEOMINT_ORDERS set they are printed. */
+static void orders(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *name;
+        bool acute;
+        enum gm_star star;
+        double least[ERRORS];
+    } cases[] = {
+        {"acute, circumcentric", true, GM_STAR_CIRCUMCENTRIC, {1.8, 0.9, 0.9}},
+        {"acute, barycentric", true, GM_STAR_BARYCENTRIC, {1.8, 0.9, 0.9}},
+        {"obtuse, barycentric", false, GM_STAR_AUTO, {1.4, 0.9, 0.8}},
+    };
+    bool good = true;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double error[3][ERRORS];
+        for (int k = 0; k < 3; k++) {
+            struct gm_flow *flow = open_mesh(16 << k, cases[i].acute, cases[i].star);
+            assert_true(cases[i].acute || flow->complex->star == GM_STAR_BARYCENTRIC);
+            kovasznay(flow, error[k]);
+        }
+        for (int k = 0; k < ERRORS; k++) {
+            const double order = log2(error[0][k] / error[2][k]) / 2;
+            if (getenv("GEOMINT_ORDERS")) {
+                printf("%s, error of %s: %.2e %.2e %.2e, order %.2f\n", cases[i].name,
+                       (const char *const[]){"psi", "velocity", "pressure"}[k], error[0][k], error[1][k],
+                       error[2][k], order);
+            }
+            good &= order > cases[i].least[k];
+        }
+    }
+    assert_true(good);
+}
+
+/* Air between cylinders of radii 1 and 2, of which the inner one turns with the speed 1: u = a r + b / r. How
+   much goes around, psi on the inner one, is what makes the pressure single-valued. */
+static double couette(int n, double shaken)
+{
+    struct points points = grid(6 * n, n, true);
+    for (size_t v = 0; v < points.vertices; v++) {
+        const int i = (int)v % (6 * n), j = (int)v / (6 * n);
+        const bool inside = j > 0 && j < n;
+        const double angle = 2 * M_PI * (i + (inside ? shaken * scatter(2 * (unsigned)v) : 0)) / (6 * n),
+                     r = 1 + (j + (inside ? shaken * scatter(2 * (unsigned)v + 1) : 0)) / n;
+        points.at[2 * v] = r * cos(angle);
+        points.at[2 * v + 1] = r * sin(angle);
+    }
+    struct gm_flow *flow = flow_of_points(&points, GM_STAR_AUTO);
+    const struct gm_complex *complex = flow->complex;
+    unsigned char *side_of = calloc(complex->boundary, 1);
+    assert_non_null(side_of);
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const double *p = complex->point + 2 * complex->boundary_vertex[b];
+        side_of[b] = hypot(p[0], p[1]) < 1.5;
+    }
+    /* with the air on its right hand the inner cylinder turns counter-clockwise */
+    const struct gm_side sides[2] = {{.kind = GM_EDGE_WALL}, {.kind = GM_EDGE_LID, .speed = 1}};
+    assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+    assert_int_equal(flow->holes, 1);
+    free(side_of);
+    flow->viscosity = 0.1;
+    flow->reynolds = 10;
+    double *start = malloc(gm_flow_size(flow) * sizeof *start), force[2];
+    assert_true(start && gm_flow_start_irrotational(flow, start));
+    struct gm_problem problem;
+    struct gm_run *run = open_run(flow, &problem, "steady", 1, start);
+    gm_run_advance(run, 8);
+    assert_int_equal(run->status, GM_OK);
+    const double *y = gm_run_state(run);
+    double inner = NAN, outer = NAN;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        const double r = hypot(complex->point[2 * v], complex->point[2 * v + 1]);
+        inner = r < 1 + 1e-9 ? y[v] : inner;
+        outer = r > 2 - 1e-9 ? y[v] : outer;
+    }
+    assert_true(gm_flow_force(flow, y, 1, force));
+    assert_true(shaken > 0 || hypot(force[0], force[1]) < 1e-10);
+    gm_run_close(run);
+    free(start);
+    gm_flow_close(flow);
+    /* u_theta = -psi_r, a = -1/3, b = 4/3: psi(1) - psi(2) */
+    return fabs(inner - outer - (-1.0 / 3 * 1.5 + 4.0 / 3 * log(2)));
+}
+
+static void circulation_is_found(void **unused)
+{
+    (void)unused;
+    for (int shaken = 0; shaken < 2; shaken++) {
+        const double coarse = couette(6, 0.3 * shaken), fine = couette(24, 0.3 * shaken);
+        if (!(log2(coarse / fine) / 2 > 1.5)) {
+            fail_msg("psi of the inner cylinder: errors %.2e and %.2e", coarse, fine);
+        }
+    }
+}
+
+/* A room with two inlets, two outlets and a pillar. */
+static struct gm_flow *open_room(double window)
+{
+    struct gm_triangulation mesh = mesh_of("hole.msh");
+    struct gm_flow *flow = gm_flow_open(mesh.complex);
+    unsigned char *side_of = calloc(mesh.complex->boundary, 1);
+    assert_true(flow && side_of);
+    for (size_t b = 0; b < mesh.complex->boundary; b++) {
+        side_of[b] = (unsigned char)mesh.edge_group[mesh.complex->boundary_edge[b]];
+    }
+    const struct gm_side sides[6] = {
+        {.kind = GM_EDGE_WALL, .theta_free = true},
+        {.kind = GM_EDGE_INLET, .flow = 0.4, .theta = 1},
+        {.kind = GM_EDGE_INLET, .flow = NAN, .speed = 0.5, .theta = 3},
+        {.kind = GM_EDGE_OUTLET, .flow = window},
+        {.kind = GM_EDGE_OUTLET, .flow = NAN},
+        {.kind = GM_EDGE_WALL, .theta = 2},
+    };
+    assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+    free(side_of);
+    mesh.complex = NULL;
+    gm_triangulation_close(&mesh);
+    flow->viscosity = 0.02;
+    flow->diffusivity = 0.03;
+    flow->scalar = true;
+    return flow;
+}
+
+static void flows_are_shared(void **unused)
+{
+    (void)unused;
+    struct gm_flow *flow = open_room(0.15);
+    double in = 0, out = 0;
+    assert_int_equal(flow->openings, 4);
+    for (size_t i = 0; i < flow->openings; i++) {
+        const struct gm_opening *opening = &flow->opening[i];
+        *(opening->inlet ? &in : &out) += opening->flow;
+        assert_true(opening->side != 3 || opening->flow == 0.15);
+        assert_true(opening->side != 2 || fabs(opening->flow - 0.8 / 3) < 1e-15);
+    }
+    assert_true(fabs(in - out) < 1e-15);
+    gm_flow_close(flow);
+}
+
+static double rises(const void *data, double s, const double at[2])
+{
+    return (void)data, (void)at, s;
+}
+
+/* s runs on from one piece of a side to the next: an inlet in two quarters of the left wall, of which the
+   upper one is first, has the speed s, and a flow that is given is parted as that is. */
+static void pieces_follow_each_other(void **unused)
+{
+    (void)unused;
+    for (int scaled = 0; scaled < 2; scaled++) {
+        struct gm_flow *flow = open_mesh(8, false, GM_STAR_AUTO);
+        const struct gm_complex *complex = flow->complex;
+        unsigned char *side_of = calloc(complex->boundary, 1);
+        assert_non_null(side_of);
+        for (size_t b = 0; b < complex->boundary; b++) {
+            const double *p = complex->point + 2 * complex->boundary_vertex[b],
+                         *q = complex->point + 2 * complex->boundary_vertex[gm_complex_next(complex, b)],
+                         middle = (p[1] + q[1]) / 2;
+            side_of[b] = p[0] == 1.5 && q[0] == 1.5                           ? 2
+                         : p[0] == 0 && q[0] == 0 && fmod(middle, 0.5) < 0.25 ? 1
+                                                                              : 0;
+        }
+        const struct gm_side sides[3] = {
+            {.kind = GM_EDGE_WALL},
+            {.kind = GM_EDGE_INLET, .flow = scaled ? 1 : NAN, .profile = rises},
+            {.kind = GM_EDGE_OUTLET, .flow = NAN},
+        };
+        assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+        free(side_of);
+        assert_int_equal(flow->openings, 3);
+        for (size_t i = 0; i < flow->openings; i++) {
+            const struct gm_opening *opening = &flow->opening[i];
+            const bool upper = complex->point[2 * complex->boundary_vertex[opening->first] + 1] > 0.5;
+            const double speed = upper ? 0.25 : 0.75;
+            assert_true(!opening->inlet || fabs(opening->flow - (scaled ? speed : 0.25 * speed)) < 1e-14);
+        }
+        gm_flow_close(flow);
+    }
+}
+
+/* To what GMRES leaves: the pressure's differences over all inner dual edges are what the momentum equation
+   says, not only over those of the tree that it was summed up along: it comes back to itself around the
+   pillar, too. */
+static void pressure_is_single_valued(void **unused)
+{
+    (void)unused;
+    static const char *const schemes[] = {"semi-implicit", "crank-nicolson"};
+    for (int k = 0; k < 2; k++) {
+        struct gm_flow *flow = open_room(0.15);
+        const struct gm_complex *complex = flow->complex;
+        double *y = malloc(gm_flow_size(flow) * sizeof *y),
+               *pressure = malloc(complex->triangles * sizeof *pressure);
+        assert_true(y && pressure && gm_flow_start_irrotational(flow, y));
+        struct gm_problem problem;
+        struct gm_run *run = open_run(flow, &problem, schemes[k], 0.05, y);
+        for (int step = 0; step < 10; step++) {
+            gm_run_advance(run, 1);
+            assert_int_equal(run->status, GM_OK);
+            assert_true(gm_flow_budget(flow, gm_run_state(run)).defect < 1e-12);
+            assert_true(gm_flow_divergence(flow, gm_run_state(run)) <= 2.3e-16);
+        }
+        const double *state = gm_run_state(run), *omega = gm_flow_block(flow, state, GM_FLOW_OMEGA_USED),
+                     *half = gm_flow_block(flow, state, GM_FLOW_PSI_HALF),
+                     *before = gm_flow_block(flow, state, GM_FLOW_PSI_BEFORE);
+        assert_true(gm_flow_pressure(flow, state, pressure));
+        double worst = 0, largest = 0;
+        for (size_t e = 0; e < complex->edges; e++) {
+            const int *side = complex->edge_triangle + 2 * e, *end = complex->edge + 2 * e;
+            if (side[0] < 0 || side[1] < 0) {
+                continue;
+            }
+            const double step = -gm_flow_flux(complex, half, e) * (omega[end[0]] + omega[end[1]]) / 2 +
+                                0.02 * gm_flow_star(complex, omega, e) +
+                                (gm_flow_star(complex, state, e) - gm_flow_star(complex, before, e)) / 0.05;
+            worst = fmax(worst, fabs(pressure[side[0]] - pressure[side[1]] - step));
+            largest = fmax(largest, fabs(pressure[side[0]]));
+        }
+        if (!(worst < 1e-11 * largest)) {
+            fail_msg("the pressure of case %d is not single-valued: %.2e of %.2e", k, worst, largest);
+        }
+        gm_run_close(run);
+        free(y);
+        free(pressure);
+        gm_flow_close(flow);
+    }
+}
+
+/* Kelvin: without viscosity and friction the circulation around a hole stays, whatever passes. */
+static void kelvin(void **unused)
+{
+    (void)unused;
+    struct gm_triangulation mesh = mesh_of("hole.msh");
+    struct gm_flow *flow = gm_flow_open(mesh.complex);
+    const struct gm_complex *complex = flow->complex;
+    mesh.complex = NULL;
+    gm_triangulation_close(&mesh);
+    unsigned char *side_of = calloc(complex->boundary, 1);
+    const struct gm_side slip = {.kind = GM_EDGE_SLIP};
+    assert_int_equal(gm_flow_set_sides(flow, side_of, &slip, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+    free(side_of);
+    double *omega = calloc(complex->vertices, sizeof *omega), *y = malloc(gm_flow_size(flow) * sizeof *y);
+    for (size_t v = 0; v < complex->vertices; v++) {
+        const double x = complex->point[2 * v] - 1, z = complex->point[2 * v + 1] - 1;
+        omega[v] = 20 * exp(-4 * (x * x + z * z));
+    }
+    assert_true(gm_flow_start_vorticity(flow, omega, y));
+    free(omega);
+    size_t wall = 0;
+    while (flow->hole[wall] == 0) {
+        wall++;
+    }
+    const double before = gm_flow_circulation(flow, y, 1), psi = y[wall];
+    struct gm_problem problem;
+    struct gm_run *run = open_run(flow, &problem, "crank-nicolson", 0.02, y);
+    gm_run_advance(run, 100);
+    assert_int_equal(run->status, GM_OK);
+    const double *state = gm_run_state(run);
+    assert_true(fabs(state[wall] - psi) > 1e-2); /* what goes around it changes */
+    assert_true(fabs(gm_flow_circulation(flow, state, 1) - before) < 1e-12);
+    gm_run_close(run);
+    free(y);
+    gm_flow_close(flow);
+}
+
+/* The closed square of G. de Vahl Davis (1983): its walls x = 0 and x = 1 are hot and cold, lengths and times
+   those of the diffusion of heat. Sides: 0 the others, 1 hot, 2 cold. */
+static struct gm_flow *open_square(int n, double rayleigh, double irregular)
+{
+    const struct gm_rectangle rectangle = {.width = 1,
+                                           .height = 1,
+                                           .edges = n,
+                                           .strips = gm_rectangle_strips(1, 1, n, false),
+                                           .irregular = irregular};
+    struct gm_triangulation_fault fault;
+    struct gm_flow *flow = gm_flow_open(gm_rectangle_open(&rectangle, &fault));
+    assert_true(flow && gm_flow_carry_heat(flow, 0.71 * rayleigh, 0.5));
+    const struct gm_complex *complex = flow->complex;
+    unsigned char *side_of = calloc(complex->boundary, 1);
+    assert_non_null(side_of);
+    for (size_t b = 0; b < complex->boundary; b++) {
+        const double x = complex->point[2 * complex->boundary_vertex[b]],
+                     next = complex->point[2 * complex->boundary_vertex[gm_complex_next(complex, b)]];
+        side_of[b] = x == 0 && next == 0 ? 1 : x == 1 && next == 1 ? 2 : 0;
+    }
+    const struct gm_side sides[3] = {{.theta_free = true, .temperature_free = true},
+                                     {.theta_free = true, .temperature = 1},
+                                     {.theta_free = true, .temperature = 0}};
+    assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+    free(side_of);
+    flow->viscosity = 0.71;
+    flow->diffusivity = 1;
+    flow->reynolds = sqrt(rayleigh / 0.71);
+    return flow;
+}
+
+/* Runs it; the heat that the hot wall gives is Nusselt's number in the mean over the square. */
+static double nusselt(struct gm_flow *flow, const char *scheme, double dt, long steps)
+{
+    double *start = malloc(gm_flow_size(flow) * sizeof *start);
+    assert_true(start && gm_flow_start_irrotational(flow, start));
+    struct gm_problem problem;
+    struct gm_run *run = open_run(flow, &problem, scheme, dt, start);
+    gm_run_advance(run, steps);
+    assert_int_equal(run->status, GM_OK);
+    const double *y = gm_run_state(run), hot = gm_flow_heat(flow, y, 1), cold = gm_flow_heat(flow, y, 2);
+    const double *before = gm_flow_block(flow, y, GM_FLOW_TEMPERATURE_BEFORE), last = gm_flow_step(flow, y);
+    double rate = 0;
+    for (size_t v = 0; last != 0 && v < flow->complex->vertices; v++) {
+        rate += flow->complex->star0[v] * (gm_flow_block(flow, y, GM_FLOW_TEMPERATURE)[v] - before[v]) / last;
+    }
+    if (!(fabs(hot + cold - rate) < 1e-11 * fabs(hot))) {
+        fail_msg("%s: the walls give %.17g and %.17g, the air takes %.17g", scheme, hot, cold, rate);
+    }
+    gm_run_close(run);
+    free(start);
+    return hot;
+}
+
+/* The benchmark on meshes that tests can afford; tests/numbers has the finer ones. Steps lead to the steady
+   state of Newton's method. */
+static void air_rises_at_a_hot_wall(void **unused)
+{
+    (void)unused;
+    struct gm_flow *flow = open_square(20, 1e3, 0);
+    const double least = nusselt(flow, "steady", 1, 14);
+    gm_flow_close(flow);
+    if (!(fabs(least / 1.118 - 1) < 0.01)) {
+        fail_msg("the Nusselt number at the Rayleigh number 1e3 is %.4f, not 1.118", least);
+    }
+    flow = open_square(16, 1e4, 0.3);
+    const double steady = nusselt(flow, "steady", 1, 14),
+                 marched = nusselt(flow, "semi-implicit", 0.005, 160);
+    gm_flow_close(flow);
+    if (!(fabs(marched / steady - 1) < 1e-6) || !(fabs(steady / 2.243 - 1) < 0.05)) {
+        fail_msg("the Nusselt number at 1e4 is %.8f and %.8f by steps, not 2.243", steady, marched);
+    }
+}
+
+/* A fluid in layers, warm above, rests on any mesh: its buoyancy is a gradient, and the pressure alone bears
+   it. */
+static void layers_rest(void **unused)
+{
+    (void)unused;
+    struct gm_flow *flow = open_square(8, 1e6, 0.4);
+    const struct gm_complex *complex = flow->complex;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        flow->temperature[v] = complex->point[2 * v + 1];
+        flow->temperature_fixed[v] = true;
+    }
+    double *y = malloc(gm_flow_size(flow) * sizeof *y),
+           *pressure = malloc(complex->triangles * sizeof *pressure);
+    assert_true(y && pressure && gm_flow_start_irrotational(flow, y));
+    struct gm_problem problem;
+    struct gm_run *run = open_run(flow, &problem, "semi-implicit", 0.01, y);
+    gm_run_advance(run, 5);
+    assert_int_equal(run->status, GM_OK);
+    assert_true(gm_flow_largest_speed(flow, gm_run_state(run)) < 1e-9);
+    assert_true(gm_flow_pressure(flow, gm_run_state(run), pressure));
+    /* p = buoyancy ((y - 1/2)^2 / 2 - 1/24) */
+    for (size_t t = 0; t < complex->triangles; t++) {
+        double centre[2], corner[2];
+        gm_complex_centre(complex, t, centre);
+        gm_complex_centre(complex, 0, corner);
+        const double exact = 0.71e6 * (pow(centre[1] - 0.5, 2) - pow(corner[1] - 0.5, 2)) / 2;
+        assert_true(fabs(pressure[t] - pressure[0] - exact) < 1e-9 * 0.71e6);
+    }
+    gm_run_close(run);
+    free(y);
+    free(pressure);
+    gm_flow_close(flow);
+}
+
+/* The table of de Vahl Davis on up to 80 columns. */
+static void natural_convection(void **unused)
+{
+    (void)unused;
+    static const struct {
+        int columns;
+        double rayleigh, nusselt;
+    } table[] = {{40, 1e3, 1.118}, {60, 1e4, 2.243}, {80, 1e5, 4.519}};
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+        struct gm_flow *flow = open_square(table[i].columns, table[i].rayleigh, 0);
+        const double number = nusselt(flow, "steady", 1, 16);
+        gm_flow_close(flow);
+        print_message("Rayleigh number %g: Nusselt number %.4f (%.4g)\n", table[i].rayleigh, number,
+                      table[i].nusselt);
+        assert_true(fabs(number / table[i].nusselt - 1) < 0.01);
+    }
+}
+
+int main(int count, char *words[])
+{
+    const struct CMUnitTest published[] = {cmocka_unit_test(natural_convection)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(orders),           cmocka_unit_test(circulation_is_found),
+        cmocka_unit_test(flows_are_shared), cmocka_unit_test(pressure_is_single_valued),
+        cmocka_unit_test(kelvin),           cmocka_unit_test(air_rises_at_a_hot_wall),
+        cmocka_unit_test(layers_rest),      cmocka_unit_test(pieces_follow_each_other),
+    };
+    return count > 1 && strcmp(words[1], "numbers") == 0 ? cmocka_run_group_tests(published, NULL, NULL)
+                                                         : cmocka_run_group_tests(tests, NULL, NULL);
+}

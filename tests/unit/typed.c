@@ -1,0 +1,168 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lines that are typed where there is no shell: their words, and the place of what is wrong. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "app/request/request.h"
+#include "app/request/system.h"
+#include "app/request/typed.h"
+#include "core/run.h"
+
+/* The words with a bar between them. */
+static void splits(const char *line, const char *words)
+{
+    struct gm_arguments split = {0}, again = {0};
+    char all[512] = "";
+    assert_true(gm_typed_split(&split, line));
+    for (int i = 0; i < split.count; i++) {
+        strcat(all, i ? "|" : "");
+        strcat(all, split.words[i]);
+    }
+    assert_string_equal(all, words);
+    /* and joined they are the same words */
+    char *joined = gm_typed_join(&split);
+    assert_non_null(joined);
+    assert_true(gm_typed_split(&again, joined));
+    assert_int_equal(split.count, again.count);
+    for (int i = 0; i < split.count; i++) {
+        assert_string_equal(split.words[i], again.words[i]);
+    }
+    free(joined);
+    gm_arguments_close(&split);
+    gm_arguments_close(&again);
+}
+
+static void words(void **unused)
+{
+    (void)unused;
+    splits("", "");
+    splits("   ", "");
+    splits("H=p^2/2 - cos(q) q=2 p=0", "H=p^2/2 - cos(q)|q=2|p=0");
+    splits("  H= p^2/2   -  q  q=2 ", "H=p^2/2   -  q|q=2");
+    splits("H='p^2/2 + q^4/4' q=1.5", "H=p^2/2 + q^4/4|q=1.5");
+    splits("'H=p^2/2 + q' q=1", "H=p^2/2 + q|q=1");
+    splits("rate=x = y rate=y = -x + sin(t) x=1 y=0", "rate=x = y|rate=y = -x + sin(t)|x=1|y=0");
+    splits("H=sum(i = 1 .. 3, p[i]^2/2 + sum( j=1 .. 2, q[j])) q[1]=2 N=3",
+           "H=sum(i = 1 .. 3, p[i]^2/2 + sum( j=1 .. 2, q[j]))|q[1]=2|N=3");
+    splits("'./my system.system' k=2 scheme=composition(verlet; 1/2, 1/2),rk4",
+           "./my system.system|k=2|scheme=composition(verlet; 1/2, 1/2),rk4");
+    splits("title='a b=c' k=1", "title=a b=c|k=1");
+    splits("k=\"it's\" q=1", "k=it's|q=1");
+}
+
+/* A sentence that holds `says`, and the place of the bar in the line. */
+static void is_wrong(const char *marked, const char *says)
+{
+    char line[512] = "";
+    struct gm_typed_fault fault;
+    const char *bar = strchr(marked, '!');
+    strncat(line, marked, bar ? (size_t)(bar - marked) : 500);
+    strncat(line, bar ? bar + 1 : "", 200);
+    assert_false(gm_typed_check(line, &fault));
+    if (!strstr(fault.sentence, says) || fault.at != (bar ? bar - marked : -1)) {
+        print_error("%s: %ld, %s\n", marked, fault.at, fault.sentence);
+    }
+    assert_non_null(strstr(fault.sentence, says));
+    assert_null(strchr(fault.sentence, '\n'));
+    assert_int_equal(fault.at, bar ? bar - marked : -1);
+}
+
+static void places(void **unused)
+{
+    (void)unused;
+    struct gm_typed_fault fault;
+    assert_true(gm_typed_check("H=p^2/2 - cos(q) q=2 p=0", &fault));
+    assert_string_equal(fault.sentence, "");
+    assert_true(gm_typed_check("geomint system H='p^2/2 - cos(q)' q=2 p=0 scheme=verlet dt=0.1", &fault));
+    assert_true(gm_typed_check("kepler eccentricity=0.5", &fault));
+    is_wrong("H=p^2/2 + !cso(q) q=2 p=0", "did you mean cos");
+    is_wrong("  H=p^2/2 + 2!q q=2 p=0", "no operator");
+    is_wrong("H='p^2/2 + 2!q' q=2 p=0", "no operator");
+    is_wrong("H=p^2/2 + !k*q q=2 p=0", "not given: k=");
+    is_wrong("rate=x = y rate=y = -x +!   x=1 y=0", "");
+    is_wrong("H=p^2/2 - cos(q) q=2 p=0 !foo=3", "no parameter");
+    is_wrong("H=p^2/2 - cos(q) q=2 p=0 dt=!abc", "is not a number");
+    is_wrong("H=p^2/2 - cos(q) q=2 p=0 scheme=!vrlet", "vrlet");
+    is_wrong("H=p^2/2 - cos(q) q=2 p=1+!", "");
+    is_wrong("!nothing k=2", "there is no scene");
+    is_wrong("q=1", "needs a formula");
+    is_wrong("", "needs a formula");
+    is_wrong("!./none.system", "");
+    is_wrong("H=p^2/2 + !é q=1 p=0", "");
+}
+
+static void schemes(void **unused)
+{
+    (void)unused;
+    struct gm_typed_fault fault;
+    assert_true(gm_typed_check_scheme("verlet", &fault));
+    assert_true(gm_typed_check_scheme("scheme='composition(verlet; 1/2, 1/2)'", &fault));
+    assert_false(gm_typed_check_scheme("composition(verlet; 1/2, 1)", &fault));
+    assert_non_null(strstr(fault.sentence, "sum to 1.5"));
+    assert_false(gm_typed_check_scheme("  composition(vrlet; 1)", &fault));
+    assert_int_equal(fault.at, 14);
+    assert_false(gm_typed_check_scheme("vrlet", &fault));
+    assert_int_equal(fault.at, 0);
+    assert_non_null(gm_typed_scheme("runge-kutta(0, 0 | 2/3, 0; 1/4, 3/4)", &fault));
+}
+
+/* Formulas of a file, with the lines that go on them. */
+static void formulas(void **unused)
+{
+    (void)unused;
+    struct gm_arguments found = {0};
+    assert_true(gm_system_formulas(
+        "title: H: no\nH: p^2/2 # kinetic\n  + q^2/2\nrate: x = -x\n  # alone\nstart: q = 1\n", &found));
+    assert_int_equal(found.count, 2);
+    assert_string_equal(found.words[0], "H=p^2/2 + q^2/2");
+    assert_string_equal(found.words[1], "rate=x = -x");
+    gm_arguments_close(&found);
+}
+
+/* A system is saved with the values that it has now, elements of lists and lines that go on among them. */
+static void saved(void **unused)
+{
+    (void)unused;
+    static const char text[] =
+        "parameter: k[1..3] = 1, 2,\n  3; 0 .. 10\ncoordinates: q[1..3]\n"
+        "H: sum(i=1..3, (p_q[i]^2 + k[i]*q[i]^2)/2) + c*q[1]\nstart: q[i] = i,\n  p_q[i] = 0\n"
+        "parameter: c = 0.5 # a push\ndt: 0.1\nuntil: 1\n";
+    char *words[] = {"lists", "k[2]=5", "q[3]=7", "c=0.25"}, message[GM_MESSAGE];
+    struct gm_request request;
+    assert_true(gm_system_recall("lists", text));
+    assert_true(gm_request_parse(&request, 4, words, 1, message));
+    char *now = gm_system_text(request.scene, request.lanes[0].parameters);
+    assert_non_null(now);
+    assert_non_null(strstr(now, "parameter: k[1..3] = 1, 5, 3; 0 .. 10\n"));
+    assert_non_null(strstr(now, "q[1] = 1, q[2] = 2, q[3] = 7,\n"));
+    assert_non_null(strstr(now, "parameter: c = 0.25 # a push\n"));
+    gm_request_close(&request);
+    /* and what was saved means these values */
+    char *plain[] = {"again"};
+    assert_true(gm_system_recall("again", now));
+    assert_true(gm_request_parse(&request, 1, plain, 1, message));
+    struct gm_lane *lane = gm_request_open_lane(&request, 0, message);
+    assert_non_null(lane);
+    const double *state = gm_run_state(lane->run), wanted[] = {1, 2, 7, 0, 0, 0};
+    for (size_t i = 0; i < 6; i++) {
+        assert_true(state[i] == wanted[i]);
+    }
+    gm_lane_close(lane);
+    gm_request_close(&request);
+    free(now);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words),    cmocka_unit_test(places), cmocka_unit_test(schemes),
+        cmocka_unit_test(formulas), cmocka_unit_test(saved),
+    };
+    return cmocka_run_group_tests_name("typed", tests, NULL, NULL);
+}

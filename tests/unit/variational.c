@@ -1,0 +1,370 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Variational integrators and constraints: orders and claims on systems by L, methods that have to be the
+   same, forces, momentum maps, manifolds, and where no root is found. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "core/certify.h"
+#include "core/formula/equations.h"
+#include "core/ode/own/own.h"
+#include "core/ode/variational/manifold.h"
+#include "core/run.h"
+#include "core/schemes.h"
+
+static const char double_pendulum[] =
+    "coordinates: a b\nL: v_a^2 + v_b^2/2 + v_a*v_b*cos(a - b) + 2*cos(a) + cos(b)\n"
+    "start: a = 0.5, b = 0.8, v_a = 0.3, v_b = -0.2\n";
+static const char kepler_in_space[] =
+    "coordinates: x y z\nH: (p_x^2 + p_y^2 + p_z^2)/2 - 1/sqrt(x^2 + y^2 + z^2)\n"
+    "start: x = 0.8, y = 0.1, z = 0.2, p_x = -0.2, p_y = 1.1, p_z = 0.3\n";
+static const char pendulum_in_angles[] = "coordinates: a b\nL: (v_a^2 + sin(a)^2*v_b^2)/2 + cos(a)\n"
+                                         "start: a = 1, b = 0, v_a = 0.2, v_b = 0.9\n";
+/* the same motion: x = sin(a) cos(b), y = sin(a) sin(b), z = -cos(a) */
+static const char pendulum_in_space[] =
+    "coordinates: x y z\nL: (v_x^2 + v_y^2 + v_z^2)/2 - z\nconstraint: (x^2 + y^2 + z^2 - 1)/2\n"
+    "start: x = sin(1), y = 0, z = -cos(1), v_x = 0.2*cos(1), v_y = 0.9*sin(1), v_z = 0.2*sin(1)\n";
+/* masses that are not 1 and hang together, given by H */
+static const char two_masses[] =
+    "coordinates: a b\nH: (p_a^2 - p_a*p_b + p_b^2)/3 + p_a/5 + a^2*b^2 + a^2 + b^2\n"
+    "start: a = 1, b = 0.5, p_a = 0.25, p_b = -1\n";
+static const char driven[] = "coordinates: q\nL: (1 + q^2)*v_q^2/2 + sin(t)*v_q - cos(2*t)*q - q^4\n"
+                             "start: q = 0.5, p_q = 1\n";
+static const char pushed[] = "coordinates: a b\nL: (v_a^2 + (1 + a^2)*v_b^2)/2 - b^2\n"
+                             "force: a = -0.25*p_a, b = -0.5*p_b - sin(a)\n"
+                             "start: a = 0.5, b = 1, p_a = 0, p_b = 1\n";
+static const char shaken[] =
+    "coordinates: q\nH: (p_q - sin(t))^2/2 + cos(2*t)*q + q^4\nstart: q = 0.5, p_q = 1\n";
+static const char braked[] = "coordinates: a b\nparameter: c = 0.3\n"
+                             "L: (v_a^2 + (1 + a^2)*v_b^2)/2 + cos(a) - b^2/2\n"
+                             "force: a = -c*p_a, b = -c*p_b\nstart: a = 0.5, b = 0.6, p_a = 0.4, p_b = 0.3\n";
+
+struct typed {
+    struct gm_own_system system;
+    struct gm_own_model model;
+    struct gm_problem problem;
+    double *start;
+};
+
+static void type(struct typed *typed, const char *text)
+{
+    struct gm_fault fault;
+    if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
+        fail_msg("%s: %s", text, fault.sentence);
+    }
+    typed->start = gm_equations_start(&typed->system, NULL);
+    assert_non_null(typed->start);
+    assert_true(gm_own_model_open(&typed->model, &typed->system));
+    assert_string_equal(gm_own_model_lacks(&typed->model), "");
+    assert_true(gm_own_problem_open(&typed->problem, &typed->model, typed->start));
+}
+
+static void untype(struct typed *typed)
+{
+    gm_own_problem_close(&typed->problem);
+    gm_own_model_close(&typed->model);
+    gm_system_close(&typed->system);
+    free(typed->start);
+}
+
+static const struct gm_scheme *fitting(const char *name, const struct gm_problem *problem)
+{
+    const struct gm_scheme *scheme = gm_scheme_find_for(name, problem);
+    assert_non_null(scheme);
+    if (!gm_scheme_fits(scheme, problem)) {
+        fail_msg("%s does not fit: it lacks %s", name, gm_scheme_lacks(scheme, problem));
+    }
+    return scheme;
+}
+
+/* The state after so many steps, of at most 12 components. */
+static void go(const struct typed *typed, const char *name, double dt, long steps, double *end)
+{
+    static const struct gm_settings settings = {0};
+    struct gm_run *run =
+        gm_run_open(&typed->problem, fitting(name, &typed->problem), &settings, 0, dt, typed->start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, steps), GM_OK);
+    memcpy(end, gm_run_state(run), typed->problem.n * sizeof *end);
+    gm_run_close(run);
+}
+
+static double apart(const double *a, const double *b, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        largest = fmax(largest, isfinite(a[i]) ? fabs(a[i] - b[i]) : INFINITY);
+    }
+    return largest;
+}
+
+static double second_momentum(const void *data, const double *y)
+{
+    (void)data;
+    return y[3];
+}
+
+static double about_z(const void *data, const double *y)
+{
+    (void)data;
+    return y[0] * y[4] - y[1] * y[3];
+}
+
+static const char *const variational[] = {"variational-midpoint2", "variational-trapezoidal2",
+                                          "variational-simpson4",  "variational-galerkin2",
+                                          "variational-galerkin4", "variational-galerkin6"};
+enum { VARIATIONAL = sizeof variational / sizeof *variational };
+
+/* Orders are measured against GSL's stepper on the field of the system, claims on its own steps. */
+static struct gm_certificate certified(const char *text, const char *name, double dt,
+                                       const struct gm_kept *kept)
+{
+    struct typed typed;
+    type(&typed, text);
+    struct gm_scheme scheme = *fitting(name, &typed.problem);
+    const struct gm_certified_system system = {
+        .problem = &typed.problem, .start = typed.start, .dt = dt, .kept = kept, .kept_count = kept != NULL};
+    struct gm_certificate certificate = gm_certify_on(&scheme, &system);
+    untype(&typed);
+    if (!certificate.holds || !certificate.ladder.settled || fabs(certificate.order - scheme.order) > 0.3) {
+        fail_msg("%s on %s: order %.2f, symplecticity %.1e", name, text, certificate.order,
+                 certificate.claims[0].defect);
+    }
+    return certificate;
+}
+
+static void orders_and_claims(void **unused)
+{
+    (void)unused;
+    const struct gm_kept vertical = {"p_b", second_momentum, NULL}, turning = {"L_z", about_z, NULL};
+    for (int i = 0; i < VARIATIONAL; i++) {
+        struct gm_certificate on = certified(double_pendulum, variational[i], 0.1, NULL);
+        assert_true(on.claims[0].holds && on.claims[1].holds && on.claims[2].holds);
+        on = certified(kepler_in_space, variational[i], 0.1, &turning);
+        assert_true(on.claims[0].holds && on.claims[1].holds && on.claims[2].holds && on.claims[13].holds);
+        on = certified(pendulum_in_angles, variational[i], 0.1, &vertical);
+        assert_true(on.claims[0].holds && on.claims[1].holds && on.claims[2].holds && on.claims[13].holds);
+    }
+}
+
+/* The time in L and H, forces that are no friction, and one that is. */
+static void forces_and_time(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < VARIATIONAL; i++) {
+        certified(driven, variational[i], 0.04, NULL);
+        certified(pushed, variational[i], 0.1, NULL);
+        certified(shaken, variational[i], 0.04, NULL);
+    }
+    static const char *const conformal[] = {"conformal-midpoint2", "conformal-trapezoidal2"};
+    for (int i = 0; i < 2; i++) {
+        const struct gm_certificate on = certified(braked, conformal[i], 0.1, NULL);
+        assert_true(on.claims[14].measured && on.claims[14].holds && on.claims[1].holds);
+    }
+}
+
+/* Discrete Lagrangians of which other families of the program have the Hamiltonian form: where the mass
+   matrix is constant, and the midpoint rule everywhere. */
+static void the_same_methods(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text, *variational, *other;
+    } same[] = {
+        {kepler_in_space, "variational-trapezoidal2", "verlet"},
+        {kepler_in_space, "variational-midpoint2", "midpoint"},
+        {kepler_in_space, "variational-simpson4", "lobatto4"},
+        {two_masses, "variational-trapezoidal2", "verlet"},
+        {two_masses, "variational-midpoint2", "midpoint"},
+        {two_masses, "variational-simpson4", "lobatto4"},
+        {double_pendulum, "variational-midpoint2", "midpoint"},
+        {pendulum_in_angles, "variational-midpoint2", "midpoint"},
+    };
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+        struct typed typed;
+        double here[12], there[12];
+        type(&typed, same[i].text);
+        go(&typed, same[i].variational, 0.05, 100, here);
+        go(&typed, same[i].other, 0.05, 100, there);
+        if (!(apart(here, there, typed.problem.n) < 1e-12)) {
+            fail_msg("%s and %s: %g apart", same[i].variational, same[i].other,
+                     apart(here, there, typed.problem.n));
+        }
+        untype(&typed);
+    }
+}
+
+/* Of the runs that round-off is watched in; 1e5 with the argument `all`. */
+static long many_steps = 5000;
+
+/* The largest change of a momentum map over many steps. */
+static double lost(const char *text, const char *name, double (*map)(const void *data, const double *y))
+{
+    struct typed typed;
+    type(&typed, text);
+    static const struct gm_settings settings = {0};
+    struct gm_run *run =
+        gm_run_open(&typed.problem, fitting(name, &typed.problem), &settings, 0, 0.05, typed.start);
+    assert_non_null(run);
+    const double before = map(NULL, typed.start);
+    double largest = 0;
+    for (int i = 0; i < 100; i++) {
+        assert_int_equal(gm_run_advance(run, many_steps / 100), GM_OK);
+        largest = fmax(largest, fabs(map(NULL, gm_run_state(run)) - before) / fabs(before));
+    }
+    gm_run_close(run);
+    untype(&typed);
+    return largest;
+}
+
+static void momentum_maps(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < VARIATIONAL; i++) {
+        const double turned = lost(kepler_in_space, variational[i], about_z),
+                     swung = lost(pendulum_in_angles, variational[i], second_momentum);
+        if (!(turned < 1e-13) || !(swung < 1e-13)) {
+            fail_msg("%s: %g, %g", variational[i], turned, swung);
+        }
+    }
+    assert_true(lost(kepler_in_space, "rk4", about_z) > 1e-7);
+    /* what a step rounds is 3e-18 of it, and adds up */
+    const double rounded = fmax(1e-13, 5e-18 * (double)many_steps);
+    assert_true(lost(pendulum_in_space, "rattle2", about_z) < rounded);
+    assert_true(lost(pendulum_in_space, "constrained-lobatto6", about_z) < rounded);
+}
+
+/* Both constraints at round-off, but of SHAKE one; the motion is that in angles. */
+static void constraints_are_kept(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *name;
+        int order;
+        bool hidden;
+    } schemes[] = {{"rattle2", 2, true},
+                   {"shake2", 2, false},
+                   {"constrained-lobatto4", 4, true},
+                   {"constrained-lobatto6", 6, true}};
+    struct typed space, angles;
+    double end[6], of_angles[4];
+    type(&space, pendulum_in_space);
+    type(&angles, pendulum_in_angles);
+    go(&angles, "gauss8", 0.01, 500, of_angles);
+    const double a = of_angles[0], b = of_angles[1];
+    const double place[3] = {sin(a) * cos(b), sin(a) * sin(b), -cos(a)};
+    for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++) {
+        double errors[2];
+        for (int finer = 0; finer < 2; finer++) {
+            go(&space, schemes[i].name, 0.1 / (1 + finer), 50 * (1 + finer), end);
+            errors[finer] = apart(end, place, 3);
+            const struct gm_manifold_defects defects = gm_manifold_defects(&space.problem, end);
+            assert_true(defects.constraint < 1e-13);
+            assert_true(schemes[i].hidden ? defects.hidden < 1e-13 : defects.hidden > 1e-6);
+        }
+        const double order = log2(errors[0] / errors[1]);
+        if (fabs(order - schemes[i].order) > 0.2) {
+            fail_msg("%s: order %.2f, errors %g %g", schemes[i].name, order, errors[0], errors[1]);
+        }
+    }
+    go(&space, "rk4", 0.1, 500, end);
+    assert_true(gm_manifold_defects(&space.problem, end).constraint > 1e-8);
+    untype(&space);
+    untype(&angles);
+    const struct gm_kept vertical = {"L_z", about_z, NULL};
+    static const char *const kept[] = {"rattle2", "constrained-lobatto4", "constrained-lobatto6"};
+    for (int i = 0; i < 3; i++) {
+        const struct gm_certificate on = certified(pendulum_in_space, kept[i], 0.1, &vertical);
+        assert_true(on.claims[0].holds && on.claims[13].holds && on.claims[15].holds && on.claims[16].holds);
+    }
+}
+
+/* A chain of rods is as many constraints, with a multiplier each. */
+static void a_chain(void **unused)
+{
+    (void)unused;
+    static const char text[] = "coordinates: x[1..3] y[1..3]\n"
+                               "H: sum(i = 1 .. 3, p_x[i]^2/i + p_y[i]^2/i)/2 + sum(i = 1 .. 3, i*y[i])\n"
+                               "constraint: x[1]^2 + y[1]^2 - 1\n"
+                               "constraint: (x[2] - x[1])^2 + (y[2] - y[1])^2 - 1\n"
+                               "constraint: (x[3] - x[2])^2 + (y[3] - y[2])^2 - 1\n"
+                               "start: x[i] = i, y[i] = 0, p_x[i] = 0, p_y[i] = 0\n";
+    struct typed typed;
+    double end[12], other[12];
+    type(&typed, text);
+    go(&typed, "constrained-lobatto4", 0.02, 100, end);
+    go(&typed, "constrained-lobatto6", 0.02, 100, other);
+    const struct gm_manifold_defects defects = gm_manifold_defects(&typed.problem, end);
+    assert_true(defects.constraint < 1e-13 && defects.hidden < 1e-13);
+    assert_true(apart(end, other, 12) < 1e-5);
+    go(&typed, "gauss8", 0.02, 100, end);
+    assert_true(apart(end, other, 12) < 1e-8);
+    /* all gradients are horizontal at first, and nearly so for a while */
+    go(&typed, "rattle2", 0.01, 400, end);
+    assert_true(gm_manifold_defects(&typed.problem, end).hidden < 1e-13);
+    untype(&typed);
+}
+
+/* Where a step finds no root the run ends there, and says after how many iterations. */
+static void no_root(void **unused)
+{
+    (void)unused;
+    static const struct gm_settings settings = {0};
+    struct typed typed;
+    type(&typed, "coordinates: q\nL: v_q^2/2 + q^4\nstart: q = 1, v_q = 1\n");
+    struct gm_run *run = gm_run_open(&typed.problem, fitting("variational-midpoint2", &typed.problem),
+                                     &settings, 0, 0.4, typed.start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, 100), GM_NO_CONVERGENCE);
+    assert_true(run->steps < 10 && run->t == 0.4 * (double)run->steps);
+    assert_true(isfinite(gm_run_state(run)[0]) && isfinite(gm_run_state(run)[1]));
+    gm_run_close(run);
+    untype(&typed);
+}
+
+/* What the schemes need, and what they are refused for. */
+static void what_does_not_fit(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    type(&typed, "coordinates: q\nH: (1 + q^2)*p_q^2/2\nstart: q = 1, p_q = 1\n");
+    const struct gm_scheme *scheme = gm_scheme_find("variational-galerkin4");
+    assert_false(gm_scheme_fits(scheme, &typed.problem));
+    assert_non_null(strstr(gm_scheme_lacks(scheme, &typed.problem), "a Lagrangian"));
+    untype(&typed);
+    type(&typed, pendulum_in_space);
+    assert_false(gm_scheme_fits(scheme, &typed.problem));
+    assert_false(gm_scheme_fits(gm_scheme_find("verlet"), &typed.problem));
+    assert_false(gm_scheme_fits(gm_scheme_find("avf2"), &typed.problem));
+    untype(&typed);
+    type(&typed, double_pendulum);
+    assert_string_equal(gm_scheme_lacks(gm_scheme_find("rattle2"), &typed.problem), "constraints");
+    assert_non_null(
+        strstr(gm_scheme_lacks(gm_scheme_find("conformal-midpoint2"), &typed.problem), "friction"));
+    untype(&typed);
+}
+
+int main(int count, char **words)
+{
+    many_steps = count > 1 && strcmp(words[1], "all") == 0 ? 100000 : many_steps;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(orders_and_claims),
+        cmocka_unit_test(forces_and_time),
+        cmocka_unit_test(the_same_methods),
+        cmocka_unit_test(momentum_maps),
+        cmocka_unit_test(constraints_are_kept),
+        cmocka_unit_test(a_chain),
+        cmocka_unit_test(no_root),
+        cmocka_unit_test(what_does_not_fit),
+    };
+    const struct CMUnitTest long_ones[] = {cmocka_unit_test(momentum_maps)};
+    return many_steps > 5000 ? cmocka_run_group_tests(long_ones, NULL, NULL)
+                             : cmocka_run_group_tests(tests, NULL, NULL);
+}
