@@ -23,7 +23,6 @@ enum gm_support {
    on, as they lie there. */
 struct gm_quantity {
     char name[32];
-    const char *unit; /* "": none */
     enum gm_support support;
     size_t count, width;
     size_t first;

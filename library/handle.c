@@ -373,7 +373,7 @@ const char *geomint_column_name(const geomint *handle, size_t lane, size_t colum
 const char *geomint_column_unit(const geomint *handle, size_t lane, size_t column)
 {
     const struct column found = column_of(handle, lane, column);
-    return found.quantity ? found.quantity->unit : found.observable ? found.observable->unit : NULL;
+    return found.quantity ? "" : found.observable ? found.observable->unit : NULL;
 }
 
 size_t geomint_column_shape(const geomint *handle, size_t lane, size_t column, size_t shape[3])

@@ -117,10 +117,7 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     const char *status = tell_end(outcome, sentence, sizeof sentence);
     printf("{");
     gm_json_pair("scene", lane->scene->name);
-    if (lane->scene->text) {
-        putchar(',');
-        gm_json_pair("system", lane->scene->text);
-    }
+    gm_meta_source(stdout, lane->scene);
     printf(",");
     gm_json_pair("scheme", lane->scheme->name);
     if (gm_engine_of(lane)) {

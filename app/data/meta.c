@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "app/output/json.h"
-#include "core/quantity.h"
 
 void gm_meta_parameters(FILE *stream, const struct gm_lane *lane)
 {
@@ -33,22 +32,15 @@ void gm_meta_parameters(FILE *stream, const struct gm_lane *lane)
     fputc('}', stream);
 }
 
-static void put_units(FILE *stream, const struct gm_run *run)
+void gm_meta_source(FILE *stream, const struct gm_scene *scene)
 {
-    struct gm_quantity quantities[GM_QUANTITIES];
-    const size_t count = gm_quantities(run, quantities);
-    fputc('{', stream);
-    const char *front = "";
-    for (size_t i = 0; i < count; i++) {
-        if (quantities[i].unit[0]) {
-            fputs(front, stream);
-            gm_json_put_text(stream, quantities[i].name);
-            fputc(':', stream);
-            gm_json_put_text(stream, quantities[i].unit);
-            front = ",";
+    const char *const texts[] = {scene->text, scene->room}, *const keys[] = {"system", "room"};
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        if (texts[i]) {
+            fprintf(stream, ",\"%s\":", keys[i]);
+            gm_json_put_text(stream, texts[i]);
         }
     }
-    fputc('}', stream);
 }
 
 char *gm_meta_text(const struct gm_lane *lane, const char *status, const char *sentence)
@@ -60,21 +52,16 @@ char *gm_meta_text(const struct gm_lane *lane, const char *status, const char *s
         return NULL;
     }
     fprintf(stream, "{\"version\":\"geomint %s\",\"scene\":\"%s\"", GM_VERSION, lane->scene->name);
-    if (lane->scene->text) {
-        fputs(",\"system\":", stream);
-        gm_json_put_text(stream, lane->scene->text);
-    }
+    gm_meta_source(stream, lane->scene);
     fprintf(stream, ",\"scheme\":\"%s\",\"parameters\":", lane->scheme->name);
     gm_meta_parameters(stream, lane);
     fprintf(stream, ",\"status\":\"%s\",\"message\":", status);
     gm_json_put_text(stream, sentence);
     fputs(",\"t\":", stream);
     gm_json_put_number(stream, lane->run->t);
-    fprintf(stream, ",\"steps\":%ld,\"time\":", lane->run->steps);
+    fprintf(stream, ",\"steps\":%ld,\"units\":{\"t\":", lane->run->steps);
     gm_json_put_text(stream, lane->scene->time ? lane->scene->time : "");
-    fputs(",\"units\":", stream);
-    put_units(stream, lane->run);
-    fputc('}', stream);
+    fputs("}}", stream);
     if (fclose(stream) != 0) {
         free(text);
         return NULL;

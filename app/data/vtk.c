@@ -312,13 +312,26 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     return good && gm_column_put(&lane->columns[0], "\n", 1); /* one line a row */
 }
 
+/* What was run, as a comment, in which XML has no "--"; JSON has another word for the second. */
+static bool put_meta(const char *meta, FILE *file)
+{
+    fputs("<!-- ", file);
+    for (const char *at = meta; *at; at++) {
+        const bool second = *at == '-' && at > meta && at[-1] == '-';
+        fputs(second ? "\\u002d" : (char[]){*at, '\0'}, file);
+    }
+    return fputs(" -->\n", file) >= 0 && !ferror(file);
+}
+
 static bool join(const struct gm_saving *saving, FILE *file)
 {
     bool good = fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
                       "byte_order=\"LittleEndian\">\n<Collection>\n",
                       file) >= 0;
     for (size_t i = 0; i < saving->begun && good; i++) {
-        good = gm_column_copy(saving->part, saving->lanes[i].index, 0, file);
+        const char *meta = saving->lanes[i].meta; /* not before the lane has ended */
+        good =
+            (!meta || put_meta(meta, file)) && gm_column_copy(saving->part, saving->lanes[i].index, 0, file);
     }
     return good && fputs("</Collection>\n</VTKFile>\n", file) >= 0;
 }

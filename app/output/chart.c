@@ -4,12 +4,15 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/request/arguments.h"
 #include "app/request/request.h"
+#include "render/files/temporary.h"
 #include "render/message.h"
 
 /* The text of the system that a command "stability NAME key=value" is of; NULL: it is of none. */
@@ -67,6 +70,59 @@ static bool name_files(struct gm_chart *chart)
     return picture < (int)sizeof chart->picture && csv < (int)sizeof chart->csv;
 }
 
+/* Whether two files begin with the same line, a table's head. */
+static bool have_one_head(const char *one, const char *other)
+{
+    FILE *files[2] = {fopen(one, "r"), fopen(other, "r")};
+    int letters[2] = {0, 0};
+    while (files[0] && files[1] && letters[0] == letters[1] && letters[0] != '\n' && letters[0] != EOF) {
+        letters[0] = getc(files[0]);
+        letters[1] = getc(files[1]);
+    }
+    for (int i = 0; i < 2; i++) {
+        if (files[i]) {
+            fclose(files[i]);
+        }
+    }
+    return files[0] && files[1] && letters[0] == letters[1];
+}
+
+/* The numbers' name follows from the picture's: nobody has asked for it, so a table that was there before the
+   picture, and has other columns, is somebody's and stays. */
+static bool is_anothers(const struct gm_chart *chart, const char *table)
+{
+    return access(chart->csv, F_OK) == 0 && access(chart->picture, F_OK) != 0 &&
+           !have_one_head(table, chart->csv);
+}
+
+/* The numbers aside first: with a table that has to stay nothing is drawn. */
+static bool write_both(struct gm_chart *chart, const void *data,
+                       void (*draw)(const void *data, struct gm_picture *picture),
+                       bool (*write)(const void *data, const char *path), char *message)
+{
+    char *aside = gm_temporary_fits(chart->csv) ? gm_temporary_name(chart->csv, ".tmp") : strdup(chart->csv);
+    bool good = false;
+    if (!aside) {
+        gm_refuse(message, "not enough memory for a table");
+    } else if (!write(data, aside)) {
+        gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno));
+    } else if (is_anothers(chart, aside)) {
+        gm_refuse(message,
+                  "%.300s is there, with other columns than the numbers of this picture; name the picture "
+                  "otherwise",
+                  chart->csv);
+    } else {
+        good = paint(chart, data, draw, message) &&
+               (strcmp(aside, chart->csv) == 0 || rename(aside, chart->csv) == 0 ||
+                gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno)));
+    }
+    if (!good && aside && strcmp(aside, chart->csv) != 0) {
+        unlink(aside);
+    }
+    free(aside);
+    return good;
+}
+
 bool gm_chart_write(struct gm_chart *chart, const void *data,
                     void (*draw)(const void *data, struct gm_picture *picture),
                     bool (*write)(const void *data, const char *path), char *message)
@@ -74,11 +130,9 @@ bool gm_chart_write(struct gm_chart *chart, const void *data,
     if (!name_files(chart)) {
         return gm_refuse(message, "the name of the folder is too long");
     }
-    if (!gm_folder_make_for(chart->picture, message) || !paint(chart, data, draw, message)) {
+    if (!gm_folder_make_for(chart->picture, message)) {
         return false;
     }
-    if (write && chart->csv[0] && !write(data, chart->csv)) {
-        return gm_refuse(message, "%.400s could not be written: %s", chart->csv, strerror(errno));
-    }
-    return true;
+    return write && chart->csv[0] ? write_both(chart, data, draw, write, message)
+                                  : paint(chart, data, draw, message);
 }

@@ -158,6 +158,7 @@ struct gm_scene {
     const char *const *words;
     const char *source; /* the text of the file that it was made of, if it was; NULL */
     const char *text;   /* the text that it was made of, also of one that was typed; NULL */
+    const char *room;   /* the text of the room's file that it was made of; NULL */
     const char *mark;   /* its name and a checksum of that text; NULL: its name tells all */
     const struct gm_parameter *parameters;
     size_t parameter_count;

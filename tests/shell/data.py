@@ -58,7 +58,8 @@ def rows_equal_states():
         geomint(f"run {words} steps={steps} --save s.npz")
         with numpy.load("s.npz", allow_pickle=False) as saved:
             meta = json.loads(str(saved["meta"]))
-            check(meta["scene"] == words.split()[0] and meta["status"] == "ok", f"{words}: meta {meta}")
+            check(meta["scene"] == words.split()[0] and meta["status"] == "ok" and meta["units"]["t"],
+                  f"{words}: meta {meta}")
             check(saved["t"].shape == (steps + 1,), f"{words}: t has the shape {saved['t'].shape}")
             blocks = [(name, count or saved[name].shape[1]) for name, count in blocks]
             for step in range(steps + 1):
@@ -184,6 +185,13 @@ def vtk():
         for t, name in entries("w.pvd"):
             arrays = read_vtu(name)
             check(arrays["Points"].shape == (points, 3) and len(arrays["types"]) == cells, f"{words} for VTK")
+    double = "run system H=p^2/2+q^2/2--1 q=1 p=0 scheme=verlet steps=1 --save "  # XML has no -- in comments
+    geomint(double + "w.pvd")
+    geomint(double + "w.npz")
+    with open("w.pvd", encoding="utf-8") as file, numpy.load("w.npz", allow_pickle=False) as saved:
+        notes = re.findall("<!-- (.*) -->", file.read())
+        check(len(notes) == 1 and json.loads(notes[0]) == json.loads(str(saved["meta"])), f"what {notes} is")
+    check(entries("w.pvd")[1][0] > 0, "a list with a comment")
     try:
         import vtk as library
     except ImportError:
@@ -211,6 +219,8 @@ def warm():
         areas = dual_areas(saved["points"], saved["triangles"])
         mesh = [entry for entry in entries("v/h.pvd") if "tracers" not in entry[1]]
         check(len(mesh) == 3, "rows of a warm room")
+        with open(room, encoding="utf-8") as file:
+            check(json.loads(str(saved["meta"]))["room"] == file.read(), "the room's text")
         for row, (t, name) in enumerate(mesh):
             warmth = saved["temperature"][row]
             check(same(read_vtu(os.path.join("v", name))["temperature"], warmth), "the temperature of npz and of vtu")

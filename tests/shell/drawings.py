@@ -230,6 +230,14 @@ def test_paper():
 def test_charts():
     geomint("work-precision disc scheme=verlet,rk4 until=1 -o new/folder/w.svg --size 640x480")
     check(sorted(os.listdir("new/folder")) == ["w.csv", "w.svg"], f"work-precision wrote {os.listdir('new/folder')}")
+    with open("new/folder/mine.csv", "w", encoding="utf-8") as file:
+        file.write("day,weather\n")
+    refused = geomint("work-precision disc scheme=verlet until=1 -o new/folder/mine.svg", 3).stderr
+    with open("new/folder/mine.csv", encoding="utf-8") as file:
+        check(b"mine.csv is there" in refused and file.read() == "day,weather\n", f"a table of someone's: {refused!r}")
+    check(sorted(os.listdir("new/folder")) == ["mine.csv", "w.csv", "w.svg"], "nothing is left of a refused picture")
+    geomint("work-precision disc scheme=verlet until=1 -o new/folder/w.pdf")
+    geomint("work-precision disc scheme=verlet until=1 --measure energy_error -o new/folder/w.svg")
     done = geomint("stability kepler scheme=verlet until=20 -o - --format svg --size 640x480")
     check(done.stdout.startswith(b"<?xml") and done.stdout.endswith(b"</svg>\n"), "stability -o - writes something else")
     geomint("figures razafindralandy-8 --format svg --quick --out page")

@@ -591,8 +591,9 @@ static void formulas(void **unused)
         gm_problem_kepler,     gm_problem_kepler_perturbed,   gm_problem_spring_pendulum,
         gm_problem_product,    gm_problem_vortices,           gm_problem_vortices_reduced,
         gm_problem_fpu_of[0],  gm_problem_fpu_of[1],          gm_problem_fpu_of[2],
-        gm_problem_fpu_of[4],  gm_problem_oscillator_tangent, gm_problem_pendulum_tangent};
-    for (size_t i = 0; i < 15; i++) {
+        gm_problem_fpu_of[4],  gm_problem_oscillator_tangent, gm_problem_pendulum_tangent,
+        gm_problem_fish_eye};
+    for (size_t i = 0; i < sizeof problems / sizeof problems[0]; i++) {
         struct gm_problem *problem = &problems[i];
         problem->parameters = i >= 9 || i == 5 ? &stiff : &one;
         double y[20], value, terms[1];

@@ -215,7 +215,7 @@ static void a_wrong_digit_of_gauss4(void **unused)
     assert_false(gm_certify(&wrong).holds);
 }
 
-/* What is claimed of constraints and of friction, by schemes that know nothing of them. */
+/* What is claimed of constraints, of friction and of what does not separate, by schemes that know nothing of it. */
 static void structure_that_is_not_asked_for(void **unused)
 {
     (void)unused;
@@ -227,7 +227,8 @@ static void structure_that_is_not_asked_for(void **unused)
                  {GM_NEEDS_CONSTRAINTS, GM_KEEPS_HIDDEN, 16},
                  {GM_NEEDS_CONSTRAINTS, GM_SYMPLECTIC, 0},
                  {GM_NEEDS_CONSTRAINTS, GM_KEEPS_MOMENTUM_MAPS, 13},
-                 {GM_NEEDS_FRICTION, GM_CONFORMAL, 14}};
+                 {GM_NEEDS_FRICTION, GM_CONFORMAL, 14},
+                 {GM_NEEDS_INSEPARABLE, GM_KEEPS_BILINEAR, 12}};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct gm_scheme scheme = changed("rk4");
         scheme.needs = wrong[i].facet;

@@ -81,6 +81,29 @@ static bool has_status(const struct gm_sweep *sweep, size_t run, const char *lin
     return has;
 }
 
+/* A row that is not that of the next run: of a later one in a table that was joined before its shares had all
+   rows, else of another sweep. */
+static bool refuse_row(const struct gm_sweep_table *table, const char *line, size_t commas, char *message)
+{
+    const size_t runs = gm_sweep_share(table->sweep), row = table->there;
+    size_t later = row;
+    while (later < runs && !is_row_of(table->sweep, gm_sweep_run(table->sweep, later), line, commas)) {
+        later++;
+    }
+    if (later < runs) {
+        snprintf(message, GM_MESSAGE,
+                 "%.200s misses rows: its row %zu is that of run %zu; it is left as it is (a sweep of shares "
+                 "gets its rows by its shares and --join)",
+                 table->path, row + 1, gm_sweep_run(table->sweep, later));
+    } else {
+        snprintf(
+            message, GM_MESSAGE,
+            "%.300s is not a table of this sweep: its row %zu is not that of run %zu; it is left as it is",
+            table->path, row + 1, gm_sweep_run(table->sweep, row));
+    }
+    return false;
+}
+
 /* What is there, line by line: how many rows of the sweep, and where the last one ends. False with a sentence
    if a line is none. */
 static bool read_rows(struct gm_sweep_table *table, FILE *stream, const char *head, const char *retry,
@@ -100,10 +123,7 @@ static bool read_rows(struct gm_sweep_table *table, FILE *stream, const char *he
     while (good && (length = getline(&line, &room, stream)) > 0 && line[length - 1] == '\n') {
         const size_t run = gm_sweep_run(table->sweep, table->there);
         if (table->there == runs || !is_row_of(table->sweep, run, line, commas)) {
-            snprintf(
-                message, GM_MESSAGE,
-                "%.300s is not a table of this sweep: its row %zu is not that of run %zu; it is left as it is",
-                table->path, table->there + 1, run);
+            refuse_row(table, line, commas, message);
             good = false;
         } else {
             if (retry && has_status(table->sweep, run, line, retry)) {

@@ -29,7 +29,7 @@ static void places(const struct gm_run *run, double *values)
 static struct gm_quantity *add(struct gm_quantity *end, const char *name, enum gm_support support,
                                size_t count, size_t first)
 {
-    *end = (struct gm_quantity){.unit = "", .support = support, .count = count, .width = 1, .first = first};
+    *end = (struct gm_quantity){.support = support, .count = count, .width = 1, .first = first};
     snprintf(end->name, sizeof end->name, "%s", name);
     return end + 1;
 }

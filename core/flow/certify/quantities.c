@@ -71,16 +71,16 @@ size_t gm_flow_quantities(const struct gm_run *run, struct gm_quantity *quantiti
         bool there;
         struct gm_quantity quantity;
     } all[] = {
-        {true, {"points", "", GM_ON_NODES, v, 2, .axis = 1, .fixed = true, .derive = points}},
-        {true, {"triangles", "", GM_ON_CELLS, t, 3, .fixed = true, .whole = true, .derive = triangles}},
-        {true, {"stream_function", "", GM_ON_NODES, v, 1, .first = GM_FLOW_PSI * v}},
-        {true, {"vorticity", "", GM_ON_NODES, v, 1, .first = GM_FLOW_OMEGA * v}},
-        {flow->scalar, {"scalar", "", GM_ON_NODES, v, 1, .first = GM_FLOW_THETA * v}},
-        {flow->heat, {"temperature", "", GM_ON_NODES, v, 1, .first = GM_FLOW_TEMPERATURE * v}},
-        {true, {"velocity", "", GM_ON_CELLS, t, 2, .derive = velocity}},
-        {flow->complex->boundary > 0, {"pressure", "", GM_ON_CELLS, t, 1, .derive = pressure}},
-        {count > 0, {"tracer_x", "", GM_ON_TRACERS, count, 1, .axis = 1, .derive = tracer_x}},
-        {count > 0, {"tracer_y", "", GM_ON_TRACERS, count, 1, .axis = 2, .derive = tracer_y}},
+        {true, {"points", GM_ON_NODES, v, 2, .axis = 1, .fixed = true, .derive = points}},
+        {true, {"triangles", GM_ON_CELLS, t, 3, .fixed = true, .whole = true, .derive = triangles}},
+        {true, {"stream_function", GM_ON_NODES, v, 1, .first = GM_FLOW_PSI * v}},
+        {true, {"vorticity", GM_ON_NODES, v, 1, .first = GM_FLOW_OMEGA * v}},
+        {flow->scalar, {"scalar", GM_ON_NODES, v, 1, .first = GM_FLOW_THETA * v}},
+        {flow->heat, {"temperature", GM_ON_NODES, v, 1, .first = GM_FLOW_TEMPERATURE * v}},
+        {true, {"velocity", GM_ON_CELLS, t, 2, .derive = velocity}},
+        {flow->complex->boundary > 0, {"pressure", GM_ON_CELLS, t, 1, .derive = pressure}},
+        {count > 0, {"tracer_x", GM_ON_TRACERS, count, 1, .axis = 1, .derive = tracer_x}},
+        {count > 0, {"tracer_y", GM_ON_TRACERS, count, 1, .axis = 2, .derive = tracer_y}},
     };
     size_t there = 0;
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {

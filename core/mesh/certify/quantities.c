@@ -12,12 +12,8 @@ size_t gm_mesh_quantities(const struct gm_run *run, struct gm_quantity *quantiti
     enum { COUNT = sizeof names / sizeof names[0] };
     const size_t points = run->problem->n / COUNT;
     for (size_t i = 0; i < COUNT; i++) {
-        quantities[i] = (struct gm_quantity){.unit = "",
-                                             .support = GM_ON_NODES,
-                                             .count = points,
-                                             .width = 1,
-                                             .first = i * points,
-                                             .axis = i == 1 ? 1 : 0};
+        quantities[i] = (struct gm_quantity){
+            .support = GM_ON_NODES, .count = points, .width = 1, .first = i * points, .axis = i == 1 ? 1 : 0};
         snprintf(quantities[i].name, sizeof quantities->name, "%s", names[i]);
     }
     return COUNT;

@@ -16,8 +16,8 @@ static size_t read_names(const char *names, struct gm_quantity *quantities, size
     while (*names && count < GM_QUANTITIES) {
         const size_t length = strcspn(names, " "), name = strcspn(names, " [");
         const bool list = name < length;
-        quantities[count] = (struct gm_quantity){
-            .unit = "", .support = list ? GM_ON_BODIES : GM_ON_RUN, .count = 1, .width = 1};
+        quantities[count] =
+            (struct gm_quantity){.support = list ? GM_ON_BODIES : GM_ON_RUN, .count = 1, .width = 1};
         snprintf(quantities[count].name, sizeof quantities->name, "%.*s", (int)name, names);
         *lists += list;
         count++;
@@ -58,12 +58,8 @@ size_t gm_ode_quantities(const struct gm_run *run, struct gm_quantity *quantitie
         first += quantities[i].count;
     }
     for (int c = 0; c < 2 && problem->passive > 0; c++) {
-        quantities[count] = (struct gm_quantity){.unit = "",
-                                                 .support = GM_ON_TRACERS,
-                                                 .count = problem->passive,
-                                                 .width = 1,
-                                                 .first = first,
-                                                 .axis = c + 1};
+        quantities[count] = (struct gm_quantity){
+            .support = GM_ON_TRACERS, .count = problem->passive, .width = 1, .first = first, .axis = c + 1};
         snprintf(quantities[count].name, sizeof quantities->name, "tracer_%c", "xy"[c]);
         first += problem->passive;
         count++;

@@ -205,7 +205,7 @@ static const struct gm_scheme schemes[] = {
         .reference = "R. de Vogelaere (1956); Razafindralandy et al. (2018), eq. 24",
         .coefficients = &symplectic_euler,
         .order = 1,
-        .claims = GM_SYMPLECTIC | GM_KEEPS_LINEAR,
+        .claims = GM_SYMPLECTIC | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR,
         INSEPARABLE,
     },
     {
@@ -215,7 +215,7 @@ static const struct gm_scheme schemes[] = {
         .reference = "Hairer, Lubich & Wanner (2006), VI.3",
         .coefficients = &symplectic_euler_adjoint,
         .order = 1,
-        .claims = GM_SYMPLECTIC | GM_KEEPS_LINEAR,
+        .claims = GM_SYMPLECTIC | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR,
         INSEPARABLE,
     },
     {
@@ -226,7 +226,7 @@ static const struct gm_scheme schemes[] = {
         .reference = "G. Sun, J. Comput. Math. 11 (1993) 365; Hairer, Lubich & Wanner (2006), VI.3.4",
         .coefficients = &lobatto2,
         .order = 2,
-        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR,
+        .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR,
         INSEPARABLE,
     },
     {

@@ -29,6 +29,9 @@ extern const struct gm_problem gm_problem_particles;
 /* H = (1 + q^2)(1 + p^2)/2: not separable (M. Tao, Phys. Rev. E 94 (2016) 043303). */
 extern const struct gm_problem gm_problem_product;
 
+/* Light in Maxwell's fish-eye, (q1, q2, p1, p2), H = (1 + |q|^2)^2 |p|^2/8: not separable, q1 p2 - q2 p1 is kept. */
+extern const struct gm_problem gm_problem_fish_eye;
+
 /* The free rigid body, Euler's equations with moments of inertia (2, 1, 2/3): angular momentum (y1, y2, y3);
    invariants |y|^2/2 and y1^2/4 + y2^2/2 + 3 y3^2/4, both quadratic. */
 extern const struct gm_problem gm_problem_rigid_body;
