@@ -58,8 +58,8 @@ bool gm_drive_goes_on(const struct gm_drive *drive, long step)
 }
 
 /* The system is asked for the time of every step that is long, of short ones after so many seconds of them:
-   asking takes longer than a short step. */
-static const double unasked = 20e-6;
+   asking takes longer than a short step. One too short to be measured counts as so long for that. */
+static const double unasked = 20e-6, shortest = 20e-9;
 
 /* What asking twice takes by itself, the least of a few times: more than a short step. */
 static double asking(void)
@@ -93,7 +93,7 @@ static void advance(struct gm_drive *drive, long stop, bool record)
         const double took = fmax(gm_clock_processor_seconds() - start - asking(), 0);
         drive->seconds += took;
         drive->each = made > 0 ? took / (double)made : 0;
-        drive->unmeasured = drive->each > 0 ? (long)fmin(unasked / drive->each, 1e6) : 0;
+        drive->unmeasured = (long)(unasked / fmax(drive->each, shortest));
     } else {
         drive->seconds += drive->each * (double)made;
         drive->unmeasured -= made;
