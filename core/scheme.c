@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "core/count.h"
 #include "core/theory/coefficients.h"
 
 static const struct {
@@ -83,7 +84,7 @@ const struct gm_parameter gm_settings_parameters[] = {
         .highest = 1,
     },
 };
-const size_t gm_settings_parameter_count = sizeof gm_settings_parameters / sizeof gm_settings_parameters[0];
+const size_t gm_settings_parameter_count = GM_COUNT(gm_settings_parameters);
 
 const struct gm_parameter *gm_setting_find(const char *key)
 {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #define GM_KIND(name) extern const struct gm_kind gm_kind_##name;
+#include "core/count.h"
 #include "core/kinds.def"
 #undef GM_KIND
 
@@ -15,7 +16,7 @@ static const struct gm_kind *const kinds[] = {
 #include "core/kinds.def"
 #undef GM_KIND
 };
-enum { KINDS = sizeof kinds / sizeof kinds[0] };
+enum { KINDS = GM_COUNT(kinds) };
 
 size_t gm_scheme_count(void)
 {

@@ -9,9 +9,10 @@
 const struct gm_command_row *const gm_commands[] = {
 #define GM_COMMAND(name) &gm_command_##name,
 #include "app/commands/commands.def"
+#include "core/count.h"
 #undef GM_COMMAND
 };
-const size_t gm_command_count = sizeof gm_commands / sizeof gm_commands[0];
+const size_t gm_command_count = GM_COUNT(gm_commands);
 
 const struct gm_command_row *gm_command_find(const char *word)
 {

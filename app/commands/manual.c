@@ -7,6 +7,7 @@
 #include "app/commands/reference/catalogue.h"
 #include "app/output/say.h"
 #include "app/request/words.h"
+#include "core/count.h"
 #include "core/schemes.h"
 
 /* Text as troff wants it: no request at the start of a line, hyphens that can be copied. */
@@ -178,12 +179,12 @@ static void put_surroundings(void)
         {"NO_COLOR", "if it is not empty, the explorer uses no colour"},
     };
     printf(".SH EXIT STATUS\n");
-    for (size_t i = 0; i < sizeof exits / sizeof exits[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(exits); i++) {
         put_term(exits[i][0], "");
         put_line(exits[i][1]);
     }
     printf(".SH ENVIRONMENT\n");
-    for (size_t i = 0; i < sizeof environment / sizeof environment[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(environment); i++) {
         put_term(environment[i][0], "");
         put_line(environment[i][1]);
     }
@@ -199,7 +200,7 @@ static void put_examples(void)
         {"geomint figures tyranowski-11 --out published", "a published figure with its numbers"},
     };
     printf(".SH EXAMPLES\n");
-    for (size_t i = 0; i < sizeof examples / sizeof examples[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(examples); i++) {
         put_term(examples[i][0], "");
         put_line(examples[i][1]);
     }

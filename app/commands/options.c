@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/formula/nearest.h"
 #include "render/cells/text.h"
 #include "render/files/sink.h"
@@ -110,7 +111,7 @@ static const struct row rows[] = {
     {"--list", FLAG, GM_TOUR, AT(listing), "", "what there is; with a tour, its steps"},
     {"--quick", FLAG, GM_FIGURES, AT(quick), "", "smaller pictures; long runs are coarser and not judged"},
 };
-enum { ROWS = sizeof rows / sizeof rows[0] };
+enum { ROWS = GM_COUNT(rows) };
 
 static bool refuse(char *message, const char *name, const char *value, const char *what)
 {
@@ -370,7 +371,7 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
         {"--join", "--retry", "the first makes no run"},
         {"--join", "--measure", "the tables have the columns that they have"},
     };
-    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(pairs); i++) {
         if (is_given(given, pairs[i].one) && is_given(given, pairs[i].other)) {
             return gm_refuse(message, "%s and %s contradict each other: %s", pairs[i].one, pairs[i].other,
                              pairs[i].why);
@@ -383,7 +384,7 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
                  {"--save", options->save},
                  {"--save-tracks", options->tracks},
                  {"--checkpoint", options->checkpoint}};
-    enum { FILES = sizeof files / sizeof files[0] };
+    enum { FILES = GM_COUNT(files) };
     for (size_t i = 0; i < FILES; i++) {
         for (size_t k = i + 1; k < FILES; k++) {
             if (files[i].path && files[k].path && strcmp(files[i].path, "-") != 0 &&

@@ -22,6 +22,7 @@
 #include "app/request/chosen.h"
 #include "app/request/drive.h"
 #include "app/request/interrupt.h"
+#include "core/count.h"
 #include "core/memory.h"
 #include "render/clock.h"
 
@@ -641,7 +642,7 @@ static int close_outputs(struct outputs *outputs, bool opened, int status)
     if (status != GM_EXIT_FILE && status != GM_EXIT_USAGE) {
         const char *const written[] = {options->csv, options->profile, options->save, options->tracks,
                                        options->checkpoint};
-        for (size_t i = 0; i < sizeof written / sizeof written[0]; i++) {
+        for (size_t i = 0; i < GM_COUNT(written); i++) {
             tell_written(written[i]);
         }
     }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "app/output/json.h"
+#include "core/count.h"
 
 void gm_meta_parameters(FILE *stream, const struct gm_lane *lane)
 {
@@ -35,7 +36,7 @@ void gm_meta_parameters(FILE *stream, const struct gm_lane *lane)
 void gm_meta_source(FILE *stream, const struct gm_scene *scene)
 {
     const char *const texts[] = {scene->text, scene->room}, *const keys[] = {"system", "room"};
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
         if (texts[i]) {
             fprintf(stream, ",\"%s\":", keys[i]);
             gm_json_put_text(stream, texts[i]);

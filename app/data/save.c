@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "app/data/format.h"
+#include "core/count.h"
 #include "render/clock.h"
 #include "render/files/temporary.h"
 #include "render/message.h"
@@ -21,7 +22,7 @@ struct gm_save {
 
 static const struct gm_data_format *const formats[] = {&gm_data_format_npz, &gm_data_format_csv,
                                                        &gm_data_format_pvd};
-enum { FORMATS = sizeof formats / sizeof formats[0] };
+enum { FORMATS = GM_COUNT(formats) };
 
 static const struct gm_data_format *format_of(const char *path)
 {

@@ -9,6 +9,7 @@
 
 #include "app/data/format.h"
 #include "app/output/folder.h"
+#include "core/count.h"
 #include "render/message.h"
 
 /* What a group of points is joined to. */
@@ -290,7 +291,7 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     const char *slash = folder ? strrchr(folder, '/') : NULL;
     const char *name = slash ? slash + 1 : folder;
     int parts = 0;
-    for (size_t i = 0; i < sizeof groups / sizeof groups[0] && good; i++) {
+    for (size_t i = 0; i < GM_COUNT(groups) && good; i++) {
         struct group group;
         char *path = NULL;
         if (!group_of(lane, run, groups[i].support, &group)) {

@@ -8,6 +8,7 @@
 
 #include "app/explorer/view/keystroke.h"
 #include "app/request/system.h"
+#include "core/count.h"
 #include "core/schemes.h"
 
 static const char example[] = "H=p^2/2 - cos(q) q=2 p=0";
@@ -39,7 +40,7 @@ static const char *scheme_example(const struct gm_shot *shot)
         {"verlet", "composition(verlet; 1/(2 - 2^(1/3)), 1 - 2/(2 - 2^(1/3)), 1/(2 - 2^(1/3)))"},
         {"midpoint", "composition(midpoint; 1/(2 - 2^(1/3)), 1 - 2/(2 - 2^(1/3)), 1/(2 - 2^(1/3)))"},
     };
-    for (size_t k = 0; k < sizeof examples / sizeof *examples; k++) {
+    for (size_t k = 0; k < GM_COUNT(examples); k++) {
         for (size_t i = 0; i < shot->scheme_count; i++) {
             if (strcmp(shot->schemes[i]->name, examples[k][0]) == 0) {
                 return examples[k][1];

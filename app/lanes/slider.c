@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Round values for a parameter that keys move. */
 #include "app/lanes/slider.h"
+#include "core/count.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -72,7 +73,7 @@ double gm_slider_position(const struct gm_parameter *row, const void *owner)
 
 /* Round values of about equal ratio, ten a decade. */
 static const double rounds[] = {1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10};
-enum { ROUND_COUNT = sizeof rounds / sizeof *rounds };
+enum { ROUND_COUNT = GM_COUNT(rounds) };
 
 static double next_by_ratio(double value, int direction)
 {

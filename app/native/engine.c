@@ -15,6 +15,7 @@
 
 #include "app/native/cache.h"
 #include "app/native/compiler.h"
+#include "core/count.h"
 #include "core/kind.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
@@ -202,7 +203,7 @@ static void remove_aside(const char *folder, const struct build *build)
 static void compile(struct build *build, const char *folder, const char *compiler, const char *text,
                     struct part part)
 {
-    enum { MOST = sizeof flags / sizeof *flags + 16 };
+    enum { MOST = GM_COUNT(flags) + 16 };
     static unsigned number;
     const char *arguments[MOST];
     char kernels[128], source[GM_CACHE_PATH];
@@ -222,7 +223,7 @@ static void compile(struct build *build, const char *folder, const char *compile
         return;
     }
     arguments[count++] = compiler;
-    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+    for (size_t i = 0; i < GM_COUNT(flags); i++) {
         arguments[count++] = flags[i];
     }
     for (size_t i = 0; i < 3; i++) {
@@ -258,7 +259,7 @@ static bool find_key(struct build *build, char compiler[GM_CACHE_PATH])
     }
     add_word(&digest, GM_VERSION);
     add_word(&digest, kernel_folder);
-    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+    for (size_t i = 0; i < GM_COUNT(flags); i++) {
         add_word(&digest, flags[i]);
     }
     for (size_t i = 0; i < 3; i++) {

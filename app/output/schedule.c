@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* When the frames of a render are, and which of them are a shard's. */
 #include "app/output/schedule.h"
+#include "core/count.h"
 
 #include <math.h>
 
@@ -43,7 +44,7 @@ bool gm_schedule_make(struct gm_schedule *schedule, const struct gm_request *req
         const char *name;
         double value;
     } times[] = {{"--at", pace->at}, {"--from", pace->from}};
-    for (size_t i = 0; i < sizeof times / sizeof times[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(times); i++) {
         if (times[i].value < start || times[i].value > fmax(end, timing->until)) {
             return gm_refuse(message, "%s %g lies %s, t = %g", times[i].name, times[i].value,
                              times[i].value < start ? "before the start" : "after the end",

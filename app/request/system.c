@@ -17,6 +17,7 @@
 #include "app/request/place.h"
 #include "app/request/room.h"
 #include "app/request/share.h"
+#include "core/count.h"
 #include "core/formula/equations.h"
 #include "core/formula/nearest.h"
 #include "core/formula/reader.h"
@@ -937,7 +938,7 @@ char *gm_system_text(const struct gm_scene *scene, const void *parameters)
 {
     static const char *const valued[] = {"parameter:", "start:", NULL};
     static const char *const lines[] = {"dt", "half_length", "points"}; /* of one number, which a key sets */
-    enum { LINES = sizeof lines / sizeof *lines };
+    enum { LINES = GM_COUNT(lines) };
     char *text = NULL, numbers[LINES][GM_TEXT_SIZE];
     bool other[LINES] = {false};
     size_t size = 0;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "app/request/arguments.h"
+#include "core/count.h"
 #include "core/formula/nearest.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
@@ -22,7 +23,7 @@ const struct gm_common_key gm_common_keys[] = {
      "every lane's dt is scaled so that all use as many evaluations as the first scheme",
      {"no", "cost", NULL}},
 };
-const size_t gm_common_key_count = sizeof gm_common_keys / sizeof gm_common_keys[0];
+const size_t gm_common_key_count = GM_COUNT(gm_common_keys);
 
 const struct gm_common_key *gm_common_key_find(const char *name)
 {

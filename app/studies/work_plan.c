@@ -8,6 +8,7 @@
 #include "app/request/chosen.h"
 #include "app/studies/work.h"
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/formula/lines.h"
 #include "core/schemes.h"
 
@@ -57,7 +58,7 @@ static bool is_varied(const struct gm_work_table *table, const char *word)
 {
     const char *const keys[] = {"scheme", "dt", "until", table->resolution ? table->resolution->key : NULL,
                                 table->ratio ? table->ratio->key : NULL};
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(keys); i++) {
         const size_t length = keys[i] ? strlen(keys[i]) : 0;
         if (length > 0 && strncmp(word, keys[i], length) == 0 && word[length] == '=') {
             return true;

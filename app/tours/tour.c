@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a tour tells of its steps. */
 #include "app/tours/tour.h"
+#include "core/count.h"
 
 #include <stdlib.h>
 
@@ -10,7 +11,7 @@ void gm_tour_close(struct gm_tour *tour)
         struct gm_tour_step *step = &tour->steps[i];
         char *texts[] = {step->title, step->say,     step->ask,  step->answer,
                          step->watch, step->attempt, step->show, step->study_words};
-        for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        for (size_t k = 0; k < GM_COUNT(texts); k++) {
             free(texts[k]);
         }
         gm_request_close(&step->request);

@@ -5,6 +5,7 @@
                   a third of the triangles around where it is barycentric
    Hirani, Discrete Exterior Calculus (2003); Mohamed, Hirani & Samtaney, J. Comput. Phys. 312 (2016) 175. */
 #include "core/flow/complex.h"
+#include "core/count.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -488,7 +489,7 @@ static bool allocate(struct gm_complex *complex)
         {(void **)&complex->star0, v * sizeof(double)},
         {(void **)&complex->star1, sides * sizeof(double)},
     };
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wanted); i++) {
         *wanted[i].place = calloc(1, wanted[i].size);
         if (!*wanted[i].place) {
             return false;
@@ -551,7 +552,7 @@ void gm_complex_close(struct gm_complex *complex)
                            complex->edge_ring,     complex->boundary_edge, complex->boundary_vertex,
                            complex->length,        complex->area,          complex->weight,
                            complex->star0,         complex->star1,         complex->loop_start};
-    for (size_t i = 0; i < sizeof owned / sizeof owned[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(owned); i++) {
         free(owned[i]);
     }
     free(complex);

@@ -3,6 +3,7 @@
    1309; Gmsh's reference manual, "MSH file format"): by tables of the sections to a complex with names on its
    edges. */
 #include "core/flow/gmsh.h"
+#include "core/count.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -593,7 +594,7 @@ static bool read_sections(struct reader *reader)
             return fail(reader, GM_TRIANGULATION_SYNTAX, "a section, such as $Nodes");
         }
         bool met = false;
-        for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        for (size_t i = 0; i < GM_COUNT(known); i++) {
             if (strcmp(section, known[i].name) == 0) {
                 met = true;
                 if (!known[i].read(reader) || !expect_end(reader)) {

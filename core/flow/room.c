@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rooms of files: lines to sides of a mesh's boundary, sources, a start and probes. */
 #include "core/flow/room.h"
+#include "core/count.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,7 +26,7 @@ static const struct {
     [GM_ROOM_PROBE] = {"probe", 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_X | 1u << GM_ROOM_Y},
     [GM_ROOM_START] = {"start", CARRIED, 0},
 };
-enum { WORDS = sizeof words / sizeof words[0] };
+enum { WORDS = GM_COUNT(words) };
 
 /* The variables of formulas. */
 static const char *const variables[] = {"s", "x", "y"};
@@ -151,7 +152,7 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
         {GM_ROOM_INLET, 1u << GM_ROOM_SPEED | 1u << GM_ROOM_FLOW, "inlet: needs speed = or flow ="},
         {GM_ROOM_START, CARRIED, "start: needs scalar = or temperature ="},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         if (line->word == rows[i].word && !(given & rows[i].some)) {
             return gm_fail(fault, line->place, "%s", rows[i].sentence);
         }
@@ -218,7 +219,7 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, bool *me
         {"until", NULL, &room->until, false},
     };
     const size_t length = line.word.end - line.word.begin;
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         if (strlen(rows[i].word) != length ||
             memcmp(rows[i].word, room->text + line.word.begin, length) != 0) {
             continue;

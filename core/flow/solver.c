@@ -7,6 +7,7 @@
        z_O = B_OO^-1 r_O
        z_I = (shift K_II + viscosity K_I W K_I)^-1 (r_I - B_IO z_O) */
 #include "core/flow/solver.h"
+#include "core/count.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,7 +56,7 @@ static bool take_memory(struct gm_flow_solver *solver)
         {&solver->bicgstab, 8 * v},
     };
     size_t total = 0;
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wanted); i++) {
         total += wanted[i].size;
     }
     solver->numbers = calloc(total, sizeof *solver->numbers);
@@ -63,7 +64,7 @@ static bool take_memory(struct gm_flow_solver *solver)
         return false;
     }
     double *at = solver->numbers;
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wanted); i++) {
         *wanted[i].place = at;
         at += wanted[i].size;
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The element Lagrangian, the constraint and their derivatives, as core/mesh/element.h states them. */
 #include "core/mesh/element.h"
+#include "core/count.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +16,7 @@ bool gm_elements_open(struct gm_elements *stage, const struct gm_mesh *mesh)
         &stage->momentum_u1, &stage->ell,      &stage->ell_y0,   &stage->ell_y1,  &stage->ell_d,
         &stage->rate,        &stage->bend_y0,  &stage->bend_y1,  &stage->bend_d,
     };
-    const size_t count = sizeof arrays / sizeof arrays[0], length = mesh->points + 2;
+    const size_t count = GM_COUNT(arrays), length = mesh->points + 2;
     *stage = (struct gm_elements){.count = mesh->points + 1};
     stage->memory = calloc(count * length, sizeof *stage->memory);
     if (!stage->memory) {

@@ -2,13 +2,12 @@
 #ifndef GM_SCENES_FRAME_ROWS_H
 #define GM_SCENES_FRAME_ROWS_H
 
+#include "core/count.h"
 #include "core/parameter.h"
 
 /* The rows of a scene's tables. A row ends with a text (the help of a parameter, the title of an observable),
    behind which further fields of its struct may be set: GM_REAL_ROW(struct disc, radius, "radius", "0.2",
    1e-6, 100, "radius of the disc", .logarithmic = true). */
-
-#define GM_COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 /* Parameters: `member` of the scene's own struct `own`, of the type that enum gm_type tells. */
 #define GM_ROW(own, member, key_, type_, standard_, ...)                                                     \

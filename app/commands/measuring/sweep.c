@@ -10,6 +10,7 @@
 #include "app/output/say.h"
 #include "app/request/interrupt.h"
 #include "app/studies/sweep.h"
+#include "core/count.h"
 #include "core/memory.h"
 
 /* More runs than these are made if that is confirmed. */
@@ -29,7 +30,7 @@ static void put_duration(double seconds, char *text, size_t size)
     } units[] = {
         {365.25 * 86400, "years"}, {86400, "days"}, {3600, "hours"}, {60, "minutes"}, {1, "seconds"}};
     size_t unit = 0;
-    while (unit + 1 < sizeof units / sizeof units[0] && seconds < 2 * units[unit].seconds) {
+    while (unit + 1 < GM_COUNT(units) && seconds < 2 * units[unit].seconds) {
         unit++;
     }
     snprintf(text, size, "%.2g %s", seconds / units[unit].seconds, units[unit].name);

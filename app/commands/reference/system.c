@@ -12,6 +12,7 @@
 #include "app/output/say.h"
 #include "app/output/wrapped.h"
 #include "app/request/system.h"
+#include "core/count.h"
 #include "core/field/own/potential.h"
 #include "core/formula/equations.h"
 #include "core/formula/facts.h"
@@ -124,7 +125,7 @@ static void print_texts(const struct report *report)
     const struct gm_own_system *system = &report->system;
     static const enum gm_system_word order[] = {GM_WORD_TITLE, GM_WORD_ABOUT, GM_WORD_WATCH,
                                                 GM_WORD_REFERENCE};
-    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
+    for (size_t i = 0; i < GM_COUNT(order); i++) {
         if (system->texts[order[i]]) {
             gm_print_wrapped(system->texts[order[i]], 0, 0);
         }
@@ -230,7 +231,7 @@ static const char *const field_facts[][2] = {
     {"wave", "u_tt = u_xx - V'(u), and V is smooth"},
     {"multisymplectic", "s = (u, u_t, u_x) solves M s_t + K s_x = grad S(s), S = V(u) + u_t^2/2 - u_x^2/2"},
 };
-enum { FIELD_FACTS = sizeof field_facts / sizeof *field_facts };
+enum { FIELD_FACTS = GM_COUNT(field_facts) };
 
 static void print_facts(const struct report *report)
 {

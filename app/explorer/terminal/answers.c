@@ -12,6 +12,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "core/count.h"
 #include "render/clock.h"
 
 /* ---- one answer ---- */
@@ -49,7 +50,7 @@ static enum verdict judge(const char *held, size_t count)
     if (count < 2) {
         return PERHAPS;
     }
-    for (size_t i = 0; i < sizeof strings / sizeof *strings; i++) {
+    for (size_t i = 0; i < GM_COUNT(strings); i++) {
         const enum verdict verdict = judge_string(held, count, strings[i]);
         if (verdict != KEYS) {
             return verdict;

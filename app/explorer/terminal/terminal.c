@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "app/output/say.h"
+#include "core/count.h"
 #include "core/memory.h"
 #include "render/gl/canvas.h"
 #include "render/message.h"
@@ -31,7 +32,7 @@ static const struct gm_graphics ladder[] = {
     {GM_INLINE_KITTY, GM_BRAILLE},  {GM_INLINE_SIXEL, GM_BRAILLE},    {GM_INLINE_NONE, GM_BRAILLE},
     {GM_INLINE_NONE, GM_QUADRANTS}, {GM_INLINE_NONE, GM_HALF_BLOCKS}, {GM_INLINE_NONE, GM_ASCII},
 };
-enum { RUNGS = sizeof ladder / sizeof *ladder, FIRST_BLOCKS = 2 };
+enum { RUNGS = GM_COUNT(ladder), FIRST_BLOCKS = 2 };
 
 /* Longer than a round trip to the other side of the world; a terminal that answers is not waited for. */
 enum { PATIENCE = 1000 };

@@ -6,6 +6,7 @@
 
 #include "app/explorer/view/chooser.h"
 #include "app/explorer/view/prompt.h"
+#include "core/count.h"
 
 static enum gm_key_result order(const struct gm_keystroke *press, enum gm_order_kind kind, int amount)
 {
@@ -289,7 +290,7 @@ const struct gm_key_row gm_key_rows[] = {
     {{GM_KEY_REDRAW}, "ctrl-L", NULL, 0, "draw the screen again", .result = GM_KEY_REPAINT},
     {{'q'}, "q", "quit", 3, "quit", .result = GM_KEY_LEAVE},
 };
-const size_t gm_key_row_count = sizeof gm_key_rows / sizeof *gm_key_rows;
+const size_t gm_key_row_count = GM_COUNT(gm_key_rows);
 
 enum gm_key_result gm_key_press(const struct gm_keystroke *press)
 {

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "app/explorer/view/keys.h"
+#include "core/count.h"
 
 enum { PAGE = 10 }; /* lines */
 
@@ -190,7 +191,7 @@ static int draw_start_help(const struct gm_sheet *sheet, int scroll)
         "list. A tour leads through scenes, step by step.",
         GM_INK);
     put_heading(&page, "KEYS HERE");
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         put_key(&page, rows[i][0], rows[i][1]);
     }
     put_heading(&page, "KEYS IN A SCENE");

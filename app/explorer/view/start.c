@@ -8,6 +8,7 @@
 #include "app/explorer/view/own.h"
 #include "app/explorer/view/pages.h"
 #include "app/request/system.h"
+#include "core/count.h"
 #include "render/cells/text.h"
 
 enum {
@@ -146,7 +147,7 @@ static void draw_own(const struct gm_sheet *sheet)
         "scheme that fits.",
         GM_SECONDARY);
     row++;
-    for (size_t i = 0; i < sizeof examples / sizeof *examples; i++) {
+    for (size_t i = 0; i < GM_COUNT(examples); i++) {
         row += gm_sheet_wrapped(sheet, 0, row, 2, examples[i][0], GM_INK);
         row += gm_sheet_wrapped(sheet, 2, row, 1, examples[i][1], GM_SECONDARY);
     }

@@ -19,6 +19,7 @@
 #include <string.h>
 
 #include "core/clones.h"
+#include "core/count.h"
 #include "core/field/families/dispersive_box.h"
 #include "core/field/families/dispersive_form.h"
 #include "core/field/families/families.h"
@@ -220,7 +221,7 @@ const struct gm_family gm_family_box = {
     .kind = &gm_kind_field,
     .title = "multisymplectic box",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = advance,
     .workspace_open = workspace_open,
     .form = form,

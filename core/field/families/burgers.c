@@ -25,6 +25,7 @@
 #include <string.h>
 
 #include "core/clones.h"
+#include "core/count.h"
 #include "core/field/families/families.h"
 
 /* in the order of the formula: at h/nu > 2 rounding errors grow, and the result depends on it */
@@ -447,7 +448,7 @@ const struct gm_family gm_family_burgers = {
     .kind = &gm_kind_field,
     .title = "Burgers, standard and invariantised",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = advance,
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,

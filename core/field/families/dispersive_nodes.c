@@ -20,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/multisymplectic.h"
@@ -450,7 +451,7 @@ const struct gm_family gm_family_dispersive_nodes = {
     .kind = &gm_kind_field,
     .title = "multisymplectic schemes of nodes",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = advance,
     .workspace_open = gm_two_step_open,
     .workspace_close = gm_two_step_close,

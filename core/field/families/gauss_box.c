@@ -23,6 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/families/gauss_modes.h"
 #include "core/field/multisymplectic.h"
@@ -355,7 +356,7 @@ const struct gm_family gm_family_gauss_box = {
     .kind = &gm_kind_field,
     .title = "multisymplectic Gauss collocation",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = advance,
     .memory = memory,
     .start = start,

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/wave_form.h"
@@ -172,7 +173,7 @@ const struct gm_family gm_family_midpoint_box = {
     .kind = &gm_kind_field,
     .title = "multisymplectic midpoint",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = advance,
     .memory = memory,
     .start = start,

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/linear/fourier.h"
 
@@ -114,7 +115,7 @@ const struct gm_family gm_family_split_step = {
     .kind = &gm_kind_field,
     .title = "split-step Fourier",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = advance,
     .workspace_open = workspace_open,
     .workspace_close = workspace_close,

@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "core/clones.h"
+#include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/families/wave_form.h"
@@ -193,7 +194,7 @@ const struct gm_family gm_family_wave_nodes = {
     .kind = &gm_kind_field,
     .title = "two-step wave schemes",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = gm_two_step_advance,
     .memory = memory,
     .start = start,

@@ -3,6 +3,7 @@
        u^{n+1} = u^{n-1} - eta dt/(3 dx) (u_{i+1} + u_i + u_{i-1}) (u_{i+1} - u_{i-1})
                          - mu dt/dx^3 (u_{i+2} - 2 u_{i+1} + 2 u_{i-1} - u_{i-2}).
    Stable for dt below about 0.385 dx^3/mu. */
+#include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/problems/dispersive.h"
@@ -71,7 +72,7 @@ const struct gm_family gm_family_zabusky_kruskal = {
     .kind = &gm_kind_field,
     .title = "Zabusky-Kruskal leapfrog",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = gm_two_step_advance,
     .workspace_open = gm_two_step_open,
     .workspace_close = gm_two_step_close,

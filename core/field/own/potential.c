@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/field/problems/wave.h"
 #include "core/tape.h"
 
@@ -251,7 +252,7 @@ void gm_own_wave_close(struct gm_problem *problem)
     if (own) {
         struct gm_tape *const tapes[] = {&own->potential, &own->slope, &own->curvature, &own->start,
                                          &own->exact};
-        for (size_t i = 0; i < sizeof tapes / sizeof *tapes; i++) {
+        for (size_t i = 0; i < GM_COUNT(tapes); i++) {
             gm_tape_close(tapes[i]);
         }
     }

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/flow/flow.h"
 #include "core/run.h"
 
@@ -83,7 +84,7 @@ size_t gm_flow_quantities(const struct gm_run *run, struct gm_quantity *quantiti
         {count > 0, {"tracer_y", GM_ON_TRACERS, count, 1, .axis = 2, .derive = tracer_y}},
     };
     size_t there = 0;
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(all); i++) {
         if (all[i].there) {
             quantities[there++] = all[i].quantity;
         }

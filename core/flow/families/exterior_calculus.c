@@ -14,6 +14,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/flow/families/families.h"
 #include "core/flow/solver.h"
 #include "core/flow/tracers.h"
@@ -434,7 +435,7 @@ const struct gm_family gm_family_exterior_calculus = {
     .kind = &gm_kind_flow,
     .title = "discrete exterior calculus",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .memory = memory,
     .start = start,

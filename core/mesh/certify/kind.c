@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/mesh/certify/law.h"
 #include "core/mesh/certify/quantities.h"
 #include "core/mesh/certify/subject.h"
@@ -188,7 +189,7 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
         {GM_KEEPS_ENERGY, 1e-11, open ? energy_drift(&subject, scheme, dt, 20) : INFINITY},
         {GM_MULTISYMPLECTIC, 1e-9, open ? gm_mesh_law_defect(&subject, scheme, dt) : INFINITY},
     };
-    for (size_t i = 0; i < sizeof list / sizeof list[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(list); i++) {
         gm_certificate_claim(certificate, list[i].claim)->tolerance = list[i].tolerance;
         if (!isnan(list[i].defect)) {
             gm_certificate_note(certificate, list[i].claim, list[i].defect, "soliton");

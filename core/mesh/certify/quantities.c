@@ -4,12 +4,13 @@
 
 #include <stdio.h>
 
+#include "core/count.h"
 #include "core/run.h"
 
 size_t gm_mesh_quantities(const struct gm_run *run, struct gm_quantity *quantities)
 {
     static const char *const names[] = {"u", "x", "u_dot", "x_dot"};
-    enum { COUNT = sizeof names / sizeof names[0] };
+    enum { COUNT = GM_COUNT(names) };
     const size_t points = run->problem->n / COUNT;
     for (size_t i = 0; i < COUNT; i++) {
         quantities[i] = (struct gm_quantity){

@@ -12,6 +12,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/families/multiplier.h"
 #include "core/mesh/moving_mesh.h"
@@ -104,7 +105,7 @@ const struct gm_family gm_family_adaptive = {
     .kind = &gm_kind_mesh,
     .title = "moving meshes with a time-symmetric step",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .memory = memory,
     .start = start,

@@ -17,6 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/mesh/families/advance.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/nodes.h"
@@ -511,7 +512,7 @@ const struct gm_family gm_family_control = {
     .kind = &gm_kind_mesh,
     .title = "control-theoretic and uniform meshes",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .memory = memory,
     .start = start,

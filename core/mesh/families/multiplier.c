@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/mesh/families/advance.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/families/multiplier.h"
@@ -390,7 +391,7 @@ const struct gm_family gm_family_multiplier = {
     .kind = &gm_kind_mesh,
     .title = "meshes held by Lagrange multipliers",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = gm_multiplier_advance,
     .memory = gm_multiplier_memory,
     .start = gm_multiplier_start,

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/mesh/families/advance.h"
 #include "core/mesh/families/families.h"
 #include "core/mesh/nodes.h"
@@ -248,7 +249,7 @@ const struct gm_family gm_family_trapezoidal = {
     .kind = &gm_kind_mesh,
     .title = "multisymplectic moving meshes",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .memory = memory,
     .start = start,

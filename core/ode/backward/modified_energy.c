@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/formula/derivative.h"
 #include "core/kind.h"
 #include "core/ode/ode.h"
@@ -227,10 +228,10 @@ void gm_modified_energy_close(struct gm_modified_energy *energy)
     if (!energy) {
         return;
     }
-    for (size_t m = 0; m < sizeof energy->field / sizeof energy->field[0]; m++) {
+    for (size_t m = 0; m < GM_COUNT(energy->field); m++) {
         gm_tape_close(&energy->field[m]);
     }
-    for (size_t m = 0; m < sizeof energy->hamiltonian / sizeof energy->hamiltonian[0]; m++) {
+    for (size_t m = 0; m < GM_COUNT(energy->hamiltonian); m++) {
         gm_tape_close(&energy->hamiltonian[m]);
     }
     gm_modified_close(&energy->modified);

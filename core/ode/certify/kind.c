@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/certify/quantities.h"
 #include "core/ode/families/families.h"
@@ -123,7 +124,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
         note(certificate, GM_KEEPS_CONSTRAINTS, defects.constraint, name);
         note(certificate, GM_KEEPS_HIDDEN, defects.hidden, name);
     }
-    for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(kept); i++) {
         if (kept[i].quantities[0]) {
             note(certificate, kept[i].claim,
                  gm_drift(subject, scheme, kept[i].quantities, GM_SUBJECT_INVARIANTS), name);

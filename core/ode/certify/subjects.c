@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
@@ -143,7 +144,7 @@ static const struct {
 
 size_t gm_subject_count(void)
 {
-    return sizeof subjects / sizeof subjects[0];
+    return GM_COUNT(subjects);
 }
 
 struct gm_subject gm_subject_at(size_t index)

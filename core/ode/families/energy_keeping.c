@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
@@ -252,7 +253,7 @@ const struct gm_family gm_family_energy_keeping = {
     .kind = &gm_kind_ode,
     .title = "energy-keeping",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .workspace_open = workspace_open,
     .workspace_close = free,

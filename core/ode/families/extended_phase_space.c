@@ -18,6 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
@@ -126,7 +127,7 @@ const struct gm_family gm_family_extended_phase_space = {
     .kind = &gm_kind_ode,
     .title = "extended phase space",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .parameters = gm_settings_of_tao,
     .loop = loop,
     .memory = memory,

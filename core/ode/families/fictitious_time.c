@@ -21,6 +21,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
@@ -157,7 +158,7 @@ const struct gm_family gm_family_fictitious_time = {
     .kind = &gm_kind_ode,
     .title = "fictitious time",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .memory = memory,
     .start = start,

@@ -13,6 +13,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
+#include "core/count.h"
 #include "core/memory.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
@@ -274,7 +275,7 @@ const struct gm_family gm_family_gsl_steppers = {
     .kind = &gm_kind_ode,
     .title = "GSL steppers",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .parameters = gm_settings_of_gsl,
     .loop = loop,
     .workspace_open = workspace_open,

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
@@ -686,7 +687,7 @@ const struct gm_family gm_family_implicit_runge_kutta = {
     .coefficients_open = coefficients_open,
     .title = "implicit Runge-Kutta",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .carries_passive = true,

@@ -6,6 +6,7 @@
    R.I. McLachlan, B. Owren & G.R.W. Quispel, J. Phys. A 46 (2013) 025201. */
 #include <stdlib.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
@@ -61,7 +62,7 @@ const struct gm_family gm_family_kahan = {
     .kind = &gm_kind_ode,
     .title = "Kahan",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .workspace_open = workspace_open,
     .workspace_close = free,

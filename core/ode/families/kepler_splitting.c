@@ -14,6 +14,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 
@@ -160,7 +161,7 @@ const struct gm_family gm_family_kepler_splitting = {
     .kind = &gm_kind_ode,
     .title = "Kepler splitting",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .memory = memory,
     .start = start,

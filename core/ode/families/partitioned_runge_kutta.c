@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
@@ -265,7 +266,7 @@ const struct gm_family gm_family_partitioned_runge_kutta = {
     .title = "partitioned Runge-Kutta",
     .coefficients_open = coefficients_open,
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .workspace_open = workspace_open,
     .workspace_close = free,

@@ -11,6 +11,7 @@
 
 #include <stdlib.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/tiles.h"
@@ -378,7 +379,7 @@ const struct gm_family gm_family_splitting = {
     .coefficients_open = coefficients_open,
     .title = "splitting",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .parameters = gm_settings_of_sums,
     .loop = advance,
     .workspace_open = workspace_open,

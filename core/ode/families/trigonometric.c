@@ -12,6 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 
@@ -168,7 +169,7 @@ const struct gm_family gm_family_trigonometric = {
     .kind = &gm_kind_ode,
     .title = "trigonometric",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .memory = memory,
     .start = start,

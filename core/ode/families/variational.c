@@ -26,6 +26,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/manifold.h"
@@ -528,7 +529,7 @@ const struct gm_family gm_family_variational = {
     .kind = &gm_kind_ode,
     .title = "variational, with fixed step",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
     .workspace_open = workspace_open,
     .workspace_close = free,

@@ -20,6 +20,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
 
@@ -273,7 +274,7 @@ const struct gm_family gm_family_variational_time = {
     .kind = &gm_kind_ode,
     .title = "variational, with variable time step",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .parameters = gm_settings_of_variational_time,
     .loop = loop,
     .memory = memory,

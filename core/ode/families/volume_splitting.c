@@ -5,6 +5,7 @@
    K. Feng & Z.-J. Shang, Numer. Math. 71 (1995) 451; H. Ammari, lecture 5. */
 #include <string.h>
 
+#include "core/count.h"
 #include "core/ode/families/families.h"
 
 enum form { SIMPLE, PALINDROME };
@@ -82,6 +83,6 @@ const struct gm_family gm_family_volume_splitting = {
     .kind = &gm_kind_ode,
     .title = "volume-preserving splitting",
     .schemes = schemes,
-    .count = sizeof schemes / sizeof schemes[0],
+    .count = GM_COUNT(schemes),
     .loop = loop,
 };

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/theory/coefficients.h"
@@ -155,7 +156,7 @@ static bool open_stages(struct gm_tangent *tangent, const struct gm_coefficients
         {&tangent->right, largest * n},
         {&tangent->matrix, largest * n * largest * n},
     };
-    for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rooms); i++) {
         *rooms[i].place = doubles(rooms[i].count);
         good = good && *rooms[i].place;
     }
@@ -210,7 +211,7 @@ void gm_tangent_close(struct gm_tangent *tangent)
                              tangent->base,   tangent->d_base, tangent->at,     tangent->jacobians,
                              tangent->matrix, tangent->right,  tangent->before, tangent->plus,
                              tangent->minus,  tangent->slope,  tangent->kicked, tangent->kick};
-    for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rooms); i++) {
         free(rooms[i]);
     }
     free(tangent->side);
