@@ -441,3 +441,15 @@ def test_example_notebook():
         if cell["cell_type"] == "code":
             exec(compile("".join(cell["source"]), "example.ipynb", "exec"), scope)
     assert scope["orbits"][1].energy_error.max() < 1e-2
+
+
+def test_example_in_jupyter(tmp_path):
+    """The example as Jupyter runs it, with its pictures, where it is installed."""
+    pytest.importorskip("nbconvert")
+    pytest.importorskip("ipykernel")
+    done = tmp_path / "done.ipynb"
+    subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output", done,
+                    os.path.join(SOURCE, "python", "example.ipynb")], check=True, timeout=300)
+    shown = [output["data"] for cell in json.loads(done.read_text())["cells"]
+             for output in cell.get("outputs", []) if "data" in output]
+    assert any("image/png" in data for data in shown)
