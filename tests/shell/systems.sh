@@ -35,6 +35,11 @@ assert len(about["equations"]) == 2 * int(sys.argv[1]) and set(about["invariants
 ' $n || fail "list toda N=$n"
 done
 
+# constraints are equations too, and act by multipliers
+"$geomint" list chain --latex | grep -qF '0 &= \frac{x_{1}^{2} + y_{1}^{2} - 1}{2}' || fail "list chain --latex: no constraint"
+"$geomint" list chain --latex | grep -qF '&= -g - \lambda_{5}\left(y_{5} - y_{4}\right)' || fail "list chain --latex: no multiplier"
+"$geomint" list cartesian-pendulum --json | grep -qF '"constraints":["(x^2 + y^2 - 1)/2"]' || fail "list --json: no constraint"
+
 # a no has the place of its term, of a derived one that of where it came from
 holds() {
     "$geomint" list "$1" --long | grep -q -- "^  $2  *$3" || fail "list $1 --long: not \"$2 $3\""

@@ -14,6 +14,7 @@
 #include "app/request/system.h"
 #include "core/count.h"
 #include "core/field/own/potential.h"
+#include "core/formula/derivative.h"
 #include "core/formula/equations.h"
 #include "core/formula/facts.h"
 #include "core/formula/number.h"
@@ -307,7 +308,18 @@ static void print_json(const struct report *report)
         gm_json_pair(name, text ? text : "");
         free(text);
     }
-    printf("},\"invariants\":{");
+    printf("},\"constraints\":[");
+    comma = "";
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            char *text = formula_of(report, system->items[i].nodes[0], false);
+            printf("%s", comma);
+            gm_json_put_text(stdout, text ? text : "");
+            free(text);
+            comma = ",";
+        }
+    }
+    printf("],\"invariants\":{");
     comma = "";
     for (size_t i = 0; i < system->item_count; i++) {
         if (is_kept(&system->items[i])) {
@@ -346,7 +358,33 @@ static void print_json(const struct report *report)
     printf("]}\n");
 }
 
-static void print_latex(const struct report *report)
+/* -lambda_k times the derivative of each constraint over a coordinate: the forces that hold them. */
+static void print_forces(struct report *report, size_t coordinate)
+{
+    struct gm_own_system *system = &report->system;
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    gm_node_id *gradient = calloc(system->variable_count, sizeof *gradient);
+    for (size_t i = 0, k = 1; marked && gradient && i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_CONSTRAINT) {
+            continue;
+        }
+        marked[coordinate] = true;
+        if (gm_gradient(&system->graph, item->nodes[0], marked, system->variable_count, gradient) &&
+            !gm_is_constant(&system->graph, gradient[coordinate], 0)) {
+            char *text = formula_of(report, gradient[coordinate], true);
+            const bool sum = text && strpbrk(text, "+-");
+            printf(sum ? " - \\lambda_{%zu}\\left(%s\\right)" : " - \\lambda_{%zu}\\,%s", k,
+                   text ? text : "");
+            free(text);
+        }
+        k++;
+    }
+    free(marked);
+    free(gradient);
+}
+
+static void print_latex(struct report *report)
 {
     const struct gm_own_system *system = &report->system;
     const size_t half = system->n / 2;
@@ -370,16 +408,26 @@ static void print_latex(const struct report *report)
         char *name = gm_name_latex(system->variables[momentum ? half + i : field ? 0 : i].name), left[140];
         char *text = formula_of(report, equation_of(report, i, left, sizeof left), true);
         if (field) {
-            printf("  \\partial_t^2 %s - \\partial_x^2 %s &= %s\n", name ? name : "", name ? name : "",
+            printf("  \\partial_t^2 %s - \\partial_x^2 %s &= %s", name ? name : "", name ? name : "",
                    text ? text : "");
         } else {
-            printf(momentum ? "  %s &= %s%s\n" : "  \\dot{%s} &= %s%s\n", name ? name : "", text ? text : "",
-                   i + 1 < system->n ? " \\\\" : "");
+            printf(momentum ? "%s  %s &= %s" : "%s  \\dot{%s} &= %s",
+                   i > first_equation(system) ? " \\\\\n" : "", name ? name : "", text ? text : "");
+            if (i >= half) {
+                print_forces(report, i - half);
+            }
         }
         free(name);
         free(text);
     }
-    printf("\\end{align}\n");
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_CONSTRAINT) {
+            char *text = formula_of(report, system->items[i].nodes[0], true);
+            printf(" \\\\\n  0 &= %s", text ? text : "");
+            free(text);
+        }
+    }
+    printf("\n\\end{align}\n");
 }
 
 /* key=value words to values; false with a complaint. */
