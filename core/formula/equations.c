@@ -284,6 +284,20 @@ static bool keeps_constraints(struct gm_own_system *system, const struct gm_syst
     return kept;
 }
 
+/* Whether the forces do no work along the generator: then the momentum map is kept beside them too. */
+static enum gm_identity check_work(struct gm_own_system *system, const struct gm_system_item *symmetry)
+{
+    gm_node_id work = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; i < system->n / 2 && !system->graph.failed; i++) {
+        const gm_node_id force = system->variables[i].force;
+        if (force != GM_NO_NODE) {
+            work = apply(system, GM_OPERATION_ADD, work,
+                         apply(system, GM_OPERATION_MULTIPLY, force, symmetry->nodes[i]));
+        }
+    }
+    return system->graph.failed ? GM_UNTESTED : gm_equations_vanishes(system, work);
+}
+
 /* Of coordinates: the energy does not change along the generator, lifted to momenta or velocities. Of
    components: generator and field commute. The momentum map is appended. */
 static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_system_item *item)
@@ -377,6 +391,9 @@ static bool check_items(struct gm_own_system *system, struct gm_fault *fault)
                                : system->kind == GM_LAGRANGIAN ? "L"
                                                                : "the motion",
                                has(system, GM_WORD_CONSTRAINT) ? ", or a constraint" : "");
+            }
+            if (system->kind <= GM_LAGRANGIAN && check_work(system, item) == GM_NOT_ZERO) {
+                item->check = GM_NOT_ZERO; /* a symmetry all the same, whose law a force breaks */
             }
         }
     }

@@ -818,6 +818,9 @@ static bool make_observables(struct gm_system_scene *own, const struct gm_proble
                                           spaced(own, text_of(own, "%s error", name)), .least = scale,
                                           .scale_text = scale > 0 ? text_of(own, "%.3g", scale) : NULL),
                                       item->nodes[symmetry ? system->n / 2 : 0]);
+        if (good && item->check == GM_NOT_ZERO) { /* forces change it: no scheme is to blame */
+            own->observables[own->observable_count - 1].kept = false;
+        }
     }
     if (good && gm_action_constraints(problem) > 0) {
         good = add_observable(own,

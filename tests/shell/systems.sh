@@ -40,6 +40,19 @@ done
 "$geomint" list chain --latex | grep -qF '&= -g - \lambda_{5}\left(y_{5} - y_{4}\right)' || fail "list chain --latex: no multiplier"
 "$geomint" list cartesian-pendulum --json | grep -qF '"constraints":["(x^2 + y^2 - 1)/2"]' || fail "list --json: no constraint"
 
+# what a force does to the law of a symmetry is no scheme's fault
+forced() {
+    printf 'geomint: 1\ntitle: forced\ncoordinates: x y\nL: (v_x^2 + v_y^2)/2 - (x^2 + y^2)/2\nforce: x = -%s, y = -%s\n' "$1" "$2"
+    printf 'symmetry: x = -y, y = x\nstart: x = 1, y = 0, v_x = 0, v_y = 1\n'
+}
+forced 0.1*v_x 0.1*v_y >drag.system
+forced 0.1*x 0.1*y >radial.system
+"$geomint" list ./drag.system --long | grep -q 'momentum1 = .* (by symmetry, not kept)' || fail "a force along a symmetry"
+"$geomint" list ./radial.system --long | grep -q 'momentum1 = .* (by symmetry, proved)' || fail "a force across a symmetry"
+"$geomint" certify variational-midpoint2 --on ./drag.system >out 2>err || fail "certify on a force along a symmetry: $(cat out err)"
+grep -q 'keeps momentum maps  *not measured' out || fail "a force is blamed on a scheme"
+"$geomint" certify variational-midpoint2 --on ./radial.system | grep -q 'keeps momentum maps  *holds' || fail "a force across a symmetry, certified"
+
 # a no has the place of its term, of a derived one that of where it came from
 holds() {
     "$geomint" list "$1" --long | grep -q -- "^  $2  *$3" || fail "list $1 --long: not \"$2 $3\""
