@@ -259,6 +259,7 @@ def test_huge_numbers():
 INTERRUPTED = """
 import os, signal, sys, threading
 import geomint
+signal.signal(signal.SIGINT, signal.default_int_handler)  # what a shell starts in the background ignores it
 threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
 try:
     eval(sys.argv[1])
