@@ -204,6 +204,10 @@ static int command_again(const struct gm_options *options)
     const char *path = options->arguments.words[0];
     enum gm_format format = GM_FORMAT_PNG;
     const bool drawn = gm_format_of(path, &format) && format == GM_FORMAT_SVG;
+    if (format == GM_FORMAT_PDF) {
+        gm_complain("again reads PNG and SVG files; a PDF, as %.300s, does not tell how it was made", path);
+        return GM_EXIT_FILE;
+    }
     if (!(drawn ? gm_svg_read_texts : gm_png_read_texts)(path, keys, texts, TEXTS, message)) {
         gm_complain("%s", message);
         return GM_EXIT_FILE;

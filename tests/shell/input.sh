@@ -37,6 +37,7 @@ for file in pipe folder zero huge; do
     refused 3 "$reason" render cavity mesh=$file.png
 done
 refused 3 'not a PNG' again empty.png
+refused 3 'reads PNG and SVG' again drawn.pdf
 # what stands where frames and a checkpoint would be is no frame and no checkpoint
 mkdir frames
 mkfifo frames/disc-render-000000.png.pipe

@@ -33,7 +33,8 @@ static void put_duration(double seconds, char *text, size_t size)
     while (unit + 1 < GM_COUNT(units) && seconds < 2 * units[unit].seconds) {
         unit++;
     }
-    snprintf(text, size, "%.2g %s", seconds / units[unit].seconds, units[unit].name);
+    const double count = seconds / units[unit].seconds;
+    snprintf(text, size, count < 1e5 ? "%.*f %s" : "%.*g %s", count < 9.5 ? 1 : 0, count, units[unit].name);
 }
 
 static bool is_confirmed(const struct gm_sweep *sweep, const struct gm_options *options)
