@@ -305,18 +305,24 @@ static bool is_symmetric(const struct gm_coefficients *coefficients, taker *take
     return true;
 }
 
-/* Of a Nystrom method (Y.B. Suris, 1989; M.P. Calvo & J.M. Sanz-Serna, 1993; sigma i = s + 1 - i):
-       symplectic    b_i = bv_i (1 - c_i),   bv_i (b_j - a_ij) = bv_j (b_i - a_ji)
-       symmetric     c_(sigma i) + c_i = 1,   bv_(sigma i) = bv_i,   b_(sigma i) + b_i = bv_i,
-                     a_(sigma i, sigma j) = a_ij + (1 - c_i) bv_j - b_j */
+/* From a stage of a Nystrom method to its end, e - c, of which c - 1 and e - 1 are coefficients. */
+static struct gm_ball rest_of(const struct gm_coefficients *coefficients, int stage)
+{
+    const int start = coefficients->nystrom;
+    return gm_ball_subtract(coefficients->b[GM_SIDE_Q][start], at(coefficients, GM_SIDE_Q, stage, start));
+}
+
+/* Of a Nystrom method (Y.B. Suris, 1989; M.P. Calvo & J.M. Sanz-Serna, 1993; sigma i = s + 1 - i), e being 1:
+       symplectic    b_i = bv_i (e - c_i),   bv_i (b_j - a_ij) = bv_j (b_i - a_ji)
+       symmetric     c_(sigma i) + c_i = e,   bv_(sigma i) = bv_i,   b_(sigma i) + b_i = e bv_i,
+                     a_(sigma i, sigma j) = a_ij + (e - c_i) bv_j - b_j */
 static bool is_nystrom_symplectic(const struct gm_coefficients *coefficients, taker *take, void *data)
 {
     const int s = coefficients->nystrom, end = s + 1;
     const struct gm_ball *bv = coefficients->b[GM_SIDE_P];
     for (int i = 0; i < s; i++) {
         const struct gm_ball b = at(coefficients, GM_SIDE_P, end, i);
-        const struct gm_ball less = at(coefficients, GM_SIDE_Q, i, s); /* c - 1 */
-        if (!take(data, gm_ball_add(b, gm_ball_multiply(bv[i], less)))) {
+        if (!take(data, gm_ball_subtract(b, gm_ball_multiply(bv[i], rest_of(coefficients, i))))) {
             return false;
         }
         for (int j = 0; j < s; j++) {
@@ -336,18 +342,20 @@ static bool is_nystrom_symmetric(const struct gm_coefficients *coefficients, tak
 {
     const int s = coefficients->nystrom, end = s + 1;
     const struct gm_ball *bv = coefficients->b[GM_SIDE_P];
+    const struct gm_ball length = gm_ball_add(coefficients->b[GM_SIDE_Q][s], gm_ball_of(1));
     for (int i = 0; i < s; i++) {
         const int k = s - 1 - i;
-        const struct gm_ball less = at(coefficients, GM_SIDE_Q, i, s); /* c - 1 */
+        const struct gm_ball rest = rest_of(coefficients, i);
         const struct gm_ball both =
             gm_ball_add(at(coefficients, GM_SIDE_P, end, i), at(coefficients, GM_SIDE_P, end, k));
-        if (!take(data, gm_ball_add(gm_ball_add(less, at(coefficients, GM_SIDE_Q, k, s)), gm_ball_of(1))) ||
-            !take(data, gm_ball_subtract(bv[i], bv[k])) || !take(data, gm_ball_subtract(both, bv[i]))) {
+        if (!take(data, gm_ball_subtract(gm_ball_add(rest, rest_of(coefficients, k)), length)) ||
+            !take(data, gm_ball_subtract(bv[i], bv[k])) ||
+            !take(data, gm_ball_subtract(both, gm_ball_multiply(length, bv[i])))) {
             return false;
         }
         for (int j = 0; j < s; j++) {
             const struct gm_ball mine = gm_ball_subtract(
-                gm_ball_subtract(at(coefficients, GM_SIDE_P, i, j), gm_ball_multiply(less, bv[j])),
+                gm_ball_add(at(coefficients, GM_SIDE_P, i, j), gm_ball_multiply(rest, bv[j])),
                 at(coefficients, GM_SIDE_P, end, j));
             if (!take(data, gm_ball_subtract(at(coefficients, GM_SIDE_P, k, s - 1 - j), mine))) {
                 return false;

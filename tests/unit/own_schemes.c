@@ -523,6 +523,60 @@ static void nystrom(void **unused)
     gm_own_scheme_close(turned);
 }
 
+#define VERLET_AS_NYSTROM "nystrom(0,0 | 1/2,0; 1/2,0; 1/2,1/2; 0,1)"
+#define GAUSS4_AS_NYSTROM                                                                                    \
+    "nystrom(let: s = sqrt(3); 1/24, 1/8 - s/12 | 1/8 + s/12, 1/24; 1/4 + s/12, 1/4 - s/12; 1/2, 1/2; "      \
+    "1/2 - s/6, 1/2 + s/6)"
+#define TRIPLE_JUMP(base, order) "composition(" base "; let: g = 1/(2 - 2^(1/" order ")); g, 1 - 2*g, g)"
+
+/* Compositions of Nystrom methods have the theory of what they equal. */
+static void nystrom_compositions(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text, *equals; /* a splitting for quadratic T, or NULL */
+        int order;
+        bool symplectic, symmetric;
+    } schemes[] = {
+        {TRIPLE_JUMP(VERLET_AS_NYSTROM, "3"), TRIPLE_JUMP("verlet", "3"), 4, true, true},
+        {TRIPLE_JUMP(TRIPLE_JUMP(VERLET_AS_NYSTROM, "3"), "5"), NULL, 6, true, true},
+        {TRIPLE_JUMP(GAUSS4_AS_NYSTROM, "5"), NULL, 6, true, true},
+        {TRIPLE_JUMP(GAUSS4_AS_NYSTROM, "3"), NULL, 4, true, true}, /* the root that order 2 has */
+        {"composition(" VERLET_AS_NYSTROM "; 1/2, 1/4, 1/4)", "composition(verlet; 1/2, 1/4, 1/4)", 2, true,
+         false},
+        {"composition(" VERLET_AS_NYSTROM "; 1.35120719195966, -1.70241438391932, 1.35120719195966)", NULL, 4,
+         true, true},
+        {"composition(" VERLET_AS_NYSTROM "; 1.35120719295966, -1.70241438591932, 1.35120719295966)", NULL, 2,
+         true, true},
+        {"composition(" NYSTROM5("7/27") "; 1/2, 1/2)", NULL, 5, false, false},
+        {"adjoint(composition(" NYSTROM5("7/27") "; 1/3, 2/3))", NULL, 5, false, false},
+        /* no identity up to h^2: a processor that costs an order, which is measured too */
+        {"processed(" VERLET_AS_NYSTROM "; nystrom(0; 1/4; 1/2; 1/2))", NULL, 1, true, false},
+    };
+    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+        const struct gm_scheme *own = open_own(schemes[i].text);
+        const struct gm_theory theory = gm_scheme_theory(own);
+        if (!theory.known || theory.order != schemes[i].order || theory.symplectic != schemes[i].symplectic ||
+            theory.symmetric != schemes[i].symmetric) {
+            fail_msg("%s: order %d (%s), symplectic %d, symmetric %d", schemes[i].text, theory.order,
+                     theory.condition, theory.symplectic, theory.symmetric);
+        }
+        if (schemes[i].equals) {
+            const struct gm_scheme *other = open_own(schemes[i].equals);
+            const struct gm_theory same = gm_scheme_theory(other);
+            assert_true(same.order == theory.order && fabs(same.residual - theory.residual) < 1e-14);
+            assert_string_equal(same.condition, theory.condition);
+            gm_own_scheme_close(other);
+        }
+        gm_own_scheme_close(own);
+    }
+    const struct gm_scheme *wrong =
+        open_own("composition(" VERLET_AS_NYSTROM
+                 "; order: 4; 1.35120719295966, -1.70241438591932, 1.35120719295966)");
+    assert_false(gm_certify(wrong).holds);
+    gm_own_scheme_close(wrong);
+}
+
 /* ---- on one system ---- */
 
 static double first(const void *data, const double *y)
@@ -708,6 +762,7 @@ int main(void)
         cmocka_unit_test(honest),
         cmocka_unit_test(long_compositions),
         cmocka_unit_test(nystrom),
+        cmocka_unit_test(nystrom_compositions),
         cmocka_unit_test(on_a_system),
         cmocka_unit_test(polished),
         cmocka_unit_test(refusals),
