@@ -200,7 +200,7 @@ static bool tableau_of(const struct gm_scheme *scheme, const struct gm_coefficie
                                          : (weights ? implicit_row->b : implicit_row->a[i]);
         for (int j = 0; j < tableau->stages; j++) {
             *entry(tableau, i, j) = (struct gm_written_number){
-                row[j], weights ? exact->b[0][j] : exact->a[0][i * tableau->stages + j], 0};
+                .value = row[j], .ball = weights ? exact->b[0][j] : exact->a[0][i * tableau->stages + j]};
         }
     }
     return true;
