@@ -10,6 +10,7 @@
 #include "core/theory/theory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/theory/stability.h"
@@ -369,8 +370,9 @@ static bool is_nystrom_symmetric(const struct gm_coefficients *coefficients, tak
        B(k)   sum_i b_i c_i^(k-1) = 1/k
        C(k)   sum_j a_ij c_j^(k-1) = c_i^k / k
        D(k)   sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k) / k
-   False: out of memory. */
-static bool find_simplifying(const struct gm_coefficients *coefficients, struct gm_theory *theory)
+   and what first keeps B from holding. False: out of memory. */
+static bool find_simplifying(const struct gm_coefficients *coefficients, struct gm_theory *theory,
+                             double *residual)
 {
     const int s = coefficients->stages;
     struct gm_ball *c = malloc(2 * (size_t)s * sizeof *c), *power = c ? c + s : NULL;
@@ -386,9 +388,11 @@ static bool find_simplifying(const struct gm_coefficients *coefficients, struct 
         power[i] = gm_ball_of(1);
     }
     bool in_b = true, in_c = true, in_d = true;
-    for (int k = 1; k <= 2 * s && (in_b || in_c || in_d); k++) {
+    for (int k = 1; k <= 2 * s + 1 && (in_b || in_c || in_d); k++) {
         const struct gm_ball part = gm_ball_ratio(1, k);
-        in_b = in_b && gm_ball_may_vanish(gm_ball_subtract(product(b, power, s), part));
+        const struct gm_ball defect = gm_ball_subtract(product(b, power, s), part);
+        *residual = in_b ? gm_ball_midpoint(defect) : *residual;
+        in_b = in_b && gm_ball_may_vanish(defect);
         for (int j = 0; j < s; j++) {
             struct gm_ball row = gm_ball_of(0), column = gm_ball_of(0);
             for (int i = 0; i < s; i++) {
@@ -419,6 +423,29 @@ bool gm_theory_is_symplectic(const struct gm_coefficients *coefficients)
                                      : is_symplectic(coefficients, may_vanish, NULL);
 }
 
+/* Beyond the trees that are asked: B(p), C(k), D(l) with p <= k + l + 1, p <= 2 k + 2 make the order p
+   (Butcher 1964), and without B(p) none is. False: out of memory. */
+static bool simplify(const struct gm_coefficients *coefficients, struct gm_theory *theory)
+{
+    double residual = NAN;
+    if (!find_simplifying(coefficients, theory, &residual)) {
+        return false;
+    }
+    if (theory->at_least) {
+        int order = theory->b;
+        order = order < theory->c + theory->d + 1 ? order : theory->c + theory->d + 1;
+        order = order < 2 * theory->c + 2 ? order : 2 * theory->c + 2;
+        theory->order = order > theory->order ? order : theory->order;
+        theory->at_least = theory->order < theory->b;
+        theory->at_most = theory->b;
+    }
+    if (theory->order == theory->b && theory->at_most > 0) {
+        theory->residual = residual;
+        snprintf(theory->condition, sizeof theory->condition, "B(%d)", theory->b + 1);
+    }
+    return true;
+}
+
 struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
 {
     struct gm_theory theory = {
@@ -426,10 +453,9 @@ struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
         .symmetric = coefficients->nystrom > 0 ? is_nystrom_symmetric(coefficients, may_vanish, NULL)
                                                : is_symmetric(coefficients, may_vanish, NULL),
     };
-    theory.known =
-        find_order(coefficients, &theory) &&
-        (coefficients->equations != GM_EQUATIONS_PLAIN || find_simplifying(coefficients, &theory)) &&
-        gm_theory_stability_of(coefficients, theory.symmetric, &theory.stability);
+    theory.known = find_order(coefficients, &theory) &&
+                   (coefficients->equations != GM_EQUATIONS_PLAIN || simplify(coefficients, &theory)) &&
+                   gm_theory_stability_of(coefficients, theory.symmetric, &theory.stability);
     return theory;
 }
 

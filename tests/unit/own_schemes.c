@@ -23,6 +23,7 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/high_order.h"
 
 static const struct gm_scheme *no_file(void *data, const char *path, char *sentence)
 {
@@ -577,6 +578,89 @@ static void nystrom_compositions(void **unused)
     gm_own_scheme_close(wrong);
 }
 
+/* ---- orders 9, 10 and beyond ---- */
+
+static void high_orders(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        int order;
+        bool at_least;
+        const char *condition;
+    } schemes[] = {
+        {radau9, 9, false, NULL},
+        {gauss10, 10, false, "B(11)"},
+        {gauss12, 12, false, "B(13)"}, /* by B(12), C(6), D(6) */
+        {TRIPLE_JUMP("gauss6", "7"), 8, false, NULL},
+        {TRIPLE_JUMP("gauss8", "9"), 10, false, NULL},
+        {TRIPLE_JUMP("gauss8", "7"), 8, false, NULL}, /* the root that order 6 has */
+        {TRIPLE_JUMP("kahan-li8", "9"), 10, true, ""},
+        {"adjoint(radau5)", 5, false, NULL},
+    };
+    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+        const struct gm_scheme *own = open_own(schemes[i].text);
+        const struct gm_theory theory = gm_scheme_theory(own);
+        const char *condition = schemes[i].condition;
+        if (theory.order != schemes[i].order || theory.at_least != schemes[i].at_least ||
+            (condition && strcmp(theory.condition, condition) != 0)) {
+            fail_msg("%.60s: order %d, at least %d (%s)", schemes[i].text, theory.order, theory.at_least,
+                     theory.condition);
+        }
+        gm_own_scheme_close(own);
+    }
+}
+
+/* Whether a claim of this order holds by theory. */
+static bool may_claim(const char *text, int order)
+{
+    const struct gm_scheme *own = open_own(text);
+    struct gm_scheme claiming = *own;
+    claiming.order = order;
+    const bool holds = gm_certify(&claiming).theory_holds;
+    gm_own_scheme_close(own);
+    return holds;
+}
+
+static void high_claims(void **unused)
+{
+    (void)unused;
+    assert_true(may_claim(gauss10, 10));
+    assert_false(may_claim(gauss10, 11));
+    assert_true(may_claim(gauss12, 12));
+    assert_false(may_claim(gauss12, 13));
+    assert_false(may_claim(radau9, 10));
+}
+
+/* One more in the tenth decimal of each number of the tableau: its order is 9 or 10 no longer. */
+static void wrong_tenth_digits(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text;
+        int order;
+    } schemes[] = {{radau9, 9}, {gauss10, 10}};
+    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+        char *text = strdup(schemes[i].text);
+        int planted = 0;
+        for (char *digits = strstr(text, "0."); digits; digits = strstr(digits + 2, "0.")) {
+            char *digit = digits + 2 + 9;
+            const char before = *digit;
+            *digit = before == '9' ? '8' : (char)(before + 1);
+            const struct gm_scheme *own = open_own(text);
+            const struct gm_theory theory = gm_scheme_theory(own);
+            if (theory.order >= schemes[i].order || theory.condition[0] == '\0') {
+                fail_msg("order %d with %.20s", theory.order, digits);
+            }
+            gm_own_scheme_close(own);
+            *digit = before;
+            planted++;
+        }
+        assert_int_equal(planted, 30);
+        free(text);
+    }
+}
+
 /* ---- on one system ---- */
 
 static double first(const void *data, const double *y)
@@ -768,6 +852,9 @@ int main(void)
         cmocka_unit_test(long_compositions),
         cmocka_unit_test(nystrom),
         cmocka_unit_test(nystrom_compositions),
+        cmocka_unit_test(high_orders),
+        cmocka_unit_test(high_claims),
+        cmocka_unit_test(wrong_tenth_digits),
         cmocka_unit_test(on_a_system),
         cmocka_unit_test(polished),
         cmocka_unit_test(refusals),
