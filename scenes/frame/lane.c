@@ -269,7 +269,10 @@ static void follow_together(struct gm_lane *lane, long steps)
     bool goes_on = states && before;
     while (goes_on && run->status == GM_OK && steps - run->steps >= TOGETHER) {
         gm_run_save(run, before);
-        goes_on = make_together(lane, TOGETHER, states) || !gm_run_load(run, before);
+        goes_on = make_together(lane, TOGETHER, states);
+        if (!goes_on) {
+            gm_run_load(run, before); /* which is of this run */
+        }
     }
     free(states);
     free(before);
