@@ -94,7 +94,8 @@ static void ask_theory(struct gm_certificate *certificate)
     if (!theory.known) {
         return;
     }
-    const bool proved = scheme->order <= theory.order || theory.at_least;
+    const bool proved = scheme->order <= theory.order ||
+                        (theory.at_least && (theory.at_most == 0 || scheme->order <= theory.at_most));
     certificate->theory_holds = proved && (theory.symplectic || !(scheme->claims & GM_SYMPLECTIC)) &&
                                 (theory.symmetric || !(scheme->claims & GM_SYMMETRIC));
     /* what is measured beyond theory is special to a problem */

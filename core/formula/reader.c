@@ -441,7 +441,8 @@ static gm_node_id read_operand(struct reader *reader)
 {
     const char next = peek(reader);
     if (++reader->operands > MOST_OPERANDS) {
-        return fail(reader, reader->at, "the loops make more than %d operands", MOST_OPERANDS);
+        return fail(reader, reader->at, "the formula, with its loops written out, has more than %d operands",
+                    MOST_OPERANDS);
     }
     if (is_digit(next) || next == '.') {
         return read_number(reader);

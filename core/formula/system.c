@@ -394,8 +394,8 @@ static bool is_circle(struct reading *reading, const uint32_t *stack, size_t dep
                              (int)(entry->length < 50 ? entry->length : 50), entry->name);
     }
     const struct entry *entry = &reading->entries[stack[first]];
-    fail(reading, entry->place, depth - first == 1 ? "%s needs itself" : "%s needs itself again: a circle",
-         names);
+    fail(reading, entry->place,
+         depth - first == 1 ? "%s needs itself" : "a circle: %s, which needs the first again", names);
     return true;
 }
 

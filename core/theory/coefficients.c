@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Room for the coefficients of a method. */
+/* Room for the coefficients of a method, and those of compositions and adjoints. */
 #include "core/theory/coefficients.h"
 
 #include <stdlib.h>
@@ -75,6 +75,155 @@ bool gm_coefficients_open_nystrom(struct gm_coefficients *coefficients, int stag
         }
     }
     coefficients->b[GM_SIDE_Q][end] = gm_ball_of(1);
+    return true;
+}
+
+/* The time of a stage of a Nystrom method, and that of its end, of which c - 1 are coefficients. */
+static struct gm_ball time_of(const struct gm_coefficients *coefficients, int stage)
+{
+    const int start = coefficients->nystrom;
+    return gm_ball_add(coefficients->a[GM_SIDE_Q][stage * coefficients->stages + start], gm_ball_of(1));
+}
+
+static struct gm_ball end_of(const struct gm_coefficients *coefficients)
+{
+    return gm_ball_add(coefficients->b[GM_SIDE_Q][coefficients->nystrom], gm_ball_of(1));
+}
+
+/* Steps of Nystrom methods are one of all their stages: `begin` is the time at which the next one begins,
+   the composition's own b and bv, as far as they are filled, are where those before it have led to. */
+static void add_nystrom(struct gm_coefficients *composed, int first, const struct gm_coefficients *part,
+                        struct gm_ball fraction, struct gm_ball *begin)
+{
+    const int all = composed->stages, start = all - 2, end = all - 1, stages = part->nystrom;
+    const struct gm_ball square = gm_ball_multiply(fraction, fraction);
+    struct gm_ball *moved = composed->a[GM_SIDE_P] + end * all, *kicked = composed->b[GM_SIDE_P];
+    for (int i = 0; i < stages; i++) {
+        const struct gm_ball time = gm_ball_multiply(fraction, time_of(part, i));
+        struct gm_ball *row = composed->a[GM_SIDE_P] + (first + i) * all;
+        composed->a[GM_SIDE_Q][(first + i) * all + first + i] = gm_ball_of(1);
+        composed->a[GM_SIDE_Q][(first + i) * all + start] =
+            gm_ball_subtract(gm_ball_add(*begin, time), gm_ball_of(1));
+        for (int j = 0; j < first; j++) {
+            row[j] = gm_ball_add(moved[j], gm_ball_multiply(time, kicked[j]));
+        }
+        for (int j = 0; j < stages; j++) {
+            row[first + j] = gm_ball_multiply(square, part->a[GM_SIDE_P][i * part->stages + j]);
+        }
+    }
+    const struct gm_ball length = gm_ball_multiply(fraction, end_of(part));
+    for (int j = 0; j < first; j++) {
+        moved[j] = gm_ball_add(moved[j], gm_ball_multiply(length, kicked[j]));
+    }
+    for (int j = 0; j < stages; j++) {
+        const struct gm_ball b = part->a[GM_SIDE_P][(stages + 1) * part->stages + j];
+        moved[first + j] = gm_ball_multiply(square, b);
+        kicked[first + j] = gm_ball_multiply(fraction, part->b[GM_SIDE_P][j]);
+    }
+    *begin = gm_ball_add(*begin, length);
+}
+
+/* The stages of a step know the whole steps before it. */
+static void add_tableau(struct gm_coefficients *composed, int first, const struct gm_coefficients *part,
+                        struct gm_ball fraction)
+{
+    const int all = composed->stages, stages = part->stages;
+    for (int side = 0; side < gm_coefficients_sides(composed); side++) {
+        for (int j = 0; j < stages; j++) {
+            const struct gm_ball b = gm_ball_multiply(fraction, part->b[side][j]);
+            composed->b[side][first + j] = b;
+            for (int i = 0; i < stages; i++) {
+                composed->a[side][(first + i) * all + first + j] =
+                    gm_ball_multiply(fraction, part->a[side][i * stages + j]);
+            }
+            for (int i = first + stages; i < all; i++) {
+                composed->a[side][i * all + first + j] = b;
+            }
+        }
+    }
+}
+
+bool gm_coefficients_open_composition(struct gm_coefficients *composed, const struct gm_coefficients *parts,
+                                      const struct gm_ball *fractions, int count)
+{
+    const bool nystrom = parts[0].nystrom > 0;
+    int stages = nystrom ? 2 : 0, evaluations = 0;
+    for (int k = 0; k < count; k++) {
+        stages += nystrom ? parts[k].nystrom : parts[k].stages;
+        evaluations += parts[k].evaluations;
+    }
+    if (!gm_coefficients_open(composed, parts[0].equations, stages)) {
+        return false;
+    }
+    composed->evaluations = evaluations;
+    struct gm_ball begin = gm_ball_of(0);
+    int first = 0;
+    for (int k = 0; k < count; k++) {
+        if (nystrom) {
+            add_nystrom(composed, first, &parts[k], fractions[k], &begin);
+            first += parts[k].nystrom;
+        } else {
+            add_tableau(composed, first, &parts[k], fractions[k]);
+            first += parts[k].stages;
+        }
+    }
+    if (nystrom) {
+        composed->nystrom = first;
+        composed->b[GM_SIDE_Q][first] = gm_ball_subtract(begin, gm_ball_of(1));
+        composed->b[GM_SIDE_Q][first + 1] = gm_ball_of(1);
+    }
+    return true;
+}
+
+/* With k = s + 1 - i, l = s + 1 - j and the end e, which is 1 of a whole step:
+       c*_i = e - c_k,   bv*_i = bv_k,   b*_i = e bv_k - b_k,   a*_ij = a_kl + (e - c_k) bv_l - b_l */
+static void turn_nystrom(struct gm_coefficients *adjoint, const struct gm_coefficients *exact)
+{
+    const int s = exact->nystrom, all = exact->stages, last = s - 1;
+    const struct gm_ball end = end_of(exact), *bv = exact->b[GM_SIDE_P];
+    const struct gm_ball *a = exact->a[GM_SIDE_P], *b = a + (s + 1) * all;
+    for (int i = 0; i < s; i++) {
+        const int k = last - i;
+        const struct gm_ball rest = gm_ball_subtract(end, time_of(exact, k));
+        adjoint->b[GM_SIDE_P][i] = bv[k];
+        adjoint->a[GM_SIDE_P][(s + 1) * all + i] = gm_ball_subtract(gm_ball_multiply(end, bv[k]), b[k]);
+        adjoint->a[GM_SIDE_Q][i * all + i] = gm_ball_of(1);
+        adjoint->a[GM_SIDE_Q][i * all + s] = gm_ball_subtract(rest, gm_ball_of(1));
+        for (int j = 0; j < s; j++) {
+            const int l = last - j;
+            const struct gm_ball back = gm_ball_subtract(gm_ball_multiply(rest, bv[l]), b[l]);
+            adjoint->a[GM_SIDE_P][i * all + j] = gm_ball_add(a[k * all + l], back);
+        }
+    }
+    adjoint->b[GM_SIDE_Q][s] = exact->b[GM_SIDE_Q][s];
+    adjoint->b[GM_SIDE_Q][s + 1] = gm_ball_of(1);
+    adjoint->nystrom = s;
+}
+
+/* a*_ij = b_l - a_kl,  b*_i = b_k, on each side the same */
+static void turn_tableau(struct gm_coefficients *adjoint, const struct gm_coefficients *exact)
+{
+    const int stages = exact->stages, last = stages - 1;
+    for (int side = 0; side < gm_coefficients_sides(exact); side++) {
+        for (int i = 0; i < stages; i++) {
+            adjoint->b[side][i] = exact->b[side][last - i];
+            for (int j = 0; j < stages; j++) {
+                const struct gm_ball *b = &exact->b[side][last - j],
+                                     *a = &exact->a[side][(last - i) * stages + last - j];
+                adjoint->a[side][i * stages + j] =
+                    gm_ball_is_same(a, b) ? gm_ball_of(0) : gm_ball_subtract(*b, *a);
+            }
+        }
+    }
+}
+
+bool gm_coefficients_open_adjoint(struct gm_coefficients *adjoint, const struct gm_coefficients *exact)
+{
+    if (!gm_coefficients_open(adjoint, exact->equations, exact->stages)) {
+        return false;
+    }
+    adjoint->evaluations = exact->evaluations;
+    exact->nystrom > 0 ? turn_nystrom(adjoint, exact) : turn_tableau(adjoint, exact);
     return true;
 }
 

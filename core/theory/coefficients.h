@@ -10,7 +10,8 @@
    A splitting is one of the second form: each of its pieces is a stage. So is a Nystrom method of s stages,
    whose Q_i need the velocity at two more stages, at p0 and at p0 + h sum b_j F_j:
        V_i = p0 + h sum_j a_ij F(Q_j),   Q_i = q0 + h [(c_i - 1) f_q(p0) + f_q(V_i)],
-   the weights d being bv. */
+   the weights d being bv. A step whose end is not at the time 1, as a part of another one, takes (e - 1)
+   f_q(p0) besides f_q at its last stage. */
 
 /* What the method is for; its order is that for all such systems. */
 enum gm_equations {
@@ -43,6 +44,12 @@ bool gm_coefficients_copy(struct gm_coefficients *copy, const struct gm_coeffici
 /* Those of a Nystrom method with a, b, bv and c as above, as said there. False: out of memory. */
 bool gm_coefficients_open_nystrom(struct gm_coefficients *coefficients, int stages, const struct gm_ball *a,
                                   const struct gm_ball *b, const struct gm_ball *bv, const struct gm_ball *c);
+/* Those of steps of these fractions, one after the other, of parts for the same equations, which all are
+   Nystrom methods or none. False: out of memory. */
+bool gm_coefficients_open_composition(struct gm_coefficients *composed, const struct gm_coefficients *parts,
+                                      const struct gm_ball *fractions, int count);
+/* Those of the adjoint, the inverse of the step backwards. False: out of memory. */
+bool gm_coefficients_open_adjoint(struct gm_coefficients *adjoint, const struct gm_coefficients *exact);
 void gm_coefficients_close(struct gm_coefficients *coefficients);
 
 static inline int gm_coefficients_sides(const struct gm_coefficients *coefficients)

@@ -107,6 +107,33 @@ static bool add_modulus(struct gm_polynomial *sum, double factor, const struct g
            gm_polynomial_add(sum, gm_ball_of(1), 1, &odd);
 }
 
+/* R(z) = 1 + sum_k z^k b' A^(k-1) 1 where A has nothing on and above the diagonal: the determinants say the
+   same, but of typed decimals they leave fewer digits. x and next are scratch. */
+static void of_explicit(const struct gm_coefficients *coefficients, struct gm_ball *x, struct gm_ball *next,
+                        struct gm_polynomial *p)
+{
+    const int s = coefficients->stages;
+    gm_polynomial_set(p, gm_ball_of(1));
+    for (int i = 0; i < s; i++) {
+        x[i] = gm_ball_of(1);
+    }
+    for (int k = 1; k <= s; k++) {
+        struct gm_ball sum = gm_ball_of(0);
+        for (int i = 0; i < s; i++) {
+            sum = gm_ball_add(sum, gm_ball_multiply(coefficients->b[0][i], x[i]));
+            next[i] = gm_ball_of(0);
+            for (int j = 0; j < i; j++) {
+                next[i] = gm_ball_add(next[i], gm_ball_multiply(coefficients->a[0][i * s + j], x[j]));
+            }
+        }
+        p->at[k] = sum;
+        p->degree = k;
+        for (int i = 0; i < s; i++) {
+            x[i] = next[i];
+        }
+    }
+}
+
 /* R(z) R(-z) = 1 of a symmetric method, so P(z) = Q(-z). */
 static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
                      struct gm_theory_stability *stability)
@@ -124,7 +151,9 @@ static bool of_plain(const struct gm_coefficients *coefficients, bool symmetric,
         is_explicit = is_explicit && gm_ball_is_zero(&coefficients->a[0][i * s + i]) &&
                       is_closed(s, coefficients->a[0], i);
     }
-    if (fits && symmetric) {
+    if (is_explicit && s <= GM_POLYNOMIAL_DEGREE) {
+        of_explicit(coefficients, x, next, &p);
+    } else if (fits && symmetric) {
         mirror(&q, &p);
     } else if (fits) {
         /* transposed: the stages of a composition know the weights of those before them, which vanish here */

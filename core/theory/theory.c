@@ -10,6 +10,7 @@
 #include "core/theory/theory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/theory/stability.h"
@@ -305,18 +306,24 @@ static bool is_symmetric(const struct gm_coefficients *coefficients, taker *take
     return true;
 }
 
-/* Of a Nystrom method (Y.B. Suris, 1989; M.P. Calvo & J.M. Sanz-Serna, 1993; sigma i = s + 1 - i):
-       symplectic    b_i = bv_i (1 - c_i),   bv_i (b_j - a_ij) = bv_j (b_i - a_ji)
-       symmetric     c_(sigma i) + c_i = 1,   bv_(sigma i) = bv_i,   b_(sigma i) + b_i = bv_i,
-                     a_(sigma i, sigma j) = a_ij + (1 - c_i) bv_j - b_j */
+/* From a stage of a Nystrom method to its end, e - c, of which c - 1 and e - 1 are coefficients. */
+static struct gm_ball rest_of(const struct gm_coefficients *coefficients, int stage)
+{
+    const int start = coefficients->nystrom;
+    return gm_ball_subtract(coefficients->b[GM_SIDE_Q][start], at(coefficients, GM_SIDE_Q, stage, start));
+}
+
+/* Of a Nystrom method (Y.B. Suris, 1989; M.P. Calvo & J.M. Sanz-Serna, 1993; sigma i = s + 1 - i), e being 1:
+       symplectic    b_i = bv_i (e - c_i),   bv_i (b_j - a_ij) = bv_j (b_i - a_ji)
+       symmetric     c_(sigma i) + c_i = e,   bv_(sigma i) = bv_i,   b_(sigma i) + b_i = e bv_i,
+                     a_(sigma i, sigma j) = a_ij + (e - c_i) bv_j - b_j */
 static bool is_nystrom_symplectic(const struct gm_coefficients *coefficients, taker *take, void *data)
 {
     const int s = coefficients->nystrom, end = s + 1;
     const struct gm_ball *bv = coefficients->b[GM_SIDE_P];
     for (int i = 0; i < s; i++) {
         const struct gm_ball b = at(coefficients, GM_SIDE_P, end, i);
-        const struct gm_ball less = at(coefficients, GM_SIDE_Q, i, s); /* c - 1 */
-        if (!take(data, gm_ball_add(b, gm_ball_multiply(bv[i], less)))) {
+        if (!take(data, gm_ball_subtract(b, gm_ball_multiply(bv[i], rest_of(coefficients, i))))) {
             return false;
         }
         for (int j = 0; j < s; j++) {
@@ -336,18 +343,20 @@ static bool is_nystrom_symmetric(const struct gm_coefficients *coefficients, tak
 {
     const int s = coefficients->nystrom, end = s + 1;
     const struct gm_ball *bv = coefficients->b[GM_SIDE_P];
+    const struct gm_ball length = gm_ball_add(coefficients->b[GM_SIDE_Q][s], gm_ball_of(1));
     for (int i = 0; i < s; i++) {
         const int k = s - 1 - i;
-        const struct gm_ball less = at(coefficients, GM_SIDE_Q, i, s); /* c - 1 */
+        const struct gm_ball rest = rest_of(coefficients, i);
         const struct gm_ball both =
             gm_ball_add(at(coefficients, GM_SIDE_P, end, i), at(coefficients, GM_SIDE_P, end, k));
-        if (!take(data, gm_ball_add(gm_ball_add(less, at(coefficients, GM_SIDE_Q, k, s)), gm_ball_of(1))) ||
-            !take(data, gm_ball_subtract(bv[i], bv[k])) || !take(data, gm_ball_subtract(both, bv[i]))) {
+        if (!take(data, gm_ball_subtract(gm_ball_add(rest, rest_of(coefficients, k)), length)) ||
+            !take(data, gm_ball_subtract(bv[i], bv[k])) ||
+            !take(data, gm_ball_subtract(both, gm_ball_multiply(length, bv[i])))) {
             return false;
         }
         for (int j = 0; j < s; j++) {
             const struct gm_ball mine = gm_ball_subtract(
-                gm_ball_subtract(at(coefficients, GM_SIDE_P, i, j), gm_ball_multiply(less, bv[j])),
+                gm_ball_add(at(coefficients, GM_SIDE_P, i, j), gm_ball_multiply(rest, bv[j])),
                 at(coefficients, GM_SIDE_P, end, j));
             if (!take(data, gm_ball_subtract(at(coefficients, GM_SIDE_P, k, s - 1 - j), mine))) {
                 return false;
@@ -361,8 +370,9 @@ static bool is_nystrom_symmetric(const struct gm_coefficients *coefficients, tak
        B(k)   sum_i b_i c_i^(k-1) = 1/k
        C(k)   sum_j a_ij c_j^(k-1) = c_i^k / k
        D(k)   sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k) / k
-   False: out of memory. */
-static bool find_simplifying(const struct gm_coefficients *coefficients, struct gm_theory *theory)
+   and what first keeps B from holding. False: out of memory. */
+static bool find_simplifying(const struct gm_coefficients *coefficients, struct gm_theory *theory,
+                             double *residual)
 {
     const int s = coefficients->stages;
     struct gm_ball *c = malloc(2 * (size_t)s * sizeof *c), *power = c ? c + s : NULL;
@@ -378,9 +388,11 @@ static bool find_simplifying(const struct gm_coefficients *coefficients, struct 
         power[i] = gm_ball_of(1);
     }
     bool in_b = true, in_c = true, in_d = true;
-    for (int k = 1; k <= 2 * s && (in_b || in_c || in_d); k++) {
+    for (int k = 1; k <= 2 * s + 1 && (in_b || in_c || in_d); k++) {
         const struct gm_ball part = gm_ball_ratio(1, k);
-        in_b = in_b && gm_ball_may_vanish(gm_ball_subtract(product(b, power, s), part));
+        const struct gm_ball defect = gm_ball_subtract(product(b, power, s), part);
+        *residual = in_b ? gm_ball_midpoint(defect) : *residual;
+        in_b = in_b && gm_ball_may_vanish(defect);
         for (int j = 0; j < s; j++) {
             struct gm_ball row = gm_ball_of(0), column = gm_ball_of(0);
             for (int i = 0; i < s; i++) {
@@ -411,6 +423,29 @@ bool gm_theory_is_symplectic(const struct gm_coefficients *coefficients)
                                      : is_symplectic(coefficients, may_vanish, NULL);
 }
 
+/* Beyond the trees that are asked: B(p), C(k), D(l) with p <= k + l + 1, p <= 2 k + 2 make the order p
+   (Butcher 1964), and without B(p) none is. False: out of memory. */
+static bool simplify(const struct gm_coefficients *coefficients, struct gm_theory *theory)
+{
+    double residual = NAN;
+    if (!find_simplifying(coefficients, theory, &residual)) {
+        return false;
+    }
+    if (theory->at_least) {
+        int order = theory->b;
+        order = order < theory->c + theory->d + 1 ? order : theory->c + theory->d + 1;
+        order = order < 2 * theory->c + 2 ? order : 2 * theory->c + 2;
+        theory->order = order > theory->order ? order : theory->order;
+        theory->at_least = theory->order < theory->b;
+        theory->at_most = theory->b;
+    }
+    if (theory->order == theory->b && theory->at_most > 0) {
+        theory->residual = residual;
+        snprintf(theory->condition, sizeof theory->condition, "B(%d)", theory->b + 1);
+    }
+    return true;
+}
+
 struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
 {
     struct gm_theory theory = {
@@ -418,10 +453,9 @@ struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
         .symmetric = coefficients->nystrom > 0 ? is_nystrom_symmetric(coefficients, may_vanish, NULL)
                                                : is_symmetric(coefficients, may_vanish, NULL),
     };
-    theory.known =
-        find_order(coefficients, &theory) &&
-        (coefficients->equations != GM_EQUATIONS_PLAIN || find_simplifying(coefficients, &theory)) &&
-        gm_theory_stability_of(coefficients, theory.symmetric, &theory.stability);
+    theory.known = find_order(coefficients, &theory) &&
+                   (coefficients->equations != GM_EQUATIONS_PLAIN || simplify(coefficients, &theory)) &&
+                   gm_theory_stability_of(coefficients, theory.symmetric, &theory.stability);
     return theory;
 }
 

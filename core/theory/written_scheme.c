@@ -71,6 +71,7 @@ struct reading {
     struct gm_written_number *decimals; /* the graph's variables */
     size_t decimal_count;
     struct gm_decimals *gathered; /* or NULL */
+    bool sums;                    /* what is read are the sums of rows */
     struct formula lets[GM_MOST_LETS];
     char let_names[GM_MOST_LETS][64];
     gm_node_id *nodes[GM_SCHEME_WORDS]; /* of each line's numbers */
@@ -306,6 +307,17 @@ static bool check_lines(struct reading *reading, struct gm_span span)
 /* -- numbers
    ------------------------------------------------------------------------------------------------- */
 
+/* Puts it behind the others, of which there are *count; false: out of memory. */
+static bool gather(struct gm_decimal **all, size_t *count, struct gm_decimal decimal)
+{
+    struct gm_decimal *more = realloc(*all, (*count + 1) * sizeof *more);
+    if (more) {
+        *all = more;
+        more[(*count)++] = decimal;
+    }
+    return more != NULL;
+}
+
 /* The decimal of the whole text, or what is taken for it. */
 static struct gm_written_number known_decimal(struct reading *reading, const char *text, size_t length,
                                               double value)
@@ -314,7 +326,7 @@ static struct gm_written_number known_decimal(struct reading *reading, const cha
     struct gm_decimals *gathered = reading->gathered;
     const size_t place = (size_t)(text - reading->text);
     size_t i = 0;
-    if (!gathered || number.ball.radius == 0) {
+    if (!gathered || number.ball.radius == 0 || reading->sums) {
         return number;
     }
     while (i < gathered->count && gathered->at[i].place != place) {
@@ -324,13 +336,9 @@ static struct gm_written_number known_decimal(struct reading *reading, const cha
         number.ball = gathered->instead[i];
         number.value = gm_ball_midpoint(number.ball);
     } else if (i == gathered->count) {
-        struct gm_decimal *more = realloc(gathered->at, (i + 1) * sizeof *more);
-        if (more) {
-            gathered->at = more;
-            gathered->at[gathered->count++] = (struct gm_decimal){place, length, number.ball};
-        } else {
-            reading->graph.failed = true;
-        }
+        reading->graph.failed =
+            !gather(&gathered->at, &gathered->count, (struct gm_decimal){place, length, number.ball}) ||
+            reading->graph.failed;
     }
     return number;
 }
@@ -463,6 +471,16 @@ static bool take_piece(struct reading *reading, struct gm_span *rest, const char
     return gm_span_take(reading->text, rest, separator, piece);
 }
 
+/* Up to its last character that is no blank and stands in no comment. */
+static size_t length_of(const char *text, struct gm_span span)
+{
+    size_t end = span.begin;
+    for (struct gm_span rest = span; rest.begin < rest.end; rest = gm_span_trimmed(text, rest)) {
+        end = ++rest.begin;
+    }
+    return end - span.begin;
+}
+
 /* Rows between |, entries between commas. */
 static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
 {
@@ -489,6 +507,7 @@ static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
                             stages ? "stages" : "steps");
             }
             line->numbers[count].place = entry.begin;
+            line->numbers[count].length = length_of(reading->text, entry);
             if (!read_formula(reading, entry, &reading->nodes[word][count])) {
                 return false;
             }
@@ -599,6 +618,32 @@ static const struct gm_written_number *entry_of(const struct gm_written_line *a,
     return &a->numbers[i * a->columns + j];
 }
 
+/* c: is the sums of the rows; where other numbers are taken for what was typed, these are told. */
+static bool check_sums(struct reading *reading, const struct gm_written_line *a,
+                       const struct gm_written_line *c)
+{
+    const double rounding = 1e-60;
+    const bool tried = reading->gathered && reading->gathered->instead;
+    struct gm_row_sums *sums = tried ? reading->gathered->sums : NULL;
+    for (int i = 0; i < a->rows; i++) {
+        const struct gm_written_number *said = &c->numbers[i];
+        struct gm_ball sum = gm_ball_of(0);
+        for (int j = 0; j < a->rows; j++) {
+            sum = gm_ball_add(sum, entry_of(a, i, j)->ball);
+        }
+        const bool same = gm_ball_may_vanish(gm_ball_subtract(sum, said->ball));
+        if (!same && !tried) {
+            return fail(reading, said->place, "row %d of a sums to %.15g, c says %.15g", i + 1,
+                        gm_ball_midpoint(sum), said->value);
+        }
+        if (sums && (!same || said->ball.radius > rounding) &&
+            !gather(&sums->at, &sums->count, (struct gm_decimal){said->place, said->length, sum})) {
+            return no_memory(reading);
+        }
+    }
+    return true;
+}
+
 static bool check_tableau(struct reading *reading)
 {
     const struct gm_written_scheme *scheme = reading->scheme;
@@ -624,17 +669,7 @@ static bool check_tableau(struct reading *reading)
             }
         }
     }
-    for (int i = 0; scheme->kind != GM_WRITTEN_NYSTROM && c->said && i < stages; i++) {
-        struct gm_ball sum = gm_ball_of(0);
-        for (int j = 0; j < stages; j++) {
-            sum = gm_ball_add(sum, entry_of(a, i, j)->ball);
-        }
-        if (!gm_ball_may_vanish(gm_ball_subtract(sum, c->numbers[i].ball))) {
-            return fail(reading, c->numbers[i].place, "row %d of a sums to %.15g, c says %.15g", i + 1,
-                        gm_ball_midpoint(sum), c->numbers[i].value);
-        }
-    }
-    return true;
+    return scheme->kind == GM_WRITTEN_NYSTROM || !c->said || check_sums(reading, a, c);
 }
 
 static bool check_steps(struct reading *reading)
@@ -730,6 +765,7 @@ static bool read(struct reading *reading, struct gm_span span)
     }
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         const bool numbers = words[word].holds == ROW || words[word].holds == MATRIX;
+        reading->sums = word == GM_SCHEME_WORD_C && scheme->kind != GM_WRITTEN_NYSTROM;
         if (numbers && scheme->lines[word].said && !read_numbers(reading, word)) {
             return reading->failed ? false : no_memory(reading);
         }

@@ -32,17 +32,26 @@ enum { GM_MOST_STAGES = 16, GM_MOST_SUBSTEPS = 127, GM_MOST_LETS = 64, GM_LARGES
 struct gm_written_number {
     double value;
     struct gm_ball ball;
-    size_t place; /* in the text */
+    size_t place, length; /* in the text */
 };
 
-/* The decimals of a text that are no exact numbers, each where it stands. */
+struct gm_decimal {
+    size_t place, length;
+    struct gm_ball ball;
+};
+
+/* The decimals of a text that are no exact numbers, each where it stands, with what was typed. Those of c:
+   where it is the sums of the rows are none: what they say follows. */
 struct gm_decimals {
     size_t count;
-    struct gm_decimal {
-        size_t place, length;
-        struct gm_ball ball; /* what was typed */
-    } * at;
+    struct gm_decimal *at;
     bool alone; /* they alone are asked for, and no theory */
+    /* The entries of c: that are not the sums of their rows, or not to all digits, with these; where others
+       are taken for the decimals, and NULL: nobody asks. */
+    struct gm_row_sums {
+        size_t count;
+        struct gm_decimal *at;
+    } * sums;
     /* Taken for them, in this order; NULL: what was typed, and they are gathered. */
     const struct gm_ball *instead;
 };

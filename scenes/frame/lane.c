@@ -215,6 +215,70 @@ static bool follow(struct gm_lane *lane)
     return stopped;
 }
 
+/* Whether steps that are not looked at may be followed many at once: nothing but the stop asks for them, and
+   they can be made again. */
+static bool follows_together(const struct gm_lane *lane)
+{
+    const struct gm_family *family = lane->scheme->family;
+    bool alone = lane->scene->stops && lane->side != 0 && !family->own_time && !family->memory &&
+                 !family->workspace_reset;
+    for (size_t i = 0; i < lane->scene->observable_count; i++) {
+        alone = alone && !(lane->scene->observables[i].period > 0);
+    }
+    for (size_t i = 0; i < lane->scene->track_count; i++) {
+        alone = alone && !lane->scene->tracks[i].section;
+    }
+    return alone;
+}
+
+/* Makes so many steps; false where the lane is stopped by one of them, or one fails. There is room for the
+   states, and as many times and values. */
+static bool make_together(struct gm_lane *lane, size_t count, double *states)
+{
+    struct gm_run *run = lane->run;
+    const size_t m = lane->problem.m, n = gm_active_count(&lane->problem) / m;
+    double *times = states + n * count, *values = times + count;
+    for (size_t k = 0; k < count; k++) {
+        if (gm_run_advance(run, 1) != GM_OK) {
+            return false;
+        }
+        const double *state = gm_run_state(run);
+        for (size_t c = 0; c < n; c++) {
+            states[c * count + k] = state[c * m + m - 1];
+        }
+        times[k] = run->t;
+    }
+    const struct gm_view view = gm_lane_view(lane);
+    bool stopped = false;
+    lane->scene->stops(&view, states, times, count, values);
+    for (size_t k = 0; k < count; k++) {
+        stopped = stopped || (values[k] < 0) != (lane->side < 0);
+    }
+    return !stopped;
+}
+
+/* Makes steps as far as the lane is not stopped by the next ones, which are followed one by one then: to look
+   at each takes longer than a short step. */
+static void follow_together(struct gm_lane *lane, long steps)
+{
+    enum { TOGETHER = 64 };
+    struct gm_run *run = lane->run;
+    const size_t n = gm_active_count(&lane->problem) / lane->problem.m;
+    double *states = malloc((n + 2) * TOGETHER * sizeof *states);
+    void *before = malloc(gm_run_snapshot_size(run));
+    bool goes_on = states && before;
+    while (goes_on && run->status == GM_OK && steps - run->steps >= TOGETHER) {
+        gm_run_save(run, before);
+        goes_on = make_together(lane, TOGETHER, states);
+        if (!goes_on) {
+            gm_run_load(run, before); /* which is of this run */
+        }
+    }
+    free(states);
+    free(before);
+    follow(lane);
+}
+
 enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until)
 {
     if (lane->scene->follow == 0 || lane->unfollowed) {
@@ -225,6 +289,9 @@ enum gm_status gm_lane_to(struct gm_lane *lane, long steps, double until)
     bool stopped = gm_lane_stopped(lane);
     if (lane->followed > lane->run->steps) { /* it was set back */
         lane->followed = lane->run->steps;
+    }
+    if (!stopped && follows_together(lane)) {
+        follow_together(lane, steps);
     }
     while (!stopped && gm_run_goes_on(lane->run, steps, until)) {
         const long due = lane->followed + most;

@@ -211,6 +211,10 @@ struct gm_scene {
        scheme can make its last step again, shorter, else after that step. With it, `follow` is 1. NULL: it
        does not. */
     double (*stop)(const struct gm_view *view);
+    /* The same, to the same bits, of `count` states of a view's last member at these times: component c of
+       the k-th is states[c * count + k]. */
+    void (*stops)(const struct gm_view *view, const double *states, const double *times, size_t count,
+                  double *values);
     /* Writes one sentence on the step that would follow a view, where that led to no number; "": there is
        nothing to say. NULL: there never is. */
     void (*failure)(const struct gm_view *view, char *text, size_t size);

@@ -138,6 +138,12 @@ static double stop(const struct gm_view *view)
     return value_of(&scene_of(view)->stop, view);
 }
 
+static void stops(const struct gm_view *view, const double *states, const double *times, size_t count,
+                  double *values)
+{
+    gm_system_values_of(&scene_of(view)->stop, view, states, times, count, values);
+}
+
 /* ---- what is remembered ---- */
 
 static size_t sight_width(const struct gm_view *view)
@@ -1220,20 +1226,21 @@ static bool make(struct gm_system_scene *own, const char *name, const char *cons
         .point = point,
         .failure = tell_failure,
     };
-    const struct gm_system_item *stops = item_of(system, GM_WORD_STOP, 0);
+    const struct gm_system_item *end = item_of(system, GM_WORD_STOP, 0);
     const char *members = system->texts[GM_WORD_MEMBERS];
     struct gm_problem problem;
     if (members && gm_parameter_set(&own->rows[MEMBERS], own->initial, members) != GM_PARSED) {
         return gm_refuse(sentence, "members: %.60s is no whole number from 1 to 1e6", members);
     }
     own->rows[MEMBERS].standard = members ? members : "1";
-    if (!make_timing(own) || (stops && !open_tape(own, &own->stop, stops->nodes, 1)) || !make_sights(own) ||
+    if (!make_timing(own) || (end && !open_tape(own, &own->stop, end->nodes, 1)) || !make_sights(own) ||
         !setup(own->initial, &problem, sentence)) {
         return false;
     }
     make_tracks(own);
-    if (stops) {
+    if (end) {
         own->scene.stop = stop;
+        own->scene.stops = stops;
         own->scene.follow = 1;
     }
     const bool good = make_observables(own, &problem, sentence) && make_schemes(own, &problem, sentence) &&

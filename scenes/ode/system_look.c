@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
 {
@@ -47,4 +48,34 @@ void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, si
         values[i] = NAN;
     }
     free(many);
+}
+
+static void fill(double *row, double value, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        row[k] = value;
+    }
+}
+
+void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
+                         const double *times, size_t count, double *values)
+{
+    const struct gm_system_lane *lane = view->parameters;
+    const struct gm_own_system *system = &lane->own->system;
+    const size_t m = view->problem->m, n = system->n;
+    double *variables = calloc(system->variable_count * count, sizeof *variables);
+    if (!variables) {
+        fill(values, NAN, count * tape->outputs);
+        return;
+    }
+    memcpy(variables, states, n * count * sizeof *variables);
+    memcpy(variables + n * count, times, count * sizeof *variables);
+    for (size_t i = 0; i < n; i++) {
+        fill(variables + (system->initial + i) * count, view->start[i * m + m - 1], count);
+    }
+    for (size_t row = GM_SYSTEM_ROWS; row < lane->own->first_start; row++) {
+        fill(variables + lane->own->variables[row] * count, lane->values[row - GM_SYSTEM_ROWS], count);
+    }
+    gm_tape_values(tape, variables, values, count);
+    free(variables);
 }

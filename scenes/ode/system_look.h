@@ -71,6 +71,9 @@ struct gm_system_lane {
 
 /* The values of a tape for one member of a view's state. */
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values);
+/* The same of `count` other states of the last member, each with its time: struct gm_scene, stops. */
+void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
+                         const double *times, size_t count, double *values);
 /* What a lane shows of its state. */
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane);
 

@@ -28,6 +28,11 @@ caret() {
     fail "no caret below $1"
 }
 
+click() { # COLUMN ROW
+    # shellcheck disable=SC2046
+    tm send-keys -t "$pane" -H $(printf '\033[<0;%d;%dM\033[<0;%d;%dm' "$1" "$2" "$1" "$2" | od -An -tx1)
+}
+
 systems=$(realpath "$2")
 for size in 80x24 160x45; do
     start $size TERM=tmux-256color GEOMINT_COLOURS=truecolor
@@ -96,6 +101,28 @@ for size in 80x24 160x45; do
     keys Escape
     wait_for 'SCHEMES'
     [ $size = 80x24 ] || continue
+
+    # a click in the phase plane is a new start, in both of its components: left of the middle and below it,
+    # once the orbit has gone round and fills the plane
+    keys q
+    wait_for 'left 0'
+    printf 'coordinates: x\nmomenta: v\nH: v^2/2 - cos(x)\nstart: x = 1.25, v = 0\n' >"$folder/own.system"
+    open ./own.system
+    wait_for '[▸ ] x +1\.25 '
+    wait_for 't = [0-9]{2,}\.'
+    keys Space
+    wait_for 'paused'
+    click 7 10
+    wait_for '[▸ ] x +-(0|1)\.[0-9]+ '
+    wait_for '[▸ ] v +-(0|1)\.[0-9]+ '
+    # beside it nothing is clicked
+    before=$(screen | grep -oE '[▸ ] [xv] +-[0-9.]+')
+    click 2 2
+    keys y
+    wait_for 'x=-'
+    keys Escape
+    wait_for 'SCHEMES'
+    [ "$(screen | grep -oE '[▸ ] [xv] +-[0-9.]+')" = "$before" ] || fail 'a click beside the plane is a start'
 
     # a scheme, switched to and forked with
     keys s

@@ -189,6 +189,11 @@ printf '# my own\nkind: composition\nbase: verlet\norder: 4\nsteps: g, 1 - 2*g, 
 status 0 certify typed.scheme --polish better.scheme --json
 status 0 certify better.scheme
 grep -q '^let: g = 1.35120719195965763404768780897 # typed$' better.scheme || fail "polished: $(cat better.scheme)"
+printf 'kind: runge-kutta\norder: 4\na: 0.2500, -0.03868 | 0.53868, 0.2500\nc: 0.2113, # the first\n 0.7887 # the second\nb: 0.5, 0.5\n' >times.scheme
+status 0 certify times.scheme --polish better-times.scheme
+status 0 certify better-times.scheme
+grep -q '^c: 0.211324865405187117745425609749, # the first$' better-times.scheme || fail "c: $(cat better-times.scheme)"
+grep -q '^ 0.788675134594812882254574390251 # the second$' better-times.scheme || fail "c: $(cat better-times.scheme)"
 refused 1 'would overwrite' certify typed.scheme --polish ./typed.scheme
 refused 1 'no coefficients near these' certify 'composition(verlet; order: 4; 0.50001, 0.49999)' --polish x.scheme
 refused 1 'not a scheme of the program' certify rk4 --polish x.scheme

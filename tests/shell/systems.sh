@@ -164,6 +164,60 @@ seen = json.load(open("eight"))
 start = [seen["parameters"]["%s[%d]" % (c, i)] for c in "xyuv" for i in (1, 2, 3)]
 assert max(abs(a - b) for a, b in zip(seen["state"], start, strict=True)) < 1e-9, seen["state"]
 ' || fail 'the eight is open'
+# the rigid body turns as Jacobi's elliptic functions say, which the arithmetic-geometric mean makes
+"$geomint" run rigid-body scheme=gauss8 dt=0.01 until=10 --json --state >body 2>err || fail "rigid-body: $(cat err)"
+python3 -c '
+import json, math
+def elliptic(u, m): # sn, cn, dn; Abramowitz and Stegun, 16.4
+    a, b, c = [1], math.sqrt(1 - m), [math.sqrt(m)]
+    while abs(c[-1]) > 1e-16:
+        a.append((a[-1] + b) / 2)
+        c.append((a[-2] - b) / 2)
+        b = math.sqrt(a[-2] * b)
+    angle = 2 ** (len(a) - 1) * a[-1] * u
+    for k in range(len(a) - 1, 0, -1):
+        angle = (angle + math.asin(c[k] / a[k] * math.sin(angle))) / 2
+    return math.sin(angle), math.cos(angle), math.sqrt(1 - m * math.sin(angle) ** 2)
+r1, r2, r3 = 1 / 2, 1, 3 / 2 # of the moments; from y2 = 0 on
+y1, y3 = math.cos(1.1), math.sin(1.1)
+k1, k3 = (r3 - r2) / (r3 - r1), (r2 - r1) / (r3 - r1)
+small, large = y1 / math.sqrt(k1), y3 / math.sqrt(k3)
+assert small < large
+sn, cn, dn = elliptic(10 * math.sqrt(k1 * k3) * (r3 - r1) * large, (small / large) ** 2)
+seen = json.load(open("body"))["state"]
+wanted = y1 * cn, -small * sn, y3 * dn
+assert max(abs(abs(a) - abs(b)) for a, b in zip(seen, wanted, strict=True)) < 1e-13, (seen, wanted)
+' || fail 'the rigid body and elliptic functions'
+# the double pendulum in momenta against Lagrange's equations in velocities, by extrapolated midpoint steps
+"$geomint" run double-pendulum scheme=gauss8 dt=0.0005 until=2 compensated=yes --json --state >pendulum 2>err ||
+    fail "double-pendulum: $(cat err)"
+python3 -c '
+import json, math
+def field(y):
+    a, b, v, w = y
+    s, c = math.sin(a - b), math.cos(a - b)
+    p, q = -w * w * s - 2 * 9.81 * math.sin(a), v * v * s - 9.81 * math.sin(b)
+    return v, w, (p - c * q) / (2 - c * c), (2 * q - c * p) / (2 - c * c)
+def step(y, h): # Gragg, Bulirsch and Stoer, of order 12
+    rows = []
+    for k, n in enumerate((2, 4, 6, 8, 10, 12)):
+        before, now = y, [u + h / n * f for u, f in zip(y, field(y))]
+        for _ in range(n - 1):
+            before, now = now, [u + 2 * h / n * f for u, f in zip(before, field(now))]
+        rows.append([[(u + v + h / n * f) / 2 for u, v, f in zip(before, now, field(now))]])
+        for j in range(k):
+            ratio = (n / (2 * (k - j))) ** 2 - 1
+            rows[k].append([u + (u - v) / ratio for u, v in zip(rows[k][j], rows[k - 1][j])])
+    return rows[-1][-1]
+y = [2, 2.5, 0, 0]
+for _ in range(200):
+    y = step(y, 0.01)
+a, b, v, w = y
+c = math.cos(a - b)
+wanted = a, b, 2 * v + c * w, c * v + w
+seen = json.load(open("pendulum"))["state"]
+assert max(abs(p - q) for p, q in zip(seen, wanted, strict=True)) < 1e-12, (seen, wanted)
+' || fail 'the double pendulum by two ways'
 printf 'parameter: a = 1\nparameter: b = 2*a\nrate: x = b*x\nstart: x = a\ndt: a/10\nuntil: 1\n' >follow.system
 "$geomint" run follow.system a=3,1 --json >out || fail follow
 [ "$(value out parameters.b)" = 6.0 ] || [ "$(value out parameters.b)" = 6 ] || fail "b does not follow: $(cat out)"

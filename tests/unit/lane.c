@@ -289,6 +289,47 @@ static void crossings_are_found_by_the_scheme(void **unused)
     }
 }
 
+/* Steps whose stops are looked at together end where they do one by one, to the last bit: also where a stop is
+   passed to and fro between two looks, and where a step fails. */
+static void stops_together(void **unused)
+{
+    (void)unused;
+    static const char *const stops[] = {"t - 0.5",      "t - 6.395",       "t - 6.4",       "t - 6.405",
+                                        "x + 0.999999", "p_x - 0.9999999", "t - 6.4 + 0*x", "t - 1e9"};
+    static const char *const forms[] = {"(p_x^2 + x^2)/2", "p_x^2/2 - x^4"};
+    for (size_t k = 0; k < 2 * sizeof stops / sizeof *stops; k++) {
+        char text[200], message[GM_MESSAGE];
+        char *words[] = {"stop.system"};
+        int status = 0;
+        snprintf(text, sizeof text, "coordinates: x\nH: %s\nstart: x = 0.1, p_x = 1\nstop: %s\ndt: 0.01\n",
+                 forms[k % 2], stops[k / 2]);
+        assert_true(gm_system_recall("stop.system", text));
+        const struct gm_scene *scene = gm_system_scene(1, words, &status, message);
+        assert_non_null(scene);
+        void *parameters = gm_scene_defaults(scene);
+        const struct gm_settings settings = {0};
+        struct gm_lane *lanes[2];
+        for (int i = 0; i < 2; i++) {
+            lanes[i] = gm_lane_open(scene, parameters, &settings, gm_scheme_find("verlet"), message);
+            assert_non_null(lanes[i]);
+        }
+        gm_lane_to(lanes[0], 5000, 50);
+        while (gm_run_goes_on(lanes[1]->run, 5000, 50) && !gm_lane_stopped(lanes[1])) {
+            gm_lane_to(lanes[1], lanes[1]->run->steps + 1, 50);
+        }
+        const struct gm_run *run = lanes[0]->run, *other = lanes[1]->run;
+        if (run->steps != other->steps || run->t != other->t || run->status != other->status ||
+            run->evaluations != other->evaluations ||
+            memcmp(gm_run_state(run), gm_run_state(other), 2 * sizeof(double)) != 0) {
+            fail_msg("%s: %ld steps, t = %.17g; one by one %ld, %.17g", text, run->steps, run->t,
+                     other->steps, other->t);
+        }
+        gm_lane_close(lanes[0]);
+        gm_lane_close(lanes[1]);
+        free(parameters);
+    }
+}
+
 static bool find_no_mesh(const void *own, const struct gm_problem *problem, const struct gm_scheme *scheme,
                          double *y, char *sentence)
 {
@@ -325,6 +366,7 @@ int main(void)
         cmocka_unit_test(channels_have_their_walls),
         cmocka_unit_test(damaged_bytes_are_refused),
         cmocka_unit_test(crossings_are_found_by_the_scheme),
+        cmocka_unit_test(stops_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

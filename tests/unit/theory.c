@@ -280,6 +280,47 @@ static void stability(void **unused)
     assert_float_equal(backwards.real, 2. / 3, 1e-15);
 }
 
+/* R of Euler's method extrapolated to order `most` from 1 .. most steps: sum_k w_k (1 + z / k)^k. */
+static double extrapolated(int most, const double *weights, double z)
+{
+    double sum = 0;
+    for (int k = 1; k <= most; k++) {
+        sum += weights[k] * pow(1 + z / k, k);
+    }
+    return sum;
+}
+
+/* Decimals of 15 digits and large weights of both signs: what is known of R is enough for its interval. */
+static void stability_of_decimals(void **unused)
+{
+    (void)unused;
+    enum { MOST = 6, STAGES = 1 + MOST * (MOST - 1) / 2 };
+    double weights[MOST + 1] = {0}, low = 0.1, high = 20;
+    struct gm_coefficients coefficients;
+    assert_true(gm_coefficients_open(&coefficients, GM_EQUATIONS_PLAIN, STAGES));
+    for (int k = 1, first = 1; k <= MOST; first += k++ - 1) {
+        weights[k] = ((MOST - k) % 2 ? -1 : 1) * pow(k, MOST - 1) / (tgamma(k) * tgamma(MOST - k + 1));
+        /* the first of k steps is the one from y0, which all share */
+        for (int i = 0; i < k; i++) {
+            struct gm_ball *b = &coefficients.b[0][i ? first + i - 1 : 0];
+            *b = gm_ball_add(*b, gm_ball_written(weights[k] / k));
+            for (int j = 0; j < i; j++) {
+                coefficients.a[0][(first + i - 1) * STAGES + (j ? first + j - 1 : 0)] =
+                    gm_ball_written(1. / k);
+            }
+        }
+    }
+    while (high - low > 1e-12) {
+        const double middle = (low + high) / 2;
+        *(fabs(extrapolated(MOST, weights, -middle)) <= 1 ? &low : &high) = middle;
+    }
+    const struct gm_theory theory = gm_theory_of(&coefficients);
+    gm_coefficients_close(&coefficients);
+    assert_int_equal(theory.order, MOST);
+    assert_true(theory.stability.known);
+    assert_float_equal(theory.stability.real, low, 1e-9);
+}
+
 /* 1 - 3 x + 2 x^2 and (1 - x)^2 (3 - x), which touches zero at 1 */
 static void signs(void **unused)
 {
@@ -388,9 +429,16 @@ static void lyndon_words(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(balls),         cmocka_unit_test(signs),          cmocka_unit_test(numbers_of_trees),
-        cmocka_unit_test(known_methods), cmocka_unit_test(wrong_methods),  cmocka_unit_test(every_row),
-        cmocka_unit_test(lyndon_words),  cmocka_unit_test(planted_errors), cmocka_unit_test(stability),
+        cmocka_unit_test(balls),
+        cmocka_unit_test(signs),
+        cmocka_unit_test(numbers_of_trees),
+        cmocka_unit_test(known_methods),
+        cmocka_unit_test(wrong_methods),
+        cmocka_unit_test(every_row),
+        cmocka_unit_test(lyndon_words),
+        cmocka_unit_test(planted_errors),
+        cmocka_unit_test(stability),
+        cmocka_unit_test(stability_of_decimals),
         cmocka_unit_test(wrong_claims),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

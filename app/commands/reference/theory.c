@@ -15,6 +15,9 @@ static void print_order(const struct gm_theory *theory)
         printf("; of order %d, %d of %d fail, most that of %s, by %.1e; error constant %.3g",
                theory->order + 1, theory->failing, theory->of, theory->condition, fabs(theory->residual),
                theory->error_constant);
+    } else if (theory->at_most == theory->order) {
+        printf("; by B, C and D no further one is asked for; %s fails, by %.1e", theory->condition,
+               fabs(theory->residual));
     }
 }
 

@@ -24,7 +24,8 @@ struct polishing {
     struct gm_polish *polish;
     struct gm_decimals decimals;
     struct gm_ball *x;
-    bool counted; /* how many conditions there are */
+    struct gm_row_sums sums; /* which have moved with them */
+    bool counted;            /* how many conditions there are */
     struct gm_fault *fault;
 };
 
@@ -197,29 +198,66 @@ static size_t end_of(const struct gm_own_scheme_source *source, bool is_word)
     return is_word ? end - 1 : end;
 }
 
-static char *write(struct polishing *polishing, const struct gm_written_scheme *written)
+/* The numbers that are written: x and the sums of rows, as they follow one another in the text. malloc'ed,
+   NULL with a fault. */
+static struct gm_decimal *polished(struct polishing *polishing, size_t *count)
 {
-    enum { DIGITS = 30 };
-    const struct gm_own_scheme_source *source = polishing->source;
-    const bool is_word = gm_written_is_word(source->text, source->length);
-    const size_t end = end_of(source, is_word);
-    char *text = NULL;
-    size_t size = 0, from = 0;
-    FILE *stream = open_memstream(&text, &size);
-    if (!stream) {
+    polishing->decimals.sums = &polishing->sums;
+    const struct gm_scheme *scheme = scheme_at(polishing);
+    polishing->decimals.sums = NULL;
+    if (!scheme) {
+        return NULL;
+    }
+    gm_own_scheme_close(scheme);
+    const size_t decimals = polishing->decimals.count, sums = polishing->sums.count;
+    struct gm_decimal *all = malloc((decimals + sums) * sizeof *all);
+    if (!all) {
         return no_memory(polishing);
     }
-    for (size_t i = 0; i < polishing->decimals.count; i++) {
-        const struct gm_decimal *decimal = &polishing->decimals.at[i];
+    for (size_t i = 0; i < decimals; i++) {
+        all[i] = polishing->decimals.at[i];
+        all[i].ball = polishing->x[i];
+    }
+    for (size_t i = 0; i < sums; i++) {
+        all[decimals + i] = polishing->sums.at[i];
+    }
+    *count = decimals + sums;
+    qsort(all, *count, sizeof *all, by_place);
+    return all;
+}
+
+/* The text with these numbers, up to `end`. */
+static void put_numbers(FILE *stream, const char *text, size_t end, const struct gm_decimal *all,
+                        size_t count)
+{
+    enum { DIGITS = 30 };
+    size_t from = 0;
+    for (size_t i = 0; i < count; i++) {
         char number[64];
-        gm_ball_print(polishing->x[i], DIGITS, number, sizeof number);
+        gm_ball_print(all[i].ball, DIGITS, number, sizeof number);
         /* what was subtracted stays so: a sign stands before the digits, not among them */
         const bool minus = number[0] == '-';
-        fprintf(stream, "%.*s%s%s%s", (int)(decimal->place - from), source->text + from, minus ? "(" : "",
-                number, minus ? ")" : "");
-        from = decimal->place + decimal->length;
+        fprintf(stream, "%.*s%s%s%s", (int)(all[i].place - from), text + from, minus ? "(" : "", number,
+                minus ? ")" : "");
+        from = all[i].place + all[i].length;
     }
-    fprintf(stream, "%.*s", (int)(end - from), source->text + from);
+    fprintf(stream, "%.*s", (int)(end - from), text + from);
+}
+
+static char *write(struct polishing *polishing, const struct gm_written_scheme *written)
+{
+    const struct gm_own_scheme_source *source = polishing->source;
+    const bool is_word = gm_written_is_word(source->text, source->length);
+    char *text = NULL;
+    size_t size = 0, count = 0;
+    struct gm_decimal *numbers = polished(polishing, &count);
+    FILE *stream = numbers ? open_memstream(&text, &size) : NULL;
+    if (!stream) {
+        free(numbers);
+        return numbers ? no_memory(polishing) : NULL;
+    }
+    put_numbers(stream, source->text, end_of(source, is_word), numbers, count);
+    free(numbers);
     if (!written->lines[GM_SCHEME_WORD_ORDER].said) {
         fprintf(stream, "%sorder: %d", is_word ? "; " : "\n", polishing->polish->order);
     }
@@ -240,7 +278,7 @@ static char *write(struct polishing *polishing, const struct gm_written_scheme *
 }
 
 /* Gathers the decimals and what is asked of them. */
-static bool gather(struct polishing *polishing, const struct gm_written_scheme *written)
+static bool gather(struct polishing *polishing)
 {
     struct gm_own_scheme_source source = *polishing->source;
     source.decimals = &polishing->decimals;
@@ -248,8 +286,7 @@ static bool gather(struct polishing *polishing, const struct gm_written_scheme *
     if (!scheme) {
         return false;
     }
-    const struct gm_written_line *times = &written->lines[GM_SCHEME_WORD_C];
-    const bool known = scheme->exact != NULL, sums = times->said && written->kind != GM_WRITTEN_NYSTROM;
+    const bool known = scheme->exact != NULL;
     polishing->polish->order = scheme->order;
     polishing->polish->claims = scheme->claims;
     gm_own_scheme_close(scheme);
@@ -260,14 +297,6 @@ static bool gather(struct polishing *polishing, const struct gm_written_scheme *
                                      : "theory knows no conditions of such a scheme");
     }
     qsort(polishing->decimals.at, count, sizeof *polishing->decimals.at, by_place);
-    for (size_t i = 0; i < count; i++) {
-        const size_t place = polishing->decimals.at[i].place;
-        if (sums && place >= times->value.begin && place < times->value.end) {
-            fail(polishing, "leave c: out, which is the sums of the rows of a: these move");
-            polishing->fault->offset = place;
-            return false;
-        }
-    }
     polishing->x = malloc(count * sizeof *polishing->x);
     for (size_t i = 0; polishing->x && i < count; i++) {
         polishing->x[i] = polishing->decimals.at[i].ball;
@@ -287,8 +316,8 @@ char *gm_own_scheme_polish(const struct gm_own_scheme_source *source, struct gm_
     if (!written) {
         return NULL;
     }
-    if (gm_written_open(written, source->text, 0, source->length, NULL, fault) &&
-        gather(&polishing, written) && gm_memory_guard_gsl(solve, &polishing)) {
+    if (gm_written_open(written, source->text, 0, source->length, NULL, fault) && gather(&polishing) &&
+        gm_memory_guard_gsl(solve, &polishing)) {
         for (size_t i = 0; i < polish->decimals; i++) {
             polish->change =
                 fmax(polish->change,
@@ -299,6 +328,7 @@ char *gm_own_scheme_polish(const struct gm_own_scheme_source *source, struct gm_
     gm_written_close(written);
     free(written);
     free(polishing.decimals.at);
+    free(polishing.sums.at);
     free(polishing.x);
     return text;
 }

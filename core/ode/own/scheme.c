@@ -200,7 +200,7 @@ static bool tableau_of(const struct gm_scheme *scheme, const struct gm_coefficie
                                          : (weights ? implicit_row->b : implicit_row->a[i]);
         for (int j = 0; j < tableau->stages; j++) {
             *entry(tableau, i, j) = (struct gm_written_number){
-                row[j], weights ? exact->b[0][j] : exact->a[0][i * tableau->stages + j], 0};
+                .value = row[j], .ball = weights ? exact->b[0][j] : exact->a[0][i * tableau->stages + j]};
         }
     }
     return true;
@@ -401,51 +401,34 @@ static struct own *flatten(const struct making *making, const struct substeps *s
                   : fail(making, 0, "these are more than %d drifts and kicks", GM_SPLITTING_PIECES);
 }
 
-/* What theory knows substeps by: the stages of one scheme know the whole steps before it. Left alone where
-   theory knows nothing of one, or they are too many. */
+/* What theory knows substeps by. Left alone where it knows nothing of one, or they are too many. */
 static bool open_exact(struct gm_coefficients *exact, const struct substeps *substeps)
 {
-    struct gm_coefficients *parts = calloc((size_t)substeps->count, sizeof *parts);
-    int stages = 0, evaluations = 0, opened = 0;
-    bool good = parts != NULL, known = true;
+    const size_t count = (size_t)substeps->count;
+    struct gm_coefficients *parts = calloc(count, sizeof *parts);
+    struct gm_ball *fractions = malloc(count * sizeof *fractions);
+    int stages = 0, opened = 0;
+    bool good = parts && fractions, known = true;
     while (good && known && opened < substeps->count) {
         const struct gm_scheme *scheme = substeps->at[opened].scheme;
         known = scheme->exact || scheme->family->coefficients_open;
         good = !known || gm_scheme_coefficients_open(scheme, &parts[opened]);
         if (good && known) {
+            fractions[opened] = substeps->at[opened].fraction.ball;
             stages += parts[opened].stages;
-            evaluations += parts[opened].evaluations;
-            /* the two velocities of a Nystrom method are no stages of a composition that its algebra knows */
-            known = parts[opened].equations == parts[0].equations && parts[opened].nystrom == 0 &&
-                    stages <= MOST_STAGES;
+            known = parts[opened].equations == parts[0].equations &&
+                    !parts[opened].nystrom == !parts[0].nystrom && stages <= MOST_STAGES;
             opened++;
         }
     }
     if (good && known) {
-        good = gm_coefficients_open(exact, parts[0].equations, stages);
-        exact->evaluations = evaluations;
-    }
-    int first = 0;
-    for (int k = 0; good && known && k < substeps->count; first += parts[k++].stages) {
-        const struct gm_ball fraction = substeps->at[k].fraction.ball;
-        for (int side = 0; side < gm_coefficients_sides(exact); side++) {
-            for (int j = 0; j < parts[k].stages; j++) {
-                const struct gm_ball b = gm_ball_multiply(fraction, parts[k].b[side][j]);
-                exact->b[side][first + j] = b;
-                for (int i = 0; i < parts[k].stages; i++) {
-                    exact->a[side][(first + i) * stages + first + j] =
-                        gm_ball_multiply(fraction, parts[k].a[side][i * parts[k].stages + j]);
-                }
-                for (int i = first + parts[k].stages; i < stages; i++) {
-                    exact->a[side][i * stages + first + j] = b;
-                }
-            }
-        }
+        good = gm_coefficients_open_composition(exact, parts, fractions, substeps->count);
     }
     while (opened > 0) {
         gm_coefficients_close(&parts[--opened]);
     }
     free(parts);
+    free(fractions);
     return good;
 }
 
@@ -533,72 +516,32 @@ static struct own *adjoint_tableau(const struct making *making, const struct tab
     return own ? own : no_memory(making);
 }
 
-/* The stages backwards, k = s + 1 - i, l = s + 1 - j:
-       c*_i = 1 - c_k,   bv*_i = bv_k,   b*_i = bv_k - b_k,   a*_ij = a_kl + (1 - c_k) bv_l - b_l */
+/* As gm_coefficients_open_adjoint, in doubles. */
 static struct own *adjoint_nystrom(const struct making *making, const struct gm_scheme *scheme,
                                    const struct gm_coefficients *exact)
 {
     const struct gm_nystrom_row *row = scheme->coefficients;
-    const int stages = row->stages, last = stages - 1, all = exact->stages;
-    const size_t s = (size_t)stages;
-    const struct gm_ball *forces = exact->a[GM_SIDE_P], *weights = exact->b[GM_SIDE_P];
+    const int stages = row->stages, last = stages - 1;
     struct own *own = open_own(sizeof *row);
-    struct gm_ball *a = own ? malloc((s + 3) * s * sizeof *a) : NULL;
-    if (!a) {
+    if (!own || !gm_coefficients_open_adjoint(&own->exact, exact)) {
         close_own(own);
         return no_memory(making);
     }
-    struct gm_ball *b = a + s * s, *bv = b + s, *c = bv + s;
     struct gm_nystrom_row *adjoint = own->coefficients;
     adjoint->stages = stages;
     for (int i = 0; i < stages; i++) {
         const int k = last - i;
-        const struct gm_ball less = exact->a[GM_SIDE_Q][k * all + stages]; /* c_k - 1 */
-        c[i] = gm_ball_subtract(gm_ball_of(0), less);
-        bv[i] = weights[k];
-        b[i] = gm_ball_subtract(weights[k], forces[(stages + 1) * all + k]);
         adjoint->c[i] = 1 - row->c[k];
         adjoint->bv[i] = row->bv[k];
         adjoint->b[i] = row->bv[k] - row->b[k];
         for (int j = 0; j < stages; j++) {
             const int l = last - j;
-            const struct gm_ball rest =
-                gm_ball_add(gm_ball_multiply(less, weights[l]), forces[(stages + 1) * all + l]);
-            a[i * stages + j] = gm_ball_subtract(forces[k * all + l], rest);
             adjoint->a[i][j] = row->a[k][l] + ((1 - row->c[k]) * row->bv[l] - row->b[l]);
         }
     }
     own->row.family = scheme->family;
     own->row.needs = scheme->needs;
-    const bool good = gm_coefficients_open_nystrom(&own->exact, stages, a, b, bv, c);
-    free(a);
-    if (!good) {
-        close_own(own);
-        return no_memory(making);
-    }
     return own;
-}
-
-/* The adjoint's coefficients, on each side the same. False: out of memory. */
-static bool adjoint_exact(const struct gm_coefficients *exact, struct gm_coefficients *adjoint)
-{
-    const int stages = exact->stages, last = stages - 1;
-    if (!gm_coefficients_open(adjoint, exact->equations, stages)) {
-        return false;
-    }
-    adjoint->evaluations = exact->evaluations;
-    for (int side = 0; side < gm_coefficients_sides(exact); side++) {
-        for (int i = 0; i < stages; i++) {
-            adjoint->b[side][i] = exact->b[side][last - i];
-            for (int j = 0; j < stages; j++) {
-                const struct gm_ball *b = &exact->b[side][last - j],
-                                     *a = &exact->a[side][(last - i) * stages + last - j];
-                adjoint->a[side][i * stages + j] =
-                    gm_ball_is_same(a, b) ? gm_ball_of(0) : gm_ball_subtract(*b, *a);
-            }
-        }
-    }
-    return true;
 }
 
 static struct own *adjoint_of(const struct making *making, const struct gm_scheme *scheme, size_t place);
@@ -648,7 +591,7 @@ static struct own *adjoint_composition(const struct making *making, const struct
         own->row.family = scheme->family;
         own->row.needs = scheme->needs;
         own->made = made;
-        if (!scheme->exact || adjoint_exact(scheme->exact, &own->exact)) {
+        if (!scheme->exact || gm_coefficients_open_adjoint(&own->exact, scheme->exact)) {
             return own;
         }
         close_own(own);
@@ -660,15 +603,9 @@ static struct own *adjoint_composition(const struct making *making, const struct
     return begun ? NULL : no_memory(making);
 }
 
-/* The adjoint of a scheme, which outlives it. */
-static struct own *adjoint_of(const struct making *making, const struct gm_scheme *scheme, size_t place)
+/* The adjoint of what is made of coefficients alone. */
+static struct own *adjoint_single(const struct making *making, const struct gm_scheme *scheme, size_t place)
 {
-    if (scheme->claims & GM_SYMMETRIC) {
-        return same(making, scheme);
-    }
-    if (scheme->family == &gm_family_composition || scheme->family == &gm_family_composition_carrying) {
-        return adjoint_composition(making, scheme, place);
-    }
     struct gm_coefficients exact;
     if (!scheme->exact && !scheme->family->coefficients_open) {
         return fail(making, place,
@@ -690,6 +627,17 @@ static struct own *adjoint_of(const struct making *making, const struct gm_schem
         fail(making, place, "the adjoint of %.60s is not known", scheme->name);
     }
     gm_coefficients_close(&exact);
+    return own;
+}
+
+/* The adjoint of a scheme, which outlives it. */
+static struct own *adjoint_of(const struct making *making, const struct gm_scheme *scheme, size_t place)
+{
+    const bool composed =
+        scheme->family == &gm_family_composition || scheme->family == &gm_family_composition_carrying;
+    struct own *own = scheme->claims & GM_SYMMETRIC ? same(making, scheme)
+                      : composed                    ? adjoint_composition(making, scheme, place)
+                                                    : adjoint_single(making, scheme, place);
     if (own) {
         own->row.exact = own->exact.stages > 0 ? &own->exact : NULL;
     }
