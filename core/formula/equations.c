@@ -238,7 +238,7 @@ static bool check_jacobi(struct gm_own_system *system, struct gm_fault *fault)
                     gm_equations_vanishes(system, jacobi_sum(system, triple, direction));
                 if (found == GM_NOT_ZERO) {
                     free(direction);
-                    return gm_fail(fault, 0,
+                    return gm_fail(fault, system->bracket_place,
                                    "the bracket breaks Jacobi's identity for %.60s, %.60s and %.60s",
                                    system->variables[triple[0]].name, system->variables[triple[1]].name,
                                    system->variables[triple[2]].name);

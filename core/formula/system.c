@@ -1129,6 +1129,7 @@ static bool read_bracket(struct reading *reading, const struct line *line)
                     system->variables[pair[0]].name, system->variables[pair[1]].name);
     }
     *entry = node;
+    system->bracket_place = line->value.begin;
     system->graph.simplifies = true;
     *opposite = gm_formula_apply(&system->graph, GM_OPERATION_NEGATE, node, node);
     system->graph.simplifies = false;

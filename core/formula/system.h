@@ -77,6 +77,7 @@ struct gm_own_system {
     struct gm_sparse mass;   /* and d2L/dv2, of dL/dv number `row` over velocity number `column` */
     gm_node_id *bracket;     /* of a Poisson system, n * n */
     enum gm_identity jacobi; /* of the bracket */
+    size_t bracket_place;    /* of the bracket's last line in the text */
     struct gm_system_item *items;
     size_t item_count;
     gm_node_id *facets; /* what core/formula/facts.c found */

@@ -479,7 +479,7 @@ static const struct {
     {"coordinates: q\nL: v_q^2/2 - q^2\nstart: q = 1, v_q = 0\nsymmetry: q = 1\n", 4, 11, "it changes L"},
     {THREE "rate: x = y\nrate: y = z\n", 1, 1, "there is no rate of z"},
     {THREE "rate: x = y\nrate: x = z\n", 4, 7, "rate: x is said twice"},
-    {THREE "bracket: x y = z\nbracket: y z = x*y\nbracket: z x = y*z\nH: x\n", 1, 1,
+    {THREE "bracket: x y = z\nbracket: y z = x*y\nbracket: z x = y*z\nH: x\n", 5, 10,
      "breaks Jacobi's identity for x, y and z"},
     {THREE "bracket: x y = z\nbracket: y z = x\nbracket: z x = y\nH: x\ncasimir: C = x\n", 7, 10,
      "C is no Casimir"},
