@@ -273,6 +273,7 @@ static void offer_words(const struct gm_command_row *command, const char *word, 
     case GM_LIST:
         offer(&stem, "scenes", "");
         offer(&stem, "systems", "");
+        offer(&stem, "rooms", "");
         offer(&stem, "schemes", "");
         offer(&stem, "figures", "");
         offer_scenes(&stem);

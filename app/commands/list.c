@@ -76,6 +76,29 @@ static void list_system(const char *name, const void *data)
     }
 }
 
+/* A room likewise. */
+static void list_room(const char *name, const void *data)
+{
+    const struct gm_options *options = data;
+    char message[GM_MESSAGE];
+    int status;
+    const struct gm_scene *scene = gm_room_scene(name, &status, message);
+    if (options->json) {
+        printf("{");
+        gm_json_pair("room", name);
+        printf(",");
+        gm_json_pair("title", scene ? scene->title : "");
+        printf(",");
+        gm_json_pair("about", scene ? scene->blurb : "");
+        printf("}\n");
+    } else {
+        gm_print_wrapped(scene ? scene->title : "", printf("%-21s ", name), 22);
+        if (options->longer && scene) {
+            gm_print_wrapped(scene->blurb, printf("  "), 2);
+        }
+    }
+}
+
 static void print_formula(const char *text)
 {
     while (*text) {
@@ -341,7 +364,7 @@ static bool list_scene(const struct gm_scene *scene, const struct gm_options *op
 }
 
 /* The lists beside those of a scene. */
-enum { LISTS = 4 };
+enum { LISTS = 5 };
 
 static int list_markdown(const char *what)
 {
@@ -358,7 +381,7 @@ static int list_markdown(const char *what)
 
 static const char *list_name(size_t i, const void *data)
 {
-    static const char *const lists[LISTS] = {"scenes", "systems", "schemes", "figures"};
+    static const char *const lists[LISTS] = {"scenes", "systems", "rooms", "schemes", "figures"};
     return (void)data, lists[i];
 }
 
@@ -380,7 +403,8 @@ static int command_list(const struct gm_options *options)
         return GM_EXIT_USAGE;
     }
     if (options->arguments.count > 1) {
-        gm_complain("list takes one name: scenes, systems, schemes, figures, a scene, a system or a room");
+        gm_complain(
+            "list takes one name: scenes, systems, rooms, schemes, figures, a scene, a system or a room");
         return GM_EXIT_USAGE;
     }
     const char *what = options->arguments.count ? options->arguments.words[0] : "scenes";
@@ -401,6 +425,8 @@ static int command_list(const struct gm_options *options)
         list_scenes(options);
     } else if (strcmp(what, "systems") == 0) {
         gm_system_each(list_system, options);
+    } else if (strcmp(what, "rooms") == 0) {
+        gm_room_each(list_room, options);
     } else if (strcmp(what, "schemes") == 0) {
         list_schemes(options);
     } else if (strcmp(what, "figures") == 0) {
@@ -413,9 +439,10 @@ static int command_list(const struct gm_options *options)
         char found[GM_NEAR];
         const char *list = gm_nearest(what, LISTS, list_name, NULL);
         const char *near = list ? list : gm_system_near(what, found);
-        gm_complain("list knows scenes, systems, schemes, figures and the names of scenes and systems, not "
-                    "\"%.60s\"%s%s",
-                    what, near ? "; did you mean " : "", near ? near : "");
+        gm_complain(
+            "list knows scenes, systems, rooms, schemes, figures and the names of scenes, systems and "
+            "rooms, not \"%.60s\"%s%s",
+            what, near ? "; did you mean " : "", near ? near : "");
         return GM_EXIT_USAGE;
     }
     return gm_finish(GM_EXIT_OK);
@@ -423,7 +450,7 @@ static int command_list(const struct gm_options *options)
 
 const struct gm_command_row gm_command_list = {
     .name = "list",
-    .synopsis = "[scenes|systems|schemes|figures|SCENE|SYSTEM|ROOM]",
+    .synopsis = "[scenes|systems|rooms|schemes|figures|SCENE|SYSTEM|ROOM]",
     .help = "what there is",
     .bit = GM_LIST,
     .function = command_list,

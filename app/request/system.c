@@ -83,6 +83,7 @@ const char *gm_system_near(const char *word, char near[GM_NEAR])
         add_to(gm_scene_at(i)->name, &list);
     }
     gm_system_each(add_to, &list);
+    gm_room_each(add_to, &list);
     const char *found = gm_nearest(word, (size_t)names.count, name_at, &names);
     snprintf(near, GM_NEAR, "%s", found ? found : "");
     gm_arguments_close(&names);

@@ -13,6 +13,13 @@ assert run["status"] == "ok" and float(sys.argv[2]) <= value <= float(sys.argv[3
         fail "$*"
 }
 
+# rooms have names, which are proposed
+GEOMINT_ROOMS=$rooms
+export GEOMINT_ROOMS
+status 0 list rooms
+grep -q '^heated  *A heated room' out || fail "list rooms: $(head -n 3 out)"
+refused 1 'did you mean heated' run heeted
+
 # what enters leaves, budgets close, and there is a force on the desk
 status 0 run "$rooms/office.room" until=2 --json
 within door_flow 0.11999 0.12001

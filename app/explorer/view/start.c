@@ -7,6 +7,7 @@
 
 #include "app/explorer/view/own.h"
 #include "app/explorer/view/pages.h"
+#include "app/request/room.h"
 #include "app/request/system.h"
 #include "core/count.h"
 #include "render/cells/text.h"
@@ -152,6 +153,7 @@ static void draw_own(const struct gm_sheet *sheet)
         row += gm_sheet_wrapped(sheet, 2, row, 1, examples[i][1], GM_SECONDARY);
     }
     gm_system_each(add_name, &list);
+    gm_room_each(add_name, &list);
     if (names[0]) {
         gm_text_tame(names);
         row += gm_sheet_wrapped(sheet, 0, row + 1, 1, "Or by name:", GM_SECONDARY) + 1;
