@@ -370,7 +370,8 @@ static bool is_nystrom_symmetric(const struct gm_coefficients *coefficients, tak
        B(k)   sum_i b_i c_i^(k-1) = 1/k
        C(k)   sum_j a_ij c_j^(k-1) = c_i^k / k
        D(k)   sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k) / k
-   and what first keeps B from holding. False: out of memory. */
+   asked for k <= 2 s + 1, s and s: more no method has but Euler's, whose C holds for every k. The residual is
+   what first keeps B from holding. False: out of memory. */
 static bool find_simplifying(const struct gm_coefficients *coefficients, struct gm_theory *theory,
                              double *residual)
 {
@@ -410,8 +411,8 @@ static bool find_simplifying(const struct gm_coefficients *coefficients, struct 
             power[j] = gm_ball_multiply(power[j], c[j]);
         }
         theory->b = in_b ? k : theory->b;
-        theory->c = in_c ? k : theory->c;
-        theory->d = in_d ? k : theory->d;
+        theory->c = in_c && k <= s ? k : theory->c;
+        theory->d = in_d && k <= s ? k : theory->d;
     }
     free(c);
     return true;
