@@ -8,10 +8,12 @@
 #include <string.h>
 
 #include "core/clones.h"
+#include "core/count.h"
 
 enum {
-    LARGEST_BATCH = 256, /* operations of one instruction: what they need lies in the fastest cache */
+    LARGEST_BATCH = 256, /* operations of a group: what they need lies in the fastest cache */
     LEAST_BATCH = 16,
+    LEAST_RUN = 12,     /* operands in a row: fewer are gathered with what stands beside them */
     LEAST_ROLLED = 1024 /* values: shorter code stays in the order of the formula */
 };
 
@@ -20,12 +22,18 @@ enum {
 struct value {
     uint32_t operation, number, a, b;
     uint32_t level; /* one more than that of what it is made of: no two of one level need each other */
+    uint32_t a_rank, b_rank; /* of its operands, in the order of the code */
 };
 
-/* Registers that are taken and given back together: those of an instruction. */
+/* Registers that are taken and given back together: those of a group. */
 struct stretch {
     uint32_t first, alive; /* how many of their values are still needed */
     bool wide;
+};
+
+/* Values [begin, end) that are computed one after the other: all by the same operation, or one. */
+struct group {
+    size_t begin, end;
 };
 
 /* What is known while the code of a tape is written. */
@@ -39,10 +47,11 @@ struct writing {
     bool *dependent;   /* of nodes: on an input */
     uint32_t one;      /* the constant 1, for powers that need it */
     struct value *values;
-    size_t value_count, batch_count, list_count;
+    struct group *groups; /* in the order of the code */
+    size_t value_count, group_count, batch_count, list_count;
     size_t constant_room, value_room, code_room, batch_room, list_room;
     bool rolled;
-    /* of values: register, last instruction that needs it, and, of those that are computed, stretch */
+    /* of values: register, last group that needs it, and, of those that are computed, stretch */
     uint32_t *place, *last, *home;
     struct stretch *stretches;
     uint32_t *free[2]; /* stretches of one register, and of LARGEST_BATCH, that may be used again */
@@ -142,7 +151,8 @@ static uint32_t compute_value(struct writing *writing, uint32_t operation, uint3
     writing->values =
         grown(writing, writing->values, sizeof *writing->values, writing->value_count, &writing->value_room);
     if (!writing->failed) {
-        writing->values[writing->value_count++] = (struct value){operation, number, a, b, 0};
+        writing->values[writing->value_count++] =
+            (struct value){.operation = operation, .number = number, .a = a, .b = b};
     }
     return number;
 }
@@ -196,15 +206,62 @@ static int compare(uint32_t a, uint32_t b)
     return (a > b) - (a < b);
 }
 
-static int by_level(const void *a, const void *b)
+/* Orders of the values of a level, one of which may leave rows whole. */
+static int order(const struct value *x, const struct value *y, const uint32_t keys[2][2])
 {
-    const struct value *x = a, *y = b;
-    return x->level != y->level           ? compare(x->level, y->level)
-           : x->operation != y->operation ? compare(x->operation, y->operation)
-                                          : compare(x->number, y->number);
+    return x->operation != y->operation ? compare(x->operation, y->operation)
+           : keys[0][0] != keys[1][0]   ? compare(keys[0][0], keys[1][0])
+                                        : compare(keys[0][1], keys[1][1]);
 }
 
-/* Behind the values that are computed by the same instruction as that at `begin`. */
+static int by_first(const void *a, const void *b)
+{
+    const struct value *x = a, *y = b;
+    return order(x, y, (const uint32_t[2][2]){{x->a_rank, x->b_rank}, {y->a_rank, y->b_rank}});
+}
+
+static int by_second(const void *a, const void *b)
+{
+    const struct value *x = a, *y = b;
+    return order(x, y, (const uint32_t[2][2]){{x->b_rank, x->a_rank}, {y->b_rank, y->a_rank}});
+}
+
+static int by_distance(const void *a, const void *b)
+{
+    const struct value *x = a, *y = b;
+    return order(
+        x, y, (const uint32_t[2][2]){{x->b_rank - x->a_rank, x->a_rank}, {y->b_rank - y->a_rank, y->a_rank}});
+}
+
+/* How often operands neither stay nor go on by one. */
+static size_t breaks_of(const struct value *values, size_t count)
+{
+    size_t breaks = 0;
+    for (size_t i = 1; i < count; i++) {
+        breaks += values[i].a_rank - values[i - 1].a_rank > 1 || values[i].b_rank - values[i - 1].b_rank > 1;
+    }
+    return breaks;
+}
+
+static void sort_level(struct value *values, size_t count)
+{
+    static int (*const orders[])(const void *, const void *) = {by_first, by_second, by_distance};
+    enum { ORDERS = GM_COUNT(orders), FEW = 16 };
+    size_t least = SIZE_MAX;
+    int best = 0, last = 0;
+    for (int k = 0; k < ORDERS && least > count / FEW; k++) {
+        qsort(values, count, sizeof *values, orders[k]);
+        const size_t breaks = breaks_of(values, count);
+        best = breaks < least ? k : best;
+        least = breaks < least ? breaks : least;
+        last = k;
+    }
+    if (best != last) {
+        qsort(values, count, sizeof *values, orders[best]);
+    }
+}
+
+/* Behind the values of the group that begins at `begin`. */
 static size_t end_of(const struct writing *writing, size_t begin)
 {
     const struct value *values = writing->values;
@@ -216,36 +273,125 @@ static size_t end_of(const struct writing *writing, size_t begin)
     return end - begin < LEAST_BATCH ? begin + 1 : end;
 }
 
-/* Orders values by level and operation, if then most of them share an instruction. */
-static void roll(struct writing *writing)
+static void find_groups(struct writing *writing)
+{
+    writing->group_count = 0;
+    for (size_t begin = 0, end; begin < writing->value_count; begin = end) {
+        end = end_of(writing, begin);
+        writing->groups[writing->group_count++] = (struct group){begin, end};
+    }
+}
+
+/* Brings values by level from where they stand straight, and those of one level into an order in which rows
+   are made of rows; counts: room for as many numbers as there are values, and one. */
+static void sort(struct writing *writing, struct value *straight, uint32_t *rank, size_t *counts)
+{
+    const size_t fixed = writing->tape->inputs + writing->tape->constant_count, count = writing->value_count;
+    struct value *values = writing->values;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t a = straight[i].a < fixed ? 0 : straight[straight[i].a - fixed].level,
+                       b = straight[i].b < fixed ? 0 : straight[straight[i].b - fixed].level;
+        straight[i].level = 1 + (a > b ? a : b);
+        counts[straight[i].level]++;
+    }
+    for (size_t level = 1; level <= count; level++) {
+        counts[level] += counts[level - 1];
+    }
+    for (size_t i = 0; i < count; i++) {
+        values[counts[straight[i].level - 1]++] = straight[i];
+    }
+    for (uint32_t i = 0; i < fixed; i++) {
+        rank[i] = i;
+    }
+    for (size_t begin = 0, end; begin < count; begin = end) {
+        for (end = begin; end < count && values[end].level == values[begin].level; end++) {
+            values[end].a_rank = rank[values[end].a];
+            values[end].b_rank = rank[values[end].b];
+        }
+        sort_level(values + begin, end - begin);
+        for (size_t i = begin; i < end; i++) {
+            rank[values[i].number] = (uint32_t)(fixed + i);
+        }
+    }
+}
+
+/* Sorts values, if then most of them share a group. */
+static bool roll(struct writing *writing)
 {
     const size_t fixed = writing->tape->inputs + writing->tape->constant_count, count = writing->value_count;
     struct value *straight = malloc(count * sizeof *straight);
-    if (!straight) {
-        writing->failed = true;
-        return;
+    uint32_t *rank = malloc((fixed + count) * sizeof *rank);
+    size_t *counts = calloc(count + 1, sizeof *counts);
+    writing->failed |= !straight || !rank || !counts;
+    if (!writing->failed) {
+        memcpy(straight, writing->values, count * sizeof *straight);
+        sort(writing, straight, rank, counts);
+        writing->rolled = true;
+        find_groups(writing);
     }
-    for (size_t i = 0; i < count; i++) {
-        struct value *value = &writing->values[i];
-        const uint32_t a = value->a < fixed ? 0 : writing->values[value->a - fixed].level,
-                       b = value->b < fixed ? 0 : writing->values[value->b - fixed].level;
-        value->level = 1 + (a > b ? a : b);
-    }
-    memcpy(straight, writing->values, count * sizeof *straight);
-    qsort(writing->values, count, sizeof *writing->values, by_level);
-    writing->rolled = true;
-    size_t instructions = 0;
-    for (size_t begin = 0; begin < count; begin = end_of(writing, begin)) {
-        instructions++;
-    }
-    if (instructions > count / 2) {
+    if (!writing->failed && writing->group_count > count / 2) {
         memcpy(writing->values, straight, count * sizeof *straight);
         writing->rolled = false;
+        find_groups(writing);
     }
     free(straight);
+    free(rank);
+    free(counts);
+    return writing->rolled;
 }
 
-/* A stretch for the values of an instruction. */
+/* Orders groups by need, from the last one down: each stands behind what it is made of and close to it, so
+   that what passes from one to the next is still in the fastest cache. */
+static void order_by_need(struct writing *writing)
+{
+    const size_t fixed = writing->tape->inputs + writing->tape->constant_count, count = writing->group_count;
+    struct open_group {
+        uint32_t group;
+        size_t operand; /* of its values' operands: the first that is not seen to yet */
+    } *path = malloc(count * sizeof *path);
+    struct group *ordered = malloc(count * sizeof *ordered);
+    uint32_t *group_of = malloc(writing->value_count * sizeof *group_of);
+    bool *met = calloc(count, sizeof *met);
+    writing->failed |= !path || !ordered || !group_of || !met;
+    for (uint32_t k = 0; !writing->failed && k < count; k++) {
+        for (size_t i = writing->groups[k].begin; i < writing->groups[k].end; i++) {
+            group_of[writing->values[i].number - fixed] = k;
+        }
+    }
+    size_t done = 0;
+    for (size_t root = writing->failed ? 0 : count; root-- > 0;) {
+        size_t depth = 0;
+        if (!met[root]) {
+            met[root] = true;
+            path[depth++] = (struct open_group){(uint32_t)root, 0};
+        }
+        while (depth > 0) {
+            struct open_group *last = &path[depth - 1];
+            const struct group *group = &writing->groups[last->group];
+            const struct value *value = &writing->values[group->begin + last->operand / 2];
+            if (group->begin + last->operand / 2 == group->end) {
+                ordered[done++] = *group;
+                depth--;
+                continue;
+            }
+            const uint32_t operand = last->operand++ % 2 ? value->b : value->a;
+            if (operand >= fixed && !met[group_of[operand - fixed]]) {
+                const uint32_t needed = group_of[operand - fixed];
+                met[needed] = true;
+                path[depth++] = (struct open_group){needed, 0};
+            }
+        }
+    }
+    if (!writing->failed) {
+        memcpy(writing->groups, ordered, count * sizeof *ordered);
+    }
+    free(path);
+    free(ordered);
+    free(group_of);
+    free(met);
+}
+
+/* A stretch for the values of a group. */
 static uint32_t take(struct writing *writing, size_t count)
 {
     const bool wide = count > 1;
@@ -261,10 +407,10 @@ static uint32_t take(struct writing *writing, size_t count)
     return taken;
 }
 
-/* What only this instruction still needed gives its register back. */
-static void release(struct writing *writing, uint32_t number, uint32_t instruction)
+/* What only this group still needed gives its register back. */
+static void release(struct writing *writing, uint32_t number, uint32_t group)
 {
-    if (writing->last[number] == instruction) {
+    if (writing->last[number] == group) {
         const uint32_t home = writing->home[number];
         struct stretch *stretch = &writing->stretches[home];
         writing->last[number] = NONE; /* once, where it is both operands */
@@ -328,6 +474,36 @@ static void put_batch(struct writing *writing, const struct value *values, size_
     }
 }
 
+/* How many values there are from this one on whose operands lie in a row, or are all the same. */
+static size_t run_of(const struct writing *writing, const struct value *values, size_t count)
+{
+    size_t run = count;
+    for (int k = 0; k < gm_operation_rows[values->operation].arity; k++) {
+        const uint32_t first = register_of(writing, values, k);
+        const uint32_t apart = count > 1 ? register_of(writing, &values[1], k) - first : 0;
+        size_t length = 1;
+        while (length < run && apart <= 1 &&
+               register_of(writing, &values[length], k) == first + length * apart) {
+            length++;
+        }
+        run = length;
+    }
+    return run;
+}
+
+/* A group as a few instructions, most of which need not gather their operands. */
+static void put_group(struct writing *writing, const struct value *values, size_t count, uint32_t to)
+{
+    for (size_t begin = 0, end; begin < count; begin = end) {
+        end = begin + run_of(writing, values + begin, count - begin);
+        while (end - begin < LEAST_RUN && end < count &&
+               run_of(writing, values + end, count - end) < LEAST_RUN) {
+            end++;
+        }
+        put_batch(writing, values + begin, end - begin, to + (uint32_t)begin);
+    }
+}
+
 /* Where values live, and until when. */
 static void prepare(struct writing *writing, const gm_node_id *nodes, size_t count)
 {
@@ -337,13 +513,11 @@ static void prepare(struct writing *writing, const gm_node_id *nodes, size_t cou
         writing->place[i] = i < fixed ? i : NONE;
         writing->last[i] = NONE;
     }
-    uint32_t instruction = 0;
-    for (size_t begin = 0, end; begin < writing->value_count; begin = end, instruction++) {
-        end = end_of(writing, begin);
-        for (size_t i = begin; i < end; i++) {
+    for (uint32_t k = 0; k < writing->group_count; k++) {
+        for (size_t i = writing->groups[k].begin; i < writing->groups[k].end; i++) {
             const struct value *value = &writing->values[i];
-            writing->last[value->a] = value->a < fixed ? NONE : instruction;
-            writing->last[value->b] = value->b < fixed ? NONE : instruction;
+            writing->last[value->a] = value->a < fixed ? NONE : k;
+            writing->last[value->b] = value->b < fixed ? NONE : k;
         }
     }
     /* the first output that is this value */
@@ -362,16 +536,14 @@ static void write_code(struct writing *writing, const gm_node_id *nodes, size_t 
     struct gm_tape *tape = writing->tape;
     const uint32_t first_output = (uint32_t)(tape->inputs + tape->constant_count);
     prepare(writing, nodes, count);
-    uint32_t instruction = 0;
-    for (size_t begin = 0, end; begin < writing->value_count && !writing->failed;
-         begin = end, instruction++) {
-        end = end_of(writing, begin);
+    for (uint32_t group = 0; group < writing->group_count && !writing->failed; group++) {
+        const size_t begin = writing->groups[group].begin, end = writing->groups[group].end;
         const struct value *first = &writing->values[begin];
         const bool is_output = end - begin == 1 && writing->place[first->number] != NONE;
         const uint32_t home = is_output ? NONE : take(writing, end - begin),
                        to = is_output ? writing->place[first->number] : writing->stretches[home].first;
         if (end - begin > 1) {
-            put_batch(writing, first, end - begin, to);
+            put_group(writing, first, end - begin, to);
         } else {
             put(writing, first->operation, to, writing->place[first->a], writing->place[first->b]);
         }
@@ -379,8 +551,8 @@ static void write_code(struct writing *writing, const gm_node_id *nodes, size_t 
             const struct value *value = &writing->values[i];
             writing->place[value->number] = to + (uint32_t)(i - begin);
             writing->home[value->number] = home;
-            release(writing, value->a, instruction);
-            release(writing, value->b, instruction);
+            release(writing, value->a, group);
+            release(writing, value->b, group);
         }
     }
     for (size_t k = 0; k < count && !writing->failed; k++) {
@@ -408,8 +580,12 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
         find_constants(&writing, nodes, count);
         find_values(&writing);
     }
-    if (!writing.failed && writing.value_count >= LEAST_ROLLED) {
-        roll(&writing);
+    writing.groups = malloc((writing.value_count + 1) * sizeof *writing.groups);
+    writing.failed |= !writing.groups;
+    if (!writing.failed && writing.value_count < LEAST_ROLLED) {
+        find_groups(&writing);
+    } else if (!writing.failed && roll(&writing)) {
+        order_by_need(&writing);
     }
     const size_t all = inputs + tape->constant_count + writing.value_count + 1;
     writing.place = malloc(all * sizeof *writing.place);
@@ -428,6 +604,7 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
     free(writing.folded);
     free(writing.dependent);
     free(writing.values);
+    free(writing.groups);
     free(writing.place);
     free(writing.last);
     free(writing.home);
