@@ -8,6 +8,7 @@
 
 #include <stdlib.h>
 
+#include "core/clones.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/tiles.h"
@@ -35,8 +36,8 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 }
 
 /* stage = y + h sum_(j<i) a_ij k_j, for `count` components whose slopes lie `stride` apart */
-static void stage_of(const struct gm_explicit_tableau *tableau, int i, double h, const double *y,
-                     const double *slopes, size_t stride, double *stage, size_t count)
+GM_OF_TILE void stage_of(const struct gm_explicit_tableau *tableau, int i, double h, const double *y,
+                         const double *slopes, size_t stride, double *stage, size_t count)
 {
     for (size_t c = 0; c < count; c++) {
         stage[c] = y[c];
@@ -48,8 +49,8 @@ static void stage_of(const struct gm_explicit_tableau *tableau, int i, double h,
     }
 }
 
-static void increment_of(const struct gm_explicit_tableau *tableau, double h, const double *slopes,
-                         size_t stride, double *increment, size_t count)
+GM_OF_TILE void increment_of(const struct gm_explicit_tableau *tableau, double h, const double *slopes,
+                             size_t stride, double *increment, size_t count)
 {
     for (size_t c = 0; c < count; c++) {
         increment[c] = h * tableau->b[0] * slopes[c];
@@ -84,27 +85,40 @@ static void carry_along(const struct gm_task *task, const struct gm_explicit_tab
     }
 }
 
-static enum gm_status step(const struct gm_task *task, struct gm_tile *tile, struct gm_progress *progress)
+GM_OF_TILE enum gm_status step_of(const struct gm_task *task, struct gm_tile *tile,
+                                  struct gm_progress *progress, size_t members)
 {
     const struct gm_explicit_tableau *tableau = tile->row;
-    const size_t active = gm_tile_components(task->problem) * tile->members;
+    const size_t active = gm_tile_components(task->problem) * members;
     const size_t all = (size_t)tableau->stages * active;
     double *stages = tile->scratch, *slopes = stages + all, *increment = slopes + all;
     for (int i = 0; i < tableau->stages; i++) {
         double *stage = stages + (size_t)i * active;
         stage_of(tableau, i, task->dt, tile->y, slopes, active, stage, active);
-        tile->loops->field(task->problem, stage, slopes + (size_t)i * active, tile->members);
+        tile->loops->field(task->problem, stage, slopes + (size_t)i * active, members);
     }
     carry_along(task, tableau, tile);
     increment_of(tableau, task->dt, slopes, active, increment, active);
     gm_tile_add(tile->y, 1, increment, tile->carry, active);
-    progress->evaluations += (unsigned long)tableau->stages * tile->members;
+    progress->evaluations += (unsigned long)tableau->stages * members;
     return GM_OK;
+}
+
+static enum gm_status step_one(const struct gm_task *task, struct gm_tile *tile, struct gm_progress *progress)
+{
+    return step_of(task, tile, progress, 1);
+}
+
+GM_CLONES static enum gm_status step_many(const struct gm_task *task, struct gm_tile *tile,
+                                          struct gm_progress *progress)
+{
+    return step_of(task, tile, progress, tile->members);
 }
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    return gm_tiles_advance(task, gm_explicit_tableau_of(task->scheme->coefficients), step);
+    return gm_tiles_advance(task, gm_explicit_tableau_of(task->scheme->coefficients),
+                            task->problem->m == 1 ? step_one : step_many);
 }
 
 static bool coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients)

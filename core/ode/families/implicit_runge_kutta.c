@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/clones.h"
 #include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/loops.h"
@@ -499,8 +500,8 @@ static enum gm_status step_one(const struct gm_task *task, struct gm_tile *tile,
     return step_of(task, tile, progress, 1);
 }
 
-static enum gm_status step_many(const struct gm_task *task, struct gm_tile *tile,
-                                struct gm_progress *progress)
+GM_CLONES static enum gm_status step_many(const struct gm_task *task, struct gm_tile *tile,
+                                          struct gm_progress *progress)
 {
     return step_of(task, tile, progress, tile->members);
 }
