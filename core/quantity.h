@@ -26,9 +26,10 @@ struct gm_quantity {
     enum gm_support support;
     size_t count, width;
     size_t first;
-    int axis;   /* 1, 2, 3: the values are coordinates x, y, z of what they belong to, of width 2 x and y */
-    bool fixed; /* the same at all times */
-    bool whole; /* whole numbers */
+    int axis; /* 1, 2, 3: the values are coordinates x, y, z of what they belong to, of width 2 x and y */
+    double period[2]; /* of such coordinates x and y, which go round; 0: they do not */
+    bool fixed;       /* the same at all times */
+    bool whole;       /* whole numbers */
     void (*derive)(const struct gm_run *run, double *values);
 };
 

@@ -15,10 +15,10 @@
 #include "render/vector/svg.h"
 
 /* The texts that it reads. */
-enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, NEEDED, SCALE = NEEDED, DPI, TITLE, SYSTEM, TEXTS };
-static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY_CHANGES,
-                                        GM_KEY_STEPS,   GM_KEY_PICTURE,   GM_KEY_SCALE,
-                                        GM_KEY_DPI,     GM_KEY_TITLE,     GM_KEY_SYSTEM};
+enum { COMMAND, ARGUMENTS, CHANGES, STEPS, PICTURE, NEEDED, SCALE = NEEDED, DPI, PAGE, TITLE, SYSTEM, TEXTS };
+static const char *const keys[TEXTS] = {GM_KEY_COMMAND, GM_KEY_ARGUMENTS, GM_KEY_CHANGES, GM_KEY_STEPS,
+                                        GM_KEY_PICTURE, GM_KEY_SCALE,     GM_KEY_DPI,     GM_KEY_PAGE,
+                                        GM_KEY_TITLE,   GM_KEY_SYSTEM};
 
 /* Opens every lane and drives it to the step that `steps` names for it. */
 static bool drive(const struct gm_request *request, struct gm_lane **lanes, const char *steps, char *message)
@@ -135,6 +135,10 @@ static bool take_look(struct gm_appearance *look, char *const *texts)
     }
     look->theme = strcmp(theme, "dark") == 0 ? GM_THEME_DARK : GM_THEME_LIGHT;
     look->title = texts[TITLE];
+    if (texts[PAGE] && (sscanf(texts[PAGE], "%lfx%lf", &look->page_width, &look->page_height) != 2 ||
+                        !(look->page_width > 0) || !(look->page_height > 0))) {
+        return false;
+    }
     return take_number(texts[SCALE], GM_LEAST_SCALE, GM_MOST_SCALE, &look->scale) &&
            take_number(texts[DPI], GM_LEAST_DPI, GM_MOST_DPI, &look->dpi);
 }

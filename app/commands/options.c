@@ -338,8 +338,78 @@ static bool is_given(const bool given[ROWS], const char *name)
     return false;
 }
 
+/* A path without its detours; malloc'ed, NULL: it leads nowhere. */
+static char *straight(const char *path)
+{
+    char *there = realpath(path, NULL), *copy = there ? NULL : strdup(path);
+    if (!copy) {
+        return there;
+    }
+    char *slash = strrchr(copy, '/'), *whole = NULL;
+    const char *name = slash ? slash + 1 : copy;
+    if (slash) {
+        *slash = '\0';
+    }
+    char *folder = realpath(!slash ? "." : slash == copy ? "/" : copy, NULL);
+    if (!folder || asprintf(&whole, "%s/%s", folder, name) < 0) {
+        whole = NULL;
+    }
+    free(folder);
+    free(copy);
+    return whole;
+}
+
+static bool is_same_file(const char *a, const char *b)
+{
+    char *x = straight(a), *y = straight(b);
+    const bool same = strcmp(a, b) == 0 || (x && y && strcmp(x, y) == 0);
+    free(x);
+    free(y);
+    return same && strncmp(a, "/dev/", 5) != 0;
+}
+
+/* Whether no file is written twice, or is one that is read; a picture may be made again in its place. */
+static bool check_files(const struct gm_options *options, enum gm_command command, char *message)
+{
+    const struct {
+        const char *name, *path;
+    } files[] = {{"--csv", options->csv},
+                 {"--profile", options->profile},
+                 {"--save", options->save},
+                 {"--save-tracks", options->tracks},
+                 {"--table", options->table},
+                 {"--output", options->output},
+                 {"--movie", options->movie},
+                 {"--polish", options->polish},
+                 {"--checkpoint", options->checkpoint}};
+    enum { FILES = GM_COUNT(files), CHECKPOINT = FILES - 1 };
+    for (size_t i = 0; i < FILES; i++) {
+        if (!files[i].path || strcmp(files[i].path, "-") == 0) {
+            continue;
+        }
+        for (size_t k = i + 1; k < FILES; k++) {
+            if (files[k].path && is_same_file(files[i].path, files[k].path)) {
+                return gm_refuse(message, "%s and %s are to write to one file, %.300s", files[i].name,
+                                 files[k].name, files[i].path);
+            }
+        }
+        bool read = i != CHECKPOINT && options->from_checkpoint &&
+                    is_same_file(files[i].path, options->from_checkpoint);
+        for (int k = 0; k < options->arguments.count && !read && command != GM_AGAIN; k++) {
+            const char *word = options->arguments.words[k], *equals = strchr(word, '=');
+            read = is_same_file(files[i].path, word) || (equals && is_same_file(files[i].path, equals + 1));
+        }
+        if (read) {
+            return gm_refuse(message, "%s would write over %.300s, which is read", files[i].name,
+                             files[i].path);
+        }
+    }
+    return true;
+}
+
 /* Whether the options that were given agree. */
-static bool check_pairs(const struct gm_options *options, const bool given[ROWS], char *message)
+static bool check_pairs(const struct gm_options *options, enum gm_command command, const bool given[ROWS],
+                        char *message)
 {
     static const struct {
         const char *one, *other, *why;
@@ -377,24 +447,7 @@ static bool check_pairs(const struct gm_options *options, const bool given[ROWS]
                              pairs[i].why);
         }
     }
-    const struct {
-        const char *name, *path;
-    } files[] = {{"--csv", options->csv},
-                 {"--profile", options->profile},
-                 {"--save", options->save},
-                 {"--save-tracks", options->tracks},
-                 {"--checkpoint", options->checkpoint}};
-    enum { FILES = GM_COUNT(files) };
-    for (size_t i = 0; i < FILES; i++) {
-        for (size_t k = i + 1; k < FILES; k++) {
-            if (files[i].path && files[k].path && strcmp(files[i].path, "-") != 0 &&
-                strcmp(files[i].path, files[k].path) == 0) {
-                return gm_refuse(message, "%s and %s are to write to one file, %.300s", files[i].name,
-                                 files[k].name, files[i].path);
-            }
-        }
-    }
-    return true;
+    return check_files(options, command, message);
 }
 
 bool gm_options_parse(struct gm_options *options, enum gm_command command, int argc, char *argv[], int first,
@@ -439,7 +492,7 @@ bool gm_options_parse(struct gm_options *options, enum gm_command command, int a
             return false;
         }
     }
-    return check_pairs(options, given, message) && settle_size(options, message) &&
+    return check_pairs(options, command, given, message) && settle_size(options, message) &&
            settle_format(options, message);
 }
 

@@ -390,6 +390,14 @@ static bool begin_rows(struct outcome *outcome, char *message)
     return !(outputs->csv || outputs->save) || write_rows(outcome, message);
 }
 
+/* What was run, as JSON; malloc'ed, NULL when memory is short. */
+static char *meta_of(const struct outcome *outcome)
+{
+    char sentence[GM_MESSAGE];
+    const char *status = tell_end(outcome, sentence, sizeof sentence);
+    return gm_meta_text(outcome->drive.lane, status, sentence);
+}
+
 /* ... and end with the last good state. A lane that did not come to its end says so in its history. */
 static bool end_rows(struct outcome *outcome, char *message)
 {
@@ -406,12 +414,19 @@ static bool end_rows(struct outcome *outcome, char *message)
     if (missing && !gm_save_row(outputs->save, lane->run, message)) {
         return false;
     }
-    char sentence[GM_MESSAGE];
-    char *meta = gm_meta_text(lane, tell_end(outcome, sentence, sizeof sentence), sentence);
-    if (!meta) {
-        return gm_refuse(message, "not enough memory");
-    }
-    const bool good = gm_save_end(outputs->save, meta, message);
+    char *meta = meta_of(outcome);
+    const bool good =
+        meta ? gm_save_end(outputs->save, meta, message) : gm_refuse(message, "not enough memory");
+    free(meta);
+    return good;
+}
+
+static bool save_tracks(const struct outcome *outcome, char *message)
+{
+    char *meta = meta_of(outcome);
+    const bool good = meta ? gm_tracks_add(outcome->outputs->tracks, outcome->drive.index,
+                                           outcome->drive.lane, meta, message)
+                           : gm_refuse(message, "not enough memory");
     free(meta);
     return good;
 }
@@ -679,8 +694,7 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
     } else {
         observe(&outcome);
         const bool told =
-            tell(&outcome, options, message) &&
-            (!outputs->tracks || gm_tracks_add(outputs->tracks, index, outcome.drive.lane, message));
+            tell(&outcome, options, message) && (!outputs->tracks || save_tracks(&outcome, message));
         const bool doubtful = options->strict && outcome.warning[0] != '\0';
         const enum gm_status end = outcome.drive.lane->run->status;
         if (!told) {

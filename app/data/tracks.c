@@ -61,9 +61,14 @@ struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
     return tracks;
 }
 
-bool gm_tracks_add(struct gm_tracks *tracks, size_t index, const struct gm_lane *lane, char *message)
+bool gm_tracks_add(struct gm_tracks *tracks, size_t index, const struct gm_lane *lane, const char *meta,
+                   char *message)
 {
-    bool good = true;
+    char meta_name[40] = "meta";
+    if (tracks->lanes > 1) {
+        snprintf(meta_name, sizeof meta_name, "lane%zu/meta", index);
+    }
+    bool good = gm_npz_text(tracks->npz, meta_name, meta);
     for (size_t i = 0; i < lane->scene->track_count && good; i++) {
         const struct gm_entries *entries = &lane->entries[i];
         const uint64_t shape[] = {entries->count, entries->width};

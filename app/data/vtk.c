@@ -4,6 +4,7 @@
    data, lowest byte first. Column 0 of a lane holds its lines of the list. */
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,6 +26,7 @@ struct group {
     const struct gm_quantity *axes[3]; /* NULL: 0 */
     const struct gm_quantity *height;  /* of a line: what y is */
     const struct gm_quantity *corners; /* of triangles */
+    bool apart; /* each triangle has corners of its own, as on a torus, whose seam would be drawn across */
 };
 
 enum section { FIELD, POINT, CELL, PLACES, TOPOLOGY, SECTIONS };
@@ -79,6 +81,8 @@ static bool group_of(const struct gm_saved *lane, const struct gm_run *run, enum
         group->shape = group->corners ? TRIANGLES : LINE;
         group->cells = group->corners ? group->corners->count : 1;
         group->height = group->corners ? NULL : first_on(lane, support);
+        group->apart = group->corners && (group->axes[0]->period[0] > 0 || group->axes[0]->period[1] > 0);
+        group->points = group->apart ? group->corners->width * group->cells : group->points;
     }
     return true;
 }
@@ -88,9 +92,40 @@ static const double *values_of(const struct group *group, const struct gm_quanti
     return gm_quantity_values(group->run, quantity, group->lane->scratch);
 }
 
+/* Corner by corner of triangles that have their own: each value is that of its vertex, a place the nearest to
+   the triangle's first corner. */
+static bool write_apart(const struct group *group, const struct gm_quantity *quantity, size_t components,
+                        FILE *file)
+{
+    const size_t width = quantity->width, vertices = group->axes[0]->count;
+    double *values = malloc(width * vertices * sizeof *values);
+    if (!values) {
+        return false;
+    }
+    memcpy(values, values_of(group, quantity), width * vertices * sizeof *values);
+    const double *corners = values_of(group, group->corners);
+    for (size_t k = 0; k < group->points; k++) {
+        const size_t first = k - k % group->corners->width;
+        double vector[SOLID] = {0};
+        for (size_t c = 0; c < width; c++) {
+            const double period = quantity->axis > 0 ? quantity->period[c] : 0;
+            const double near = values[width * (size_t)corners[first] + c];
+            vector[c] = values[width * (size_t)corners[k] + c];
+            vector[c] -= period > 0 ? period * round((vector[c] - near) / period) : 0;
+        }
+        fwrite(vector, sizeof *vector, components, file);
+    }
+    free(values);
+    return true;
+}
+
 /* Point by point, from quantities that may have to be derived one by one: x, y and z are collected first. */
 static void write_places(const struct group *group, FILE *file)
 {
+    if (group->apart) {
+        write_apart(group, group->axes[0], SOLID, file);
+        return;
+    }
     double *places = calloc(group->points, SOLID * sizeof *places);
     if (!places) {
         return; /* the file is then too short, which is seen */
@@ -122,7 +157,7 @@ static void write_connectivity(const struct group *group, FILE *file)
     const size_t corners = group->corners ? group->corners->width * group->cells : group->points;
     const double *values = group->corners ? values_of(group, group->corners) : NULL;
     for (size_t k = 0; k < corners; k++) {
-        write_whole(file, values ? (int64_t)values[k] : (int64_t)k);
+        write_whole(file, values && !group->apart ? (int64_t)values[k] : (int64_t)k);
     }
 }
 
@@ -149,6 +184,10 @@ static void write_time(const struct group *group, FILE *file)
 static void write_values(const struct group *group, const struct array *array, FILE *file)
 {
     const struct gm_quantity *quantity = array->quantity;
+    if (group->apart && array->section == POINT) {
+        write_apart(group, quantity, array->components, file);
+        return;
+    }
     const double *values = values_of(group, quantity);
     if (array->components == quantity->width) {
         fwrite(values, sizeof *values, array->components * array->tuples, file);
@@ -186,14 +225,15 @@ static size_t list_arrays(const struct group *group, struct array arrays[LONGEST
         const struct gm_quantity *quantity = &group->lane->quantities[i];
         const enum section section = section_of(group, quantity);
         if (section != SECTIONS) {
-            arrays[count++] = (struct array){section,
-                                             quantity->name,
-                                             "Float64",
-                                             quantity->width > 1 ? SOLID : 1,
-                                             quantity->count * group->lane->members,
-                                             8,
-                                             quantity,
-                                             NULL};
+            arrays[count++] = (struct array){
+                section,
+                quantity->name,
+                "Float64",
+                quantity->width > 1 ? SOLID : 1,
+                section == POINT && group->apart ? group->points : quantity->count * group->lane->members,
+                8,
+                quantity,
+                NULL};
         }
     }
     const size_t corners = group->corners ? group->corners->width * group->cells : group->points;

@@ -90,6 +90,8 @@ static bool take_look(struct gm_provenance *provenance, const struct gm_appearan
 {
     return (!is_scaled(look) || take(provenance, GM_KEY_SCALE, format("%.17g", look->scale))) &&
            (!(look->dpi > 0) || take(provenance, GM_KEY_DPI, format("%.17g", look->dpi))) &&
+           (!(look->page_width > 0) ||
+            take(provenance, GM_KEY_PAGE, format("%.17gx%.17g", look->page_width, look->page_height))) &&
            (!look->title || take(provenance, GM_KEY_TITLE, format("%s", look->title)));
 }
 
@@ -124,7 +126,12 @@ static char *look_options(const struct gm_appearance *look)
     if (!stream) {
         return NULL;
     }
-    fprintf(stream, " --size %dx%d --theme %s", look->width, look->height, theme_name(look));
+    if (look->page_width > 0) {
+        fprintf(stream, " --size %.17gx%.17gmm", look->page_width, look->page_height);
+    } else {
+        fprintf(stream, " --size %dx%d", look->width, look->height);
+    }
+    fprintf(stream, " --theme %s", theme_name(look));
     if (is_scaled(look)) {
         fprintf(stream, " --scale %.17g", look->scale);
     }

@@ -24,6 +24,7 @@ struct gm_provenance {
 #define GM_KEY_PICTURE "geomint:picture" /* WIDTHxHEIGHT theme */
 #define GM_KEY_SCALE "geomint:scale"     /* of letters and lines; none: 1 */
 #define GM_KEY_DPI "geomint:dpi"         /* pixels an inch; none: 96 */
+#define GM_KEY_PAGE "geomint:page"       /* 80x60, in mm; none: the pixels say */
 #define GM_KEY_TITLE "geomint:title"     /* over the picture; none: the scene's */
 #define GM_KEY_SYSTEM "geomint:system"   /* the text of a system, where the scene is one of a file */
 

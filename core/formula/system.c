@@ -226,10 +226,11 @@ static const struct entry *list_of(const struct reading *reading, const char *na
 static bool is_reserved(const char *name, size_t length)
 {
     /* keys of a command line, and columns of tables */
-    static const char *const reserved[] = {
-        "dt",    "until",   "steps",       "scheme",      "schemes", "zip",     "overlay",   "equal",
-        "show",  "members", "t",           "compensated", "binding", "tau0",    "tolerance", "spread",
-        "scene", "status",  "evaluations", "solves",      "seconds", "stopped", "shape"};
+    static const char *const reserved[] = {"dt",          "until",     "steps",   "scheme",      "schemes",
+                                           "zip",         "overlay",   "equal",   "show",        "members",
+                                           "t",           "lane",      "meta",    "compensated", "binding",
+                                           "tau0",        "tolerance", "spread",  "scene",       "status",
+                                           "evaluations", "solves",    "seconds", "stopped",     "shape"};
     for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
         if (strlen(reserved[i]) == length && memcmp(reserved[i], name, length) == 0) {
             return true;

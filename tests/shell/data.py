@@ -208,6 +208,15 @@ def vtk():
         check(abs(total - told[row][1]) <= 1e-12, "the scalar's total by VTK")
         check(grid.GetFieldData().GetArray("TimeValue").GetValue(0) == _, "model time by VTK")
         check(grid.GetCellData().GetArray("velocity").GetNumberOfComponents() == 3, "vectors for VTK")
+    geomint("run taylor-green steps=2 --save torus.pvd")
+    reader.SetFileName(os.path.join("torus", "000002.vtu"))
+    reader.Update()
+    sizes = library.vtkCellSizeFilter()
+    sizes.SetInputData(reader.GetOutput())
+    sizes.Update()
+    areas = sizes.GetOutput().GetCellData().GetArray("Area")
+    total = sum(areas.GetValue(k) for k in range(areas.GetNumberOfTuples()))
+    check(abs(total - 1) <= 1e-12, f"the torus' area by VTK is {total}")
 
 
 def warm():
@@ -279,7 +288,9 @@ def tracks():
     geomint("run henon-heiles until=200 --save-tracks t.npz")
     with numpy.load("t.npz", allow_pickle=False) as saved:
         keys = [name for name in saved.files if not name.endswith("_t")]
-        check(bool(keys) and all(len(saved[k]) == len(saved[k + "_t"]) > 0 for k in keys), f"tracks {saved.files}")
+        check(json.loads(str(saved["meta"]))["scene"] == "henon-heiles", "what the tracks are of")
+        check(len(keys) > 1 and all(len(saved[k]) == len(saved[k + "_t"]) > 0 for k in keys if k != "meta"),
+              f"tracks {saved.files}")
     check("npz" in geomint("run henon-heiles until=2 --save-tracks t.csv", 1).stderr, "tracks to a CSV file")
 
 

@@ -197,6 +197,9 @@ def test_again():
             check(one.read() == other.read(), f"{words}: again makes another picture")
         geomint(words.split() + ["--title", "two words \\ and a stroke", "-o", "p.svg"])
         geomint("again p.png -o q.svg")
+        with open("p.svg", "rb") as one, open("q.svg", "rb") as other:
+            check(re.search(rb"<svg[^>]*>", one.read())[0] == re.search(rb"<svg[^>]*>", other.read())[0],
+                  f"{words}: again makes an SVG of another size")
         check(texts_of("p.svg") == texts_of("q.svg"), f"{words}: again makes another SVG")
         geomint("again p.svg -o r.png")
         with open("p.png", "rb") as one, open("r.png", "rb") as other:

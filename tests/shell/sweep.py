@@ -5,6 +5,7 @@ import csv
 import fcntl
 import json
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -244,6 +245,14 @@ def test_pictures(folder):
     sweep("kepler", "dt=1e-2,2e-2", "eccentricity=0,0.1", "until=1", "--output", drawn)
     with open(drawn, encoding="utf-8") as picture:
         check("<svg" in picture.read() and len(rows(drawn.replace(".svg", ".csv"))) == 4, "-o FILE.svg")
+    maps = []
+    for values in ("0.1,0.2,0.4", "0.2,0.1,0.4"):
+        drawn = os.path.join(folder, "maps", f"{values}.svg")
+        sweep("disc", f"dt={values}", "radius=0.3,0.1", "until=1", "--title", "a map", "-o", drawn)
+        with open(drawn, encoding="utf-8") as picture:
+            maps.append(set(re.findall(r'd="([^"]*)"', picture.read())))
+    check(len(maps[0]) > 2 and maps[0] == maps[1], "a map of values that were typed in any order")
+    says("are to write to one file", "sweep", "disc", "dt=.1,.2", "--table", drawn, "-o", f"{folder}/maps/../maps/{values}.svg")
     says("--output - needs a table", "sweep", "kepler", "dt=1e-2,2e-2", "--output", "-", "--format", "pdf")
     says("system has no observable", "sweep", "system", "rate=x=-k*x", "x=1", "k=0..1:3", "until=1", "--out", folder)
     says("of two, and not of 3", "sweep", "kepler", "dt=1,2", "eccentricity=0,0.1", "until=1,2", "--out", folder)

@@ -240,6 +240,22 @@ static double value_at(const struct gm_sweep_chart *chart, size_t axis, size_t b
     return value;
 }
 
+/* The bins of an axis by their values, which may have been typed in any order. */
+static void order_bins(const struct gm_sweep_chart *chart, size_t axis, size_t *order, double *values)
+{
+    const size_t count = chart->bins[axis];
+    for (size_t i = 0; i < count; i++) {
+        const double value = value_at(chart, axis, i);
+        size_t at = i;
+        for (; at > 0 && values[at - 1] > value; at--) {
+            values[at] = values[at - 1];
+            order[at] = order[at - 1];
+        }
+        values[at] = value;
+        order[at] = i;
+    }
+}
+
 /* Whether an axis has the scale of powers: equal factors were asked for, or the parameter is one of those. */
 static bool is_logarithmic(const struct gm_sweep_chart *chart, size_t axis)
 {
@@ -312,9 +328,10 @@ static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, st
     enum { SINGLE = 64 }; /* so many points are told apart */
     const size_t count = chart->bins[0];
     const struct extent extent = extent_of(chart, observable);
-    double *points = gm_picture_memory(picture, 2 * count * sizeof *points);
+    double *points = gm_picture_memory(picture, 3 * count * sizeof *points), *values = points + 2 * count;
+    size_t *order = gm_picture_memory(picture, count * sizeof *order);
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_GRAPH, title_of(chart, observable, picture));
-    if (!points) {
+    if (!points || !order) {
         return;
     }
     panel->axes = true;
@@ -327,15 +344,16 @@ static void draw_graph(const struct gm_sweep_chart *chart, size_t observable, st
                                 .scale = extent.logarithmic ? GM_LOG : GM_LINEAR,
                                 .low = extent.low,
                                 .high = extent.high};
+    order_bins(chart, 0, order, values);
     for (size_t i = 0; i < count; i++) {
-        points[2 * i] = value_at(chart, 0, i);
+        points[2 * i] = values[i];
         gm_range_add(&panel->x.low, &panel->x.high, points[2 * i]);
     }
     gm_range_round(&panel->y.low, &panel->y.high, panel->y.scale);
     for (size_t line = 0; line < chart->lines; line++) {
         const struct bin *bins = bins_of(chart, observable, line);
         for (size_t i = 0; i < count; i++) {
-            points[2 * i + 1] = mean_of(&bins[i]);
+            points[2 * i + 1] = mean_of(&bins[order[i]]);
         }
         const struct gm_style style = {gm_lane_role(line), 1, 2, gm_lane_dash(line)};
         gm_mark_line(picture, panel, style, points, count, false);
@@ -375,6 +393,7 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     const bool logarithmic[] = {is_logarithmic(chart, 0), is_logarithmic(chart, 1)};
     const char *title = title_of(chart, observable, picture);
     double values[MAP_BINS], edges[2][MAP_BINS + 1];
+    size_t order[2][MAP_BINS];
     struct cells cells = {.points = malloc(8 * all * sizeof *cells.points),
                           .values = malloc(4 * all * sizeof *cells.values),
                           .triangles = malloc(6 * all * sizeof *cells.triangles)};
@@ -384,9 +403,7 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     panel->colour_bar_label = gm_picture_text(picture, "%s%s", extent.logarithmic ? "log₁₀ " : "", title);
     for (size_t axis = 0; axis < 2; axis++) {
         struct gm_axis *shown = axis == 0 ? &panel->x : &panel->y;
-        for (size_t i = 0; i < chart->bins[axis]; i++) {
-            values[i] = value_at(chart, axis, i);
-        }
+        order_bins(chart, axis, order[axis], values);
         gm_edges_of(values, chart->bins[axis], logarithmic[axis], edges[axis]);
         *shown = (struct gm_axis){.label = key_label(chart, axis, picture),
                                   .scale = logarithmic[axis] ? GM_LOG : GM_LINEAR,
@@ -399,7 +416,7 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     const struct bin *bins = bins_of(chart, observable, line);
     const bool good = cells.points && cells.values && cells.triangles;
     for (size_t i = 0; good && i < all; i++) {
-        const double value = mean_of(&bins[i]);
+        const double value = mean_of(&bins[order[1][i / across] * across + order[0][i % across]]);
         /* 0 is less than any power: it has the colour of the least */
         const double shown = extent.logarithmic ? log10(fmax(value, extent.low)) : value;
         if (isfinite(value)) {
@@ -446,8 +463,9 @@ void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *
     picture->clock = "";
     picture->caption = gm_picture_text(
         picture, "%s%s", binned ? "What lies closer together is shown by its mean. " : "",
-        chart->failed > 0 ? gm_picture_text(picture, "%zu runs failed and are left out.", chart->failed)
-                          : "");
+        chart->failed > 0
+            ? gm_picture_text(picture, "%zu of the runs gave no numbers and are left out.", chart->failed)
+            : "");
     for (size_t i = 0; i < chart->shown; i++) {
         for (size_t line = 0; line < chart->lines && chart->key_count == 2; line++) {
             draw_map(chart, i, line, picture);

@@ -93,7 +93,20 @@ static bool words_of(const struct gm_sweep *sweep, size_t run, const char *key, 
 char *gm_sweep_words(const struct gm_sweep *sweep, size_t run)
 {
     struct gm_arguments arguments;
-    char *text = words_of(sweep, run, NULL, NULL, &arguments) ? gm_arguments_join("run", &arguments) : NULL;
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = words_of(sweep, run, NULL, NULL, &arguments) ? open_memstream(&text, &size) : NULL;
+    if (stream) {
+        fputs("run", stream);
+        for (int i = 0; i < arguments.count; i++) {
+            putc(' ', stream);
+            gm_arguments_put_shell(stream, arguments.words[i]);
+        }
+        if (fclose(stream) != 0) {
+            free(text);
+            text = NULL;
+        }
+    }
     gm_arguments_close(&arguments);
     return text;
 }

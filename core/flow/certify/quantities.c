@@ -72,7 +72,9 @@ size_t gm_flow_quantities(const struct gm_run *run, struct gm_quantity *quantiti
         bool there;
         struct gm_quantity quantity;
     } all[] = {
-        {true, {"points", GM_ON_NODES, v, 2, .axis = 1, .fixed = true, .derive = points}},
+        {true,
+         {"points", GM_ON_NODES, v, 2, .axis = 1,
+          .period = {flow->complex->period[0], flow->complex->period[1]}, .fixed = true, .derive = points}},
         {true, {"triangles", GM_ON_CELLS, t, 3, .fixed = true, .whole = true, .derive = triangles}},
         {true, {"stream_function", GM_ON_NODES, v, 1, .first = GM_FLOW_PSI * v}},
         {true, {"vorticity", GM_ON_NODES, v, 1, .first = GM_FLOW_OMEGA * v}},
