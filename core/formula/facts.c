@@ -61,6 +61,26 @@ static gm_node_id apply(struct gm_own_system *system, enum gm_operation operatio
     return node;
 }
 
+/* Whether the node holds a kink, or a root that may be one, that depends on each of the sets: there derivatives
+   vanish on both sides, and say nothing. */
+static bool has_kink(struct gm_own_system *system, gm_node_id node, const bool *const *sets, size_t depth)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    bool found = false;
+    for (size_t i = 0; i < count && !found; i++) {
+        const enum gm_operation operation = system->graph.nodes[parts[i]].operation;
+        found = operation > GM_VARIABLE &&
+                (!gm_operation_rows[operation].smooth || operation == GM_OPERATION_SQRT);
+        for (size_t k = 0; k < depth && found; k++) {
+            found = depends(system, parts[i], sets[k]);
+        }
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return found;
+}
+
 /* Whether all derivatives of a node, over sets[0], of these over sets[1], and so on, are 0. */
 static enum gm_identity vanishes(struct gm_own_system *system, gm_node_id node, const bool *const *sets,
                                  size_t depth)
@@ -84,7 +104,7 @@ static enum gm_identity vanishes(struct gm_own_system *system, gm_node_id node, 
         all = found == GM_ZERO_PROVED ? all : found;
     }
     free(gradient);
-    return all;
+    return all != GM_NOT_ZERO && has_kink(system, node, sets, depth) ? GM_NOT_ZERO : all;
 }
 
 /* A term of a sum: coefficient * node, where the coefficient holds no component. */

@@ -12,7 +12,7 @@ __extension__ typedef unsigned __int128 wide;
 
 static const residue PRIME = (UINT64_C(1) << 61) - 1; /* 3 modulo 4: roots are powers */
 
-enum { PROOFS = 3, TESTS = 20, TRIES = 400 };
+enum { PROOFS = 3, PROOFS_BY_SIGN = 30, TESTS = 20, TRIES = 1000 };
 
 /* Steele, Lea, Flood: SplitMix64 */
 static uint64_t mix(uint64_t x)
@@ -210,6 +210,18 @@ static bool is_zero_there(const struct gm_formula *graph, const gm_node_id *part
     return *exists && values[parts[count - 1]] == 0;
 }
 
+/* Whether a part has one of two values, as a sign or a root, so that a point more is half a proof at most. */
+static bool has_signs(const struct gm_formula *graph, const gm_node_id *parts, size_t count)
+{
+    bool found = false;
+    for (size_t k = 0; k < count; k++) {
+        const enum gm_operation operation = graph->nodes[parts[k]].operation;
+        found |= operation > GM_VARIABLE &&
+                 (!gm_operation_rows[operation].smooth || operation == GM_OPERATION_SQRT);
+    }
+    return found;
+}
+
 /* A value, and the size of all that was added up for it. */
 struct sized {
     double value, size;
@@ -236,6 +248,7 @@ static struct sized size_there(const struct gm_formula *graph, const gm_node_id 
         if (node->operation == GM_VARIABLE) {
             const uint64_t random = mix(seed ^ mix(node->a));
             value = ((double)(random >> 12) * 0x1p-52 * 1.8 + .2) * (random & 1 && seed % 2 ? -1 : 1);
+            value *= seed % 4 == 3 ? 10 : 1; /* beyond a bound that a formula may have */
             value = node->a < variables && !isnan(fixed[node->a]) ? fixed[node->a] : value;
         }
         values[i] = node->operation > GM_VARIABLE ? size_of(node->operation, values[node->a], values[node->b])
@@ -261,19 +274,20 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
     gm_node_id *parts = gm_formula_parts(graph, node, &count);
     enum gm_identity found = GM_UNTESTED;
     if (memory && parts) {
+        const int enough = has_signs(graph, parts, count) ? PROOFS_BY_SIGN : PROOFS;
         int proofs = 0, tests = 0;
-        for (uint64_t i = 0; i < TRIES && proofs >= 0 && proofs < PROOFS; i++) {
+        for (uint64_t i = 0; i < TRIES && proofs >= 0 && proofs < enough; i++) {
             bool exists;
             const bool is_zero = is_zero_there(graph, parts, count, mix(i), &memory->exact, &exists);
             proofs = !exists ? proofs : is_zero ? proofs + 1 : -1;
         }
-        for (uint64_t i = 0; i < TRIES && tests >= 0 && tests < TESTS && proofs < PROOFS; i++) {
+        for (uint64_t i = 0; i < TRIES && tests >= 0 && tests < TESTS && proofs < enough; i++) {
             const struct sized there = size_there(graph, parts, count, i, fixed, variables, &memory->sized);
             if (isfinite(there.value) && isfinite(there.size)) {
                 tests = fabs(there.value) <= 1e-12 * there.size ? tests + 1 : -1;
             }
         }
-        found = proofs == PROOFS ? GM_ZERO_PROVED
+        found = proofs == enough ? GM_ZERO_PROVED
                 : tests > 0      ? GM_ZERO_TESTED
                 : tests < 0      ? GM_NOT_ZERO
                                  : GM_UNTESTED;

@@ -14,7 +14,8 @@ enum gm_identity {
 
 /* Proved by values in the field of the 2^61 - 1 residues, where + - * / and whole powers are exact, roots are
    roots, and sin and cos, exp, sinh and cosh are points of the curves that they run along: what is 0 at
-   random points there is 0 (the odds of being wrong are below 1e-15 times the degree). Where that fails,
+   random points there is 0 (the odds of being wrong are below 1e-15 times the degree; of signs and roots, of
+   which there are two, as many points are asked). Where that fails,
    doubles at 20 random points: 0 to 1e-12 of what was added up. Variables have random values, but in the
    latter those for which `fixed` holds a number; they are `variables`. */
 enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node, const double *fixed,

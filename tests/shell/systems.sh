@@ -66,6 +66,17 @@ H: (p_a^2 + p_b^2)/2 + 2500*b^2/2 - 1/sqrt(a^2 + b^2)
 start: a = 1, b = 0, p_a = 0, p_b = 1
 END
 holds ./stiff.system fast-linear 'yes'
+# both sides of a kink have derivatives that vanish
+for energy in 'abs(p + q)' 'max(p, q)' 'mod(p + q, 1)' 'sqrt((p + q)^2)'; do
+    printf 'coordinates: q\nmomenta: p\nH: %s\nstart: q = 1, p = 2\n' "$energy" >kink.system
+    holds ./kink.system separable 'no'
+done
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + abs(q) + sqrt(1 + q^2)\nstart: q = 1, p = 2\n' >kink.system
+holds ./kink.system nystrom 'yes'
+for law in 'abs(x) - x' 'min(x, 3) - x' 'sqrt(x^2) - x'; do
+    printf 'components: x\nrate: x = 1\ninvariant: s = %s\nstart: x = 1\n' "$law" >kink.system
+    "$geomint" run ./kink.system steps=1 >out 2>&1 && fail "the invariant $law: $(cat out)"
+done
 holds ./stiff.system kepler-split 'yes'
 "$geomint" list stiff.system --json | grep -q gautschi2 || fail 'a stiff linear part has no scheme of its own'
 
