@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "core/count.h"
 #include "core/formula/nearest.h"
@@ -338,19 +339,15 @@ static bool is_given(const bool given[ROWS], const char *name)
     return false;
 }
 
-/* A path without its detours; malloc'ed, NULL: it leads nowhere. */
+/* A path whose folder has no detours; malloc'ed, NULL: it leads nowhere. */
 static char *straight(const char *path)
 {
-    char *there = realpath(path, NULL), *copy = there ? NULL : strdup(path);
-    if (!copy) {
-        return there;
-    }
-    char *slash = strrchr(copy, '/'), *whole = NULL;
+    char *copy = strdup(path), *slash = copy ? strrchr(copy, '/') : NULL, *whole = NULL;
     const char *name = slash ? slash + 1 : copy;
     if (slash) {
         *slash = '\0';
     }
-    char *folder = realpath(!slash ? "." : slash == copy ? "/" : copy, NULL);
+    char *folder = copy ? realpath(!slash ? "." : slash == copy ? "/" : copy, NULL) : NULL;
     if (!folder || asprintf(&whole, "%s/%s", folder, name) < 0) {
         whole = NULL;
     }
@@ -361,11 +358,16 @@ static char *straight(const char *path)
 
 static bool is_same_file(const char *a, const char *b)
 {
-    char *x = straight(a), *y = straight(b);
-    const bool same = strcmp(a, b) == 0 || (x && y && strcmp(x, y) == 0);
-    free(x);
-    free(y);
-    return same && strncmp(a, "/dev/", 5) != 0;
+    struct stat x, y;
+    const bool there = stat(a, &x) == 0;
+    if (stat(b, &y) == 0 && there) {
+        return S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+    }
+    char *one = straight(a), *other = straight(b);
+    const bool same = one && other && strcmp(one, other) == 0;
+    free(one);
+    free(other);
+    return same;
 }
 
 /* Whether no file is written twice, or is one that is read; a picture may be made again in its place. */
@@ -400,7 +402,7 @@ static bool check_files(const struct gm_options *options, enum gm_command comman
             read = is_same_file(files[i].path, word) || (equals && is_same_file(files[i].path, equals + 1));
         }
         if (read) {
-            return gm_refuse(message, "%s would write over %.300s, which is read", files[i].name,
+            return gm_refuse(message, "%s would overwrite %.300s, which is read", files[i].name,
                              files[i].path);
         }
     }

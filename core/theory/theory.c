@@ -285,25 +285,52 @@ static bool is_asked_for(const struct gm_coefficients *coefficients, int side, i
     return taken;
 }
 
+/* The number that each stage has when they are counted by their times, c_i = sum_j a_ij: of a Runge-Kutta method
+   they may be written in any order. NULL: out of memory; of functions that are split the pieces have theirs. */
+static int *order_stages(const struct gm_coefficients *coefficients)
+{
+    const int s = coefficients->stages;
+    int *order = malloc((size_t)s * sizeof *order);
+    double *times = calloc((size_t)s, sizeof *times);
+    for (int i = 0; order && times && i < s; i++) {
+        int place = i;
+        for (int j = 0; j < s && coefficients->equations == GM_EQUATIONS_PLAIN; j++) {
+            times[i] += gm_ball_midpoint(at(coefficients, 0, i, j));
+        }
+        for (; place > 0 && times[order[place - 1]] > times[i] + 1e-9; place--) {
+            order[place] = order[place - 1];
+        }
+        order[place] = i;
+    }
+    if (!times) {
+        free(order);
+        order = NULL;
+    }
+    free(times);
+    return order;
+}
+
+/* b_(sigma i) = b_i,  a_(sigma i, sigma j) + a_ij = b_j;  sigma i = s + 1 - i, by the times of the stages. */
 static bool is_symmetric(const struct gm_coefficients *coefficients, taker *take, void *data)
 {
     const int s = coefficients->stages;
-    for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
+    int *order = order_stages(coefficients);
+    bool symmetric = order != NULL;
+    for (int side = 0; side < gm_coefficients_sides(coefficients) && symmetric; side++) {
         const struct gm_ball *b = coefficients->b[side];
-        for (int j = 0; j < s; j++) {
-            if (!take(data, gm_ball_subtract(b[j], b[s - 1 - j]))) {
-                return false;
-            }
-            for (int i = 0; i < s; i++) {
-                const struct gm_ball sum =
-                    gm_ball_add(at(coefficients, side, s - 1 - i, s - 1 - j), at(coefficients, side, i, j));
-                if (is_asked_for(coefficients, side, i) && !take(data, gm_ball_subtract(sum, b[j]))) {
-                    return false;
-                }
+        for (int j = 0; j < s && symmetric; j++) {
+            const int here = order[j], there = order[s - 1 - j];
+            symmetric = take(data, gm_ball_subtract(b[here], b[there]));
+            for (int i = 0; i < s && symmetric; i++) {
+                const struct gm_ball sum = gm_ball_add(at(coefficients, side, order[s - 1 - i], there),
+                                                       at(coefficients, side, order[i], here));
+                symmetric =
+                    !is_asked_for(coefficients, side, order[i]) || take(data, gm_ball_subtract(sum, b[here]));
             }
         }
     }
-    return true;
+    free(order);
+    return symmetric;
 }
 
 /* From a stage of a Nystrom method to its end, e - c, of which c - 1 and e - 1 are coefficients. */

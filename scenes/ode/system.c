@@ -1182,7 +1182,8 @@ static const char *title_of(struct gm_system_scene *own)
         return system->texts[GM_WORD_TITLE];
     }
     char text[4 * SHORT] = "";
-    for (size_t i = 0; i < (rates ? system->n : 1) && strlen(text) <= SHORT; i++) {
+    bool whole = true;
+    for (size_t i = 0; i < (rates ? system->n : 1) && strlen(text) <= SHORT && whole; i++) {
         char *formula = gm_formula_text(&system->graph, rates ? system->rates[i] : system->energy, &naming);
         const size_t used = strlen(text);
         snprintf(text + used, sizeof text - used, "%s%.16s%s = %.64s", i ? ",  " : "",
@@ -1190,9 +1191,10 @@ static const char *title_of(struct gm_system_scene *own)
                  : system->kind == GM_LAGRANGIAN ? "L"
                                                  : "H",
                  rates ? "'" : "", formula ? formula : "");
+        whole = formula != NULL; /* too long a one is not written */
         free(formula);
     }
-    const char *kept = strlen(text) <= SHORT ? text_of(own, "%s", text) : NULL;
+    const char *kept = whole && strlen(text) <= SHORT ? text_of(own, "%s", text) : NULL;
     return kept ? kept : "A system of one’s own";
 }
 

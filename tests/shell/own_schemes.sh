@@ -198,6 +198,13 @@ refused 1 'would overwrite' certify typed.scheme --polish ./typed.scheme
 refused 1 'no coefficients near these' certify 'composition(verlet; order: 4; 0.50001, 0.49999)' --polish x.scheme
 refused 1 'not a scheme of the program' certify rk4 --polish x.scheme
 [ ! -e x.scheme ] || fail 'a file was written for nothing'
+# what is right, however it is written: filled up with zeros, its stages in another order
+for scheme in 'splitting(0, 1; 1/2, 1/2; claims: symplectic symmetric; order: 2)' \
+    'splitting(1/2, 1/2; 1, 0; claims: symplectic symmetric; order: 2)' \
+    'runge-kutta(1/3,5/24,-1/24|0,0,0|2/3,1/6,1/6; 2/3,1/6,1/6; claims: symmetric; order: 4)'; do
+    status 0 certify "$scheme"
+done
+status 4 certify 'splitting(1; 1; claims: keeps quadratic invariants)'
 
 [ $failures = 0 ] && echo 'all as it should be'
 exit $failures

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "app/commands/commands.h"
 #include "app/commands/measuring/certificate.h"
@@ -120,12 +119,6 @@ static int certify_on(const struct gm_options *options)
 
 /* ---- with decimals that satisfy the conditions ---- */
 
-static bool is_same_file(const char *a, const char *b)
-{
-    struct stat x, y;
-    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-}
-
 static bool write_text(const char *path, const char *text, char *message)
 {
     FILE *stream = fopen(path, "w");
@@ -140,10 +133,6 @@ static int polish(const struct gm_options *options)
     char message[GM_MESSAGE] = "";
     struct gm_polish polish;
     bool unreadable = false;
-    if (is_same_file(name, out)) {
-        gm_complain("--polish %.200s would overwrite the scheme that is polished", out);
-        return GM_EXIT_USAGE;
-    }
     char *text = gm_scheme_polished(name, &polish, &unreadable, message);
     if (!text) {
         gm_complain("%s", message);

@@ -65,6 +65,13 @@ static double angular_impulse(const struct gm_problem *problem, const double *y)
     return sum;
 }
 
+/* of the oscillator: not of the form q' A p, as angular momentum is, which more schemes keep */
+static double circle(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    return (y[0] * y[0] + y[1] * y[1]) / 2;
+}
+
 static const struct {
     const struct gm_problem *problem;
     const void *parameters;
@@ -87,6 +94,7 @@ static const struct {
       .quadratic = {angular_momentum},
       .bilinear = {angular_momentum},
       .momentum = {angular_momentum}}},
+    {&gm_problem_oscillator, NULL, {.start = {0.8, -0.5}, .dt = 0.1, .quadratic = {circle}}},
     {&gm_problem_damped_pendulum,
      &friction,
      {.start = {0.6, 1.1}, .dt = 0.6, .only = GM_NEEDS_FRICTION, .friction = friction}},

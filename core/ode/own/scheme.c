@@ -350,8 +350,9 @@ static struct own *make_splitting(const struct making *making, const struct gm_w
         bool kick = written->kick_first;
         for (int i = 0; i < drifts->columns + kicks->columns; i++, kick = !kick) {
             const struct gm_written_number *number = (kick ? kicks : drifts)->numbers + i / 2;
-            pieces->at[pieces->count].piece = kick ? GM_KICK : GM_DRIFT;
-            pieces->at[pieces->count++].fraction = *number;
+            if (number->value != 0) { /* tables are filled up with zeros, which are no pieces */
+                add_piece(pieces, kick ? GM_KICK : GM_DRIFT, number->value, number->ball);
+            }
         }
         own = of_pieces(pieces, written->nystrom ? GM_NEEDS_NYSTROM : 0);
     }
