@@ -12,7 +12,9 @@
 #include "core/formula/derivative.h"
 #include "core/formula/equations.h"
 
-enum { MOST_TERMS = 4096, MOST_TRIED = 64 }; /* what a sum is taken apart into; what is tried one by one */
+/* What a sum is taken apart into; what of it is tried one by one, and nodes that are looked at for it, and
+   that may come of it. */
+enum { MOST_TERMS = 4096, MOST_TRIED = 64, MOST_LOOKED_AT = 1 << 20, MOST_GROWN = 1 << 18 };
 
 static const struct {
     const char *word, *yes, *no;
@@ -176,8 +178,10 @@ static gm_node_id culprit(struct gm_own_system *system, gm_node_id node, const b
 {
     size_t count = 0;
     struct term *terms = terms_of(system, node, components, &count);
+    const size_t most = system->graph.count + MOST_GROWN;
     gm_node_id found = GM_NO_NODE;
-    for (size_t i = 0; i < count && i < MOST_TRIED && found == GM_NO_NODE; i++) {
+    for (size_t i = 0; i < count && i < MOST_TRIED && found == GM_NO_NODE && system->graph.count < most;
+         i++) {
         found = vanishes(system, terms[i].node, sets, depth) == GM_NOT_ZERO ? terms[i].node : GM_NO_NODE;
     }
     free(terms);
@@ -350,6 +354,7 @@ static struct well *wells_of(struct gm_own_system *system, const struct term *te
                              const bool *q, const bool *all, bool *own)
 {
     struct well *wells = malloc((count + 1) * sizeof *wells);
+    const size_t most = system->graph.count + MOST_GROWN;
     system->graph.failed |= !wells;
     for (size_t k = 0; k < count && !system->graph.failed; k++) {
         struct well *well = &wells[k];
@@ -364,7 +369,8 @@ static struct well *wells_of(struct gm_own_system *system, const struct term *te
         }
         system->graph.failed |= !parts;
         free(parts);
-        if (well->coordinate == SIZE_MAX) {
+        if (well->coordinate == SIZE_MAX || system->graph.count > most) {
+            well->coordinate = SIZE_MAX;
             continue;
         }
         const size_t i = well->coordinate;

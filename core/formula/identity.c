@@ -12,7 +12,14 @@ __extension__ typedef unsigned __int128 wide;
 
 static const residue PRIME = (UINT64_C(1) << 61) - 1; /* 3 modulo 4: roots are powers */
 
-enum { PROOFS = 3, PROOFS_BY_SIGN = 30, TESTS = 20, TRIES = 1000 };
+enum {
+    PROOFS = 3,
+    PROOFS_BY_SIGN = 30,
+    TESTS = 20,
+    TRIES = 1000,
+    LEAST_TRIES = PROOFS_BY_SIGN,
+    WORK = 1 << 22 /* values of nodes: of a long formula fewer points are tried */
+};
 
 /* Steele, Lea, Flood: SplitMix64 */
 static uint64_t mix(uint64_t x)
@@ -275,13 +282,16 @@ enum gm_identity gm_identity_of(const struct gm_formula *graph, gm_node_id node,
     enum gm_identity found = GM_UNTESTED;
     if (memory && parts) {
         const int enough = has_signs(graph, parts, count) ? PROOFS_BY_SIGN : PROOFS;
+        const uint64_t most = WORK / count, tries = most > TRIES         ? TRIES
+                                                    : most > LEAST_TRIES ? most
+                                                                         : LEAST_TRIES;
         int proofs = 0, tests = 0;
-        for (uint64_t i = 0; i < TRIES && proofs >= 0 && proofs < enough; i++) {
+        for (uint64_t i = 0; i < tries && proofs >= 0 && proofs < enough; i++) {
             bool exists;
             const bool is_zero = is_zero_there(graph, parts, count, mix(i), &memory->exact, &exists);
             proofs = !exists ? proofs : is_zero ? proofs + 1 : -1;
         }
-        for (uint64_t i = 0; i < TRIES && tests >= 0 && tests < TESTS && proofs < enough; i++) {
+        for (uint64_t i = 0; i < tries && tests >= 0 && tests < TESTS && proofs < enough; i++) {
             const struct sized there = size_there(graph, parts, count, i, fixed, variables, &memory->sized);
             if (isfinite(there.value) && isfinite(there.size)) {
                 tests = fabs(there.value) <= 1e-12 * there.size ? tests + 1 : -1;
