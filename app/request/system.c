@@ -935,10 +935,22 @@ static void put_values(FILE *stream, const char *text, size_t length, const stru
     }
 }
 
+static bool has_line(const char *text, const char *word)
+{
+    const size_t letters = strlen(word);
+    for (const char *line = text; *line; line = end_of_line(line)) {
+        if (strncmp(line, word, letters) == 0 && line[letters] == ':') {
+            return true;
+        }
+    }
+    return false;
+}
+
 char *gm_system_text(const struct gm_scene *scene, const void *parameters)
 {
     static const char *const valued[] = {"parameter:", "start:", NULL};
-    static const char *const lines[] = {"dt", "half_length", "points"}; /* of one number, which a key sets */
+    static const char *const lines[] = {"dt", "until", "members", "half_length",
+                                        "points"}; /* of one number, which a key sets */
     enum { LINES = GM_COUNT(lines) };
     char *text = NULL, numbers[LINES][GM_TEXT_SIZE];
     bool other[LINES] = {false};
@@ -946,8 +958,10 @@ char *gm_system_text(const struct gm_scene *scene, const void *parameters)
     FILE *stream = open_memstream(&text, &size);
     for (size_t i = 0; i < LINES; i++) {
         const struct gm_parameter *row = gm_scene_parameter(scene, lines[i]);
-        other[i] = row && strcmp(gm_parameter_format(row, parameters, numbers[i], sizeof numbers[i]),
-                                 row->standard) != 0;
+        other[i] =
+            row && (strcmp(gm_parameter_format(row, parameters, numbers[i], sizeof numbers[i]),
+                           row->standard) != 0 ||
+                    (i == 0 && !has_line(scene->text, lines[i]))); /* dt of a word, or by the formula */
     }
     if (stream && !strstr(scene->text, "geomint:")) {
         fputs("geomint: 1\n", stream);

@@ -7,10 +7,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "app/request/arguments.h"
 #include "app/request/scheme.h"
 #include "app/tours/tour.h"
+#include "core/count.h"
 #include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "render/cells/text.h"
@@ -474,25 +476,46 @@ static bool read_entries(struct reader *reader)
     return true;
 }
 
-/* Paths of schemes are those from the tour's folder. */
-static bool place_schemes(struct reader *reader)
+/* A word that names a file of a system or a room which lies beside the tour: its path; else the word as it is,
+   with paths of schemes from there. malloc'ed. */
+static char *placed(const char *tour, const char *word)
+{
+    static const char *const endings[] = {".system", ".room"};
+    const char *slash = strrchr(tour, '/'), *dot = strrchr(word, '.');
+    char *path = NULL;
+    for (size_t i = 0; i < GM_COUNT(endings) && slash && dot && word[0] != '/' && !path; i++) {
+        if (strcmp(dot, endings[i]) == 0 && asprintf(&path, "%.*s/%s", (int)(slash - tour), tour, word) < 0) {
+            return NULL;
+        }
+    }
+    if (path && access(path, R_OK) == 0) {
+        return path;
+    }
+    free(path);
+    return gm_scheme_words_from(tour, word);
+}
+
+/* Paths are those from the tour's folder. */
+static bool place_files(struct reader *reader)
 {
     bool good = true;
     for (size_t i = 0; good && i < reader->count; i++) {
         struct entry *entry = &reader->entries[i];
         const bool has_words =
             entry->word == SHOW || entry->word == AT || entry->word == STUDY || entry->word == TRY;
+        const bool has_files =
+            strstr(entry->text, "scheme=") || strstr(entry->text, ".system") || strstr(entry->text, ".room");
         struct gm_arguments words = {0};
-        if (!has_words || !strstr(entry->text, "scheme=")) {
+        if (!has_words || !has_files) {
             continue;
         }
         good = gm_arguments_split(&words, entry->text);
-        for (int k = 1; good && k < words.count; k++) {
-            char *placed = gm_scheme_words_from(reader->name, words.words[k]);
-            good = placed != NULL;
+        for (int k = 0; good && k < words.count; k++) {
+            char *word = placed(reader->name, words.words[k]);
+            good = word != NULL;
             if (good) {
                 free(words.words[k]);
-                words.words[k] = placed;
+                words.words[k] = word;
             }
         }
         char *text = good ? gm_arguments_join("", &words) : NULL;
@@ -512,7 +535,7 @@ bool gm_tour_parse(struct gm_tour *tour, const char *name, const char *text, siz
     *tour = (struct gm_tour){.name = strdup(name)};
     struct reader reader = {.name = name, .message = message, .tour = tour, .refusals = gm_memory_refusals()};
     const bool good = tour->name
-                          ? read_lines(&reader, text, size) && place_schemes(&reader) && read_entries(&reader)
+                          ? read_lines(&reader, text, size) && place_files(&reader) && read_entries(&reader)
                           : short_of_memory(&reader);
     for (size_t i = 0; i < reader.count; i++) {
         free(reader.entries[i].text);

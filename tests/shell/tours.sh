@@ -66,6 +66,11 @@ GEOMINT_TOURS=own "$geomint" tour 'My own tour' --list >text || fail "a tour is 
 GEOMINT_TOURS=own "$geomint" tour mine --list | cmp -s - text || fail "a tour is not found by its name"
 "$geomint" tour own/mine.tour --out own --size 320x200 || fail "a tour of one's own"
 
+# a system that lies beside it
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 + q^4/4\nstart: q = 1, p = 0\n' >own/spring.system
+printf 'title: Beside\nabout: a\nstep: one\nsay: b\nshow: ./spring.system scheme=verlet\nuntil: 1\nseconds: 1\n' >own/beside.tour
+"$geomint" tour own/beside.tour --out own --size 320x200 || fail "a system beside a tour"
+
 # what a step's picture tells of itself makes the same scene again, changes in flight included
 "$geomint" again own/mine-02.png --out pages || fail "again"
 strings -n 3 own/mine-02.png | grep -q 'scheme=gauss4' || fail "the change in flight is not in the picture"

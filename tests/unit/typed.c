@@ -156,6 +156,16 @@ static void saved(void **unused)
     gm_lane_close(lane);
     gm_request_close(&request);
     free(now);
+    /* of a system in words, too, how it runs */
+    char *typed[] = {"system", "H=p^2/2 + q^4/4", "q=1", "p=0", "dt=0.05", "until=7", "members=9"};
+    assert_true(gm_request_parse(&request, 7, typed, 1, message));
+    now = gm_system_text(request.scene, request.lanes[0].parameters);
+    assert_non_null(now);
+    assert_non_null(strstr(now, "\ndt: 0.05\n"));
+    assert_non_null(strstr(now, "\nuntil: 7\n"));
+    assert_non_null(strstr(now, "\nmembers: 9\n"));
+    gm_request_close(&request);
+    free(now);
 }
 
 int main(void)
