@@ -478,7 +478,7 @@ static void put_batch(struct writing *writing, const struct value *values, size_
 static size_t run_of(const struct writing *writing, const struct value *values, size_t count)
 {
     size_t run = count;
-    for (int k = 0; k < gm_operation_rows[values->operation].arity; k++) {
+    for (unsigned k = 0; k < gm_operation_rows[values->operation].arity; k++) {
         const uint32_t first = register_of(writing, values, k);
         const uint32_t apart = count > 1 ? register_of(writing, &values[1], k) - first : 0;
         size_t length = 1;
