@@ -347,10 +347,12 @@ static struct own *make_splitting(const struct making *making, const struct gm_w
     struct pieces *pieces = calloc(1, sizeof *pieces);
     struct own *own = NULL;
     if (pieces) {
+        const int all = drifts->columns + kicks->columns;
         bool kick = written->kick_first;
-        for (int i = 0; i < drifts->columns + kicks->columns; i++, kick = !kick) {
+        for (int i = 0; i < all; i++, kick = !kick) {
             const struct gm_written_number *number = (kick ? kicks : drifts)->numbers + i / 2;
-            if (number->value != 0) { /* tables are filled up with zeros, which are no pieces */
+            const bool only = i + 1 == all && pieces->count == 0;
+            if (number->value != 0 || only) { /* tables are filled up with zeros, which are no pieces */
                 add_piece(pieces, kick ? GM_KICK : GM_DRIFT, number->value, number->ball);
             }
         }
