@@ -427,9 +427,11 @@ static bool stands_on(const struct gm_box *box, const struct gm_frame *frame)
     return gm_boxes_overlap(box, &frame->box, 0.0) || gm_boxes_overlap(box, &frame->colour_bar, 0.0);
 }
 
-static bool is_free(const struct gm_frame *frames, size_t count, size_t own, const struct gm_box *box)
+/* `air` is what a label's ground covers around it. */
+static bool is_free(const struct gm_frame *frames, size_t count, size_t own, const struct gm_box *box,
+                    double air)
 {
-    bool is_free = !gm_boxes_overlap(box, &frames[own].colour_bar, 0.0);
+    bool is_free = !gm_boxes_overlap(box, &frames[own].colour_bar, air);
     for (size_t i = 0; i < count; i++) {
         is_free = is_free && (i == own || !stands_on(box, &frames[i]));
     }
@@ -448,7 +450,7 @@ static bool add_line(struct gm_label_list *list, const struct gm_frame *frames, 
         fmax(air, fmin(x - gm_anchor_share(mark->anchor) * width, metrics->width - width - air));
     const struct gm_box box = {within ? fmax(data->x, fmin(left, data->x + data->width - width)) : left,
                                fmax(0.0, fmin(y, metrics->height - line)), width, line};
-    return is_free(frames, count, own, &box) &&
+    return is_free(frames, count, own, &box, air) &&
            gm_labels_add(list, (struct gm_label){.text = text,
                                                  .size = GM_TEXT_TICK,
                                                  .role = mark->style.role,
@@ -457,18 +459,30 @@ static bool add_line(struct gm_label_list *list, const struct gm_frame *frames, 
                                                  .among_marks = true});
 }
 
-/* Adds the lines of a note whose anchor is at (x, y), moved together a little where that makes all of them
-   free, or none. */
+/* Adds the lines of a note whose anchor is at (x, y), moved together off the edges of the frame and a little
+   where that makes all of them free, or none. */
 static void add_note(struct gm_label_list *list, const struct gm_frame *frames, size_t count, size_t own,
                      const struct gm_mark *mark, const char *const *lines, size_t made, double x, double y)
 {
     static const double shifts[] = {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0}; /* in lines */
     const size_t before = list->count;
-    const double line = list->metrics->line[GM_TEXT_TICK];
+    const double line = list->metrics->line[GM_TEXT_TICK], high = (double)made * line;
+    const struct gm_box *data = &frames[own].box;
+    double widest = 0.0;
+    for (size_t i = 0; i < made; i++) {
+        widest = fmax(widest, gm_labels_width(list, GM_TEXT_TICK, lines[i]));
+    }
+    if (mark->anchor == GM_ANCHOR_LEFT) { /* one below the other, where the widest has room */
+        x = fmin(x, list->metrics->width - widest - 0.3 * line);
+    }
     bool placed = false;
     const size_t tries = mark->fixed ? 1 : 2 * sizeof shifts / sizeof *shifts;
     for (size_t k = 0; k < tries && !placed; k++) {
-        double top = y - 0.5 * (double)(made - 1) * line + (shifts[k / 2] - 0.5) * line;
+        double top = y - 0.5 * high + shifts[k / 2] * line;
+        if (!mark->fixed && high <= data->height) {
+            const double below = 0.2 * line; /* letters: the rest of a line's foot is empty */
+            top = fmax(data->y, fmin(top, data->y + data->height - high + below));
+        }
         list->count = before;
         placed = true;
         for (size_t i = 0; i < made && placed; i++) {

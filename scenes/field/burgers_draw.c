@@ -60,24 +60,15 @@ static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_la
     return panel;
 }
 
-/* "λ = 1 until 0.216"; "" for a lane that needs no name: the first panel tells them. */
-static const char *name_of(struct gm_picture *picture, const struct gm_lane *lane, bool first)
+/* Names a lane of several under the panel's title; the first panel tells the names of all. */
+static void name_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                      bool first)
 {
-    const char *typed = lane->shown.colour_name;
-    const bool failed = lane->run->status != GM_OK;
+    const char *typed = lane->shown.colour_name, *failure = gm_lane_failure(picture, lane);
     const char *name = strncmp(typed, "lambda", 6) == 0 ? gm_picture_text(picture, "λ%s", typed + 6) : typed;
-    return failed  ? gm_picture_text(picture, "%s until %s", name,
-                                     gm_time_text(picture, lane->run->t, lane->run->dt))
-           : first ? name
-                   : "";
-}
-
-/* Adds the way in which a lane of several failed. */
-static void note_failure(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane)
-{
-    const char *word = gm_status_name(lane->run->status);
-    if (lane->run->status != GM_OK && !strstr(panel->note, word)) {
-        panel->note = gm_picture_text(picture, "%s%s%s", panel->note, panel->note[0] ? ", " : "", word);
+    if (first || failure[0]) {
+        gm_panel_key(picture, panel, gm_lane_style(lane, 1, 2.2),
+                     failure[0] ? gm_picture_text(picture, "%s, %s", name, failure) : name);
     }
 }
 
@@ -94,13 +85,12 @@ static void draw_panels(struct gm_picture *picture, const struct gm_lane *const 
                         double *points)
 {
     struct gm_panel *panel = NULL;
-    size_t sharing = 0, named = 0;
+    size_t sharing = 0;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         const struct gm_lane *lane = walk.lane;
         const struct gm_view view = gm_lane_view(lane);
         if (walk.first) {
             sharing = count_in_panel(lanes, count, walk.panel);
-            named = 0;
             panel = add_panel(picture, lane, sharing == 1);
             struct gm_view before = view;
             before.t = view.t0;
@@ -115,16 +105,8 @@ static void draw_panels(struct gm_picture *picture, const struct gm_lane *const 
             style.width = 5;
             gm_mark_points(picture, panel, style, points, made);
         }
-        if (sharing == 1) {
-            continue;
-        }
-        note_failure(picture, panel, lane);
-        const char *name = name_of(picture, lane, walk.panel == 0);
-        if (name[0]) {
-            /* in the empty corner above the front, one below the other */
-            style = (struct gm_style){.role = gm_lane_role(lane->shown.colour), .alpha = 1, .width = 1};
-            gm_mark_text(picture, panel, style, panel->x.high, 1.36 - 0.42 * (double)named++, GM_ANCHOR_RIGHT,
-                         name);
+        if (sharing > 1) {
+            name_lane(picture, panel, lane, walk.panel == 0);
         }
     }
 }
@@ -231,8 +213,9 @@ static bool draw_curve(struct gm_picture *picture, struct gm_panel *panel, const
     return any;
 }
 
-/* Names that would stand on each other move apart: those that end at the same place, from the top down. */
-static void part_names(struct curve *curves, size_t count, double high, double line)
+/* Names that would stand on each other move apart: those that end at the same place, from the top down, and
+   what then has no room above the axis from there up. */
+static void part_names(struct curve *curves, size_t count, double low, double high, double line)
 {
     for (size_t i = 1; i < count; i++) { /* by falling height */
         for (size_t k = i; k > 0 && curves[k].at > curves[k - 1].at; k--) {
@@ -248,6 +231,10 @@ static void part_names(struct curve *curves, size_t count, double high, double l
                 curves[i].at = curves[k].at - line;
             }
         }
+    }
+    double floor = low + line / 2;
+    for (size_t i = count; i-- > 0 && curves[i].at < floor; floor += line) {
+        curves[i].at = floor;
     }
 }
 
@@ -289,7 +276,7 @@ static void draw_over_frames(struct gm_picture *picture, const struct gm_lane *c
             made++;
         }
     }
-    part_names(curves, made, log(high), 0.13 * log(high / low));
+    part_names(curves, made, log(low), log(high), 0.13 * log(high / low));
     for (size_t i = 0; i < made; i++) {
         gm_mark_text(picture, panel, (struct gm_style){.role = curves[i].role, .alpha = 1, .width = 1},
                      curves[i].end[0] + 0.03 * (panel->x.high - panel->x.low), exp(curves[i].at),

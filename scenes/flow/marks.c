@@ -231,12 +231,16 @@ void gm_flow_name_openings(struct gm_picture *picture, struct gm_panel *panel, c
         const double x = outward[0], z = outward[1];
         const bool upright = fabs(x) >= fabs(z);
         const double away = (upright ? 0.012 : 0.028) * size / hypot(x, z);
-        gm_mark_text(picture, panel, style, (a[0] + b[0]) / 2 + away * x, (a[1] + b[1]) / 2 + away * z,
-                     upright && x < 0 ? GM_ANCHOR_RIGHT
-                     : upright        ? GM_ANCHOR_LEFT
-                                      : GM_ANCHOR_CENTRE,
-                     names            ? names[opening->side]
-                     : opening->inlet ? "inlet"
-                                      : "outlet");
+        struct gm_mark *name =
+            gm_mark_text(picture, panel, style, (a[0] + b[0]) / 2 + away * x, (a[1] + b[1]) / 2 + away * z,
+                         upright && x < 0 ? GM_ANCHOR_RIGHT
+                         : upright        ? GM_ANCHOR_LEFT
+                                          : GM_ANCHOR_CENTRE,
+                         names            ? names[opening->side]
+                         : opening->inlet ? "inlet"
+                                          : "outlet");
+        if (name) {
+            name->fixed = true; /* one that has no room outside is not to stand on the field */
+        }
     }
 }

@@ -184,13 +184,15 @@ static void profile(const struct gm_view *view, const char *front, FILE *stream)
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_flows *own = lanes[0]->parameters;
-    /* about half of the room fills, and what enters at the mean of a parabola leaves again */
+    /* about half of the room fills, and what enters at the mean of a parabola leaves again; a short run fills
+       it with no more than enters */
     const struct gm_flow *flow = gm_flow_of(&lanes[0]->problem);
     const double scalar = fmax(own->inlet_scalar, 0), inlet = flow->viscosity * flow->reynolds;
     double area = 0;
     for (size_t k = 0; k < flow->complex->triangles; k++) {
         area += flow->complex->area[k];
     }
+    const double entering = inlet * scalar * own->timing.until * flow->time_unit;
     const struct gm_look look = {
         .title = "A polluted room",
         .told = {{"Reynolds number", offsetof(struct gm_flows, reynolds)},
@@ -201,7 +203,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .vorticity_range = 6,
         .speed_high = 1.2,
         .graphs = {"scalar_total", "scalar_outflow"},
-        .graph_high = {0.48 * area * scalar, 0.4 * inlet * scalar},
+        .graph_high = {fmin(0.48 * area * scalar, entering), 0.4 * inlet * scalar},
     };
     gm_flows_draw(lanes, count, picture, &look);
 }
