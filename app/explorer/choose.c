@@ -5,8 +5,8 @@
 #include <curses.h>
 #include <string.h>
 
+#include "app/explorer/surface/search.h"
 #include "app/explorer/view/pages.h"
-#include "app/explorer/view/search.h"
 #include "render/clock.h"
 
 /* The choice in the list of scenes rests for this long before it is looked at. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/explorer/view/keystroke.h"
+#include "app/explorer/surface/keystroke.h"
 #include "app/request/system.h"
 #include "core/count.h"
 #include "core/schemes.h"

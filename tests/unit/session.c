@@ -15,8 +15,8 @@
 
 #include <cmocka.h>
 
+#include "app/explorer/surface/search.h"
 #include "app/explorer/view/prompt.h"
-#include "app/explorer/view/search.h"
 #include "app/explorer/view/studies.h"
 #include "app/lanes/session.h"
 #include "app/lanes/slider.h"

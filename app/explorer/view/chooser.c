@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "app/explorer/surface/search.h"
 #include "app/explorer/view/schemes.h"
-#include "app/explorer/view/search.h"
 
 enum { PAGE = 10 };
 

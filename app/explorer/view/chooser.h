@@ -2,8 +2,8 @@
 #ifndef GM_APP_EXPLORER_VIEW_CHOOSER_H
 #define GM_APP_EXPLORER_VIEW_CHOOSER_H
 
-#include "app/explorer/view/keystroke.h"
-#include "app/explorer/view/sheet.h"
+#include "app/explorer/surface/keystroke.h"
+#include "app/explorer/surface/sheet.h"
 
 /* The list of the schemes that fit: one is chosen for a switch or a fork. */
 

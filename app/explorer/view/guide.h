@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_GUIDE_H
 #define GM_APP_EXPLORER_VIEW_GUIDE_H
 
-#include "app/explorer/view/sheet.h"
+#include "app/explorer/surface/sheet.h"
 #include "app/tours/tour.h"
 
 /* Leads through a tour in the explorer: where it is, what is told below the picture, its keys. */

@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_KEYS_H
 #define GM_APP_EXPLORER_VIEW_KEYS_H
 
-#include "app/explorer/view/keystroke.h"
+#include "app/explorer/surface/keystroke.h"
 
 /* The keys while a scene is open, and nothing else takes them: one table. */
 

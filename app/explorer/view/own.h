@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_OWN_H
 #define GM_APP_EXPLORER_VIEW_OWN_H
 
-#include "app/explorer/view/edit.h"
+#include "app/explorer/surface/edit.h"
 #include "app/request/typed.h"
 
 /* The prompt for a system, or a scheme, of one's own: what is typed, and below it what is wrong, and

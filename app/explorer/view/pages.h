@@ -2,8 +2,8 @@
 #ifndef GM_APP_EXPLORER_VIEW_PAGES_H
 #define GM_APP_EXPLORER_VIEW_PAGES_H
 
-#include "app/explorer/view/keystroke.h"
-#include "app/explorer/view/screen.h"
+#include "app/explorer/surface/keystroke.h"
+#include "app/explorer/surface/screen.h"
 
 /* Pages that explain: the scene with the keys and claims, a scheme, the command lines, the list of scenes. */
 

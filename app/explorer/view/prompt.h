@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_PROMPT_H
 #define GM_APP_EXPLORER_VIEW_PROMPT_H
 
-#include "app/explorer/view/keystroke.h"
+#include "app/explorer/surface/keystroke.h"
 
 /* A line that is typed: a time to run ahead to, a parameter's value. */
 

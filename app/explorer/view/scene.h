@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_SCENE_H
 #define GM_APP_EXPLORER_VIEW_SCENE_H
 
-#include "app/explorer/view/screen.h"
+#include "app/explorer/surface/screen.h"
 
 /* The screen while a scene is open: the picture at the left, the side panel at the right, a status line
    below; or a page, or a study. */

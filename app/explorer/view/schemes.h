@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_SCHEMES_H
 #define GM_APP_EXPLORER_VIEW_SCHEMES_H
 
-#include "app/explorer/view/sheet.h"
+#include "app/explorer/surface/sheet.h"
 #include "app/lanes/shot.h"
 
 /* Schemes in the rows of a list: title, claims and order in columns, the formula below. */

@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_SIDE_H
 #define GM_APP_EXPLORER_VIEW_SIDE_H
 
-#include "app/explorer/view/sheet.h"
+#include "app/explorer/surface/sheet.h"
 #include "app/lanes/shot.h"
 
 /* The side panel: schemes, parameters with their sliders, what is observed. */

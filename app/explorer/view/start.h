@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_START_H
 #define GM_APP_EXPLORER_VIEW_START_H
 
-#include "app/explorer/view/screen.h"
+#include "app/explorer/surface/screen.h"
 #include "app/tours/tour.h"
 
 /* The screen at the start: the scenes found, and behind them the tours. */

@@ -2,7 +2,7 @@
 #ifndef GM_APP_EXPLORER_VIEW_STATUS_H
 #define GM_APP_EXPLORER_VIEW_STATUS_H
 
-#include "app/explorer/view/screen.h"
+#include "app/explorer/surface/screen.h"
 
 /* The last row: what there is to say, to answer or to watch at the left, keys at the right. */
 

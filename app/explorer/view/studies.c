@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/explorer/view/keystroke.h"
+#include "app/explorer/surface/keystroke.h"
 #include "app/request/arguments.h"
 
 /* 0: a tour alone shows it */

@@ -3,7 +3,7 @@
 #define GM_APP_EXPLORER_VIEW_STUDIES_H
 
 #include "app/explorer/background/study.h"
-#include "app/explorer/view/sheet.h"
+#include "app/explorer/surface/sheet.h"
 #include "app/lanes/shot.h"
 
 /* The background studies of the explorer, one of each kind, and which of them is on the screen. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_FACE_H
-#define GM_APP_EXPLORER_VIEW_FACE_H
+#ifndef GM_APP_EXPLORER_SURFACE_FACE_H
+#define GM_APP_EXPLORER_SURFACE_FACE_H
 
 #include "app/explorer/worker/orders.h"
 #include "core/scheme.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all keys have in common. */
-#include "app/explorer/view/keystroke.h"
+#include "app/explorer/surface/keystroke.h"
 
 #include <curses.h>
 #include <string.h>

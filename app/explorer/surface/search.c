@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The search of the lists: of scenes and tours, and of schemes. */
-#include "app/explorer/view/search.h"
+#include "app/explorer/surface/search.h"
 
 #include <ctype.h>
 #include <limits.h>

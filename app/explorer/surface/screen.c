@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The screen as cells. */
-#include "app/explorer/view/screen.h"
+#include "app/explorer/surface/screen.h"
 
 #include <stdlib.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_EDIT_H
-#define GM_APP_EXPLORER_VIEW_EDIT_H
+#ifndef GM_APP_EXPLORER_SURFACE_EDIT_H
+#define GM_APP_EXPLORER_SURFACE_EDIT_H
 
-#include "app/explorer/view/sheet.h"
+#include "app/explorer/surface/sheet.h"
 
 /* A line of text that is edited anywhere in it, and scrolls sideways where it is longer than its room. */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_SEARCH_H
-#define GM_APP_EXPLORER_VIEW_SEARCH_H
+#ifndef GM_APP_EXPLORER_SURFACE_SEARCH_H
+#define GM_APP_EXPLORER_SURFACE_SEARCH_H
 
 #include <stddef.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_SCREEN_H
-#define GM_APP_EXPLORER_VIEW_SCREEN_H
+#ifndef GM_APP_EXPLORER_SURFACE_SCREEN_H
+#define GM_APP_EXPLORER_SURFACE_SCREEN_H
 
-#include "app/explorer/view/sheet.h"
+#include "app/explorer/surface/sheet.h"
 #include "app/lanes/shot.h"
 #include "render/files/inline_image.h"
 

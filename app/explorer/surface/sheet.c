@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writing into a rectangle of the screen: text, sliders, hints, a picture. */
-#include "app/explorer/view/sheet.h"
+#include "app/explorer/surface/sheet.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_SHEET_H
-#define GM_APP_EXPLORER_VIEW_SHEET_H
+#ifndef GM_APP_EXPLORER_SURFACE_SHEET_H
+#define GM_APP_EXPLORER_SURFACE_SHEET_H
 
-#include "app/explorer/view/face.h"
+#include "app/explorer/surface/face.h"
 
 /* A rectangle of the screen to write in, and what a click on it means. */
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_EXPLORER_VIEW_KEYSTROKE_H
-#define GM_APP_EXPLORER_VIEW_KEYSTROKE_H
+#ifndef GM_APP_EXPLORER_SURFACE_KEYSTROKE_H
+#define GM_APP_EXPLORER_SURFACE_KEYSTROKE_H
 
-#include "app/explorer/view/face.h"
+#include "app/explorer/surface/face.h"
 #include "app/explorer/worker/worker.h"
 
 /* A key that is pressed while a scene is open: what it acts on, and what came of it. */
