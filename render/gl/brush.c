@@ -37,13 +37,15 @@ static void draw_line(struct gm_brush *brush, const struct gm_polyline *line, co
 
 /* Strokes thinner than a pixel are a pixel wide and fainter. What is translucent and would overlap itself at
    joints is painted in two passes, each pixel once: whole pixels first, then the fading edges where nothing
-   was painted. */
+   was painted. A stroke without whole pixels cannot be: the faintest edge that comes first would keep its
+   pixel, and what zigzags closely would vanish. */
 static void line(void *self, const struct gm_polyline *line, const struct gm_stroke *stroke)
 {
     struct gm_brush *brush = self;
     const float half = 0.5f * fmaxf(stroke->width, 1.0f);
     const struct gm_rgba ink = gm_rgba_of(stroke->ink, fminf(stroke->width, 1.0f));
-    if (ink.colour[3] < 255 && gm_stroke_breaks(line, half) > 0) {
+    const bool has_whole_pixels = half > 0.75f;
+    if (ink.colour[3] < 255 && has_whole_pixels && gm_stroke_breaks(line, half) > 0) {
         gm_batch_once(&brush->batch);
         set_state(brush, GM_PROGRAM_CORE, GM_STENCIL_ONCE);
         draw_line(brush, line, stroke, half, ink);

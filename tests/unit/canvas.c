@@ -235,6 +235,30 @@ static void translucent_lines_have_no_knots(void **state)
     }
 }
 
+/* As the adiabatic invariant of a stiff chain in a small picture: hundreds of swings in a few columns. */
+static void what_zigzags_closely_fills_its_area(void **state)
+{
+    (void)state;
+    enum { TURNS = 2000 };
+    double zigzag[2 * TURNS];
+    for (int i = 0; i < TURNS; i++) {
+        zigzag[2 * i] = -0.5 + (double)i / TURNS;
+        zigzag[2 * i + 1] = i % 2 ? 0.5 : -0.5;
+    }
+    for (double width = 0.5; width < 4.0; width *= 2) {
+        struct gm_panel *panel;
+        struct gm_picture *picture = plain_picture(&panel);
+        gm_mark_line(picture, panel, (struct gm_style){GM_INK, 1.0, width, GM_SOLID}, zigzag, TURNS, false);
+        unsigned char *rgb = paint(picture, "osmesa", WIDTH, HEIGHT);
+        const double middle = share_of(pixel(rgb, WIDTH / 2, HEIGHT / 2), GM_INK);
+        if (!(middle > 0.9)) { /* faint layers on each other end a little before, in 8 bits */
+            fail_msg("a stroke of width %g leaves %g of the ground", width, 1 - middle);
+        }
+        free(rgb);
+        gm_picture_close(picture);
+    }
+}
+
 static void dashes_leave_out_what_they_say(void **state)
 {
     (void)state;
@@ -433,6 +457,7 @@ int main(void)
         cmocka_unit_test(discs_and_polygons_have_their_area),
         cmocka_unit_test(polygons_are_even_odd),
         cmocka_unit_test(translucent_lines_have_no_knots),
+        cmocka_unit_test(what_zigzags_closely_fills_its_area),
         cmocka_unit_test(dashes_leave_out_what_they_say),
         cmocka_unit_test(marks_stay_in_their_panel),
         cmocka_unit_test(fields_are_mapped_at_every_pixel),
