@@ -70,12 +70,13 @@ void gm_explorer_look(struct gm_explorer *explorer);
 void gm_explorer_enter(struct gm_explorer *explorer);
 void gm_explorer_press_in_list(struct gm_explorer *explorer, int key);
 
-/* ---- a system or scheme of one's own ---- */
+/* ---- a system or scheme of one's own, a map ---- */
 
 /* Opens the prompt, with the system that is open, with what was typed before, or with an example. */
 void gm_explorer_ask_system(struct gm_explorer *explorer);
 void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command);
 void gm_explorer_ask_scheme(struct gm_explorer *explorer, bool fork);
+void gm_explorer_ask_map(struct gm_explorer *explorer);
 void gm_explorer_press_own(struct gm_explorer *explorer, int key);
 /* Finds out what is wrong with what was typed, and takes it once that is nothing and it was entered. */
 void gm_explorer_check_own(struct gm_explorer *explorer);

@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The prompt for a system or a scheme of one's own: opened, typed in, checked, taken. What runs goes on until
+/* The prompt for a system or a scheme of one's own, or a map of many runs: opened, typed in, checked, taken. What runs goes on until
    then. */
 #include "app/explorer/events.h"
 
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "app/explorer/surface/keystroke.h"
 #include "app/request/system.h"
+#include "app/studies/kinds/study.h"
 #include "core/count.h"
 #include "core/schemes.h"
+#include "render/message.h"
 
 static const char example[] = "H=p^2/2 - cos(q) q=2 p=0";
 
@@ -106,6 +111,129 @@ void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
     gm_arguments_close(&formulas);
 }
 
+/* ---- maps ---- */
+
+/* A typed line as the words of the command `sweep`; malloc'ed, NULL: no memory. */
+static char *sweep_words(const char *line)
+{
+    static const char measure[] = "measure=";
+    struct gm_arguments typed = {0};
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = gm_typed_split(&typed, line) ? open_memstream(&text, &size) : NULL;
+    if (stream && typed.count > 0 && strchr(typed.words[0], '=')) {
+        fputs("system ", stream);
+    }
+    for (int i = 0; stream && i < typed.count; i++) {
+        const char *word = typed.words[i];
+        const bool measured = strncmp(word, measure, strlen(measure)) == 0;
+        fputs(measured ? "--measure " : "", stream);
+        gm_arguments_put(stream, word + (measured ? strlen(measure) : 0));
+        fputc(' ', stream);
+    }
+    gm_arguments_close(&typed);
+    return stream && fclose(stream) == 0 ? text : NULL;
+}
+
+static bool check_map(const char *line, struct gm_typed_fault *fault)
+{
+    char *text = sweep_words(line);
+    struct gm_arguments words = {0};
+    union gm_study_table table;
+    const struct gm_study_row *sweep = &gm_study_rows[GM_STUDY_SWEEP];
+    *fault = (struct gm_typed_fault){.at = -1};
+    const bool good = text && gm_arguments_split(&words, text)
+                          ? sweep->open(&table, &words, NULL, fault->sentence)
+                          : gm_refuse(fault->sentence, "There is not enough memory.");
+    if (good) {
+        sweep->close(&table);
+    }
+    gm_arguments_close(&words);
+    free(text);
+    return good;
+}
+
+/* A number that is swept: by a half of it to both sides. */
+static bool range_of(const struct gm_shot_parameter *parameter, char *word, size_t size)
+{
+    enum { ACROSS = 24 };
+    const struct gm_parameter *row = parameter->row;
+    double value;
+    if (row->type != GM_REAL || row->automatic || parameter->of_scheme || strcmp(row->key, "dt") == 0 ||
+        strcmp(row->key, "until") == 0 || !gm_number_parse(parameter->value, &value)) {
+        return false;
+    }
+    const double reach = value != 0 ? 0.5 * fabs(value) : 0.5;
+    const bool low = value - reach<row->lowest, high = value + reach> row->highest;
+    snprintf(word, size, "%s=%.*g..%.*g:%d", row->key, low ? DBL_DECIMAL_DIG : 4,
+             low ? row->lowest : value - reach, high ? DBL_DECIMAL_DIG : 4,
+             high ? row->highest : value + reach, ACROSS);
+    return true;
+}
+
+/* The open scene by the selected lane's scheme, over the chosen parameter and the next one that is a number,
+   to be edited. malloc'ed, NULL: no memory. */
+static char *map_example(const struct gm_explorer *explorer)
+{
+    const struct gm_shot *shot = explorer->open.shot;
+    struct gm_arguments present = {0}, words = {0};
+    char ranges[2][64 + GM_TEXT_SIZE], *said = gm_studies_words(shot), *text = NULL;
+    size_t axes = 0;
+    for (size_t i = 0; i < shot->parameter_count && axes < 2; i++) {
+        const size_t at = (explorer->face.parameter + i) % shot->parameter_count;
+        axes += range_of(&shot->parameters[at], ranges[axes], sizeof ranges[axes]);
+    }
+    bool good = said && gm_arguments_split(&present, said);
+    for (int i = 0; good && i < present.count; i++) {
+        const size_t key = strcspn(present.words[i], "=") + 1;
+        const bool swept = (axes > 0 && strncmp(present.words[i], ranges[0], key) == 0) ||
+                           (axes > 1 && strncmp(present.words[i], ranges[1], key) == 0);
+        good = swept || gm_arguments_add(&words, present.words[i]);
+    }
+    char scheme[GM_MESSAGE], measure[GM_MESSAGE];
+    snprintf(scheme, sizeof scheme, "scheme=%.400s", gm_scheme_word(shot->lanes[shot->selected].scheme));
+    snprintf(measure, sizeof measure, "measure=%.100s",
+             shot->scene->observable_count > 0 ? shot->scene->observables[0].key : "");
+    good = good && gm_arguments_add(&words, scheme);
+    for (size_t i = 0; good && i < axes; i++) {
+        good = gm_arguments_add(&words, ranges[i]);
+    }
+    good = good && gm_arguments_add(&words, measure);
+    text = good ? gm_typed_join(&words) : NULL;
+    gm_arguments_close(&present);
+    gm_arguments_close(&words);
+    free(said);
+    return text;
+}
+
+/* With what was typed before, if that was of the same scene. */
+void gm_explorer_ask_map(struct gm_explorer *explorer)
+{
+    const char *last = explorer->own.last[GM_OWN_MAP];
+    char *usual = map_example(explorer);
+    const bool same = last && usual && strncmp(last, usual, strcspn(usual, " ") + 1) == 0;
+    if (usual) {
+        open_prompt(explorer, GM_OWN_MAP, same ? last : usual, SIZE_MAX);
+    }
+    free(usual);
+}
+
+/* ---- what is typed is taken ---- */
+
+static bool take_map(struct gm_explorer *explorer)
+{
+    struct gm_own_prompt *prompt = &explorer->own;
+    struct gm_open *open = &explorer->open;
+    char *words = sweep_words(prompt->line.text);
+    const bool good = words && gm_studies_open(&open->studies, GM_STUDY_SWEEP, words, open->wake);
+    if (!good) {
+        snprintf(prompt->fault.sentence, sizeof prompt->fault.sentence, "%s",
+                 words ? open->studies.notice : "There is not enough memory.");
+    }
+    free(words);
+    return good;
+}
+
 /* What is typed is right: it takes the place of what runs, or of a lane's scheme. */
 static void take(struct gm_explorer *explorer)
 {
@@ -121,6 +249,10 @@ static void take(struct gm_explorer *explorer)
         explorer->face.guide = NULL;
         explorer->face.parameter = 0;
         explorer->list.shown = false;
+    } else if (prompt->kind == GM_OWN_MAP) {
+        if (!take_map(explorer)) {
+            return;
+        }
     } else {
         const struct gm_scheme *scheme = gm_typed_scheme(prompt->line.text, &prompt->fault);
         if (!scheme) {
@@ -135,11 +267,15 @@ static void take(struct gm_explorer *explorer)
 
 void gm_explorer_check_own(struct gm_explorer *explorer)
 {
+    static gm_line_reader *const readers[GM_OWN_KINDS] = {[GM_OWN_SYSTEM] = gm_typed_check,
+                                                          [GM_OWN_SWITCH] = gm_typed_check_scheme,
+                                                          [GM_OWN_FORK] = gm_typed_check_scheme,
+                                                          [GM_OWN_MAP] = check_map};
     struct gm_own_prompt *prompt = &explorer->own;
     if (prompt->kind == GM_OWN_NONE || prompt->checked) {
         return;
     }
-    prompt->checked = gm_check_knows(&explorer->check, prompt->kind != GM_OWN_SYSTEM, prompt->line.text,
+    prompt->checked = gm_check_knows(&explorer->check, readers[prompt->kind], prompt->line.text,
                                      explorer->wake, &prompt->fault);
     explorer->dirty = explorer->dirty || prompt->checked;
     if (prompt->checked && prompt->entered) {

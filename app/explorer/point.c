@@ -3,6 +3,8 @@
 #include "app/explorer/events.h"
 
 #include <curses.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "app/explorer/view/chooser.h"
 
@@ -82,6 +84,23 @@ static void click_picture(struct gm_explorer *explorer, const struct gm_mouse_ev
     }
 }
 
+/* The run that a map has there takes the place of what is open; the map stays behind its key. */
+static void click_study(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_open *open = &explorer->open;
+    struct gm_typed_fault fault;
+    char *words = gm_studies_pick(&open->studies, explorer->face.blocks, event->column, event->row);
+    if (words && gm_open_line(open, words, &fault)) {
+        open->guide.tour = NULL;
+        open->studies.shown = GM_STUDY_NONE;
+        explorer->face.guide = NULL;
+        explorer->face.parameter = 0;
+    } else if (words) {
+        snprintf(open->studies.notice, sizeof open->studies.notice, "%s", fault.sentence);
+    }
+    free(words);
+}
+
 static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
     const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
@@ -127,7 +146,11 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
         drag(explorer, event->column);
         break;
     case GM_HIT_PICTURE:
-        click_picture(explorer, event);
+        if (explorer->open.studies.shown != GM_STUDY_NONE) {
+            click_study(explorer, event);
+        } else {
+            click_picture(explorer, event);
+        }
         break;
     case GM_HIT_KEY:
     case GM_HIT_SCENE:

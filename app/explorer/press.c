@@ -128,6 +128,9 @@ void gm_explorer_press(struct gm_explorer *explorer, int key)
         gm_studies_begin(&explorer->open.studies, key, explorer->open.shot, explorer->wake);
         explorer->dirty = true;
         break;
+    case GM_KEY_MAP:
+        gm_explorer_ask_map(explorer);
+        break;
     case GM_KEY_OWN: {
         const enum gm_choosing choosing = face->choosing;
         explorer->face.choosing = GM_CHOOSE_NOTHING;

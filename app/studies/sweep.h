@@ -96,7 +96,13 @@ struct gm_sweep_chart;
    of them, or the table cannot be read. */
 struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, const char *path, char *message);
 bool gm_sweep_is_drawable(const struct gm_sweep *sweep, char *message);
+/* Takes the rows that have come since. */
+void gm_sweep_chart_read(struct gm_sweep_chart *chart);
 void gm_sweep_chart_close(struct gm_sweep_chart *chart);
 void gm_sweep_chart_draw(const struct gm_sweep_chart *chart, struct gm_picture *picture);
+
+/* The run that a map shows at (x, y), in the units of its axes; `map` is its number among the panels. False
+   where that is no map. */
+bool gm_sweep_pick(const struct gm_sweep *sweep, size_t map, double x, double y, size_t *run);
 
 #endif

@@ -247,7 +247,7 @@ static bool read_study(struct reader *reader, const struct entry *entry, struct 
     step->study = gm_study_find(name);
     if (step->study == GM_STUDY_NONE) {
         return refuse(reader, entry->line,
-                      "a study is work-precision, stability or backward, with a scene: \"%.60s\"",
+                      "a study is work-precision, stability, backward or sweep, with a scene: \"%.60s\"",
                       entry->text);
     }
     step->study_words = strdup(entry->text + length);

@@ -3,7 +3,7 @@
 #define GM_APP_TOURS_TOUR_H
 
 #include "app/request/request.h"
-#include "app/studies/study.h"
+#include "app/studies/kinds/study.h"
 
 /* A tour: steps that a class is led through, read from a text file that a teacher can write (docs/tours.md).
    Texts of one paragraph are without line breaks. */

@@ -115,6 +115,33 @@ kdv position -5 box initial=soliton
 nls position -5 box
 LIST
 
+# a map of many runs is asked for, grows, and a click in it opens the run that it shows there
+start 120x40 COLORTERM=truecolor TERM=tmux-256color
+open_scene henon-heiles scheme=verlet
+keys M
+wait_for 'A map of runs'
+wait_for 'measure=energy_error'
+keys C-u 'henon-heiles scheme=verlet q2=0.1 measure=megno'
+wait_for 'one key with several numbers, or of two, and not of 0'
+keys C-u 'henon-heiles scheme=yoshida4 energy=0.125 q2=-0.3..0.6:10 p2=-0.4..0.4:9 until=50 measure=megno'
+wait_for 'That is right'
+keys Enter
+wait_for 'mean MEGNO over q2 and p2'
+wait_for 'sweep 100 %: Done'
+click 1 20
+wait_for 'sweep 100 %: Done'
+click 65 20
+wait_for '▸ ━━━ Yoshida 4'
+wait_for 'q2 +0.2 '
+wait_for 'p2 +0 '
+wait_for 'energy +0.125'
+keys M
+wait_for 'q2=-0.3..0.6:10'
+keys Enter
+wait_for 'sweep 100 %: Done'
+keys q
+wait_for 'left 0'
+
 # smaller still: the picture, and the panel when it is asked for
 start 40x12 COLORTERM=truecolor TERM=tmux-256color
 open_scene kepler

@@ -213,7 +213,7 @@ say: y
 show: disc until=5
 at: 9 scheme=rk4
 END
-broken 'line 5: a study is work-precision, stability or backward' <<'END'
+broken 'line 5: a study is work-precision, stability, backward or sweep' <<'END'
 title: x
 step: one
 say: y

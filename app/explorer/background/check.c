@@ -8,11 +8,7 @@
 static void find_out(void *self)
 {
     struct gm_check *check = self;
-    if (check->scheme) {
-        gm_typed_check_scheme(check->line, &check->fault);
-    } else {
-        gm_typed_check(check->line, &check->fault);
-    }
+    check->read(check->line, &check->fault);
 }
 
 static void end(void *self)
@@ -20,16 +16,16 @@ static void end(void *self)
     (void)self;
 }
 
-bool gm_check_knows(struct gm_check *check, bool scheme, const char *line, int wake,
+bool gm_check_knows(struct gm_check *check, gm_line_reader *read, const char *line, int wake,
                     struct gm_typed_fault *fault)
 {
     if (check->open && gm_job_is_busy(&check->job)) {
         return false;
     }
-    if (!check->line || check->scheme != scheme || strcmp(check->line, line) != 0) {
+    if (!check->line || check->read != read || strcmp(check->line, line) != 0) {
         free(check->line);
         check->line = strdup(line);
-        check->scheme = scheme;
+        check->read = read;
         check->fault = (struct gm_typed_fault){.at = -1};
         char message[GM_MESSAGE];
         check->open = check->open || gm_job_open(&check->job, find_out, end, check, wake, message);

@@ -15,7 +15,7 @@
 #include "app/output/chart.h"
 #include "app/output/folder.h"
 #include "app/request/arguments.h"
-#include "app/studies/study.h"
+#include "app/studies/kinds/study.h"
 #include "render/clock.h"
 
 enum { NICE = 10 };
@@ -266,6 +266,12 @@ struct gm_study_look *gm_study_take(struct gm_study *study)
         gm_job_begin(&study->job);
     }
     return look;
+}
+
+char *gm_study_pick(const struct gm_study *study, size_t panel, double x, double y)
+{
+    const struct gm_study_row *row = &gm_study_rows[study->kind];
+    return row->pick ? row->pick(&study->table, panel, x, y) : NULL;
 }
 
 void gm_study_stop(struct gm_study *study)

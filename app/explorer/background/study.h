@@ -33,6 +33,10 @@ const char *gm_study_name(enum gm_study_kind kind);
 /* A new look since the last call, or NULL. It may be read, and its picture laid out, until the next one. */
 struct gm_study_look *gm_study_take(struct gm_study *study);
 
+/* The words of the run that panel number `panel` of its picture shows at (x, y), the scene first; malloc'ed,
+   NULL: there is none. */
+char *gm_study_pick(const struct gm_study *study, size_t panel, double x, double y);
+
 /* Ends the measuring; what is finished stays. */
 void gm_study_stop(struct gm_study *study);
 /* Writes what there is as PNG and CSV here; the look after it says under what name. */

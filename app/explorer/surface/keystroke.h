@@ -14,6 +14,7 @@ enum gm_key_result {
     GM_KEY_THEME,   /* the same, in other colours */
     GM_KEY_SCENES,  /* to the list of scenes */
     GM_KEY_STUDY,   /* a diagram in the background, by the key */
+    GM_KEY_MAP,     /* a map of many runs is asked for */
     GM_KEY_TOUR,    /* another step of a tour, by the key */
     GM_KEY_OWN,     /* a system of one's own; from the list of schemes a scheme */
     GM_KEY_FILE,    /* the system of one's own to a file */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the prompt for a system, or a scheme, of one's own looks like. */
+/* What the prompt for a system or a scheme of one's own, or a map, looks like. */
 #include "app/explorer/view/own.h"
 
 #include <stdio.h>
@@ -10,6 +10,7 @@ enum { ROWS = 5, FEW_ROWS = 2, FEW_SCREEN_ROWS = 16 };
 static const char *const questions[GM_OWN_KINDS] = {
     [GM_OWN_SYSTEM] = " Your own system: a formula with its values, a file, or a name ",
     [GM_OWN_SWITCH] = " Your own scheme for this lane: coefficients, or a file ",
+    [GM_OWN_MAP] = " A map of runs: two keys with ranges a..b:n, and measure=what it shows, as megno ",
     [GM_OWN_FORK] = " Your own scheme for one more lane: coefficients, or a file ",
 };
 

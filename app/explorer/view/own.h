@@ -5,14 +5,15 @@
 #include "app/explorer/surface/edit.h"
 #include "app/request/typed.h"
 
-/* The prompt for a system, or a scheme, of one's own: what is typed, and below it what is wrong, and
-   where. */
+/* The prompt for a system or a scheme of one's own, or a map of many runs: what is typed, and below it what
+   is wrong, and where. */
 
 enum gm_own_kind {
     GM_OWN_NONE,   /* the prompt is closed */
     GM_OWN_SYSTEM, /* that takes the place of what is open */
     GM_OWN_SWITCH, /* a scheme for the selected lane */
     GM_OWN_FORK,   /* a scheme for one more lane from its state */
+    GM_OWN_MAP,    /* a sweep over two keys */
     GM_OWN_KINDS
 };
 

@@ -63,6 +63,9 @@ static void draw_study(const struct gm_sheet *whole, int rows, int below)
     struct gm_studies *studies = whole->face->studies;
     const struct gm_sheet diagram = gm_sheet_part(whole, 0, 0, whole->width, rows);
     gm_studies_draw(&diagram, studies);
+    for (int row = 0; row < rows; row++) {
+        gm_sheet_hit(&diagram, 0, row, diagram.width, (struct gm_hit){.kind = GM_HIT_PICTURE});
+    }
     if (below == 2) {
         gm_screen_rule(whole, 0);
     }

@@ -12,7 +12,8 @@
 #include "app/request/arguments.h"
 
 /* 0: a tour alone shows it */
-static const char keys[GM_STUDY_COUNT] = {[GM_STUDY_WORK] = 'w', [GM_STUDY_STABILITY] = 'm'};
+static const char keys[GM_STUDY_COUNT] = {
+    [GM_STUDY_WORK] = 'w', [GM_STUDY_STABILITY] = 'm', [GM_STUDY_SWEEP] = 'M'};
 
 void gm_studies_close(struct gm_studies *studies)
 {
@@ -56,8 +57,8 @@ static bool is_standard(const struct gm_scene *scene, const struct gm_shot_param
     return standard;
 }
 
-/* The scene, with what the user has set; the step is the study's own matter. malloc'ed; NULL: no memory. */
-static char *present_words(const struct gm_shot *shot)
+/* The step is the study's own matter. */
+char *gm_studies_words(const struct gm_shot *shot)
 {
     char *words = NULL;
     size_t size = 0;
@@ -82,11 +83,27 @@ static char *present_words(const struct gm_shot *shot)
 
 void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot *shot, int wake)
 {
-    char *words = present_words(shot);
+    char *words = gm_studies_words(shot);
     if (words) {
         gm_studies_open(studies, key == 'w' ? GM_STUDY_WORK : GM_STUDY_STABILITY, words, wake);
     }
     free(words);
+}
+
+char *gm_studies_pick(const struct gm_studies *studies, enum gm_blocks blocks, int column, int row)
+{
+    const struct gm_study_look *look = studies->looks[studies->shown];
+    double x, y;
+    size_t number = 0;
+    const struct gm_panel *hit =
+        look && studies->painting.fresh
+            ? gm_cells_locate(&studies->painting.cells, look->picture, blocks, column, row, &x, &y)
+            : NULL;
+    for (const struct gm_panel *panel = hit ? look->picture->first : NULL; panel && panel != hit;
+         panel = panel->next) {
+        number++;
+    }
+    return hit ? gm_study_pick(studies->studies[studies->shown], number, x, y) : NULL;
 }
 
 bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme)

@@ -25,6 +25,13 @@ bool gm_studies_open(struct gm_studies *studies, enum gm_study_kind kind, const 
 /* The same for the scene as it is set now, by the key: w work-precision, m the stability map. */
 void gm_studies_begin(struct gm_studies *studies, int key, const struct gm_shot *shot, int wake);
 
+/* The scene with what the user has set, as the words of a study; malloc'ed, NULL: no memory. */
+char *gm_studies_words(const struct gm_shot *shot);
+
+/* The words of the run that the shown study has at a cell of its picture, the scene first; malloc'ed, NULL:
+   there is none. */
+char *gm_studies_pick(const struct gm_studies *studies, enum gm_blocks blocks, int column, int row);
+
 /* What a key does while a study is shown; false: it is for others. */
 bool gm_studies_press(struct gm_studies *studies, int key, enum gm_theme theme);
 

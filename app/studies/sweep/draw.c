@@ -31,6 +31,9 @@ struct gm_sweep_chart {
     size_t shown;              /* observables: the first of the sweep's */
     struct bin *cells;         /* [((observable * lines + line) * bins up + up) * bins across + across] */
     size_t failed;             /* runs, which are left out */
+    FILE *table;               /* behind the rows that were read */
+    size_t rows;               /* of them */
+    size_t status;             /* the number of its cell in a row */
 };
 
 static bool is_axis(const struct gm_sweep *sweep, const struct gm_word *word)
@@ -133,16 +136,16 @@ static const char *cell_of(const char *row, size_t index)
     return row;
 }
 
-static void take_row(struct gm_sweep_chart *chart, size_t run, const char *row, size_t status)
+static void take_row(struct gm_sweep_chart *chart, size_t run, const char *row)
 {
     enum { OBSERVABLES = 6 }; /* cells behind the status: t, steps, evaluations, solves, seconds */
-    if (strncmp(cell_of(row, status), "ok,", 3) != 0) {
+    if (strncmp(cell_of(row, chart->status), "ok,", 3) != 0) {
         chart->failed++;
         return;
     }
     for (size_t i = 0; i < chart->shown; i++) {
         char *end = NULL;
-        const char *cell = cell_of(row, status + OBSERVABLES + i);
+        const char *cell = cell_of(row, chart->status + OBSERVABLES + i);
         const double value = strtod(cell, &end);
         struct bin *bin = &bins_of(
             chart, i, line_of(chart, run))[bin_of(chart, 1, run) * chart->bins[0] + bin_of(chart, 0, run)];
@@ -156,41 +159,49 @@ static void take_row(struct gm_sweep_chart *chart, size_t run, const char *row, 
 struct gm_sweep_chart *gm_sweep_chart_open(const struct gm_sweep *sweep, const char *path, char *message)
 {
     struct gm_sweep_chart *chart = calloc(1, sizeof *chart);
-    char *head = gm_sweep_head(sweep), *line = NULL;
-    size_t room = 0, status = 0;
+    char *head = gm_sweep_head(sweep);
     if (!chart || !head || !plan(chart, sweep, message)) {
         free(head);
         free(chart);
         return NULL;
     }
     for (const char *at = strstr(head, ",status,"); at > head; at--) {
-        status += *at == ',';
+        chart->status += *at == ',';
     }
     free(head);
     chart->cells =
         calloc(chart->shown * chart->lines * chart->bins[0] * chart->bins[1], sizeof *chart->cells);
-    FILE *table = fopen(path, "r");
-    if (!chart->cells || !table) {
+    chart->table = fopen(path, "r");
+    if (!chart->cells || !chart->table) {
         snprintf(message, GM_MESSAGE, "%.360s could not be read: %s", path, strerror(errno));
         gm_sweep_chart_close(chart);
-        chart = NULL;
+        return NULL;
     }
-    size_t run = 0;
-    for (bool first = true; chart && getline(&line, &room, table) > 0; first = false) {
-        if (!first && run < sweep->count) {
-            take_row(chart, run++, line, status);
+    gm_sweep_chart_read(chart);
+    return chart;
+}
+
+void gm_sweep_chart_read(struct gm_sweep_chart *chart)
+{
+    char *line = NULL;
+    size_t room = 0;
+    clearerr(chart->table);
+    while (getline(&line, &room, chart->table) > 0) {
+        const bool head = chart->rows == 0;
+        if (!head && chart->rows <= chart->sweep->count) {
+            take_row(chart, chart->rows - 1, line);
         }
-    }
-    if (table) {
-        fclose(table);
+        chart->rows++;
     }
     free(line);
-    return chart;
 }
 
 void gm_sweep_chart_close(struct gm_sweep_chart *chart)
 {
     if (chart) {
+        if (chart->table) {
+            fclose(chart->table);
+        }
         free(chart->cells);
         free(chart);
     }
@@ -400,6 +411,7 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, line_name(chart, line, picture));
     panel->axes = panel->colour_bar = true;
     panel->title_role = GM_INK;
+    panel->note = extent.logarithmic ? "colour: log₁₀" : ""; /* a small picture has no room at the bar */
     panel->colour_bar_label = gm_picture_text(picture, "%s%s", extent.logarithmic ? "log₁₀ " : "", title);
     for (size_t axis = 0; axis < 2; axis++) {
         struct gm_axis *shown = axis == 0 ? &panel->x : &panel->y;
@@ -433,6 +445,49 @@ static void draw_map(const struct gm_sweep_chart *chart, size_t observable, size
     free(cells.points);
     free(cells.values);
     free(cells.triangles);
+}
+
+/* The value of an axis that is nearest to a place on it. */
+static size_t nearest_choice(const struct gm_sweep_chart *chart, size_t axis, double place)
+{
+    const struct gm_word *word = &chart->sweep->words.list[chart->keys[axis]];
+    const bool powers = is_logarithmic(chart, axis);
+    size_t nearest = 0;
+    double least = INFINITY;
+    for (size_t i = 0; i < word->count; i++) {
+        char text[GM_TEXT_SIZE];
+        double value = NAN;
+        gm_number_parse(gm_word_value(word, i, text), &value);
+        const double away = powers ? fabs(log(value / place)) : fabs(value - place);
+        if (away < least) {
+            least = away;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+bool gm_sweep_pick(const struct gm_sweep *sweep, size_t map, double x, double y, size_t *run)
+{
+    struct gm_sweep_chart chart;
+    char message[GM_MESSAGE];
+    if (!plan(&chart, sweep, message) || chart.key_count != 2 || map >= chart.shown * chart.lines) {
+        return false;
+    }
+    const size_t chosen[] = {nearest_choice(&chart, 0, x), nearest_choice(&chart, 1, y)};
+    size_t line = map % chart.lines, each = 1;
+    *run = 0;
+    for (size_t i = sweep->words.count; i-- > 0;) { /* the last list changes fastest */
+        const struct gm_word *word = &sweep->words.list[i];
+        size_t choice = i == chart.keys[0] ? chosen[0] : chosen[1];
+        if (!is_axis(sweep, word)) {
+            choice = line % word->count;
+            line /= word->count;
+        }
+        *run += choice * each;
+        each *= word->count;
+    }
+    return true;
 }
 
 /* "until = 10, steps = 5": the keys that have one value. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The kinds of studies, as rows of functions. */
-#include "app/studies/study.h"
+#include "app/studies/kinds/study.h"
 
 #include <string.h>
 
@@ -89,15 +89,57 @@ static void close_backward(void *table)
     gm_backward_close(table);
 }
 
+/* ---- sweeps ---- */
+
+static bool open_sweep(void *table, const struct gm_arguments *arguments, const char *measure, char *message)
+{
+    (void)measure;
+    return gm_sweep_study_open(table, arguments, message);
+}
+
+static bool measure_sweep(void *table, const struct gm_listener *listener, char *message)
+{
+    return gm_sweep_study_measure(table, listener, message);
+}
+
+static void draw_sweep(const void *table, struct gm_picture *picture)
+{
+    gm_sweep_study_draw(table, picture);
+}
+
+static bool write_sweep(const void *table, const char *path)
+{
+    return gm_sweep_study_write(table, path);
+}
+
+static void close_sweep(void *table)
+{
+    gm_sweep_study_close(table);
+}
+
+static char *pick_run(const void *table, size_t panel, double x, double y)
+{
+    const struct gm_sweep_study *study = table;
+    static const char command[] = "run ";
+    size_t run;
+    char *words = gm_sweep_pick(&study->sweep, panel, x, y, &run) ? gm_sweep_words(&study->sweep, run) : NULL;
+    if (words) {
+        memmove(words, words + strlen(command), strlen(words) - strlen(command) + 1);
+    }
+    return words;
+}
+
 /* ---- all ---- */
 
 const struct gm_study_row gm_study_rows[GM_STUDY_COUNT] = {
     [GM_STUDY_WORK] = {"work-precision", GM_EXIT_NUMERICAL, open_work, measure_work, draw_work, write_work,
-                       close_work},
+                       close_work, NULL},
     [GM_STUDY_STABILITY] = {"stability", GM_EXIT_USAGE, open_stability, measure_stability, draw_stability,
-                            write_stability, close_stability},
+                            write_stability, close_stability, NULL},
     [GM_STUDY_BACKWARD] = {"backward", GM_EXIT_USAGE, open_backward, measure_backward, draw_backward,
-                           write_backward, close_backward},
+                           write_backward, close_backward, NULL},
+    [GM_STUDY_SWEEP] = {"sweep", GM_EXIT_USAGE, open_sweep, measure_sweep, draw_sweep, write_sweep,
+                        close_sweep, pick_run},
 };
 
 enum gm_study_kind gm_study_find(const char *name)
