@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* What is made: psi goes from `level` on along a piece. */
 struct maker {
@@ -255,6 +256,10 @@ static bool list_inflow(struct gm_flow *flow)
     const struct gm_complex *complex = flow->complex;
     struct gm_inflow *inflow = &flow->inflow;
     size_t count = 0;
+    free(inflow->point);
+    free(inflow->psi);
+    *inflow = (struct gm_inflow){0};
+    flow->inlet_length = 0;
     for (size_t i = 0; i < flow->openings; i++) {
         count += flow->opening[i].inlet ? flow->opening[i].count + 1 : 0;
     }
@@ -325,6 +330,7 @@ enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned ch
     free(flow->opening);
     flow->opening = NULL;
     flow->openings = flow->holes = 0;
+    memset(flow->sheet, 0, complex->vertices * sizeof *flow->sheet);
     number_holes(flow);
     enum gm_boundary_fault fault = find_openings(&maker);
     if (fault != GM_BOUNDARY_OK) {

@@ -42,7 +42,7 @@ enum gm_boundary_fault {
     GM_BOUNDARY_BACKWARDS,  /* an outlet would have to let air in */
 };
 
-/* The boundary of a room: side_of[b] is the side of edge complex->boundary_edge[b]. A vertex belongs to an
+/* The boundary of a room, in place of one that was made before: side_of[b] is the side of edge complex->boundary_edge[b]. A vertex belongs to an
    inlet (outlet) if both its boundary edges are of the same piece. Outlet vertices are of the kind `outlet`.
    psi is 0 on the wall from which the first outlet begins, counter-clockwise; on the walls of holes it is
    unknown. */

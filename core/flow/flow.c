@@ -78,7 +78,53 @@ void gm_flow_close(struct gm_flow *flow)
     free(flow->temperature_holder);
     free(flow->inflow.point);
     free(flow->inflow.psi);
+    free(flow->side_of);
     free(flow);
+}
+
+static void *copy_of(const void *values, size_t size)
+{
+    void *copy = values ? malloc(size) : NULL;
+    return copy ? memcpy(copy, values, size) : NULL;
+}
+
+struct gm_flow *gm_flow_open_now(const struct gm_flow *flow)
+{
+    const size_t n = flow->complex->vertices;
+    struct gm_flow *now = malloc(sizeof *now);
+    if (!now) {
+        return NULL;
+    }
+    *now = *flow;
+    now->kind = copy_of(flow->kind, n);
+    now->psi = copy_of(flow->psi, n * sizeof *flow->psi);
+    now->hole = copy_of(flow->hole, n * sizeof *flow->hole);
+    now->open = copy_of(flow->open, n);
+    now->sheet = copy_of(flow->sheet, n * sizeof *flow->sheet);
+    now->theta_fixed = copy_of(flow->theta_fixed, n * sizeof *flow->theta_fixed);
+    now->theta = copy_of(flow->theta, n * sizeof *flow->theta);
+    now->temperature_fixed = copy_of(flow->temperature_fixed, n * sizeof *flow->temperature_fixed);
+    now->temperature = copy_of(flow->temperature, n * sizeof *flow->temperature);
+    now->temperature_holder = copy_of(flow->temperature_holder, n);
+    now->opening = NULL;
+    now->inflow = (struct gm_inflow){0};
+    const bool warm = now->temperature_fixed && now->temperature && now->temperature_holder;
+    if (!now->kind || !now->psi || !now->hole || !now->open || !now->sheet || !now->theta_fixed ||
+        !now->theta || (flow->heat && !warm)) {
+        gm_flow_close_now(now);
+        return NULL;
+    }
+    return now;
+}
+
+void gm_flow_close_now(struct gm_flow *now)
+{
+    if (now) {
+        now->complex = NULL;
+        now->source = NULL;
+        now->side_of = NULL;
+    }
+    gm_flow_close(now);
 }
 
 bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature)

@@ -74,6 +74,11 @@ struct gm_flow {
     unsigned char *temperature_holder;
     size_t tracers;
     struct gm_inflow inflow;
+    /* Where what the boundary gives changes in time: has `now` give what it does at the time t. False where
+       that is no boundary: something is not finite, or flows do not balance. NULL: nothing changes. */
+    bool (*give)(const struct gm_flow *flow, double t, struct gm_flow *now);
+    const void *given_by;
+    unsigned char *side_of; /* a boundary edge, as in core/flow/boundary.h; NULL where nothing changes */
 };
 
 /* The state of a run: blocks of one number a vertex, then the flow's step that led here and the tracers. What
@@ -116,6 +121,10 @@ const double *gm_flow_tracer(const struct gm_flow *flow, const double *y, size_t
 /* A flow that owns the complex, everything free and 0. NULL (and the complex closed) when memory is short. */
 struct gm_flow *gm_flow_open(struct gm_complex *complex);
 void gm_flow_close(struct gm_flow *flow);
+/* The flow with a boundary of its own, for `give`; the complex and sources stay the other's. NULL when memory
+   is short. */
+struct gm_flow *gm_flow_open_now(const struct gm_flow *flow);
+void gm_flow_close_now(struct gm_flow *now);
 /* Lets it carry heat, nowhere held, everywhere at the reference temperature. False when memory is short. */
 bool gm_flow_carry_heat(struct gm_flow *flow, double buoyancy, double reference_temperature);
 

@@ -29,32 +29,44 @@ static const struct {
 enum { WORDS = GM_COUNT(words) };
 
 /* The variables of formulas. */
-static const char *const variables[] = {"s", "x", "y"};
+enum { PART, X, Y, TIME, VARIABLES };
+static const char *const variables[VARIABLES] = {"s", "x", "y", "t"};
+
+/* A formula that is read, and whether it may change in time. */
+struct reading {
+    struct gm_room *room;
+    bool timeless;
+};
 
 static const char *known(size_t i, const void *data)
 {
-    return (void)data, i < 3 ? variables[i] : NULL;
+    return (void)data, i < VARIABLES ? variables[i] : NULL;
 }
 
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
-    for (size_t i = 0; i < 3; i++) {
-        if (name->length == 1 && name->text[0] == variables[i][0] && !name->indexed && !name->initial) {
-            *node = gm_formula_variable(data, i);
-            return GM_KNOWN;
+    const struct reading *reading = data;
+    for (size_t i = 0; i < VARIABLES; i++) {
+        if (name->length != 1 || name->text[0] != variables[i][0] || name->indexed || name->initial) {
+            continue;
         }
-    }
-    if (name->length == 1 && name->text[0] == 't') {
-        snprintf(sentence, GM_FAULT_SENTENCE, "what a room's boundary gives may not change in time");
-        return GM_REFUSED;
+        if (i == TIME && reading->timeless) {
+            snprintf(sentence, GM_FAULT_SENTENCE,
+                     "what a room's boundary gives may change in time: no start, no source and no place");
+            return GM_REFUSED;
+        }
+        reading->room->timed = reading->room->timed || i == TIME;
+        *node = gm_formula_variable(&reading->room->graph, i);
+        return GM_KNOWN;
     }
     return GM_UNKNOWN;
 }
 
-static bool read_formula(struct gm_room *room, struct gm_span span, struct gm_room_formula *value,
-                         struct gm_fault *fault)
+static bool read_formula(struct gm_room *room, struct gm_span span, bool timeless,
+                         struct gm_room_formula *value, struct gm_fault *fault)
 {
-    const struct gm_scope scope = {.find = find, .known = known, .data = &room->graph, .lines = true};
+    struct reading reading = {room, timeless};
+    const struct gm_scope scope = {.find = find, .known = known, .data = &reading, .lines = true};
     gm_node_id node = 0;
     if (!gm_formula_read(&room->graph, room->text, span.begin, span.end, &scope, &node, fault)) {
         return false;
@@ -65,7 +77,7 @@ static bool read_formula(struct gm_room *room, struct gm_span span, struct gm_ro
 }
 
 double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
-                     const double at[3], double standard, double *scratch)
+                     const double at[VARIABLES], double standard, double *scratch)
 {
     const struct gm_room_formula *value = &line->value[key];
     if (value->place == 0) {
@@ -78,7 +90,7 @@ double gm_room_value(const struct gm_room *room, const struct gm_room_line *line
 void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double *scratch,
                    double point[2])
 {
-    const double origin[3] = {0};
+    const double origin[VARIABLES] = {0};
     point[0] = gm_room_value(room, line, GM_ROOM_X, origin, 0, scratch);
     point[1] = gm_room_value(room, line, GM_ROOM_Y, origin, 0, scratch);
 }
@@ -133,7 +145,7 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
             return gm_fail(fault, rest.begin, "%s = is given twice", keys[key]);
         }
         const struct gm_span formula = gm_span_trimmed(room->text, (struct gm_span){equals, end});
-        if (!read_formula(room, formula, &line->value[key], fault)) {
+        if (!read_formula(room, formula, line->word > GM_ROOM_WALL, &line->value[key], fault)) {
             return false;
         }
         given |= 1u << key;
@@ -357,6 +369,7 @@ struct profile {
     const struct gm_room *room;
     const struct gm_room_line *line;
     struct bad *bad;
+    double t;
     double *scratch;
 };
 
@@ -369,7 +382,7 @@ struct bad {
 static double speed_at(const void *data, double s, const double at[2])
 {
     const struct profile *profile = data;
-    const double place[3] = {s, at[0], at[1]},
+    const double place[VARIABLES] = {s, at[0], at[1], profile->t},
                  speed =
                      gm_room_value(profile->room, profile->line, GM_ROOM_SPEED, place, 0, profile->scratch);
     if (!isfinite(speed)) {
@@ -403,7 +416,7 @@ static bool start_carried(const struct gm_room *room, const struct gm_room_line 
                           struct gm_fault *fault)
 {
     for (size_t v = 0; v < complex->vertices && line->value[key].place > 0; v++) {
-        const double *p = complex->point + 2 * v, at[3] = {0, p[0], p[1]},
+        const double *p = complex->point + 2 * v, at[VARIABLES] = {0, p[0], p[1], 0},
                      here = gm_room_value(room, line, key, at, 0, scratch);
         value[v] = fixed[v] ? value[v] : here;
         if (!isfinite(here)) {
@@ -435,7 +448,7 @@ static bool place_things(const struct gm_room *room, struct gm_flow *flow, doubl
         }
         double at[2], w[3];
         gm_room_point(room, line, scratch, at);
-        const double place[3] = {0, at[0], at[1]},
+        const double place[VARIABLES] = {0, at[0], at[1], 0},
                      rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0, scratch);
         size_t triangle = 0;
         if (!locate(complex, at, &triangle, w)) {
@@ -494,6 +507,103 @@ static double fall(const struct gm_flow *flow)
     return sqrt(fabs(flow->buoyancy) * (high - low) * sqrt(flow->complex->total_area));
 }
 
+/* What the room's lines say of a side at a time. */
+static bool make_side(const struct gm_room *room, const struct gm_room_line *line, struct profile *profile,
+                      double reference, struct gm_side *side, struct gm_fault *fault)
+{
+    const double at[VARIABLES] = {[TIME] = profile->t};
+    double *scratch = profile->scratch;
+    const bool inlet = line->word == GM_ROOM_INLET;
+    const double tangential = gm_room_value(room, line, GM_ROOM_TANGENTIAL, at, 0, scratch);
+    side->kind = inlet                          ? GM_EDGE_INLET
+                 : line->word == GM_ROOM_OUTLET ? GM_EDGE_OUTLET
+                 : tangential != 0              ? GM_EDGE_LID
+                                                : GM_EDGE_WALL;
+    side->flow = gm_room_value(room, line, GM_ROOM_FLOW, at, NAN, scratch);
+    side->speed = tangential;
+    side->theta_free = !inlet && line->value[GM_ROOM_SCALAR].place == 0;
+    side->theta = gm_room_value(room, line, GM_ROOM_SCALAR, at, 0, scratch);
+    side->temperature_free = !inlet && line->value[GM_ROOM_TEMPERATURE].place == 0;
+    side->temperature = gm_room_value(room, line, GM_ROOM_TEMPERATURE, at, reference, scratch);
+    if (line->value[GM_ROOM_SPEED].place != 0) {
+        side->profile = speed_at;
+        side->data = profile;
+    }
+    if (line->value[GM_ROOM_FLOW].place != 0 && !(side->flow >= 0 && isfinite(side->flow))) {
+        return gm_fail(fault, line->value[GM_ROOM_FLOW].place, "a flow is a number that is not negative");
+    }
+    return (isfinite(side->theta) && isfinite(side->temperature) && isfinite(tangential)) ||
+           gm_fail(fault, line->place, "what %.63s gives is not finite", line->name);
+}
+
+/* Has the flow's boundary give what the room says at a time. */
+static bool set_sides(const struct gm_room *room, const unsigned char *side_of, double t,
+                      struct gm_flow *flow, struct gm_fault *fault, enum gm_boundary_fault *boundary)
+{
+    struct bad bad = {0};
+    struct gm_side *sides = calloc(room->count + 1, sizeof *sides);
+    struct profile *profiles = calloc(room->count + 1, sizeof *profiles);
+    double *scratch = malloc((room->graph.count + 1) * sizeof *scratch);
+    bool good = sides && profiles && scratch;
+    for (size_t i = 0; good && i <= room->count; i++) {
+        const struct gm_room_line *line = i > 0 ? &room->lines[i - 1] : NULL;
+        sides[i] = (struct gm_side){.flow = NAN, .theta_free = true, .temperature_free = true};
+        profiles[i] = (struct profile){room, line, &bad, t, scratch};
+        good = !line || line->word > GM_ROOM_WALL ||
+               make_side(room, line, &profiles[i], flow->reference_temperature, &sides[i], fault);
+    }
+    if (good) {
+        *boundary = gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT);
+        good = *boundary == GM_BOUNDARY_OK;
+        if (bad.line) {
+            good = gm_fail(fault, bad.line->value[GM_ROOM_SPEED].place,
+                           "the speed is not finite at (%.4g, %.4g)", bad.at[0], bad.at[1]);
+        }
+    }
+    free(scratch);
+    free(sides);
+    free(profiles);
+    return good;
+}
+
+static bool give(const struct gm_flow *flow, double t, struct gm_flow *now)
+{
+    struct gm_fault fault = {0};
+    enum gm_boundary_fault boundary = GM_BOUNDARY_OK;
+    return set_sides(flow->given_by, flow->side_of, t, now, &fault, &boundary);
+}
+
+void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, double t, struct gm_fault *fault,
+                   enum gm_boundary_fault *boundary)
+{
+    *fault = (struct gm_fault){0};
+    *boundary = GM_BOUNDARY_OK;
+    struct gm_flow *now = room->timed ? gm_flow_open_now(flow) : NULL;
+    if (now) {
+        set_sides(room, flow->side_of, t, now, fault, boundary);
+    }
+    gm_flow_close_now(now);
+}
+
+/* A boundary that changes: pictures and the time unit go by the largest speeds and values up to the end, as
+   far as some moments tell. */
+static bool look_ahead(const struct gm_room *room, struct gm_flow *flow)
+{
+    enum { MOMENTS = 64 };
+    const double until = isnan(room->until) ? 10 : room->until;
+    struct gm_flow *now = gm_flow_open_now(flow);
+    bool good = now != NULL;
+    flow->give = give;
+    flow->given_by = room;
+    for (int k = 1; good && k <= MOMENTS; k++) {
+        if (give(flow, until * k / MOMENTS, now)) { /* else the run tells when it is there */
+            flow->speed = fmax(flow->speed, now->speed);
+        }
+    }
+    gm_flow_close_now(now);
+    return good;
+}
+
 struct gm_flow *gm_room_flow(const struct gm_room *room, struct gm_triangulation *mesh,
                              struct gm_fault *fault, enum gm_boundary_fault *boundary)
 {
@@ -505,62 +615,18 @@ struct gm_flow *gm_room_flow(const struct gm_room *room, struct gm_triangulation
         return NULL;
     }
     const struct gm_complex *complex = flow->complex;
-    struct bad bad = {0};
-    unsigned char *side_of = calloc(complex->boundary + 1, 1);
-    struct gm_side *sides = calloc(room->count + 1, sizeof *sides);
-    struct profile *profiles = calloc(room->count + 1, sizeof *profiles);
     double *scratch = malloc((room->graph.count + 1) * sizeof *scratch);
+    flow->side_of = calloc(complex->boundary + 1, 1);
     flow->source = calloc(complex->vertices, sizeof *flow->source);
-    bool good = side_of && sides && profiles && scratch && flow->source;
+    bool good = flow->side_of && scratch && flow->source;
     good = good &&
            (isnan(room->buoyancy) || gm_flow_carry_heat(flow, room->buoyancy, room->reference_temperature));
     good = good && (room->count < GM_ROOM_SIDES ||
                     gm_fail(fault, 0, "a room has at most %d lines with names", GM_ROOM_SIDES - 1));
-    good = good && name_sides(room, mesh, side_of, fault);
-    for (size_t i = 0; good && i <= room->count; i++) {
-        const struct gm_room_line *line = i > 0 ? &room->lines[i - 1] : NULL;
-        sides[i] = (struct gm_side){.flow = NAN, .theta_free = true, .temperature_free = true};
-        if (!line || line->word > GM_ROOM_WALL) {
-            continue;
-        }
-        const double origin[3] = {0};
-        const bool inlet = line->word == GM_ROOM_INLET;
-        const double tangential = gm_room_value(room, line, GM_ROOM_TANGENTIAL, origin, 0, scratch);
-        profiles[i] = (struct profile){room, line, &bad, scratch};
-        sides[i].kind = inlet                          ? GM_EDGE_INLET
-                        : line->word == GM_ROOM_OUTLET ? GM_EDGE_OUTLET
-                        : tangential != 0              ? GM_EDGE_LID
-                                                       : GM_EDGE_WALL;
-        sides[i].flow = gm_room_value(room, line, GM_ROOM_FLOW, origin, NAN, scratch);
-        sides[i].speed = tangential;
-        sides[i].theta_free = !inlet && line->value[GM_ROOM_SCALAR].place == 0;
-        sides[i].theta = gm_room_value(room, line, GM_ROOM_SCALAR, origin, 0, scratch);
-        sides[i].temperature_free = !inlet && line->value[GM_ROOM_TEMPERATURE].place == 0;
-        sides[i].temperature =
-            gm_room_value(room, line, GM_ROOM_TEMPERATURE, origin, flow->reference_temperature, scratch);
-        if (line->value[GM_ROOM_SPEED].place != 0) {
-            sides[i].profile = speed_at;
-            sides[i].data = &profiles[i];
-        }
-        if (line->value[GM_ROOM_FLOW].place != 0 && !(sides[i].flow >= 0 && isfinite(sides[i].flow))) {
-            good = gm_fail(fault, line->value[GM_ROOM_FLOW].place, "a flow is a number that is not negative");
-        } else if (!isfinite(sides[i].theta) || !isfinite(sides[i].temperature) || !isfinite(tangential)) {
-            good = gm_fail(fault, line->place, "what %.63s gives is not finite", line->name);
-        }
-    }
-    if (good) {
-        *boundary = gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT);
-        good = *boundary == GM_BOUNDARY_OK;
-        if (bad.line) {
-            good = gm_fail(fault, bad.line->value[GM_ROOM_SPEED].place,
-                           "the speed is not finite at (%.4g, %.4g)", bad.at[0], bad.at[1]);
-        }
-    }
-    good = good && place_things(room, flow, scratch, fault);
+    good = good && name_sides(room, mesh, flow->side_of, fault) &&
+           set_sides(room, flow->side_of, 0, flow, fault, boundary) &&
+           place_things(room, flow, scratch, fault) && (!room->timed || look_ahead(room, flow));
     free(scratch);
-    free(side_of);
-    free(sides);
-    free(profiles);
     mesh->complex = NULL;
     if (!good) {
         gm_flow_close(flow);

@@ -7,8 +7,8 @@
 #include "core/formula/lines.h"
 
 /* A room that somebody wrote: lines `word: NAME key = formula key = formula` (core/formula/lines.h), where
-   formulas may hold x, y and, of an inlet, s, which runs from 0 to 1 along its pieces
-   (core/flow/boundary.h). */
+   formulas may hold x, y, of an inlet s, which runs from 0 to 1 along its pieces (core/flow/boundary.h), and
+   of what the boundary gives the time t. */
 
 enum gm_room_word {
     GM_ROOM_INLET,
@@ -51,6 +51,7 @@ struct gm_room {
     char *title, *about, *mesh, *units; /* "": not given */
     double viscosity, diffusivity, reynolds,
         schmidt; /* NAN: not given; the former two are made of the latter */
+    bool timed;  /* something that the boundary gives holds t */
     double dt, until;
     double buoyancy, reference_temperature; /* NAN: there is no heat */
 };
@@ -60,19 +61,25 @@ struct gm_room {
 bool gm_room_read(struct gm_room *room, const char *text, size_t length, struct gm_fault *fault);
 void gm_room_close(struct gm_room *room);
 
-/* The value of a key at the part s of a side and the point x, y; its standard where it is not given. scratch:
-   a number for each node of the room's graph. */
+/* The value of a key at the part s of a side, the point x, y and the time t; its standard where it is not
+   given. scratch: a number for each node of the room's graph. */
 double gm_room_value(const struct gm_room *room, const struct gm_room_line *line, enum gm_room_key key,
-                     const double at[3], double standard, double *scratch);
+                     const double at[4], double standard, double *scratch);
 
 /* Where a source or a probe is. */
 void gm_room_point(const struct gm_room *room, const struct gm_room_line *line, double *scratch,
                    double point[2]);
 
-/* The flow of the room on its mesh, which it takes. NULL with a fault; `boundary` says what is wrong with its
+/* The flow of the room on its mesh, which it takes; where the boundary changes in time, the room has to outlive
+   it. NULL with a fault; `boundary` says what is wrong with its
    flows, where that is what is wrong. */
 struct gm_flow *gm_room_flow(const struct gm_room *room, struct gm_triangulation *mesh,
                              struct gm_fault *fault, enum gm_boundary_fault *boundary);
+
+/* Why the boundary can give nothing at a time (struct gm_flow, give); the fault's sentence is empty where it
+   can, or where `boundary` says it. */
+void gm_room_fault(const struct gm_room *room, const struct gm_flow *flow, double t, struct gm_fault *fault,
+                   enum gm_boundary_fault *boundary);
 
 /* The name of a hole, from 1: that of the group of its wall, or "hole1". */
 const char *gm_room_hole(const struct gm_triangulation *mesh, const struct gm_complex *complex, size_t hole,

@@ -73,11 +73,12 @@ static bool take_memory(struct gm_flow_solver *solver)
 
 /* Nothing that inlet, outlet and lid drive is faster, on the whole, than the fastest of the flow without
    vorticity that they make: beyond twice its square in the mean over the domain a state is an artefact.
-   Where nothing drives, or heat does, there is no such limit. */
+   Where nothing drives, heat does, or what drives changes, there is no such limit. */
 static double energy_limit(struct gm_flow_solver *solver)
 {
     const struct gm_flow *flow = solver->flow;
-    if (flow->speed == 0 || (flow->heat && flow->buoyancy != 0) || solver->unknowns.count == 0) {
+    if (flow->speed == 0 || flow->give || (flow->heat && flow->buoyancy != 0) ||
+        solver->unknowns.count == 0) {
         return INFINITY;
     }
     memcpy(solver->rate, flow->psi, flow->complex->vertices * sizeof *solver->rate);
@@ -93,7 +94,12 @@ struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
     if (!solver) {
         return NULL;
     }
-    solver->flow = flow;
+    solver->now = flow->give ? gm_flow_open_now(flow) : NULL;
+    if (flow->give && !solver->now) {
+        free(solver);
+        return NULL;
+    }
+    solver->flow = flow->give ? solver->now : flow;
     solver->vorticity_form = gm_flow_is_vorticity_form(flow);
     bool good = gm_unknowns_open(&solver->unknowns, flow) && list_unknowns(solver) && take_memory(solver) &&
                 gm_transport_open(&solver->transport, flow->complex) &&
@@ -115,6 +121,7 @@ void gm_flow_solver_close(struct gm_flow_solver *solver)
     if (!solver) {
         return;
     }
+    gm_flow_close_now(solver->now);
     gm_unknowns_close(&solver->unknowns);
     gm_cholesky_close(solver->poisson);
     gm_cholesky_close(solver->stokes);
@@ -126,6 +133,11 @@ void gm_flow_solver_close(struct gm_flow_solver *solver)
     free(solver->held);
     free(solver->numbers);
     free(solver);
+}
+
+bool gm_flow_solver_give(struct gm_flow_solver *solver, double t)
+{
+    return !solver->now || solver->now->give(solver->now, t, solver->now);
 }
 
 /* The factor of shift star0 + viscosity K between soft vertices. */

@@ -9,7 +9,8 @@
 /* What steps of a flow need besides the state: index sets, matrices, factors, scratch. All derived from the
    flow and the time step. */
 struct gm_flow_solver {
-    const struct gm_flow *flow;
+    const struct gm_flow *flow; /* where its boundary changes in time: `now` */
+    struct gm_flow *now; /* what it gives at the time of `gm_flow_solver_give`; NULL: nothing changes */
     struct gm_unknowns unknowns;
     bool vorticity_form;
     size_t soft; /* vertices whose omega is an unknown of its own */
@@ -32,6 +33,9 @@ struct gm_flow_solver {
 
 struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow);
 void gm_flow_solver_close(struct gm_flow_solver *solver);
+
+/* Has the boundary give what it does at the time t. False where that is none (struct gm_flow, give). */
+bool gm_flow_solver_give(struct gm_flow_solver *solver, double t);
 
 /* Makes the factors of shift K_II + viscosity K_I W K_I and of B_OO (solver.c); nothing to do if they are
    there. False if one is not positive definite or memory is short. */

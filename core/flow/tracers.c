@@ -107,7 +107,8 @@ static void enter(const struct gm_flow *flow, double share, struct place *place)
     while (i + 2 < inflow->count && (inflow->psi[i + 1] - psi) * (last - first) < 0) {
         i++;
     }
-    const double s = (psi - inflow->psi[i]) / (inflow->psi[i + 1] - inflow->psi[i]);
+    const double across = inflow->psi[i + 1] - inflow->psi[i], /* 0 while nothing enters */
+        s = across != 0 ? (psi - inflow->psi[i]) / across : share;
     for (int c = 0; c < 2; c++) {
         place->x[c] = inflow->point[2 * i + (size_t)c] +
                       s * (inflow->point[2 * i + 2 + (size_t)c] - inflow->point[2 * i + (size_t)c]);

@@ -74,7 +74,7 @@ static void draw_plate(struct gm_painter *painter, const struct gm_label *label)
     const float half = (float)(0.5 * line), middle = (float)(label->y + 0.5 * line);
     const struct gm_stroke plate = {.width = (float)line,
                                     .ink = {gm_theme_colour(painter->look.theme, GM_PAPER), 0.6}};
-    const float left = (float)label->x + 0.25f * half, right = (float)(label->x + width) - 0.25f * half;
+    const float left = (float)label->x + 0.4f * half, right = (float)(label->x + width) - 0.4f * half;
     struct gm_point ends[2] = {{left, middle}, {fmaxf(left + 1.0f, right), middle}};
     const struct gm_polyline axis = {.points = ends, .count = 2};
     painter->pen->line(painter->self, &axis, &plate);

@@ -193,6 +193,28 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     return true;
 }
 
+/* Why the boundary could give nothing in the next step. */
+static void tell_failure(const struct gm_view *view, char *text, size_t size)
+{
+    const struct gm_own_room *own = rooms_of(view->parameters);
+    char sentence[GM_MESSAGE] = "";
+    if (own->room.timed && view->scheme->steady) {
+        gm_refuse(sentence, "what the boundary gives changes in time, and so there is no steady state");
+    }
+    for (int half = 1; half <= 2 && !sentence[0] && view->run; half++) {
+        struct gm_fault fault;
+        enum gm_boundary_fault boundary;
+        gm_room_fault(&own->room, gm_flow_of(view->problem), view->t + view->run->dt * half / 2, &fault,
+                      &boundary);
+        if (fault.sentence[0]) {
+            tell(own, &fault, sentence);
+        } else if (boundary != GM_BOUNDARY_OK) {
+            gm_flows_boundary(boundary, sentence);
+        }
+    }
+    snprintf(text, size, "%s", sentence);
+}
+
 static bool readable(const void *parameters, char *sentence)
 {
     struct gm_triangulation mesh;
@@ -423,6 +445,7 @@ const struct gm_scene *gm_own_room_open(struct gm_room *room, const char *name, 
         .close = gm_flows_close,
         .start = gm_flows_start,
         .draw = draw,
+        .failure = tell_failure,
     };
     make_rows(own);
     for (size_t i = 0; i < own->room.count && i + 1 < GM_ROOM_SIDES; i++) {

@@ -62,6 +62,43 @@ status 0 run "$rooms/heated.room" until=1 scheme=crank-nicolson show=temperature
 status 0 render "$rooms/office.room" until=0.1 --size 320x200 --out pictures
 [ -s pictures/office-render.png ] || fail "no picture of a room"
 
+# what the boundary gives may change in time: the same bits where it does not, the order of each scheme where it
+# does, what enters at every moment what the line says, and budgets that close
+timed() { # NAME FACTOR: the office, whose door's speed has a factor
+    sed "s|(1 - s)|(1 - s)*($2)|; s/window  flow = 0.1/window/" "$rooms/office.room" >"$1.room"
+    cp "$rooms/office.msh" .
+}
+state_of() { "$geomint" run "$@" --json --state | sed 's/"seconds":[^,]*,//; s/.*"state"/"state"/'; }
+timed constant 1
+timed still '1 + 0*t'
+[ "$(state_of ./constant.room steps=20)" = "$(state_of ./still.room steps=20)" ] || fail "a time that does nothing does"
+timed rising '1 - exp(-t/5)'
+status 0 run ./rising.room until=10 --measure door_flow,vent_flow,window_flow,hatch_flow,divergence,budget_defect --max --json
+within door_flow 0.1037597 0.1037599 # 0.2*4/6 of its length 0.9, and 1 - exp(-2)
+within vent_flow 0.04999999 0.05000001
+within budget_defect_max 0 1e-12
+within divergence_max 0 1e-16
+timed breathing '1 + sin(t)/2'
+order() { # SCHEME LOW HIGH: of the speed at the seat
+    for dt in 0.1 0.05 0.025; do
+        "$geomint" run ./breathing.room "scheme=$1" "dt=$dt" until=4 --measure seat_speed --json
+    done | grep -o '"seat_speed":[^,}]*' | cut -d: -f2 | paste -sd' ' |
+        awk -v low="$2" -v high="$3" '{order = log(($1 - $2)/($2 - $3))/log(2); exit !(order > low && order < high)}' ||
+        fail "the order of $1 with a door that breathes"
+}
+order semi-implicit 0.9 1.1
+order crank-nicolson 1.9 2.1
+timed ending 'sqrt(2 - t)'
+"$geomint" run ./ending.room until=4 >out 2>err
+[ $? = 2 ] || fail "a speed that ends is no failure"
+grep -q 'the step after t = 2 led to no number: ./ending.room:9:22: the speed is not finite at (0, 2' out ||
+    fail "no word of where the speed ends"
+timed closing '2 - t'
+"$geomint" run ./closing.room until=4 >out 2>err
+grep -q 'after t = 2 led to no number: no more enters by the profile' out || fail "no word of a door that closes"
+"$geomint" run ./rising.room scheme=steady >out 2>err
+grep -q 'changes in time, and so there is no steady state' out || fail "a steady state of what changes"
+
 # a mesh with two inlets and two outlets by the short form; the lists are groups, and not lanes
 status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 steps=2 --json
 [ "$(wc -l <out)" -eq 1 ] || fail "groups became lanes"
@@ -87,7 +124,8 @@ wrong 'wrong.room:5:13: inlet: takes speed =, flow =, scalar =, temperature =' '
 wrong 'wrong.room:5:20: a flow is a number that is not negative' 'inlet: vent flow = -1'
 wrong 'the speed is not finite at (0, ' 'inlet: vent speed = 1/(x*y)'
 wrong 'wrong.room:5:21: .*did you mean' 'inlet: vent speed = sinn(s)'
-wrong 'may not change in time' 'inlet: vent speed = t'
+wrong 'wrong.room:5:36: what .* may change in time: no start, no source' 'source: printer x = 1 y = 1 rate = t'
+wrong 'wrong.room:5:17: what .* may change in time: no start' 'start: scalar = t'
 wrong 'door is named twice' 'inlet: door flow = 1'
 wrong 'no physical group "dor" on its boundary (there are: door, vent, window, hatch, pillar)' 'wall: dor'
 wrong 'printer at (2, 1.4) is not in the room' 'source: printer x = 2 y = 1.4 rate = 1'

@@ -225,12 +225,11 @@ static bool advance_stream(struct gm_flow_solver *solver, const struct row *row,
 }
 
 /* The scalar, or temperature, by the fluxes in solver->flux; source: per unit of time, NULL: none. */
-static bool advance_carried(struct gm_flow_solver *solver, double dt, double *theta, double *before,
-                            const bool *fixed, const double *source, struct gm_progress *progress)
+static bool advance_carried(struct gm_flow_solver *solver, double dt, double *theta, const bool *fixed,
+                            const double *source, struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
-    memcpy(before, theta, complex->vertices * sizeof *theta);
     const double shift = dt > 0 || dt < 0 ? 1 / dt : 0;
     gm_transport_assemble(&solver->transport, solver->flux, shift, 1, flow->diffusivity, GM_BACKFLOW_OWN);
     for (size_t v = 0; v < complex->vertices; v++) {
@@ -248,9 +247,8 @@ static bool advance_carried(struct gm_flow_solver *solver, double dt, double *th
 static bool advance_scalar(struct gm_flow_solver *solver, double dt, double *y, struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
-    return !flow->scalar ||
-           advance_carried(solver, dt, block(flow, y, GM_FLOW_THETA), block(flow, y, GM_FLOW_THETA_BEFORE),
-                           flow->theta_fixed, flow->source, progress);
+    return !flow->scalar || advance_carried(solver, dt, block(flow, y, GM_FLOW_THETA), flow->theta_fixed,
+                                            flow->source, progress);
 }
 
 static bool advance_temperature(struct gm_flow_solver *solver, double dt, double *y,
@@ -258,20 +256,54 @@ static bool advance_temperature(struct gm_flow_solver *solver, double dt, double
 {
     const struct gm_flow *flow = solver->flow;
     return !flow->heat || advance_carried(solver, dt, block(flow, y, GM_FLOW_TEMPERATURE),
-                                          block(flow, y, GM_FLOW_TEMPERATURE_BEFORE), flow->temperature_fixed,
-                                          NULL, progress);
+                                          flow->temperature_fixed, NULL, progress);
 }
 
-static enum gm_status step(struct gm_flow_solver *solver, const struct row *row, double dt, long number,
-                           double *y, struct gm_progress *progress)
+static void keep_carried(const struct gm_flow *flow, double *y)
+{
+    const size_t size = flow->complex->vertices * sizeof *y;
+    if (flow->scalar) {
+        memcpy(block(flow, y, GM_FLOW_THETA_BEFORE), block(flow, y, GM_FLOW_THETA), size);
+    }
+    if (flow->heat) {
+        memcpy(block(flow, y, GM_FLOW_TEMPERATURE_BEFORE), block(flow, y, GM_FLOW_TEMPERATURE), size);
+    }
+}
+
+/* What the boundary gives takes its place in the state. */
+static void take_given(const struct gm_flow_solver *solver, double *y)
+{
+    const struct gm_flow *flow = solver->flow;
+    double *theta = block(flow, y, GM_FLOW_THETA);
+    double *temperature = flow->heat ? block(flow, y, GM_FLOW_TEMPERATURE) : NULL;
+    for (size_t v = 0; solver->now && v < flow->complex->vertices; v++) {
+        y[v] = solver->unknowns.index[v] < 0 ? flow->psi[v] : y[v];
+        theta[v] = flow->theta_fixed[v] ? flow->theta[v] : theta[v];
+        if (temperature && flow->temperature_fixed[v]) {
+            temperature[v] = flow->temperature[v];
+        }
+    }
+}
+
+/* From the time t on. */
+static enum gm_status step(struct gm_flow_solver *solver, const struct row *row, double t, double dt,
+                           long number, double *y, struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
     const size_t n = flow->complex->vertices;
     double *before = block(flow, y, GM_FLOW_PSI_BEFORE), *psi_before = solver->velocities;
     memcpy(psi_before, before, n * sizeof *before);
     memcpy(before, y, n * sizeof *before);
+    if (!gm_flow_solver_give(solver, t + dt / 2)) {
+        return GM_BLOW_UP;
+    }
     half_step(solver, dt, y);
     fluxes(solver, block(flow, y, GM_FLOW_PSI_HALF));
+    if (!gm_flow_solver_give(solver, t + dt)) {
+        return GM_BLOW_UP;
+    }
+    keep_carried(flow, y);
+    take_given(solver, y);
     const bool moved = advance_temperature(solver, dt, y, progress) &&
                        (solver->vorticity_form ? advance_vorticity(solver, row, dt, y, progress)
                                                : advance_stream(solver, row, dt, y, psi_before, progress));
@@ -304,6 +336,9 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
     if (flow->heat) {
         memcpy(block(flow, y, GM_FLOW_TEMPERATURE_BEFORE), block(flow, y, GM_FLOW_TEMPERATURE),
                n * sizeof *y);
+    }
+    if (solver->now) {
+        return GM_NO_CONVERGENCE; /* what changes in time has no steady state */
     }
     if (carried[DONE] != 0) {
         return GM_OK;
@@ -340,6 +375,7 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
     memcpy(block(flow, y, GM_FLOW_OMEGA_USED), omega, n * sizeof *y);
     y[gm_flow_block_numbers(flow)] = 0;
     fluxes(solver, y);
+    memcpy(block(flow, y, GM_FLOW_THETA_BEFORE), block(flow, y, GM_FLOW_THETA), n * sizeof *y);
     if (!advance_scalar(solver, 0, y, progress)) {
         return GM_NO_CONVERGENCE;
     }
@@ -378,10 +414,12 @@ static struct gm_progress loop(const struct gm_task *task)
         memcpy(task->memory_out, task->memory, MEMORY * sizeof *task->memory);
     }
     while (progress.done < task->steps) {
-        progress.status = row == &steady
-                              ? step_steady(task->workspace, task->memory_out, task->out, &progress)
-                              : step(task->workspace, row, task->dt * flow->time_unit,
-                                     task->steps_before + progress.done, task->out, &progress);
+        progress.status =
+            row == &steady
+                ? step_steady(task->workspace, task->memory_out, task->out, &progress)
+                : step(task->workspace, row,
+                       (task->t0 + task->dt * (double)(task->n + progress.done)) * flow->time_unit,
+                       task->dt * flow->time_unit, task->steps_before + progress.done, task->out, &progress);
         if (progress.status == GM_OK && !within(task->out, task->problem->n, task->limit)) {
             progress.status = GM_BLOW_UP;
         }
