@@ -712,6 +712,30 @@ static bool choose_words(struct gm_made_system *made, const struct gm_own_system
     return good || gm_refuse(message, "not enough memory");
 }
 
+/* Where the text has the line that a sentence "word: what is wrong" is about: the next word of the sentence in
+   it, or its value; 0: nowhere. */
+static size_t line_told(const char *text, const char *sentence)
+{
+    const size_t word = strcspn(sentence, ": ") + 1;
+    const char *line = sentence[word - 1] == ':' ? text : NULL;
+    while (line && strncmp(line, sentence, word) != 0) {
+        line = strchr(line, '\n');
+        line += line != NULL;
+    }
+    if (!line) {
+        return 0;
+    }
+    const char *value = line + word + strspn(line + word, " \t");
+    const char *wrong = sentence + word + strspn(sentence + word, " ");
+    const size_t length = strcspn(wrong, " "), room = strcspn(value, "\n");
+    for (size_t i = 0; length > 0 && i + length <= room; i++) {
+        if (strncmp(value + i, wrong, length) == 0) {
+            return (size_t)(value + i - text);
+        }
+    }
+    return (size_t)(value - text);
+}
+
 /* Makes a scene of the lines, or finds the one that was kept. */
 static bool make(struct gm_made_system *made, const struct written *written, int count, char *const words[],
                  struct gm_system_trial *trial, char *message)
@@ -751,6 +775,11 @@ static bool make(struct gm_made_system *made, const struct written *written, int
             trial->scene = made->scene = field
                                              ? gm_own_field_open(&system, made->name, own, message)
                                              : gm_system_scene_open(&system, made->name, own, typed, message);
+            fault.offset = trial->scene || typed ? 0 : line_told(written->text, message);
+            if (fault.offset > 0) {
+                snprintf(fault.sentence, sizeof fault.sentence, "%s", message);
+                trial->status = tell_fault(written, words, &fault, &trial->place, message);
+            }
         } else {
             gm_system_close(&system);
             trial->status = GM_EXIT_MEMORY;

@@ -136,9 +136,16 @@ static double evaluate(const struct gm_lane *lane, const struct gm_observable *o
     return observable ? gm_observe(observable, &view) : 1;
 }
 
+static double error_of(const struct gm_lane *lane, const struct gm_observable *error)
+{
+    return error ? fabs(gm_lane_observe(lane, (size_t)(error - lane->scene->observables))) : NAN;
+}
+
 /* Up to `steps` steps in all, or the end of a scheme that chooses them; one by one where the largest value on
    the way is asked for. */
-static void run_to(struct gm_lane *lane, long steps, const struct gm_observable *observable, double *largest,
+static void run_to(struct gm_lane *lane, long steps,
+                   double (*value)(const struct gm_lane *lane, const struct gm_observable *observable),
+                   const struct gm_observable *observable, double *largest,
                    const struct gm_listener *listener)
 {
     const double until = ((const struct gm_timing *)lane->parameters)->until;
@@ -148,7 +155,7 @@ static void run_to(struct gm_lane *lane, long steps, const struct gm_observable 
         const long left = steps - lane->run->steps, burst = largest ? 1 : 1000;
         gm_lane_to(lane, lane->run->steps + (left < burst ? left : burst), until);
         if (largest) {
-            *largest = fmax(*largest, evaluate(lane, observable));
+            *largest = fmax(*largest, value(lane, observable));
         }
     }
 }
@@ -159,19 +166,19 @@ static void judge(struct gm_lane *lane, const struct gm_stability *plan, const s
     const struct gm_observable *kept = find(lane->scene, plan->kept), *error = find(lane->scene, plan->error);
     const struct gm_timing *timing = lane->parameters;
     const long some = gm_run_steps_at(lane->run, timing->until), all = some > 1 ? some : 1;
-    double before = evaluate(lane, kept), after = -INFINITY;
+    double before = evaluate(lane, kept), after = -INFINITY, worst = -INFINITY;
     if (plan->settle > 0 && all > 2 * plan->settle && !lane->scheme->family->own_time) {
-        run_to(lane, plan->settle, kept, &before, listener);
-        run_to(lane, all - plan->settle, NULL, NULL, listener);
-        run_to(lane, all, kept, &after, listener);
+        run_to(lane, plan->settle, evaluate, kept, &before, listener);
+        run_to(lane, all - plan->settle, NULL, NULL, NULL, listener);
+        run_to(lane, all, evaluate, kept, &after, listener);
     } else {
-        run_to(lane, all, NULL, NULL, listener);
+        run_to(lane, all, error_of, error, error && plan->throughout ? &worst : NULL, listener);
         after = evaluate(lane, kept);
     }
     cell->status = lane->run->status;
     cell->t = lane->run->t;
     cell->ratio = after / before;
-    cell->error = error ? fabs(gm_lane_observe(lane, (size_t)(error - lane->scene->observables))) : NAN;
+    cell->error = error && plan->throughout ? worst : error_of(lane, error);
     if (cell->status != GM_OK) {
         cell->verdict = GM_FAILED;
     } else if (fabs(cell->ratio) > 2) {

@@ -4,8 +4,9 @@
 
 #include <stdbool.h>
 #include <string.h>
+#include <strings.h>
 
-enum { LONGEST = 63 };
+enum { LONGEST = 63, SHORT = 3 };
 
 /* Levenshtein's distance; transposed neighbours count as one. */
 static size_t distance(const char *a, const char *b)
@@ -52,11 +53,14 @@ const char *gm_nearest(const char *word, size_t count, const char *(*candidate)(
                        const void *data)
 {
     const size_t length = strlen(word), slips = (length + 1) / 3;
-    const char *begun = NULL, *shortened = NULL, *slipped = NULL;
+    const char *same = NULL, *begun = NULL, *shortened = NULL, *slipped = NULL;
     size_t smallest = slips + 1;
     for (size_t i = 0; length > 0 && i < count; i++) {
         const char *name = candidate(i, data);
         const size_t away = distance(word, name);
+        if (strcasecmp(name, word) == 0) { /* letters of another case */
+            same = name;
+        }
         if (!begun && strncmp(name, word, length) == 0) {
             begun = name;
         }
@@ -68,5 +72,6 @@ const char *gm_nearest(const char *word, size_t count, const char *(*candidate)(
             smallest = away;
         }
     }
-    return begun ? begun : shortened ? shortened : slipped;
+    const bool close = smallest == 1 && length > SHORT; /* "verlett" */
+    return same ? same : begun ? begun : close ? slipped : shortened ? shortened : slipped;
 }

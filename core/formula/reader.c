@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/count.h"
 #include "core/formula/nearest.h"
 
 enum {
@@ -152,6 +153,21 @@ static const char *candidate(size_t i, const void *data)
     return i < 3 ? words[i] : reader->scope.known ? reader->scope.known(i - 3, reader->scope.data) : NULL;
 }
 
+/* What is called otherwise elsewhere; NULL: nothing. */
+static const char *other_name(const char *word)
+{
+    static const char *const names[][2] = {{"ln", "log"},      {"arcsin", "asin"},   {"arccos", "acos"},
+                                           {"arctan", "atan"}, {"arctan2", "atan2"}, {"fabs", "abs"},
+                                           {"tg", "tan"},      {"sh", "sinh"},       {"ch", "cosh"},
+                                           {"th", "tanh"},     {"pow", "^"}};
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
+        if (strcmp(word, names[i][0]) == 0) {
+            return names[i][1];
+        }
+    }
+    return NULL;
+}
+
 static gm_node_id unknown(struct reader *reader, size_t offset, const char *text, size_t length,
                           const char *what)
 {
@@ -161,7 +177,8 @@ static gm_node_id unknown(struct reader *reader, size_t offset, const char *text
     }
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)(length < 60 ? length : 60), text);
-    const char *near = gm_nearest(word, count, candidate, reader);
+    const char *near = other_name(word);
+    near = near ? near : gm_nearest(word, count, candidate, reader);
     return fail(reader, offset, "there is no %s %s%s%.60s", what, word, near ? "; did you mean " : "",
                 near ? near : "");
 }

@@ -1451,7 +1451,9 @@ static bool is_complete(struct reading *reading)
             system->kind == GM_LAGRANGIAN && i >= system->n / 2 &&
             system->variables[system->velocities + i - system->n / 2].start != GM_NO_NODE;
         if (system->variables[i].start == GM_NO_NODE && !by_velocity) {
-            return fail(reading, reading->length, "%s has no value at the start", system->variables[i].name);
+            const struct line *start = line_with(reading, GM_WORD_START);
+            return fail(reading, start ? start->value.begin : reading->length, "%s has no value at the start",
+                        system->variables[i].name);
         }
         if (system->variables[i].start != GM_NO_NODE && by_velocity) {
             return fail(reading, reading->length, "%s and its velocity are both given at the start",

@@ -121,9 +121,23 @@ static void write_power(const struct writer *writer, const struct gm_node *here)
     fputs(writer->latex ? "}" : "", writer->out);
 }
 
+/* Iverson's bracket, as of the derivative of |x|: 1 where it is true, else 0. */
+static void write_bracket(const struct writer *writer, const struct gm_node *here)
+{
+    fputs("\\left[", writer->out);
+    write_node(writer, here->a);
+    fputs(" < ", writer->out);
+    write_node(writer, here->b);
+    fputs("\\right]", writer->out);
+}
+
 static void write_call(const struct writer *writer, const struct gm_node *here)
 {
     const struct gm_operation_row *row = &gm_operation_rows[here->operation];
+    if (writer->latex && here->operation == GM_OPERATION_BELOW) {
+        write_bracket(writer, here);
+        return;
+    }
     const bool root = writer->latex && here->operation == GM_OPERATION_SQRT,
                bars = writer->latex && here->operation == GM_OPERATION_ABS;
     fprintf(writer->out, "%s%s", writer->latex ? row->latex : row->name,

@@ -129,6 +129,7 @@ struct gm_stability {
     long settle; /* where that swings by itself: the largest value of so many first steps is compared to that
                     of so many last ones; 0: the end to the start */
     const char *error;          /* key of the observable that is wrong above 0.1; NULL: none */
+    bool throughout;            /* its largest value on the way counts, and not that at the end */
     const char *const *schemes; /* NULL-terminated; NULL: the scene's */
 };
 

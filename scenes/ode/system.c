@@ -711,7 +711,7 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
 }
 
 /* dt and until: as the file says, or by how fast the system is. */
-static bool make_timing(struct gm_system_scene *own)
+static bool make_timing(struct gm_system_scene *own, char *sentence)
 {
     const struct gm_own_system *system = &own->system;
     gm_parameters_reset(own->rows + VALUES, own->row_count - VALUES, own->initial);
@@ -727,6 +727,9 @@ static bool make_timing(struct gm_system_scene *own)
         }
     }
     free(values);
+    if (numbers[2] < 0 || (isfinite(numbers[2]) && numbers[2] != floor(numbers[2]))) {
+        return gm_refuse(sentence, "steps: %.10g is no whole number", numbers[2]);
+    }
     const int looks = system->n <= MOST_FOLLOWED ? 10 : 0;
     const double dt =
         numbers[0] > 0 ? numbers[0] : gm_written_rounded(0.1 * shortest_radian(own->initial, looks));
@@ -736,6 +739,34 @@ static bool make_timing(struct gm_system_scene *own)
     own->rows[DT].standard = number_text(own, dt);
     own->rows[UNTIL].standard = number_text(own, until);
     return values && own->rows[DT].standard && own->rows[UNTIL].standard;
+}
+
+/* The exact solution, where the file tells one, begins where the system does. */
+static bool check_exact(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
+{
+    const size_t n = own->exact.outputs;
+    struct gm_problem alone = *problem;
+    double *start = n > 0 ? start_values(own->initial, NULL) : NULL, *exact = calloc(n + 1, sizeof *exact);
+    bool good = n == 0 || (start && exact);
+    alone.m = 1;
+    if (n > 0 && good) {
+        gm_system_values(
+            &own->exact,
+            &(struct gm_view){.parameters = own->initial, .problem = &alone, .state = start, .start = start},
+            0, exact);
+    }
+    for (size_t i = 0; good && i < n; i++) {
+        const struct gm_system_variable *variable = &own->system.variables[i];
+        const double most = 1e-9 * fmax(1, fabs(start[i]));
+        if (variable->exact != GM_NO_NODE && variable->start != GM_NO_NODE &&
+            !(fabs(exact[i] - start[i]) <= most)) {
+            good = gm_refuse(sentence, "exact: %.60s would begin at %.10g, and it starts at %.10g",
+                             variable->name, exact[i], start[i]);
+        }
+    }
+    free(start);
+    free(exact);
+    return good;
 }
 
 static bool add_observable(struct gm_system_scene *own, struct gm_observable row, gm_node_id node)
@@ -1160,6 +1191,7 @@ static bool make_studies(struct gm_system_scene *own)
         .told = "ω is the largest frequency of the linearised field at the start",
         .steps = steps,
         .step_count = GM_COUNT(steps),
+        .throughout = true,
         .error = own->observable_count > 0 && own->observables[0].kept ? own->observables[0].key : NULL,
     };
     own->work.arguments = text_of(
@@ -1235,8 +1267,8 @@ static bool make(struct gm_system_scene *own, const char *name, const char *cons
         return gm_refuse(sentence, "members: %.60s is no whole number from 1 to 1e6", members);
     }
     own->rows[MEMBERS].standard = members ? members : "1";
-    if (!make_timing(own) || (end && !open_tape(own, &own->stop, end->nodes, 1)) || !make_sights(own) ||
-        !setup(own->initial, &problem, sentence)) {
+    if (!make_timing(own, sentence) || (end && !open_tape(own, &own->stop, end->nodes, 1)) ||
+        !make_sights(own) || !setup(own->initial, &problem, sentence)) {
         return false;
     }
     make_tracks(own);
@@ -1245,8 +1277,8 @@ static bool make(struct gm_system_scene *own, const char *name, const char *cons
         own->scene.stops = stops;
         own->scene.follow = 1;
     }
-    const bool good = make_observables(own, &problem, sentence) && make_schemes(own, &problem, sentence) &&
-                      make_studies(own);
+    const bool good = make_observables(own, &problem, sentence) && check_exact(own, &problem, sentence) &&
+                      make_schemes(own, &problem, sentence) && make_studies(own);
     gm_own_problem_close(&problem);
     own->scene.observables = own->observables;
     own->scene.observable_count = own->observable_count;

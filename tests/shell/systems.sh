@@ -83,6 +83,26 @@ holds ./stiff.system kepler-split 'yes'
 printf 'coordinates: q\nH: p_q^2/2 + 2q\nstart: q = 1, p_q = 0\n' >wrong.system
 refused 1 'wrong.system:2:15: there is no operator' list wrong.system
 [ "$(sed -n 2p err)" = '    H: p_q^2/2 + 2q' ] && [ "$(sed -n 3p err)" = '                  ^' ] || fail "no caret: $(cat err)"
+
+# what is wrong with a line that a scene is made of has its place, too
+misplaced() { # PLACE LINE [START]
+    printf 'coordinates: x\nH: p_x^2/2 + x^2/2\nstart: %s\n%s\n' "${3:-x = 1, p_x = 0}" "$2" >wrong.system
+    refused 1 "wrong.system:$1" run ./wrong.system
+}
+misplaced '4:14: schemes: verlt is no scheme' 'schemes: rk4 verlt'
+misplaced '4:10: members: disk 3 is no whole number' 'members: disk 3'
+misplaced '4:8: steps: 10.5 is no whole number' 'steps: 10.5'
+misplaced '4:8: exact: x would begin at 2, and it starts at 1' 'exact: x = 2*x(0)*cos(t)'
+misplaced '3:8: p_x has no value at the start' '' 'x = 1'
+misplaced '4:14: there is no function ln; did you mean log' 'observe: r = ln(x)'
+refused 1 'there is no scheme "verlett"; did you mean verlet$' run kepler scheme=verlett
+printf 'coordinates: x\nH: p_x^2/2 + abs(x)\nstart: x = 1, p_x = 0\n' >kink.system
+"$geomint" list kink.system --latex | grep -qF '2\,\left[x < 0\right]' || fail "the derivative of |x| in LaTeX"
+
+# a swing of the error counts, wherever the run ends: no verdict but that of steps that are too long
+"$geomint" stability toda scheme=verlet --json --out . | grep -q '"step":0\.1[^}]*"verdict":"wrong"' &&
+    fail "a short step is wrong"
+
 printf 'coordinates: q\nH: p_q^2 + \033[31mq\n' >wild.system
 refused 1 '0x1b' list wild.system
 refused 1 "^geomint: bracket= takes the place of a line in a system's file" run system H='x^2 + y^2' bracket='[x, y] = 1' x=1 y=0

@@ -427,7 +427,7 @@ static const struct {
      1, 14, "the name dt is reserved"},
     {"coordinates: q\nparameter: q = 2\nH: q\n", 1, 14, "q is defined twice, first in line 2"},
     {"coordinates: q\nmomenta: a b\nH: q\n", 2, 1, "2 momenta for 1 coordinates"},
-    {"coordinates: q\nH: q^2 + p_q^2\nstart: q = 1\n", 4, 1, "p_q has no value at the start"},
+    {"coordinates: q\nH: q^2 + p_q^2\nstart: q = 1\n", 3, 8, "p_q has no value at the start"},
     {"coordinates: q\nH: p_q^2\nstart: q = 1, r = 2\n", 3, 15, "no name r"},
     {"coordinates: q\nH: p_q^2\nstart: q = 1, q = 2\n", 3, 15, "start: q is said twice"},
     {"coordinates: q\nH: p_q^2\nstart: q 1\n", 3, 10, "= was expected"},
