@@ -46,6 +46,8 @@ static void put_theory(FILE *stream, const struct gm_theory *theory)
         return;
     }
     fprintf(stream, "{\"order\":%d,", theory->order);
+    gm_json_put_number_pair(stream, "digits", theory->digits > 0 ? theory->digits : NAN);
+    fprintf(stream, ",");
     if (theory->condition[0]) {
         gm_json_put_pair(stream, "failing_condition", theory->condition);
     } else {

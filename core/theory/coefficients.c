@@ -57,6 +57,69 @@ bool gm_coefficients_copy(struct gm_coefficients *copy, const struct gm_coeffici
     return true;
 }
 
+static bool is_same_stage(const struct gm_coefficients *coefficients, int i, int j)
+{
+    const int s = coefficients->stages;
+    const struct gm_ball *a = coefficients->a[0];
+    for (int k = 0; k < s; k++) {
+        if (!gm_ball_is_same(&a[i * s + k], &a[j * s + k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool is_unused(const struct gm_coefficients *coefficients, int stage)
+{
+    const int s = coefficients->stages;
+    bool unused = s > 1 && gm_ball_is_zero(&coefficients->b[0][stage]);
+    for (int i = 0; i < s && unused; i++) {
+        unused = i == stage || gm_ball_is_zero(&coefficients->a[0][i * s + stage]);
+    }
+    return unused;
+}
+
+/* Takes stage `gone` away; where it is the same as `kept`, that does what it did. */
+static void drop_stage(struct gm_coefficients *coefficients, int gone, int kept)
+{
+    const int s = coefficients->stages;
+    struct gm_ball *a = coefficients->a[0], *b = coefficients->b[0];
+    for (int i = 0; i < s && kept >= 0; i++) {
+        a[i * s + kept] = gm_ball_add(a[i * s + kept], a[i * s + gone]);
+    }
+    if (kept >= 0) {
+        b[kept] = gm_ball_add(b[kept], b[gone]);
+    }
+    for (int i = 0, row = 0; i < s; i++) {
+        for (int j = 0, column = 0; j < s && i != gone; j++) {
+            if (j != gone) {
+                a[row * (s - 1) + column++] = a[i * s + j];
+            }
+        }
+        if (i != gone) {
+            b[row++] = b[i];
+        }
+    }
+    coefficients->stages--;
+    for (int k = 0; k < coefficients->moved_count; k++) {
+        drop_stage(&coefficients->moved[k], gone, kept);
+    }
+}
+
+void gm_coefficients_reduce(struct gm_coefficients *coefficients)
+{
+    for (int i = 0; coefficients->equations == GM_EQUATIONS_PLAIN && i < coefficients->stages; i++) {
+        int same = -1;
+        for (int j = 0; j < i && same < 0; j++) {
+            same = is_same_stage(coefficients, i, j) ? j : -1;
+        }
+        if (same >= 0 || is_unused(coefficients, i)) {
+            drop_stage(coefficients, i, same);
+            i = -1; /* others may be the same now */
+        }
+    }
+}
+
 bool gm_coefficients_open_nystrom(struct gm_coefficients *coefficients, int stages, const struct gm_ball *a,
                                   const struct gm_ball *b, const struct gm_ball *bv, const struct gm_ball *c)
 {

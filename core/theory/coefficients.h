@@ -50,6 +50,9 @@ bool gm_coefficients_open_composition(struct gm_coefficients *composed, const st
                                       const struct gm_ball *fractions, int count);
 /* Those of the adjoint, the inverse of the step backwards. False: out of memory. */
 bool gm_coefficients_open_adjoint(struct gm_coefficients *adjoint, const struct gm_coefficients *exact);
+/* The same plain method with no stage written twice, and none that nothing is made of (Hairer, Lubich & Wanner,
+   VI.7.3); `evaluations` stays. What is left of other kinds is all. */
+void gm_coefficients_reduce(struct gm_coefficients *coefficients);
 void gm_coefficients_close(struct gm_coefficients *coefficients);
 
 static inline int gm_coefficients_sides(const struct gm_coefficients *coefficients)

@@ -474,16 +474,55 @@ static bool simplify(const struct gm_coefficients *coefficients, struct gm_theor
     return true;
 }
 
-struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
+/* The fewest significant digits to which a coefficient is known, but for those that sums of what is written have
+   lost; 0: they are exact, but for the rounding of the arithmetic. */
+static int digits_of(const struct gm_coefficients *coefficients)
+{
+    static const double rounding = 1e-40, lost = 2;
+    const int s = coefficients->stages;
+    double fewest = INFINITY, most = -INFINITY;
+    for (int side = 0; side < gm_coefficients_sides(coefficients); side++) {
+        for (int i = 0; i < s * s + s; i++) {
+            const struct gm_ball ball =
+                i < s * s ? coefficients->a[side][i] : coefficients->b[side][i - s * s];
+            const double size = fabs(gm_ball_midpoint(ball));
+            if (size > 0 && ball.radius > rounding * size) {
+                const double digits = 1 + floor(log10(size)) - log10(2 * ball.radius);
+                fewest = fmin(fewest, digits);
+                most = fmax(most, digits);
+            }
+        }
+    }
+    return isfinite(fewest) ? (int)fmax(1, round(fewest > most - lost ? most : fewest)) : 0;
+}
+
+/* Of a method whose stages are all different, and needed. */
+static struct gm_theory theory_of_reduced(const struct gm_coefficients *coefficients)
 {
     struct gm_theory theory = {
         .symplectic = gm_theory_is_symplectic(coefficients),
         .symmetric = coefficients->nystrom > 0 ? is_nystrom_symmetric(coefficients, may_vanish, NULL)
                                                : is_symmetric(coefficients, may_vanish, NULL),
     };
+    theory.digits = digits_of(coefficients);
     theory.known = find_order(coefficients, &theory) &&
                    (coefficients->equations != GM_EQUATIONS_PLAIN || simplify(coefficients, &theory)) &&
                    gm_theory_stability_of(coefficients, theory.symmetric, &theory.stability);
+    return theory;
+}
+
+struct gm_theory gm_theory_of(const struct gm_coefficients *coefficients)
+{
+    struct gm_coefficients reduced;
+    if (coefficients->equations != GM_EQUATIONS_PLAIN) {
+        return theory_of_reduced(coefficients);
+    }
+    if (!gm_coefficients_copy(&reduced, coefficients)) {
+        return (struct gm_theory){0};
+    }
+    gm_coefficients_reduce(&reduced);
+    const struct gm_theory theory = theory_of_reduced(&reduced);
+    gm_coefficients_close(&reduced);
     return theory;
 }
 

@@ -15,6 +15,7 @@ struct gm_theory {
     int order;      /* the order conditions hold up to here */
     bool at_least;  /* and no further ones were asked for */
     int at_most;    /* then: but for this order a condition of plain methods fails; 0: none is known */
+    int digits;     /* to so many, of the decimals of which fewest are written; 0: all is exact */
     int conditions; /* so many hold; of the next order so many of how many fail */
     int failing, of;
     char condition[GM_CONDITION_TEXT]; /* the tree of the one that fails most; "": none is known */

@@ -198,13 +198,22 @@ refused 1 'would overwrite' certify typed.scheme --polish ./typed.scheme
 refused 1 'no coefficients near these' certify 'composition(verlet; order: 4; 0.50001, 0.49999)' --polish x.scheme
 refused 1 'not a scheme of the program' certify rk4 --polish x.scheme
 [ ! -e x.scheme ] || fail 'a file was written for nothing'
-# what is right, however it is written: filled up with zeros, its stages in another order
+# what is right, however it is written: filled up with zeros, its stages in another order, one of them twice, one
+# that nothing is made of
 for scheme in 'splitting(0, 1; 1/2, 1/2; claims: symplectic symmetric; order: 2)' \
     'splitting(1/2, 1/2; 1, 0; claims: symplectic symmetric; order: 2)' \
-    'runge-kutta(1/3,5/24,-1/24|0,0,0|2/3,1/6,1/6; 2/3,1/6,1/6; claims: symmetric; order: 4)'; do
+    'runge-kutta(1/3,5/24,-1/24|0,0,0|2/3,1/6,1/6; 2/3,1/6,1/6; claims: symmetric; order: 4)' \
+    'runge-kutta(1/2, 0 | 1/2, 0; 1/2, 1/2; claims: symplectic symmetric; order: 2)' \
+    'runge-kutta(1/4, 1/4, 0 | 1/4, 1/4, 0 | 3, 1, 0; 1/2, 1/2, 0; claims: symplectic symmetric; order: 2)'; do
     status 0 certify "$scheme"
 done
 status 4 certify 'splitting(1; 1; claims: keeps quadratic invariants)'
+# decimals are known as far as they are written
+"$geomint" certify 'composition(verlet; 1.35120719195966, -1.70241438391932, 1.35120719195966)' |
+    grep -q 'order 4, to the 15 digits written: 16 conditions' || fail 'the digits of typed decimals'
+"$geomint" certify 'composition(verlet; 1.35120719195966, -1.702414384, 1.35120719195966)' --json |
+    grep -q '"theory":{"order":4,"digits":\(9\|10\),' || fail 'the fewest digits of typed decimals'
+"$geomint" certify explicit-euler --json | grep -q '"theory":{"order":1,"digits":null,' || fail 'exact fractions have no digits'
 
 [ $failures = 0 ] && echo 'all as it should be'
 exit $failures

@@ -9,8 +9,11 @@
 
 static void print_order(const struct gm_theory *theory)
 {
-    printf("order %d%s: %d condition%s", theory->order, theory->at_least ? " at least" : "",
-           theory->conditions, theory->conditions == 1 ? " holds" : "s hold");
+    printf("order %d%s", theory->order, theory->at_least ? " at least" : "");
+    if (theory->digits > 0) {
+        printf(", to the %d digit%s written", theory->digits, theory->digits == 1 ? "" : "s");
+    }
+    printf(": %d condition%s", theory->conditions, theory->conditions == 1 ? " holds" : "s hold");
     if (theory->failing > 0) {
         printf("; of order %d, %d of %d fail, most that of %s, by %.1e; error constant %.3g",
                theory->order + 1, theory->failing, theory->of, theory->condition, fabs(theory->residual),

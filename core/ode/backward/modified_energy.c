@@ -125,6 +125,7 @@ static bool open_terms(struct gm_modified_energy *energy, const struct gm_scheme
                  scheme->title);
         return false;
     }
+    gm_coefficients_reduce(&coefficients);
     const bool symplectic = gm_theory_is_symplectic(&coefficients), nystrom = coefficients.nystrom > 0;
     const bool good =
         symplectic && !nystrom && gm_modified_open(&energy->modified, &coefficients, energy->power + 1);
