@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/count.h"
 #include "core/formula/nearest.h"
 
 enum {
@@ -160,7 +159,7 @@ static const char *other_name(const char *word)
                                            {"arctan", "atan"}, {"arctan2", "atan2"}, {"fabs", "abs"},
                                            {"tg", "tan"},      {"sh", "sinh"},       {"ch", "cosh"},
                                            {"th", "tanh"},     {"pow", "^"}};
-    for (size_t i = 0; i < GM_COUNT(names); i++) {
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (strcmp(word, names[i][0]) == 0) {
             return names[i][1];
         }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "core/count.h"
 #include "core/field/families/burgers.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
@@ -144,7 +145,7 @@ static void boxes(size_t points, double half_length, long steps)
     static const struct gm_kdv soliton = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1};
     static const struct gm_nls bright = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
     static const double ratios[] = {0.5, 2, 10, 20, 40};
-    enum { COUNT = sizeof ratios / sizeof ratios[0] };
+    enum { COUNT = GM_COUNT(ratios) };
     const struct gm_line line = {points, 2 * half_length / (double)points, -half_length, 0};
     struct gm_problem problem = gm_problem_sine_gordon;
     problem.parameters = &breather;

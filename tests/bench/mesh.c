@@ -10,6 +10,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "core/count.h"
 #include "core/mesh/soliton.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -138,7 +139,7 @@ int main(int count, char **words)
                                         "control-radau5",         "multiplier-lobatto2",
                                         "multiplier-trapezoidal", "multiplier-lobatto4"};
     printf("31 points, 1000 steps of 0.01\n");
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         printf("  %-24s %8.2f us a step\n", names[i], measure(names[i], 31, 1000, runs));
     }
     printf("multiplier-lobatto4, 40 steps of 0.32 / (points + 1)\n  %8s %12s %14s\n", "points", "us a step",

@@ -11,6 +11,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
+#include "core/count.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
@@ -244,7 +245,7 @@ static void kepler_to_eight_digits(void)
         hundred_periods_by_gsl(tolerance, &theirs[round]);
     }
     const double by_gsl = median(theirs);
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         long steps = 20;
         double ours[ROUNDS], error = hundred_periods(schemes[i], steps, &spent);
         while (error > wanted && steps < 100000) {
@@ -294,7 +295,7 @@ int main(void)
     };
     printf("instruction set: %s\n", gm_isa_name(gm_isa_best()));
     double midpoint = NAN;
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(lines); i++) {
         const double ours = measure(&lines[i]);
         midpoint = lines[i].problem == &gm_problem_kepler && strcmp(lines[i].scheme, "midpoint") == 0
                        ? ours

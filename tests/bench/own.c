@@ -16,6 +16,7 @@
 #include "app/native/engine.h"
 #include "app/output/say.h"
 #include "app/request/request.h"
+#include "core/count.h"
 #include "core/formula/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/own/own.h"
@@ -90,7 +91,7 @@ static struct gm_lane *native_lane(const char *scheme, size_t m)
         members};
     snprintf(by, sizeof by, "scheme=%s", scheme);
     snprintf(members, sizeof members, "members=%d", m == 1 ? 1 : 8);
-    return open_lane(sizeof words / sizeof *words, words);
+    return open_lane(GM_COUNT(words), words);
 }
 
 /* `lane` is one with the same problem; NULL: there is none. */
@@ -182,7 +183,7 @@ static void against_bodies_by_hand(void)
         gm_own_problem_open(&problem, &model, start)) {
         printf("a hundred bodies: %u nodes, read, derived and made a problem in %.3f s\n", system.graph.count,
                seconds() - before);
-        for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++) {
+        for (size_t i = 0; i < GM_COUNT(schemes); i++) {
             against_kernel(problem, by_hand, NULL, start, schemes[i], 1, 20);
         }
     }
@@ -350,7 +351,7 @@ int main(int argc, char *argv[])
     if (gm_equations_open(&system, kepler, sizeof kepler - 1, NULL, 0, &fault) &&
         (start = gm_equations_start(&system, NULL)) && gm_own_model_open(&model, &system) &&
         gm_own_problem_open(&problem, &model, start)) {
-        for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++) {
+        for (size_t i = 0; i < GM_COUNT(schemes); i++) {
             for (size_t m = 1; m <= 10000; m *= 10000) {
                 struct gm_lane *lane = native_lane(schemes[i], m);
                 against_kernel(problem, gm_problem_kepler, lane, start, schemes[i], m, m == 1 ? 30000 : 30);

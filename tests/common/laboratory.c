@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs to their end, for what tests measure of them. */
 #include "tests/common/laboratory.h"
+#include "core/count.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -58,7 +59,7 @@ void gm_trial_run(struct gm_trial *trial, const char *words, bool maximum)
     assert_non_null(trial->drive.lane);
     const struct gm_run *run = trial->drive.lane->run;
     const long steps = trial->request.lanes[0].steps;
-    for (size_t i = 0; i < sizeof trial->maxima / sizeof trial->maxima[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(trial->maxima); i++) {
         trial->maxima[i] = -INFINITY;
     }
     if (!maximum) {

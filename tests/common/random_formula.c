@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formulas that nobody would write. */
 #include "tests/common/random_formula.h"
+#include "core/count.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +11,7 @@ void gm_random_formula(FILE *out, const char *variables, int depth)
     static const char *const functions[] = {"sqrt", "exp",  "log",  "sin",  "cos",  "tan",
                                             "asin", "acos", "atan", "sinh", "cosh", "tanh",
                                             "abs",  "min",  "max",  "mod",  "atan2"};
-    enum { FUNCTIONS = sizeof functions / sizeof *functions, OF_ONE = 13 };
+    enum { FUNCTIONS = GM_COUNT(functions), OF_ONE = 13 };
     const int kind = depth == 0 ? rand() % 3 : rand() % 14;
     if (kind < 2) {
         fputc(variables[(size_t)rand() % strlen(variables)], out);

@@ -20,6 +20,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/field/problems/burgers.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -72,7 +73,7 @@ static void the_front_from_moving_frames(void **unused)
         {"scheme=crank-nicolson lambda=2", .41, NAN, NAN},
         {"scheme=crank-nicolson lambda=3", .61, NAN, NAN},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         expect_row("burgers frame=fixed dx=.02 courant=.5 until=1", &rows[i]);
     }
 }
@@ -128,7 +129,7 @@ static void no_solution_to_be_found(void **unused)
          "scheme=crank-nicolson",
          .01},
     };
-    for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(runs); i++) {
         struct field_run run = field_run_make(runs[i].words, -1);
         assert_int_equal(run.lane->run->status, GM_NO_CONVERGENCE);
         const struct gm_line *line = &run.lane->problem.line;
@@ -281,7 +282,7 @@ static void six_numbers_by_chance(void **unused)
         {false, {.lambda = 0}, 213},  {false, {.lambda = 0.5}, 398}, {true, {.lambda = 0}, 73},
         {true, {.lambda = 0.5}, 2.5}, {true, {.shock = true}, 2.3},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         double errors[RUNS];
         size_t count = 0;
         struct trial trial = rows[i].trial;
@@ -350,7 +351,7 @@ static void the_self_similar_shock(void **unused)
         {"scheme=crank-nicolson-invariant offset=0", .22, NAN, NAN},
     };
     const char *common = "burgers test=shock viscosity=.01 dx=.05 courant=1 form=printed until=2";
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         expect_row(common, &rows[i]);
     }
     static const struct row conservative[] = {

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "tests/common/lane.h"
 
 static void expect(const char *what, double value, double expected, double relative)
@@ -38,7 +39,7 @@ static void area_after_a_turn(void **unused)
         {"rk4sym", {1, 1, 1}},
         {"gauss4", {1, 1, 1}},
     };
-    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(table); i++) {
         for (int k = 0; k < 3; k++) {
             char words[128];
             snprintf(words, sizeof words, "disc scheme=%s dt=pi/%d until=2*pi", table[i].scheme, parts[k]);
@@ -90,7 +91,7 @@ static void energy_errors(void **unused)
         {"verlet", 60, true, {2.5e-3, 9.0e-4, 1.0e-4}, 2e-2},
         {"rk4", 60, false, {8.3e-6, 6.5e-7, 2.7e-9}, 2e-2},
     };
-    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(table); i++) {
         for (int k = 0; k < 3; k++) {
             expect(table[i].scheme, energy_error(table[i].scheme, steps[k], table[i].until, table[i].largest),
                    table[i].error[k], table[i].relative);

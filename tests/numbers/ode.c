@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "tests/common/laboratory.h"
 
 /* `digits` significant digits of the number to match are right to half a unit. */
@@ -42,7 +43,7 @@ static void kepler_two_hundred_periods(void **unused)
         {"verlet", "lrl_angle", false, -3.0, 0.05},
         {"rk4", "angular_momentum_error", false, 9.2e-4, 0.05e-4},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         char words[200];
         struct gm_trial trial;
         snprintf(words, sizeof words, "%s%s", base, rows[i].scheme);
@@ -221,7 +222,7 @@ static void volume(void **unused)
         {"rk4", -1.8e-6, 0.1e-6},       {"rk2", 1.5e-3, 0.05e-3},       {"explicit-euler", -1.0, 0.05},
         {"implicit-euler", -2.2, 0.05},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         char words[200];
         struct gm_trial trial;
         snprintf(words, sizeof words, "abc dt=.1 steps=500 scheme=%s", rows[i].scheme);
@@ -253,7 +254,7 @@ static void stiff_springs(void **unused)
         {"stiff system=spring-pendulum dt=.1 until=50 scheme=midpoint", 1, 0.058, 0.02},
         {"stiff system=spring-pendulum dt=.1 until=50 scheme=gauss4", 1, 6.3e-4, 0.05},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         struct gm_trial trial;
         gm_trial_run(&trial, rows[i].words, true);
         assert_int_equal(trial.drive.lane->run->status, GM_OK);
@@ -278,7 +279,7 @@ static void stiff_limits(void **unused)
         {"stiff dt=.98*pi/50 scheme=gautschi2", GM_BLOW_UP},
         {"stiff system=spring-pendulum dt=.021 until=50 scheme=verlet", GM_BLOW_UP},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         struct gm_trial trial;
         gm_trial_run(&trial, rows[i].words, false);
         if (trial.drive.lane->run->status != rows[i].status) {
@@ -309,7 +310,7 @@ static void vortex_collision(void **unused)
         {0.5, "rk4sym", GM_OK, 0, 0.05},   {1, "rk4sym", GM_NO_CONVERGENCE, 0, 1},
         {1, "gauss4", GM_OK, 0, 0.05},     {2, "gauss8", GM_OK, 0, 0.05},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         char words[200];
         struct gm_trial trial;
         snprintf(words, sizeof words,

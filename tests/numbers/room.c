@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/schemes.h"
 #include "scenes/flow/flows.h"
 
@@ -167,7 +168,7 @@ static void shear_errors(void **unused)
           {0.01768134645396799, 1.6e-09},
           {0.039242269175230764, 1e-11}}},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         const char *const words[][2] = {{"rows", cases[i].rows}, {"columns", cases[i].columns}, {NULL, NULL}};
         struct gm_lane *lane = open_lane(cases[i].scene, "steady", words);
         assert_int_equal(gm_run_advance(lane->run, 8), GM_OK);
@@ -195,7 +196,7 @@ static void pressure_orders(void **unused)
         {"100", "pressure_error", 1.35, 1.65},
         {"250", "pressure_error", 1.65, 1.95},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         double x[MESHES], e[MESHES];
         for (size_t m = 0; m < MESHES; m++) {
             const char *const words[][2] = {{"rows", rows[m]}, {"reynolds", cases[i].reynolds}, {NULL, NULL}};
@@ -303,7 +304,7 @@ static void coarse_room(void **unused)
     expect_near("mean edge", complex->mean_edge, 0.2306586505785794, 1e-11);
     expect_near("smallest angle", complex->smallest_angle, 39.595068000756925, 1e-9);
     expect_near("largest angle", complex->largest_angle, 79.1901360015142, 1e-9);
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         assert_int_equal(gm_run_advance(lane->run, cases[i].steps - lane->run->steps), GM_OK);
         const double *y = gm_run_state(lane->run), *theta = gm_flow_block(flow, y, GM_FLOW_THETA);
         const struct gm_budget budget = gm_flow_budget(flow, y);

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/mesh/soliton.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -59,7 +60,7 @@ static void orders(void **unused)
                 {"control-lobatto4", 4},    {"control-radau3", 3},      {"control-radau5", 5},
                 {"uniform-gauss2", 2},      {"uniform-gauss4", 4},      {"uniform-lobatto2", 2},
                 {"uniform-lobatto4", 4}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         double before[30] = {0}, change[8] = {0}, order = NAN;
         for (int k = 0; k < 6; k++) {
             struct trial trial = {
@@ -112,7 +113,7 @@ static void error_table(void **unused)
     } rows[] = {{"multiplier-lobatto4", {0.5832, 0.0996, 0.0380, 0.0111}},
                 {"control-gauss4", {NAN, 0.8875, 0.2419, 0.0621}},
                 {"uniform-gauss4", {4.8028, 4.8809, 2.8541, 1.0838}}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         for (int k = 0; k < 4; k++) {
             double ended = 0;
             const double error = largest_error(rows[i].scheme, GM_ARCLENGTH, (16L << k) - 1, &ended);
@@ -157,7 +158,7 @@ static void energy_of_two(void **unused)
         {"control-gauss4", 50, 35.41, 36.75, NAN, 0.01},
         {"control-radau5", 50, 35.41, 36.75, NAN, 0.01},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         struct trial trial = {
             .soliton = {.solitons = 2, .points = 25, .velocity = 0.9, .length = 25, .alpha = 1.5}};
         trial_open(&trial, rows[i].scheme, 0.05);

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_fft_complex.h>
 
+#include "core/count.h"
 #include "tests/numbers/field_runs.h"
 
 static double value_at_end(const char *words, const char *observable)
@@ -63,7 +64,7 @@ static void the_law_of_the_box(void **unused)
         {"nls scheme=euler-box dt=.004 until=2", 1e-10},
         {"nls points=401 until=2", 4e-12},
     };
-    for (size_t i = 0; i < sizeof runs / sizeof runs[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(runs); i++) {
         const double residual = value_at_end(runs[i].words, "multisymplectic_residual");
         print_message("%-78s %.2g\n", runs[i].words, residual);
         assert_true(residual < runs[i].bound);
@@ -235,7 +236,7 @@ static void the_cosine_of_zabusky_and_kruskal(void **unused)
         {"kdv scheme=zabusky-kruskal initial=cosine points=200 dt=3.6/pi/4000 until=3.6/pi", 0.252, 0.02},
         {"kdv scheme=zabusky-kruskal initial=cosine points=400 dt=3.6/pi/30000 until=3.6/pi", 0.0623, 0.02},
     };
-    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+    for (size_t c = 0; c < GM_COUNT(cases); c++) {
         struct field_run run = field_run_make(cases[c].words, -1);
         assert_int_equal(run.lane->run->status, GM_OK);
         double error = 0;

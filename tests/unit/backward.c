@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/formula/equations.h"
 #include "core/ode/backward/modified_energy.h"
 #include "core/ode/families/splitting.h"
@@ -208,15 +209,15 @@ static void splittings_by_brackets(void **unused)
     parts[GM_KICK][3][0] = 1. / 3;
     parts[GM_KICK][4][0] = 1. / 7;
     int tried = 0;
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         const struct gm_scheme *scheme = gm_scheme_find_for(schemes[i], &system.problem);
         if (!scheme) {
             continue;
         }
         struct gm_splitting made;
         const struct gm_splitting *splitting = gm_splitting_of(scheme->coefficients, &made);
-        int letters[sizeof splitting->pieces / sizeof splitting->pieces[0]];
-        double fractions[sizeof splitting->pieces / sizeof splitting->pieces[0]];
+        int letters[GM_COUNT(splitting->pieces)];
+        double fractions[GM_COUNT(splitting->pieces)];
         for (int k = 0; k < splitting->count; k++) {
             letters[k] = (int)splitting->pieces[k].piece;
             fractions[k] = splitting->pieces[k].fraction;
@@ -224,7 +225,7 @@ static void splittings_by_brackets(void **unused)
         find_terms(letters, fractions, splitting->count);
         struct gm_modified_energy *energy = open_energy(&system.problem, schemes[i], POWER);
         const double states[][2] = {{0.3, 0.4}, {-0.7, 0.2}, {0.1, -1.1}};
-        for (size_t at = 0; at < sizeof states / sizeof states[0]; at++) {
+        for (size_t at = 0; at < GM_COUNT(states); at++) {
             double found[POWER + 1];
             gm_modified_energy_terms(energy, states[at], found);
             for (int k = 0; k <= POWER; k++) {
@@ -309,7 +310,7 @@ static void known_series(void **unused)
         {"gauss4", {0, 1, 0, 0, 0, -1. / 720, 0, -1. / 12096}, {0, 1, 0, 0, 0, -1. / 180, 0, NAN}},
         {"rk4", {0, 1, 0, 0, 0, -1. / 120, 1. / 144, -1. / 336}, {0, 1, 0, 0, 0, 1. / 120, NAN, NAN}},
     };
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(known); i++) {
         struct gm_coefficients coefficients;
         struct gm_trees trees;
         assert_true(gm_scheme_coefficients_open(gm_scheme_find(known[i].scheme), &coefficients));
@@ -443,7 +444,7 @@ static void runge_kutta_by_recursion(void **unused)
     enum { ORDER = 6 };
     static const char *const schemes[] = {"midpoint", "gauss4", "gauss6", "rk4", "radau3", "explicit-euler"};
     int tried = 0;
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         struct gm_coefficients coefficients;
         struct gm_trees trees;
         if (!gm_scheme_find(schemes[i])) {
@@ -543,7 +544,7 @@ static void slopes(void **unused)
         {&vortices, ring, "midpoint", 0.2, 2, 4},
         {&vortices, ring, "gauss4", 0.4, 4, 6},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         char what[64];
         snprintf(what, sizeof what, "%s on %s, cut off after dt^%d", rows[i].scheme, rows[i].problem->name,
                  rows[i].power);
@@ -593,7 +594,7 @@ static void formulas(void **unused)
         gm_problem_fpu_of[0],  gm_problem_fpu_of[1],          gm_problem_fpu_of[2],
         gm_problem_fpu_of[4],  gm_problem_oscillator_tangent, gm_problem_pendulum_tangent,
         gm_problem_fish_eye};
-    for (size_t i = 0; i < sizeof problems / sizeof problems[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(problems); i++) {
         struct gm_problem *problem = &problems[i];
         problem->parameters = i >= 9 || i == 5 ? &stiff : &one;
         double y[20], value, terms[1];

@@ -11,13 +11,14 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "render/gl/canvas.h"
 #include "render/layout/layout.h"
 
 enum { WIDTH = 640, HEIGHT = 600 };
 
 static const char *const backends[] = {"osmesa", "egl"};
-enum { BACKENDS = sizeof backends / sizeof *backends };
+enum { BACKENDS = GM_COUNT(backends) };
 
 /* A state panel alone, whose box is found from a painted frame: the range is shown around its middle. */
 static struct gm_picture *plain_picture(struct gm_panel **panel)
@@ -417,7 +418,7 @@ static void odd_sizes_are_painted(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{1, 1}, {64, 64}, {3, 500}, {2000, 7}, {16384, 20}, {100, 900}};
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+    for (size_t i = 0; i < GM_COUNT(sizes); i++) {
         struct gm_picture *picture = full_picture();
         free(paint(picture, "osmesa", sizes[i][0], sizes[i][1]));
         gm_picture_close(picture);

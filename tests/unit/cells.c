@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "render/cells/cells.h"
 
 static struct gm_cells cells_of(int columns, int rows)
@@ -179,8 +180,8 @@ static void any_size(void **state)
     (void)state;
     static const int columns[] = {1, 2, 3, 5, 8, 13, 20, 40, 79, 80, 160, 300};
     static const int rows[] = {1, 2, 3, 5, 12, 24, 45, 100};
-    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++) {
-        for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+    for (size_t i = 0; i < GM_COUNT(columns); i++) {
+        for (size_t k = 0; k < GM_COUNT(rows); k++) {
             for (int blocks = 0; blocks < GM_BLOCKS_COUNT; blocks++) {
                 struct gm_picture *picture = make_picture();
                 struct gm_cells cells = cells_of(columns[i], rows[k]);

@@ -17,6 +17,7 @@
 #include <cmocka.h>
 
 #include "app/request/drive.h"
+#include "core/count.h"
 #include "render/picture/picture.h"
 #include "scenes/frame/lane_pack.h"
 #include "tests/common/folder.h"
@@ -152,7 +153,7 @@ static char disc[] = "disc", kepler[] = "kepler", rk4[] = "scheme=rk4", points[]
 
 static char *requests[][4] = {
     {disc, rk4, points, NULL}, {kepler, collocation, compensated, NULL}, {section, NULL, NULL, NULL}};
-enum { REQUESTS = sizeof requests / sizeof requests[0] };
+enum { REQUESTS = GM_COUNT(requests) };
 
 static int count_words(char *words[])
 {
@@ -223,7 +224,7 @@ static void any_word_is_survived(void **unused)
         open_render(&render, requests[r], count_words(requests[r]));
         const size_t words = gm_lane_pack_size(render.lane) / sizeof values[0];
         for (size_t i = 0; i < words; i += i < 64 ? 1 : 1 + words / 100) {
-            for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) {
+            for (size_t k = 0; k < GM_COUNT(values); k++) {
                 is_taken_with(&render, i * sizeof values[0], &values[k], sizeof values[0]);
             }
         }
@@ -240,7 +241,7 @@ static void other_files_are_refused(void **unused)
     unsigned char *forged = malloc(render.size);
     assert_non_null(forged);
     const int64_t frames[] = {-1, FRAMES, INT64_MAX, 0};
-    for (size_t i = 0; i < sizeof frames / sizeof frames[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(frames); i++) {
         memcpy(forged, render.bytes, render.size);
         memcpy(forged + 32, &frames[i], sizeof frames[i]);
         write_forged(&render, forged);

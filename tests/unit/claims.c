@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
 #include "core/field/problems/burgers.h"
@@ -80,7 +81,7 @@ static void symplecticity_that_is_false(void **unused)
                                  "discrete-gradient2",
                                  "gautschi2",
                                  "gsl-rk4"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         struct gm_scheme wrong = changed(names[i]);
         wrong.claims |= GM_SYMPLECTIC;
         const struct gm_certificate certificate = gm_certify(&wrong);
@@ -150,7 +151,7 @@ static void properties_that_are_false(void **unused)
         {"control-gauss2", GM_MULTISYMPLECTIC},
         {"multiplier-adaptive4", GM_SYMPLECTIC},
     };
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wrong); i++) {
         struct gm_scheme scheme = changed(wrong[i].scheme);
         scheme.claims |= wrong[i].claim;
         assert_false(gm_certify(&scheme).holds);
@@ -229,7 +230,7 @@ static void structure_that_is_not_asked_for(void **unused)
                  {GM_NEEDS_CONSTRAINTS, GM_KEEPS_MOMENTUM_MAPS, 13},
                  {GM_NEEDS_FRICTION, GM_CONFORMAL, 14},
                  {GM_NEEDS_INSEPARABLE, GM_KEEPS_BILINEAR, 12}};
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wrong); i++) {
         struct gm_scheme scheme = changed("rk4");
         scheme.needs = wrong[i].facet;
         scheme.claims = wrong[i].claim;
@@ -248,7 +249,7 @@ static void a_wrong_digit_of_a_discrete_lagrangian(void **unused)
     static const char *const names[] = {"variational-simpson4", "variational-galerkin4",
                                         "variational-galerkin6", "constrained-lobatto4",
                                         "constrained-lobatto6"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         struct gm_scheme wrong = changed(names[i]);
         struct gm_variational_row digit = *(const struct gm_variational_row *)wrong.coefficients;
         digit.b[0] += 1e-3;
@@ -311,7 +312,7 @@ static void a_wrong_loop_of_a_right_tableau(void **unused)
 {
     (void)unused;
     gm_loop *const loops[] = {late, of_euler, of_rk2};
-    for (size_t i = 0; i < sizeof loops / sizeof loops[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(loops); i++) {
         struct gm_scheme wrong = changed("rk4");
         struct gm_family family = *wrong.family;
         family.over_kernels = 0;
@@ -332,7 +333,7 @@ static void a_wrong_digit_of_a_composition(void **unused)
     const char *const names[] = {
         "yoshida4", "suzuki4",   "mclachlan4",    "pefrl4",    "blanes-moan4",
         "yoshida6", "kahan-li6", "suzuki-umeno8", "kahan-li8", "blanes-moan-nystrom6"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         struct gm_splitting digit;
         digit = *gm_splitting_of(gm_scheme_find(names[i])->coefficients, &digit);
         const int last = digit.count - 1;
@@ -365,7 +366,7 @@ static void a_wrong_digit_of_a_tableau(void **unused)
                                  "midpoint-suzuki4",
                                  "midpoint-kahan-li6",
                                  "midpoint-kahan-li8"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         const struct gm_implicit_row *right = gm_scheme_find(names[i])->coefficients;
         struct gm_implicit_row digit = *right;
         struct gm_composition composition = *right->composition;

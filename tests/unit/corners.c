@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "app/request/request.h"
+#include "core/count.h"
 #include "core/schemes.h"
 
 enum { STEPS = 4, SECONDS = 120, WORD = 96, MOST_WORDS = 16 };
@@ -202,7 +203,7 @@ int main(int count, char **arguments)
     const bool pairs = count > 2 && strcmp(arguments[2], "pairs") == 0;
     const char *only = count > 3 ? arguments[3] : NULL;
     signal(SIGALRM, too_long);
-    for (size_t b = 0; b < sizeof bases / sizeof bases[0]; b++) {
+    for (size_t b = 0; b < GM_COUNT(bases); b++) {
         char name[WORD];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(bases[b], " "), bases[b]);
         const struct gm_scene *scene = gm_scene_find(name);

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/schemes.h"
 #include "tests/common/lane.h"
 
@@ -106,7 +107,7 @@ static void energy_is_told_in_natural_units(void **unused)
         {"system=pendulum scheme=rk2 q0=0 p0=4 dt=0.3", true, 1},
         {"scheme=rk2 q0=1e-3 p0=0 dt=0.3", false, 0},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         struct gm_lane *lane = open_lane(rows[i].arguments);
         const size_t m = lane->problem.m, half = lane->problem.n / 2;
         double energy[2];
@@ -154,7 +155,7 @@ static void pendulum_by_the_tangent_map(void **unused)
 {
     (void)unused;
     const char *const names[] = {"verlet", "midpoint", "gauss4", "symplectic-euler"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         char arguments[64];
         snprintf(arguments, sizeof arguments, "system=pendulum scheme=%s", names[i]);
         struct gm_lane *lane = open_lane(arguments);

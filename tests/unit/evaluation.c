@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/formula/derivative.h"
 #include "core/formula/reader.h"
 #include "core/tape.h"
@@ -68,7 +69,7 @@ static double apply_function(const char *name, double a, double b)
     } singles[] = {{"sqrt", sqrt}, {"exp", exp},   {"log", log},   {"sin", sin},   {"cos", cos},
                    {"tan", tan},   {"asin", asin}, {"acos", acos}, {"atan", atan}, {"sinh", sinh},
                    {"cosh", cosh}, {"tanh", tanh}, {"abs", fabs}};
-    for (size_t i = 0; i < sizeof singles / sizeof *singles; i++) {
+    for (size_t i = 0; i < GM_COUNT(singles); i++) {
         if (strcmp(singles[i].name, name) == 0) {
             return singles[i].function(a);
         }
@@ -169,7 +170,7 @@ static void bits_are_those_of_the_text(void **unused)
 {
     (void)unused;
     static const double special[] = {0, -0.0, 1, -1, INFINITY, -INFINITY, NAN, M_PI_2, 1e-310, 1e308};
-    enum { SPECIAL = sizeof special / sizeof *special };
+    enum { SPECIAL = GM_COUNT(special) };
     static double points[VARIABLES][POINTS], values[POINTS];
     srand(11);
     for (int trial = 0; trial < FORMULAS; trial++) {
@@ -244,7 +245,7 @@ static void sums_are_loops_with_the_bits_of_the_graph(void **unused)
     bool marked[BODIES];
     memset(marked, true, sizeof marked);
     srand(3);
-    for (size_t k = 0; k < sizeof sums / sizeof *sums; k++) {
+    for (size_t k = 0; k < GM_COUNT(sums); k++) {
         struct gm_formula graph;
         struct gm_fault fault;
         struct gm_tape tape;

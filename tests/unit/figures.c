@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "app/figures/figure.h"
+#include "core/count.h"
 #include "tests/common/folder.h"
 
 static const struct gm_figure *find(const char *name, const struct gm_scene **of)
@@ -38,7 +39,7 @@ static void none_is_missing(void **unused)
         "17", "24", "25", "26", "30", "31", "32", "33", "35", "36", "37", "34-couette", "34-poiseuille"};
     const struct gm_scene *scene = NULL;
     char name[64];
-    for (size_t i = 0; i < sizeof reviewed / sizeof reviewed[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(reviewed); i++) {
         snprintf(name, sizeof name, "razafindralandy-%s", reviewed[i]);
         assert_non_null(find(name, &scene));
         assert_non_null(gm_published_find(name));
@@ -280,7 +281,7 @@ static void unknown_names_are_refused(void **unused)
         {"over", .lanes = "", .observable = "area", .measure = GM_AT_END, .over = "nothing"},
     };
     const struct gm_figure figure = {.name = "trial", .statement = "", .arguments = "scheme=verlet"};
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wrong); i++) {
         char message[GM_MESSAGE] = "";
         const struct gm_published published = {.figure = "trial", .statements = &wrong[i], .count = 1};
         struct gm_figure_job job;

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
 #include "core/flow/rectangle.h"
@@ -182,7 +183,7 @@ static void meshes_agree(void **unused)
                    0.00996288520059452, 0.017855403220707243, 3.0},
                   {"lshape.msh", 49, 120, 72, 42.191192571896345, 92.79436205428043, 0.0038029051319451866,
                    0.024404761900706937, 0.75}};
-    for (size_t i = 0; i < sizeof meshes / sizeof meshes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(meshes); i++) {
         struct gm_triangulation mesh = mesh_of(meshes[i].file);
         const struct gm_complex *complex = mesh.complex;
         double star0 = INFINITY, star1 = INFINITY;
@@ -307,7 +308,7 @@ static void cavities_agree(void **unused)
          0.020006010628919282, 4.702053575644528, 0.0012155668393954875, 6.437986045223383,
          -0.07576571631939771},
     };
-    for (size_t i = 0; i < sizeof cavities / sizeof cavities[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(cavities); i++) {
         cavity_agrees(&cavities[i]);
     }
 }

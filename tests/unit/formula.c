@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/formula/derivative.h"
 #include "core/formula/identity.h"
 #include "core/formula/reader.h"
@@ -22,7 +23,7 @@
 static const char *const names[] = {"x",     "y",    "z",    "w",    "omega", "p_theta", "x1",
                                     "len_2", "q[1]", "q[2]", "q[3]", "q[4]",  "q[5]"};
 static const double numbers[] = {.7, -1.3, 2.5, .125, .9, .4, 3, 8, .3, -1.2, 2.5, .7, 1.1};
-enum { NAMES = sizeof names / sizeof *names, FIRST_OF_LIST = 8, LIST = 5 };
+enum { NAMES = GM_COUNT(names), FIRST_OF_LIST = 8, LIST = 5 };
 
 static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *node, char *sentence)
 {
@@ -174,7 +175,7 @@ static const struct {
 static void lines_hold(void **unused)
 {
     (void)unused;
-    int counts[sizeof kinds / sizeof *kinds] = {0};
+    int counts[GM_COUNT(kinds)] = {0};
     char line[1000];
     FILE *file = reference_file("formulas.test");
     while (fgets(line, sizeof line, file)) {
@@ -188,7 +189,7 @@ static void lines_hold(void **unused)
             *bar = '\0';
             parts[i] = bar + 3;
         }
-        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        for (size_t k = 0; k < GM_COUNT(kinds); k++) {
             if (strcmp(parts[0], kinds[k].word) == 0) {
                 kinds[k].test(parts[1], parts[2], parts[3]);
                 counts[k]++;
@@ -196,7 +197,7 @@ static void lines_hold(void **unused)
         }
     }
     fclose(file);
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+    for (size_t k = 0; k < GM_COUNT(kinds); k++) {
         assert_true(counts[k] >= kinds[k].count);
     }
 }
@@ -413,7 +414,7 @@ static void hostile_text_is_refused(void **unused)
     struct gm_formula graph;
     struct gm_fault fault;
     gm_node_id node;
-    for (size_t i = 0; i < sizeof deep / sizeof *deep; i++) {
+    for (size_t i = 0; i < GM_COUNT(deep); i++) {
         gm_formula_open(&graph);
         char *text = repeated(deep[i].begin, deep[i].middle, deep[i].count, deep[i].end);
         assert_false(read_formula(&graph, text, &node, &fault));
@@ -482,7 +483,7 @@ static void identities_are_found(void **unused)
         {"log(x) - 1e-8*x", GM_NOT_ZERO},
         {"0/0*x", GM_UNTESTED},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         struct gm_formula graph;
         struct gm_fault fault;
         gm_node_id node;

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "tests/common/meshes.h"
 
 static struct gm_triangulation_fault fault_of(const char *text, size_t size)
@@ -173,7 +174,7 @@ static void sentences(void **unused)
         {HEAD "Nodes\n", GM_TRIANGULATION_SYNTAX, 4},
         {HEAD "$PhysicalNames\n1\n1 1 wall\n", GM_TRIANGULATION_SYNTAX, 6},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         const struct gm_triangulation_fault fault = fault_of(cases[i].text, strlen(cases[i].text));
         if (fault.kind != cases[i].kind || (cases[i].line && fault.line != cases[i].line)) {
             fail_msg("case %zu: fault %d in line %ld", i, (int)fault.kind, fault.line);

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/ode/certify/measure.h"
 #include "core/ode/indicators/growth.h"
 #include "core/ode/indicators/tangent.h"
@@ -148,7 +149,7 @@ static void wrong_ones(void **unused)
     loops.jacobian = wrong_jacobian;
     facets.loops[GM_ISA_BASELINE] = &loops;
     problem.facets = &facets;
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         const struct gm_scheme *scheme = gm_scheme_find(names[i]);
         assert_true(defect_of(&problem, scheme, scheme, 0.3, start) > 1e-8);
         assert_true(defect_of(&gm_problem_henon_heiles, scheme, gm_scheme_find("kahan2"), 0.3, start) > 1e-8);
@@ -289,7 +290,7 @@ static void known_numbers(void **unused)
     static const struct {
         double energy, q2, p2;
     } regular[] = {{1. / 12, 0.1, 0.1}, {1. / 12, 0.3, 0}, {1. / 8, 0.3, 0}, {1. / 8, 0.2, 0.1}};
-    for (size_t i = 0; i < sizeof regular / sizeof regular[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(regular); i++) {
         const struct gm_growth_values values =
             henon_heiles("verlet", regular[i].energy, regular[i].q2, regular[i].p2, 0.1, 1e5);
         if (!(fabs(values.megno - 2) < 0.05 && values.exponent < 2e-4)) {

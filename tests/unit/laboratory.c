@@ -14,6 +14,7 @@
 
 #include "app/studies/stability.h"
 #include "app/studies/work.h"
+#include "core/count.h"
 #include "core/flow/flow.h"
 #include "core/ode/certify/linear_stability.h"
 #include "core/schemes.h"
@@ -108,7 +109,7 @@ static void memory_is_bounded(void **unused)
     static const char *const words[] = {"kepler scheme=verlet steps=0",
                                         "vortices scheme=rk2 steps=0 strength=1",
                                         "henon-heiles scheme=verlet steps=0"};
-    for (size_t k = 0; k < sizeof words / sizeof words[0]; k++) {
+    for (size_t k = 0; k < GM_COUNT(words); k++) {
         struct gm_trial trial;
         gm_trial_run(&trial, words[k], false);
         struct gm_lane *lane = trial.drive.lane;
@@ -163,7 +164,7 @@ static void refusals(void **unused)
         {"oscillator scheme=impulse2", "does not fit"},
     };
     char message[GM_MESSAGE];
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         if (!strstr(gm_trial_refusal(rows[i].words, message), rows[i].part)) {
             fail_msg("%s: \"%s\" says nothing of \"%s\"", rows[i].words, message, rows[i].part);
         }
@@ -210,7 +211,7 @@ static void a_configuration_brings_its_own(void **unused)
         {"vortices configuration=square steps=0", 150, 5e-3},
         {"vortices steps=0", 150, 5e-3},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         struct gm_trial trial;
         gm_trial_run(&trial, rows[i].words, false);
         const struct gm_parameter *strength = gm_scene_parameter(trial.request.scene, "strength");
@@ -277,7 +278,7 @@ static void linear_limits(void **unused)
         {"implicit-euler", 6, 6}, {"midpoint", 6, 6}, {"trapezoidal", 6, 6},
         {"gauss8", 6, 6},         {"radau5", 6, 6},   {"sdirk2", 6, 6},
     };
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(known); i++) {
         const struct gm_scheme *scheme = gm_scheme_find(known[i].scheme);
         const double left = gm_linear_limit(scheme, -1, 0, 6, 1), up = gm_linear_limit(scheme, 0, 1, 6, 1);
         if (!(fabs(left - known[i].left) < 1e-3) || !(fabs(up - known[i].up) < 1e-3)) {
@@ -288,7 +289,7 @@ static void linear_limits(void **unused)
         const char *scheme;
         double limit;
     } oscillator[] = {{"verlet", 2}, {"symplectic-euler", 2}, {"lobatto4", 2.8284271247}, {"avf2", 6}};
-    for (size_t i = 0; i < sizeof oscillator / sizeof oscillator[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(oscillator); i++) {
         const double limit = gm_linear_limit(gm_scheme_find(oscillator[i].scheme), 0, 1, 6, 1);
         if (!(fabs(limit - oscillator[i].limit) < 1e-3)) {
             fail_msg("%s: %.9g", oscillator[i].scheme, limit);

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/formula/equations.h"
 #include "core/kind.h"
 #include "core/ode/kernel/loops.h"
@@ -52,7 +53,7 @@ static const struct {
      "H: (p_q[1]^2 - 2*c*p_q[1]*p_q[2] + p_q[2]^2)/(2*(1 - c^2)) + p_q[3]^2/2 + sum(i = 1 .. 3, q[i]^4)\n",
      "start: q[i] = sin(i), p_q[i] = cos(i)\n"},
 };
-enum { PAIRS = sizeof pairs / sizeof *pairs };
+enum { PAIRS = GM_COUNT(pairs) };
 
 struct typed {
     struct gm_own_system system;
@@ -155,7 +156,7 @@ static void runs_agree(void **unused)
         struct typed l, h;
         type(&l, k, true);
         type(&h, k, false);
-        for (size_t s = 0; s < sizeof schemes / sizeof *schemes; s++) {
+        for (size_t s = 0; s < GM_COUNT(schemes); s++) {
             const struct gm_scheme *scheme = gm_scheme_find(schemes[s]);
             assert_non_null(scheme);
             if (!gm_scheme_fits(scheme, &h.problem)) {

@@ -14,6 +14,7 @@
 
 #include "app/request/request.h"
 #include "app/request/system.h"
+#include "core/count.h"
 #include "core/flow/flow.h"
 #include "core/memory.h"
 #include "core/schemes.h"
@@ -101,7 +102,7 @@ static void packed_lanes_go_on(void **unused)
 {
     (void)unused;
     size_t tried = 0;
-    for (size_t i = 0; i < sizeof arguments / sizeof *arguments; i++) {
+    for (size_t i = 0; i < GM_COUNT(arguments); i++) {
         struct gm_lane *first = open_lane(arguments[i], NULL);
         assert_non_null(first);
         for (size_t k = 0; k < gm_scheme_count(); k++) {
@@ -152,7 +153,7 @@ static void channels_have_their_walls(void **unused)
         "channel rows=7 columns=50",  "channel rows=11 columns=82", "channel rows=14 columns=100",
         "channel rows=14 columns=98",
     };
-    for (size_t i = 0; i < sizeof channels / sizeof channels[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(channels); i++) {
         struct gm_lane *lane = open_lane(channels[i], NULL);
         if (!lane) {
             fail_msg("%s: it could not be opened", channels[i]);
@@ -208,7 +209,7 @@ static void clocks_follow_the_step(void **unused)
         {"cavity columns=8 rows=10 dt=0.05 scheme=semi-implicit", "t = 0.35 L/U"},
         {"room rows=10 columns=14 dt=0.0005", "t = 0.0035 τ"},
     };
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wanted); i++) {
         struct gm_lane *lane = open_lane(wanted[i].arguments, NULL);
         struct gm_picture *picture = gm_picture_open();
         assert_true(lane && picture);
@@ -232,7 +233,7 @@ static void losses_are_told(void **unused)
         {"disc points=8 dt=0.5 scheme=implicit-euler", "is left", (int)ceil(log(100) / log(factor))},
         {"disc points=8 dt=0.5 scheme=explicit-euler", "is lost", (int)ceil(log(11) / log(factor))},
     };
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wanted); i++) {
         char text[GM_MESSAGE];
         struct gm_lane *lane = open_lane(wanted[i].arguments, NULL);
         assert_non_null(lane);
@@ -260,7 +261,7 @@ static void crossings_are_found_by_the_scheme(void **unused)
     assert_true(gm_system_recall("section.system",
                                  "H: (p_x^2 + x^2)/2\ncoordinates: x\nstart: x = 1, p_x = 0\n"
                                  "section: x = 0, p_x > 0; x, p_x\nstop: t + 0.1*p_x - 30.5\n"));
-    for (size_t k = 0; k < sizeof runs / sizeof *runs; k++) {
+    for (size_t k = 0; k < GM_COUNT(runs); k++) {
         int status = 0;
         const struct gm_scene *scene = gm_system_scene(2, words, &status, message);
         assert_non_null(scene);
@@ -297,7 +298,7 @@ static void stops_together(void **unused)
     static const char *const stops[] = {"t - 0.5",      "t - 6.395",       "t - 6.4",       "t - 6.405",
                                         "x + 0.999999", "p_x - 0.9999999", "t - 6.4 + 0*x", "t - 1e9"};
     static const char *const forms[] = {"(p_x^2 + x^2)/2", "p_x^2/2 - x^4"};
-    for (size_t k = 0; k < 2 * sizeof stops / sizeof *stops; k++) {
+    for (size_t k = 0; k < 2 * GM_COUNT(stops); k++) {
         char text[200], message[GM_MESSAGE];
         char *words[] = {"stop.system"};
         int status = 0;

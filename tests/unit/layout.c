@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "render/layout/labels.h"
 #include "render/layout/layout.h"
 #include "tests/common/layout_faults.h"
@@ -67,7 +68,7 @@ static void labels_never_overlap_nor_leave(void **state)
     static const double sizes[][2] = {{1280, 720}, {640, 360},   {1920, 1080}, {3840, 2160}, {800, 600},
                                       {720, 1280}, {1000, 1000}, {540, 540},   {320, 200},   {64, 64},
                                       {1, 1},      {16384, 100}, {100, 16384}, {1280, 8},    {40, 700}};
-    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+    for (size_t s = 0; s < GM_COUNT(sizes); s++) {
         struct gm_metrics metrics = metrics_of(sizes[s][0], sizes[s][1]);
         for (size_t states = 0; states <= 24; states += states < 6 ? 1 : 6) {
             for (size_t graphs = 0; graphs <= 4; graphs++) {
@@ -308,7 +309,7 @@ static void keys_keep_their_values(void **state)
                  {"Gauss 4", "Gauss 4"},
                  {"", ""}};
     char text[64];
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         gm_name_without_keys(names[i].name, text, sizeof text);
         assert_string_equal(text, names[i].values);
     }
@@ -326,7 +327,7 @@ static void keys_keep_their_values(void **state)
         check_layout(picture, &metrics);
         const struct gm_layout *layout = gm_layout_make(picture, &metrics);
         static const char *const words[] = {"Verlet", "0.1", "symplectic", "Euler", "pi/12", "2.5"};
-        for (size_t w = 0; w < sizeof words / sizeof *words; w++) {
+        for (size_t w = 0; w < GM_COUNT(words); w++) {
             size_t told = 0;
             for (size_t i = 0; i < layout->label_count; i++) {
                 const struct gm_label *label = &layout->labels[i];
@@ -384,7 +385,7 @@ static void numbers_are_whole(void **state)
     struct gm_picture *picture = gm_picture_open();
     struct gm_label_list list;
     assert_true(gm_labels_open(&list, picture, &metrics, 8));
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         const double width = letters_width(metrics.self, GM_TEXT_LABEL, cases[i].as_long_as);
         assert_string_equal(gm_labels_shorten_number(&list, GM_TEXT_LABEL, cases[i].text, width),
                             cases[i].shown);

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/linear/banded.h"
 #include "core/mesh/element.h"
 #include "core/mesh/families/multiplier.h"
@@ -77,7 +78,7 @@ static void symmetric_schemes_come_back(void **unused)
         "control-gauss2",      "control-gauss4",      "control-lobatto2",       "control-lobatto4",
         "multiplier-lobatto2", "multiplier-lobatto4", "multiplier-trapezoidal", "multiplier-adaptive4"};
     double start[60];
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         struct gm_problem problem;
         struct gm_run *run = open_soliton(&boxed, &problem, names[i], 0.01);
         memcpy(start, gm_run_state(run), sizeof start);
@@ -103,7 +104,7 @@ static void resumed_runs_keep_their_bits(void **unused)
     static const char *const names[] = {
         "uniform-gauss4",      "control-gauss4",         "control-radau5",      "multiplier-lobatto4",
         "multiplier-lobatto2", "multiplier-trapezoidal", "multiplier-adaptive4"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
         struct gm_problem problem;
         struct gm_run *whole = open_soliton(&boxed, &problem, names[i], 0.03);
         struct gm_run *steps = open_soliton(&boxed, &problem, names[i], 0.03);
@@ -215,7 +216,7 @@ static void without_density_the_mesh_is_uniform(void **unused)
                                            {"multiplier-lobatto4", "uniform-lobatto4"},
                                            {"multiplier-lobatto2", "uniform-lobatto2"},
                                            {"multiplier-trapezoidal", "uniform-lobatto2"}};
-    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(pairs); i++) {
         struct gm_problem problem;
         struct gm_run *moving = open_soliton(&soliton, &problem, pairs[i][0], 0.01);
         struct gm_run *fixed = open_soliton(&soliton, &problem, pairs[i][1], 0.01);
@@ -397,13 +398,13 @@ static void extremes_end_well(void **unused)
                  {31, 0.01, 2.5, 0.1, 50},      {127, 0.9, 2.5, 1, 50},   {31, 0.9, 1000, 0.01, 50}};
     static const char *const names[] = {"uniform-gauss4", "control-gauss4", "control-radau5",
                                         "multiplier-lobatto4", "multiplier-trapezoidal"};
-    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+    for (size_t c = 0; c < GM_COUNT(cases); c++) {
         const struct gm_soliton soliton = {.solitons = 1,
                                            .points = cases[c].points,
                                            .velocity = cases[c].velocity,
                                            .length = 25,
                                            .alpha = cases[c].alpha};
-        for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        for (size_t i = 0; i < GM_COUNT(names); i++) {
             struct gm_problem problem;
             gm_soliton_problem(&soliton, &problem);
             struct gm_mesh mesh;
@@ -489,7 +490,7 @@ static void one_rule_is_multisymplectic(void **unused)
     assert_true(right.claims[bit].defect < 1e-10);
     static const char *const others[] = {"multiplier-lobatto2", "multiplier-lobatto4", "control-lobatto2",
                                          "control-gauss4", "control-radau3"};
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(others); i++) {
         struct gm_scheme wrong = *gm_scheme_find(others[i]);
         wrong.claims |= GM_MULTISYMPLECTIC;
         const struct gm_certificate certificate = gm_certify(&wrong);

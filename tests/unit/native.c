@@ -19,6 +19,7 @@
 #include "app/native/cache.h"
 #include "app/native/engine.h"
 #include "app/request/request.h"
+#include "core/count.h"
 #include "core/kind.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/own/own.h"
@@ -187,7 +188,7 @@ static void engines_agree_on_all(void **state)
         "double-pendulum", "driven-pendulum",       "figure-eight", "lorenz",
         "lotka-volterra",  "restricted-three-body", "rigid-body",   "toda"};
     static const char *const schemes[] = {"rk4", "midpoint", "verlet"};
-    for (size_t i = 0; all && i < sizeof systems / sizeof *systems; i++) {
+    for (size_t i = 0; all && i < GM_COUNT(systems); i++) {
         for (size_t k = 0; k < 3; k++) {
             if (k < 2 || strcmp(systems[i], "figure-eight") == 0 || strcmp(systems[i], "toda") == 0) {
                 compare_system(systems[i], schemes[k]);

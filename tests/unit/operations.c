@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/ode/kernel/loops.h"
 
 #define GM_PASS_SCALAR
@@ -34,7 +35,7 @@ static const struct operation {
     {exponential_scalar, exponential_lanes, expl, -746, 710},
     {logarithm_scalar, logarithm_lanes, logl, 0, 10},
 };
-enum { OPERATIONS = sizeof operations / sizeof operations[0] };
+enum { OPERATIONS = GM_COUNT(operations) };
 
 /* The distance from a reference, in units of the last place of the double next to it. */
 static double ulps(double value, long double reference)
@@ -114,7 +115,7 @@ static void corners(void **unused)
         1 - DBL_EPSILON / 2,
         1 + DBL_EPSILON, /* the logarithm is smallest */
     };
-    for (size_t k = 0; k < sizeof list / sizeof list[0]; k++) {
+    for (size_t k = 0; k < GM_COUNT(list); k++) {
         for (size_t i = 0; i < OPERATIONS; i++) {
             hold(&operations[i], list[k]);
         }

@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/formula/equations.h"
 #include "core/kind.h"
 #include "core/ode/own/own.h"
@@ -66,7 +67,7 @@ static const struct retyped retyped[] = {
      0.05, false},
 };
 
-enum { RETYPED = sizeof retyped / sizeof *retyped, MOST = 4 };
+enum { RETYPED = GM_COUNT(retyped), MOST = 4 };
 
 static const double constants[] = {0.01, 0.4, 0.5};
 static const struct gm_settings settings_of[2] = {{.compensated = 0, .binding = 20, .tau0 = 0.01},
@@ -128,7 +129,7 @@ static void facets_are_found(void **state)
 static bool is_compared(const struct gm_scheme *scheme)
 {
     static const char *const not [] = {"explicit-euler", "discrete-gradient2", "gsl-msadams", "gsl-msbdf"};
-    for (size_t i = 0; i < sizeof not / sizeof *not ; i++) {
+    for (size_t i = 0; i < GM_COUNT(not ); i++) {
         if (strcmp(scheme->name, not [i]) == 0) {
             return false;
         }

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/own/potential.h"
 #include "core/field/problems/sine_gordon.h"
@@ -98,7 +99,7 @@ static void typed_again_it_is_the_built_in_equation(void **unused)
         typed.problem.line.jump = gm_sine_gordon_jump(&exact[which]);
         built_in.line = typed.problem.line;
         built_in.n = SIZE;
-        for (size_t s = 0; s < sizeof all / sizeof *all; s++) {
+        for (size_t s = 0; s < GM_COUNT(all); s++) {
             const double dt = strcmp(all[s], "midpoint-box") == 0 ? 0.05 : 0.1;
             double ours[SIZE], theirs[SIZE];
             gm_own_wave_levels(&typed.problem, dt, ours);
@@ -173,7 +174,7 @@ static void the_multisymplectic_law_holds(void **unused)
     (void)unused;
     struct typed typed;
     open_typed(&typed, PHI4);
-    for (size_t s = 0; s < sizeof all / sizeof *all; s++) {
+    for (size_t s = 0; s < GM_COUNT(all); s++) {
         const struct gm_scheme *scheme = gm_scheme_find_for(all[s], &typed.problem);
         double y[SIZE];
         gm_own_wave_levels(&typed.problem, 0.05, y);
@@ -196,7 +197,7 @@ static void the_quotient_does_not_cancel(void **unused)
     open_typed(&typed, "field: u\nV: exp(u)\nstart: u = 0, u_t = 0\n");
     const struct gm_wave *wave = gm_field_of(&typed.problem)->wave;
     static const double gaps[] = {1e-14, 1e-9, 1e-5, 1e-2, 0.3, 2, 9, 40};
-    for (size_t i = 0; i < sizeof gaps / sizeof *gaps; i++) {
+    for (size_t i = 0; i < GM_COUNT(gaps); i++) {
         const double b = 0.25, a = b + gaps[i], h = a - b, exact = exp(b) * expm1(h) / h;
         const double found = wave->quotient(&typed.problem, a, b);
         if (!(fabs(found - exact) <= 2e-14 * exact) || found != wave->quotient(&typed.problem, b, a)) {
@@ -260,7 +261,7 @@ static const struct {
 static void what_is_wrong_is_said(void **unused)
 {
     (void)unused;
-    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+    for (size_t i = 0; i < GM_COUNT(refused); i++) {
         struct gm_own_system system;
         struct gm_fault fault;
         if (gm_equations_open(&system, refused[i].text, strlen(refused[i].text), NULL, 0, &fault)) {
@@ -288,7 +289,7 @@ static void a_field_closes_on_its_ring(void **unused)
         {"field: u\nV: u^2\nstart: u = exp(-x^2), u_t = 0\n", 0, NULL},
         {"field: u\nV: u^2\nstart: u = 3, u_t = 0\n", 0, NULL},
     };
-    for (size_t i = 0; i < sizeof rings / sizeof *rings; i++) {
+    for (size_t i = 0; i < GM_COUNT(rings); i++) {
         struct typed typed;
         char sentence[400] = "";
         open_typed(&typed, rings[i].text);

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/ode/families/explicit_runge_kutta.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/implicit_runge_kutta.h"
@@ -190,7 +191,7 @@ static void every_row_retyped(void **unused)
         }
         const struct gm_scheme *own = open_own(text);
         rows++;
-        for (size_t k = 0; k < sizeof problems / sizeof problems[0]; k++) {
+        for (size_t k = 0; k < GM_COUNT(problems); k++) {
             if (gm_scheme_fits(scheme, problems[k]) && gm_scheme_fits(own, problems[k])) {
                 same_steps(problems[k], scheme, own);
                 walks++;
@@ -312,7 +313,7 @@ static void schemes_of_schemes(void **unused)
     /* the same composition of any base has the order that the steps give */
     static const char *const bases[] = {"midpoint", "trapezoidal",
                                         "runge-kutta(1/4, 0 | 1/2, 1/4; 1/2, 1/2)"};
-    for (size_t i = 0; i < sizeof bases / sizeof bases[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(bases); i++) {
         char text[200];
         snprintf(text, sizeof text, "composition(%s; let: g = 1/(2 - 2^(1/3)); g, 1 - 2*g, g)", bases[i]);
         const struct gm_scheme *own = open_own(text);
@@ -368,7 +369,7 @@ static void wrong_schemes(void **unused)
         /* the tenth digit of a step */
         {"composition(verlet; order: 4; 1.35120719295966, -1.70241438591932, 1.35120719295966)", 2, NULL},
     };
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         const struct gm_scheme *own = open_own(schemes[i].text);
         const struct gm_theory theory = gm_scheme_theory(own);
         const bool right = schemes[i].condition && !schemes[i].condition[0];
@@ -411,7 +412,7 @@ static void digits(void **unused)
          "1351207191959657634047687808971/1000000000000000000000000000000",
          2},
     };
-    for (size_t i = 0; i < sizeof typed_steps / sizeof typed_steps[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(typed_steps); i++) {
         char text[400];
         snprintf(text, sizeof text, "composition(verlet; %s)", typed_steps[i].steps);
         const struct gm_scheme *own = open_own(text);
@@ -441,7 +442,7 @@ static void honest(void **unused)
         {"splitting(10, -20, 11; 5, -9, 5; claims: symmetric)", false},
         {"composition(verlet; 2, -3, 2; order: 3)", false},
     };
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         const struct gm_scheme *own = open_own(schemes[i].text);
         if (gm_certify(own).holds != schemes[i].holds) {
             fail_msg("%s %s", schemes[i].text, schemes[i].holds ? "is called broken" : "is let through");
@@ -503,7 +504,7 @@ static void nystrom(void **unused)
          "1/2 - s/6, 1/2 + s/6)",
          4, true, true},
     };
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         const struct gm_scheme *own = open_own(schemes[i].text);
         const struct gm_theory theory = gm_scheme_theory(own);
         if (theory.order != schemes[i].order || theory.symplectic != schemes[i].symplectic ||
@@ -554,7 +555,7 @@ static void nystrom_compositions(void **unused)
         /* no identity up to h^2: a processor that costs an order, which is measured too */
         {"processed(" VERLET_AS_NYSTROM "; nystrom(0; 1/4; 1/2; 1/2))", NULL, 1, true, false},
     };
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         const struct gm_scheme *own = open_own(schemes[i].text);
         const struct gm_theory theory = gm_scheme_theory(own);
         if (!theory.known || theory.order != schemes[i].order || theory.symplectic != schemes[i].symplectic ||
@@ -598,7 +599,7 @@ static void high_orders(void **unused)
         {TRIPLE_JUMP("kahan-li8", "9"), 10, true, ""},
         {"adjoint(radau5)", 5, false, NULL},
     };
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         const struct gm_scheme *own = open_own(schemes[i].text);
         const struct gm_theory theory = gm_scheme_theory(own);
         const char *condition = schemes[i].condition;
@@ -640,7 +641,7 @@ static void wrong_tenth_digits(void **unused)
         const char *text;
         int order;
     } schemes[] = {{radau9, 9}, {gauss10, 10}};
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         char *text = strdup(schemes[i].text);
         int planted = 0;
         for (char *digits = strstr(text, "0."); digits; digits = strstr(digits + 2, "0.")) {
@@ -708,7 +709,7 @@ static void polished(void **unused)
          "0.5, 0.5; 0.2113, 0.7887); order: 4; claims: symplectic symmetric; 1/2, 1/2)",
          4},
     };
-    for (size_t i = 0; i < sizeof schemes / sizeof schemes[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         const struct gm_own_scheme_source source = {
             .text = schemes[i].text, .length = strlen(schemes[i].text), .name = "own", .bring = no_file};
         struct gm_polish polish;
@@ -731,7 +732,7 @@ static void polished(void **unused)
         {"composition(verlet; order: 2; 1/2, 1/2)", "nothing to polish"},
         {"composition(kahan2; 0.50001, 0.49999)", "theory knows no conditions"},
     };
-    for (size_t i = 0; i < sizeof hopeless / sizeof hopeless[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(hopeless); i++) {
         const struct gm_own_scheme_source source = {
             .text = hopeless[i][0], .length = strlen(hopeless[i][0]), .name = "own", .bring = no_file};
         struct gm_polish polish;
@@ -807,7 +808,7 @@ static void refusals(void **unused)
          "closes its parentheses and brackets"},
         {"nonsense", "", "a line begins with a word and a colon"},
     };
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wrong); i++) {
         struct gm_fault fault;
         const struct gm_scheme *own = open_text(wrong[i].text, &fault);
         const char *at = wrong[i].text + fault.offset;

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/parameter.h"
 
 static void numbers_are_read(void **unused)
@@ -26,14 +27,14 @@ static void numbers_are_read(void **unused)
         {"--1", 1},       {"1e308*10", INFINITY}, {"400*pi", 400 * M_PI},
         {"1-2-3", -4},    {"8/4/2", 1},
     };
-    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(good); i++) {
         double value = NAN;
         assert_true(gm_number_parse(good[i].text, &value));
         assert_true(value == good[i].value);
     }
     const char *const bad[] = {"",    "abc", "1,5", "1 2", "pi pi", "2pi", "(1",    "1)", "sqrt 2", "0x10",
                                "nan", "inf", "*2",  "1e",  "e",     "1/",  "sqrt(", "%n", "1..2"};
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(bad); i++) {
         double value = 42;
         if (gm_number_parse(bad[i], &value)) {
             fail_msg("\"%s\" was read as %g", bad[i], value);
@@ -64,7 +65,7 @@ static void numbers_are_written_to_be_read_back(void **unused)
                     {1e300, "1e300"},
                     {-2.5, "-2.5"}};
     char text[64];
-    for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(expected); i++) {
         assert_string_equal(gm_number_format(expected[i].value, text, sizeof text), expected[i].text);
     }
     srand(1);
@@ -131,7 +132,7 @@ static void rows_store_what_is_valid(void **unused)
         {3, "yes", GM_PARSED, 1},
         {3, "1", GM_NOT_UNDERSTOOD, 1},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         const struct gm_parameter *row = &rows[cases[i].row];
         assert_int_equal(gm_parameter_set(row, &owner, cases[i].text), cases[i].result);
         assert_true(gm_parameter_get(row, &owner) == cases[i].value);

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "render/picture/picture.h"
 
 static const struct gm_style line_style = {GM_LANE + 1, 0.5, 2.4, GM_LONG_DASH};
@@ -173,7 +174,7 @@ static void level_lines_are_whole_and_in_place(void **state)
         size_t lines;
         bool closed;
     } expected[] = {{0.61, 1, true}, {1.2, 4, false}, {2.0, 0, false}, {0.5, 1, true}};
-    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+    for (size_t i = 0; i < GM_COUNT(expected); i++) {
         panel->first = panel->last = NULL;
         gm_mark_level_lines(picture, panel, line_style, points, values, VERTICES, triangles, triangle_count,
                             &expected[i].level, 1);

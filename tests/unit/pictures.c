@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "app/request/request.h"
+#include "core/count.h"
 #include "scenes/flow/flows.h"
 #include "scenes/frame/graph.h"
 #include "tests/common/layout_faults.h"
@@ -173,7 +174,7 @@ static void default_pictures_can_be_read_at_any_size(void **state)
             fail_msg("%s: %s", scene->name, message);
         }
         check_observables(scene->name, drawn.picture);
-        for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        for (size_t k = 0; k < GM_COUNT(sizes); k++) {
             struct gm_metrics metrics = metrics_of(sizes[k][0], sizes[k][1]);
             const char *fault = layout_fault(drawn.picture, &metrics);
             if (fault) {

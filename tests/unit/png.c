@@ -15,6 +15,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "render/files/png.h"
 #include "tests/common/folder.h"
 
@@ -80,7 +81,7 @@ static void pixels_survive(void **state)
 {
     (void)state;
     const int sizes[][2] = {{1, 1}, {1, 7}, {7, 1}, {3, 2}, {255, 33}, {640, 360}, {1279, 719}, {1, 20000}};
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+    for (size_t i = 0; i < GM_COUNT(sizes); i++) {
         int width = sizes[i][0], height = sizes[i][1];
         unsigned char *rgb = make_pixels(width, height);
         char message[MESSAGE] = "";
@@ -104,7 +105,7 @@ static void pixels_of_others_are_read(void **state)
     (void)state;
     enum { WIDTH = 5, HEIGHT = 3 };
     const png_uint_32 formats[] = {PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGBA};
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+    for (size_t i = 0; i < GM_COUNT(formats); i++) {
         const size_t channels = PNG_IMAGE_SAMPLE_CHANNELS(formats[i]);
         unsigned char given[4 * WIDTH * HEIGHT], read[3 * WIDTH * HEIGHT];
         for (size_t k = 0; k < channels * WIDTH * HEIGHT; k++) {
@@ -128,7 +129,7 @@ static const struct gm_png_text texts[] = {
     {"Comment", ""},
     {"changes", "0 12 dt=0.1\n1 40 scheme=verlet\n"},
 };
-enum { TEXTS = sizeof texts / sizeof *texts };
+enum { TEXTS = GM_COUNT(texts) };
 
 static void texts_survive(void **state)
 {

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/formula/derivative.h"
 #include "core/formula/equations.h"
 #include "core/kind.h"
@@ -44,7 +45,7 @@ static const struct {
      "start: a = 0.1, b = 0.2, c = 3, u = 0.6, v = 0, w = 0.8\n",
      true},
 };
-enum { SYSTEMS = sizeof systems / sizeof *systems };
+enum { SYSTEMS = GM_COUNT(systems) };
 
 struct typed {
     struct gm_own_system system;

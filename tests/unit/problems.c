@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -33,7 +34,7 @@ static const struct {
     {&gm_problem_abc, abc_constants, {0.5, 1.1, -0.4}},
     {&gm_problem_linear, matrix, {0.5, 1.1, -0.4}},
 };
-enum { CASES = sizeof cases / sizeof cases[0] };
+enum { CASES = GM_COUNT(cases) };
 
 static void near_at(double value, double expected, double tolerance, int line)
 {

@@ -9,12 +9,11 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/reference.h"
-
-#define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
 static struct gm_problem problem_of(const char *name)
 {
@@ -37,7 +36,7 @@ static struct gm_problem problem_of(const char *name)
         {"vortices-reduced", &gm_problem_vortices_reduced, &strength},
         {"abc", &gm_problem_abc, abc},
     };
-    for (size_t i = 0; i < COUNT(list); i++) {
+    for (size_t i = 0; i < GM_COUNT(list); i++) {
         if (strcmp(list[i].name, name) == 0) {
             struct gm_problem problem = *list[i].problem;
             problem.parameters = list[i].parameters;
@@ -188,7 +187,7 @@ static void levi_civita_agrees(void **unused)
 {
     (void)unused;
     static const double eccentricities[] = {0, 0.5, 0.99};
-    for (size_t k = 0; k < COUNT(eccentricities); k++) {
+    for (size_t k = 0; k < GM_COUNT(eccentricities); k++) {
         const double e = eccentricities[k], ds = 2 * M_PI / 47, narrow = sqrt(1 - e * e);
         const double start[] = {1 - e, 0, 0, sqrt((1 + e) / (1 - e))};
         const struct gm_settings settings = {0};
@@ -250,7 +249,7 @@ static void the_printed_rectangle_rule_loses_its_root(void **unused)
     (void)unused;
     const struct gm_problem problem = gm_problem_oscillator;
     const double start[2] = {sin(0.3), cos(0.3)}, tau0[] = {0.1, 0.02, 1e-3, 1e-4};
-    for (size_t i = 0; i < COUNT(tau0); i++) {
+    for (size_t i = 0; i < GM_COUNT(tau0); i++) {
         const struct gm_settings settings = {.tau0 = tau0[i]};
         struct gm_run *run = open_run(&problem, "variational-rectangle", &settings, 1, start);
         assert_int_equal(gm_run_advance(run, 1000000), GM_STEP_COLLAPSE);
@@ -298,7 +297,7 @@ static bool is_without_reference(const char *name)
                                 "shake2",
                                 "constrained-lobatto4",
                                 "constrained-lobatto6"};
-    for (size_t i = 0; i < COUNT(list); i++) {
+    for (size_t i = 0; i < GM_COUNT(list); i++) {
         if (strcmp(list[i], name) == 0) {
             return true;
         }

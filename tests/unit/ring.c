@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/linear/fourier.h"
 #include "core/linear/ring.h"
 #include "core/linear/sine.h"
@@ -126,7 +127,7 @@ static void transforms_of_any_length(void **unused)
 {
     (void)unused;
     static const size_t sizes[] = {1, 2, 3, 64, 101, 300, 809};
-    for (size_t s = 0; s < sizeof sizes / sizeof sizes[0]; s++) {
+    for (size_t s = 0; s < GM_COUNT(sizes); s++) {
         const size_t n = sizes[s];
         double complex x[809], y[809];
         for (size_t j = 0; j < n; j++) {

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/flow/boundary.h"
 #include "core/flow/rectangle.h"
 #include "core/flow/start.h"
@@ -214,7 +215,7 @@ static void orders(void **unused)
         {"obtuse, barycentric", false, GM_STAR_AUTO, {1.4, 0.9, 0.8}},
     };
     bool good = true;
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         double error[3][ERRORS];
         for (int k = 0; k < 3; k++) {
             struct gm_flow *flow = open_mesh(16 << k, cases[i].acute, cases[i].star);
@@ -580,7 +581,7 @@ static void natural_convection(void **unused)
         int columns;
         double rayleigh, nusselt;
     } table[] = {{40, 1e3, 1.118}, {60, 1e4, 2.243}, {80, 1e5, 4.519}};
-    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(table); i++) {
         struct gm_flow *flow = open_square(table[i].columns, table[i].rayleigh, 0);
         const double number = nusselt(flow, "steady", 1, 16);
         gm_flow_close(flow);

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 #include <gsl/gsl_errno.h>
 
+#include "core/count.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
@@ -366,7 +367,7 @@ static void newton_agrees_with_fixed_point(void **unused)
     (void)unused;
     const char *const names[] = {"implicit-euler", "midpoint", "trapezoidal", "gauss4", "rk4sym"};
     for (int p = 0; p < PROBLEMS; p++) {
-        for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        for (size_t i = 0; i < GM_COUNT(names); i++) {
             struct gm_problem problem = problem_at(p), hard = problem;
             if (gm_ode_of(&problem)->stiff || !is_tested(gm_scheme_find(names[i]), &problem)) {
                 continue;
@@ -396,7 +397,7 @@ static void evaluations_are_counted(void **unused)
         double evaluations;
     } expected[] = {
         {"explicit-euler", 100}, {"rk2", 200}, {"rk4", 400}, {"symplectic-euler", 100}, {"verlet", 101}};
-    for (size_t i = 0; i < sizeof expected / sizeof expected[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(expected); i++) {
         struct gm_problem problem = gm_problem_pendulum;
         problem.m = 21;
         struct gm_run *run = open_run(&problem, gm_scheme_find(expected[i].scheme), &settings_of[0], 0.05);

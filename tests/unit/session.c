@@ -22,6 +22,7 @@
 #include "app/lanes/slider.h"
 #include "app/request/arguments.h"
 #include "app/request/drive.h"
+#include "core/count.h"
 #include "core/schemes.h"
 #include "tests/common/folder.h"
 #include "tests/common/meshes.h"
@@ -252,7 +253,7 @@ static void sliders_tell_places(void **unused)
     const struct gm_parameter rows[] = {NUMBER("0.02", 1e-6, 100, true), NUMBER("0", -1e4, 1e4, false),
                                         NUMBER("150", -1e6, 1e6, false), NUMBER("0.5", 0.01, 0.9999, false),
                                         NUMBER("5e-3", 0, 10, true)};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
         double before = -INFINITY;
         for (double place = 0; place <= 1; place += 1. / 16) {
             char text[GM_TEXT_SIZE];
@@ -398,7 +399,7 @@ static void sliders_walk_through_words(void **unused)
     void *own = calloc(1, scene->size);
     static const char *const order[] = {"soft", "dirichlet", "free", "soft"};
     assert_non_null(own);
-    for (size_t i = 0; i + 1 < sizeof order / sizeof *order; i++) {
+    for (size_t i = 0; i + 1 < GM_COUNT(order); i++) {
         assert_int_equal(gm_parameter_set(row, own, order[i]), GM_PARSED);
         assert_true(gm_slider_next(row, own, 1, false, text));
         assert_string_equal(text, order[i + 1]);

@@ -16,6 +16,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "render/files/sink.h"
 #include "tests/common/folder.h"
 
@@ -154,7 +155,7 @@ static void pattern_is_the_names_alone(void **state)
         {"plain%.png", "plain%.png"},   {"%99999999999d.png", "%99999999999d.png"},
     };
     assert_int_equal(mkdir(in_folder("100%d"), 0777), 0);
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         char pattern[64], name[64], message[MESSAGE] = "";
         snprintf(pattern, sizeof pattern, "100%%d/%s", cases[i].pattern);
         snprintf(name, sizeof name, "100%%d/%s", cases[i].name);
@@ -243,7 +244,7 @@ static void movies_are_complete(void **state)
         {"odd%d.webm", 33, 31, 34, 32, 3, 12}, {"od:d%03d.gif", 33, 31, 33, 31, 3, 3},
         {"UPPER.MP4", 64, 64, 64, 64, 1, 10},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    for (size_t i = 0; i < GM_COUNT(cases); i++) {
         const char *path = in_folder(cases[i].name);
         make_movie(path, cases[i].width, cases[i].height, 10, cases[i].frames);
         assert_int_equal(probe(path, "stream=nb_read_frames"), cases[i].movie_frames);

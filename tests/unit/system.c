@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/formula/equations.h"
 #include "core/formula/facts.h"
 #include "tests/common/reference.h"
@@ -41,7 +42,7 @@ static char *lines_of(const char *line)
                                             {"coordinates: a b", "a = 1, b = 2, p_a = 3, p_b = 4"},
                                             {"rate: z", "x = 1, y = 2, z = 3"},
                                             {"rate: x", "x = 1, y = 2"}};
-    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
+    for (size_t i = 0; i < GM_COUNT(starts); i++) {
         if (strstr(line, starts[i][0])) {
             fprintf(out, "\nstart: %s\n", starts[i][1]);
             break;
@@ -259,7 +260,7 @@ static void equations_are_those_by_hand(void **unused)
                  {"rigid-body", rigid_body, 3, 1},
                  {"lorenz", lorenz, 3, 0},
                  {"driven-pendulum", driven_pendulum, 2, 0}};
-    for (size_t k = 0; k < sizeof eight / sizeof *eight; k++) {
+    for (size_t k = 0; k < GM_COUNT(eight); k++) {
         struct gm_own_system system;
         struct gm_fault fault;
         size_t length = 0, kept = 0;
@@ -361,7 +362,7 @@ static void lagrangians_are_checked(void **unused)
         /* how velocities change is not known to the graph */
         {"coordinates: q\nL: v_q^2/2\ninvariant: v = v_q\nstart: q = 1, p_q = 5\n", 1, 0, 5},
     };
-    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+    for (size_t k = 0; k < GM_COUNT(rows); k++) {
         struct gm_own_system system;
         struct gm_fault fault;
         size_t checked = 0, proved = 0;
@@ -491,7 +492,7 @@ static const struct {
 static void what_is_wrong_is_named(void **unused)
 {
     (void)unused;
-    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+    for (size_t i = 0; i < GM_COUNT(refused); i++) {
         struct gm_own_system system;
         struct gm_fault fault;
         size_t line, column;

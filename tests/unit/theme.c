@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "render/layout/theme.h"
 
 #define PI 3.14159265358979323846
@@ -110,7 +111,7 @@ static void the_difference_is_that_of_the_published_pairs(void **state)
         {{22.7233, 20.0904, -46.6940}, {23.0331, 14.9730, -42.5619}, 2.0373},
         {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082},
     };
-    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+    for (size_t i = 0; i < GM_COUNT(pairs); i++) {
         assert_float_equal(difference(pairs[i].p, pairs[i].q), pairs[i].expected, 1e-4);
     }
 }

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/schemes.h"
 #include "core/theory/polynomial.h"
 #include "core/theory/theory.h"
@@ -84,7 +85,7 @@ static void known_methods(void **unused)
         {"0,0,0|5/24,1/3,-1/24|1/6,2/3,1/6;1/6,2/3,1/6", 4, 4, 3},        /* Lobatto IIIA */
         {RADAU5("-"), 5, 5, 3},
     };
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(known); i++) {
         const struct gm_theory theory = theory_of(known[i].tableau);
         assert_int_equal(theory.order, known[i].order);
         assert_int_equal(theory.b, known[i].b);
@@ -130,7 +131,7 @@ static void wrong_methods(void **unused)
         /* the first row of Lobatto IIIA as it stands in IIIC */
         {"1/6,-1/3,1/6|5/24,1/3,-1/24|1/6,2/3,1/6;1/6,2/3,1/6", 3, "t[t[t,t]]"},
     };
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(wrong); i++) {
         const struct gm_theory theory = theory_of(wrong[i].tableau);
         assert_int_equal(theory.order, wrong[i].order);
         assert_string_equal(theory.condition, wrong[i].condition);

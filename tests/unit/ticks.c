@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "render/layout/layout.h"
 
 #define PI 3.14159265358979323846
@@ -118,7 +119,7 @@ static void odd_ranges_do_no_harm(void **state)
     (void)state;
     static const double bounds[] = {0,      -0.0,     1,         -1,  1e-310,   1e308,
                                     -1e308, INFINITY, -INFINITY, NAN, 1 + 1e-15};
-    const size_t n = sizeof bounds / sizeof *bounds;
+    const size_t n = GM_COUNT(bounds);
     for (size_t i = 0; i < n * n * 3; i++) {
         const struct gm_axis axis = {"", (enum gm_scale)(i % 3), bounds[i / 3 % n], bounds[i / 3 / n]};
         for (size_t max = 0; max <= 100; max += 5) {

@@ -13,6 +13,7 @@
 #include <cmocka.h>
 
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/formula/equations.h"
 #include "core/ode/own/own.h"
 #include "core/ode/variational/manifold.h"
@@ -120,7 +121,7 @@ static double about_z(const void *data, const double *y)
 static const char *const variational[] = {"variational-midpoint2", "variational-trapezoidal2",
                                           "variational-simpson4",  "variational-galerkin2",
                                           "variational-galerkin4", "variational-galerkin6"};
-enum { VARIATIONAL = sizeof variational / sizeof *variational };
+enum { VARIATIONAL = GM_COUNT(variational) };
 
 /* Orders are measured against GSL's stepper on the field of the system, claims on its own steps. */
 static struct gm_certificate certified(const char *text, const char *name, double dt,
@@ -187,7 +188,7 @@ static void the_same_methods(void **unused)
         {double_pendulum, "variational-midpoint2", "midpoint"},
         {pendulum_in_angles, "variational-midpoint2", "midpoint"},
     };
-    for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+    for (size_t i = 0; i < GM_COUNT(same); i++) {
         struct typed typed;
         double here[12], there[12];
         type(&typed, same[i].text);
@@ -260,7 +261,7 @@ static void constraints_are_kept(void **unused)
     go(&angles, "gauss8", 0.01, 500, of_angles);
     const double a = of_angles[0], b = of_angles[1];
     const double place[3] = {sin(a) * cos(b), sin(a) * sin(b), -cos(a)};
-    for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++) {
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         double errors[2];
         for (int finer = 0; finer < 2; finer++) {
             go(&space, schemes[i].name, 0.1 / (1 + finer), 50 * (1 + finer), end);

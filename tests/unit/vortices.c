@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -18,7 +19,7 @@ static const double strength = 2;
 static const double four[] = {1, -0.6, -1, 0.6, 0.1, 0.8, -0.1, -0.8};
 static const char *const names[] = {"explicit-euler", "rk2",    "rk4",   "implicit-euler",
                                     "midpoint",       "gauss4", "rk4sym"};
-enum { NAMES = sizeof names / sizeof names[0], TRACERS = 150 };
+enum { NAMES = GM_COUNT(names), TRACERS = 150 };
 
 static struct gm_run *open_run(const struct gm_problem *problem, const char *scheme, int compensated,
                                double dt, const double *y)

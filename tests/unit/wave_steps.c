@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "core/certify.h"
+#include "core/count.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
@@ -77,7 +78,7 @@ static void nodes_do_not_claim_too_much(void **unused)
     (void)unused;
     static const unsigned bits[] = {1, 4}; /* symmetric, keeps quadratic invariants */
     const struct gm_problem nls = nls_problem(101);
-    for (size_t i = 0; i < sizeof bits / sizeof bits[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(bits); i++) {
         struct gm_scheme wrong = *gm_scheme_find_for("euler-box", &nls);
         assert_true(gm_certify(&wrong).holds);
         wrong.claims |= 1u << bits[i];
@@ -112,7 +113,7 @@ static void nodes_are_stable_below_their_limits(void **unused)
         {&nls, "euler-box", dx * dx / 2},
     };
     static double y[2 * POINTS + 1];
-    for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+    for (size_t c = 0; c < GM_COUNT(cases); c++) {
         for (int k = 0; k < 4; k++) {
             /* backwards as well */
             const double dt = (k % 2 ? 1.06 : 0.94) * cases[c].limit * (k < 2 ? 1 : -1);
@@ -162,7 +163,7 @@ static void the_box_takes_large_steps(void **unused)
     (void)unused;
     static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.5};
     static const double steps[] = {0.5, 1.25, 1.9, 2};
-    for (size_t s = 0; s < sizeof steps / sizeof steps[0]; s++) {
+    for (size_t s = 0; s < GM_COUNT(steps); s++) {
         const double dt = steps[s];
         struct gm_problem problem = gm_problem_sine_gordon;
         problem.parameters = &breather;

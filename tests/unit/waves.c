@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "core/count.h"
 #include "core/field/families/wave_laws.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
@@ -172,7 +173,7 @@ static void bits_do_not_depend_on_bursts(void **unused)
     (void)unused;
     static const char *const names[] = {"leapfrog",     "energy-conserving", "box",       "euler-box",
                                         "midpoint-box", "gauss-box2",        "gauss-box3"};
-    for (size_t s = 0; s < sizeof names / sizeof names[0]; s++) {
+    for (size_t s = 0; s < GM_COUNT(names); s++) {
         struct gm_problem problem[3];
         struct gm_run *one = breather_run(&problem[0], names[s], 97, 0.1);
         struct gm_run *all = breather_run(&problem[1], names[s], 97, 0.1);
@@ -327,7 +328,7 @@ static void the_form_is_kept_or_not(void **unused)
                     {"energy-conserving", false}};
     enum { POINTS = 101 };
     static double y[2 * POINTS + 1];
-    for (size_t s = 0; s < sizeof of_waves / sizeof of_waves[0]; s++) {
+    for (size_t s = 0; s < GM_COUNT(of_waves); s++) {
         struct gm_problem problem = wave_problem(POINTS, 20, 0);
         problem.parameters = &breather;
         gm_sine_gordon_levels(&problem, 0, 0.1, y);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From tapes to the text of kernels. */
 #include "core/ode/own/kernel.h"
+#include "core/count.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -218,7 +219,7 @@ static void put_layout(FILE *out)
         GM_LAID_OUT(gm_explicit_own), GM_LAID_OUT(gm_implicit_row), GM_LAID_OUT(gm_splitting_row),
     };
 #undef GM_LAID_OUT
-    for (size_t i = 0; i < sizeof layout / sizeof *layout; i++) {
+    for (size_t i = 0; i < GM_COUNT(layout); i++) {
         fprintf(out, "_Static_assert(sizeof(%s) == %zu, \"of another build\");\n", layout[i].type,
                 layout[i].size);
     }

@@ -7,6 +7,7 @@
    of the processor's inverse, its adjoint by -h, of the kernel and of the processor. Hairer, Lubich & Wanner
    (2006), sections II.3, II.4, V.2, V.3.3. */
 #include "core/ode/own/scheme.h"
+#include "core/count.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -80,7 +81,7 @@ static void close_own(struct own *own)
         close_own(made);
     }
     gm_coefficients_close(&own->exact);
-    for (size_t i = 0; i < sizeof own->texts / sizeof own->texts[0]; i++) {
+    for (size_t i = 0; i < GM_COUNT(own->texts); i++) {
         free(own->texts[i]);
     }
     free(own->coefficients);
@@ -254,7 +255,7 @@ static struct own *make_nystrom(const struct making *making, const struct gm_wri
     struct own *own = open_own(sizeof(struct gm_nystrom_row));
     struct gm_ball *balls = own ? malloc((s + 3) * s * sizeof *balls) : NULL;
     struct gm_ball *at = balls, *b = balls ? balls + s * s : NULL;
-    for (size_t k = 0; balls && k < sizeof words / sizeof words[0]; k++) {
+    for (size_t k = 0; balls && k < GM_COUNT(words); k++) {
         for (int i = 0; i < lines[words[k]].rows * stages; i++) {
             *at++ = lines[words[k]].numbers[i].ball;
         }
@@ -930,7 +931,7 @@ static struct own *make_written(const struct making *making, const struct gm_wri
     const struct gm_scheme *schemes[GM_SCHEME_WORDS] = {NULL};
     struct own *made = NULL, *own = NULL;
     bool good = true;
-    for (size_t i = 0; good && i < sizeof of_schemes / sizeof of_schemes[0]; i++) {
+    for (size_t i = 0; good && i < GM_COUNT(of_schemes); i++) {
         const struct gm_written_line *line = &written->lines[of_schemes[i]];
         schemes[of_schemes[i]] = line->said ? scheme_of(making, line, &made) : NULL;
         good = !line->said || schemes[of_schemes[i]];
