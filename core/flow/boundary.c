@@ -258,6 +258,7 @@ static bool list_inflow(struct gm_flow *flow)
     size_t count = 0;
     free(inflow->point);
     free(inflow->psi);
+    free(inflow->triangle);
     *inflow = (struct gm_inflow){0};
     flow->inlet_length = 0;
     for (size_t i = 0; i < flow->openings; i++) {
@@ -265,7 +266,8 @@ static bool list_inflow(struct gm_flow *flow)
     }
     inflow->point = malloc(2 * (count + 1) * sizeof *inflow->point);
     inflow->psi = malloc((count + 1) * sizeof *inflow->psi);
-    if (!inflow->point || !inflow->psi) {
+    inflow->triangle = malloc((count + 1) * sizeof *inflow->triangle);
+    if (!inflow->point || !inflow->psi || !inflow->triangle) {
         return false;
     }
     for (size_t i = 0; i < flow->openings; i++) {
@@ -275,6 +277,8 @@ static bool list_inflow(struct gm_flow *flow)
             inflow->count > 0 ? inflow->psi[inflow->count - 1] - flow->psi[complex->boundary_vertex[e]] : 0;
         for (size_t k = 0; opening->inlet && k <= opening->count; k++, e = gm_complex_next(complex, e)) {
             const int v = complex->boundary_vertex[e];
+            const int *pair = complex->edge_triangle + 2 * (size_t)complex->boundary_edge[e];
+            inflow->triangle[inflow->count] = pair[0] >= 0 ? pair[0] : pair[1];
             inflow->point[2 * inflow->count] = complex->point[2 * v];
             inflow->point[2 * inflow->count + 1] = complex->point[2 * v + 1];
             inflow->psi[inflow->count++] = flow->psi[v] + shift;

@@ -78,6 +78,8 @@ void gm_flow_close(struct gm_flow *flow)
     free(flow->temperature_holder);
     free(flow->inflow.point);
     free(flow->inflow.psi);
+    free(flow->inflow.triangle);
+    free(flow->smoking);
     free(flow->side_of);
     free(flow);
 }
@@ -122,6 +124,7 @@ void gm_flow_close_now(struct gm_flow *now)
     if (now) {
         now->complex = NULL;
         now->source = NULL;
+        now->smoking = NULL;
         now->side_of = NULL;
     }
     gm_flow_close(now);

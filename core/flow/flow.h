@@ -32,6 +32,13 @@ struct gm_inflow {
     size_t count;
     double *point; /* 2 each */
     double *psi;   /* monotonic */
+    int *triangle; /* on the boundary edge that begins there */
+};
+
+/* A point of a triangle. */
+struct gm_flow_place {
+    double x[2];
+    int triangle;
 };
 
 /* A piece of the boundary through which air enters or leaves. */
@@ -73,6 +80,9 @@ struct gm_flow {
     double *temperature;
     unsigned char *temperature_holder;
     size_t tracers;
+    bool smoke; /* tracers come in one after the other, where air does and at the places of sources */
+    struct gm_flow_place *smoking;
+    size_t smoking_count;
     struct gm_inflow inflow;
     /* Where what the boundary gives changes in time: has `now` give what it does at the time t. False where
        that is no boundary: something is not finite, or flows do not balance. NULL: nothing changes. */
@@ -99,7 +109,8 @@ enum gm_flow_block {
     GM_FLOW_MOST_BLOCKS,
 };
 
-/* Numbers of a tracer: its place, its triangle, and its age in steps. */
+/* Numbers of a tracer: its place, its triangle, and its age in steps; one that is still to come in has a negative
+   age, and the place where it will. */
 enum { GM_TRACER_X, GM_TRACER_Y, GM_TRACER_TRIANGLE, GM_TRACER_AGE, GM_TRACER_NUMBERS };
 
 extern const struct gm_kind gm_kind_flow;

@@ -21,8 +21,7 @@ static const struct {
     [GM_ROOM_INLET] = {"inlet", 1u << GM_ROOM_SPEED | 1u << GM_ROOM_FLOW | CARRIED, 0},
     [GM_ROOM_OUTLET] = {"outlet", 1u << GM_ROOM_FLOW, 0},
     [GM_ROOM_WALL] = {"wall", CARRIED | 1u << GM_ROOM_TANGENTIAL, 0},
-    [GM_ROOM_SOURCE] = {"source", 1u << GM_ROOM_RATE | 1u << GM_ROOM_X | 1u << GM_ROOM_Y,
-                        1u << GM_ROOM_RATE | 1u << GM_ROOM_X | 1u << GM_ROOM_Y},
+    [GM_ROOM_SOURCE] = {"source", 1u << GM_ROOM_RATE | 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_RATE},
     [GM_ROOM_PROBE] = {"probe", 1u << GM_ROOM_X | 1u << GM_ROOM_Y, 1u << GM_ROOM_X | 1u << GM_ROOM_Y},
     [GM_ROOM_START] = {"start", CARRIED, 0},
 };
@@ -156,6 +155,10 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
             return gm_fail(fault, line->place, "%s: needs %s =", words[line->word].word, keys[key]);
         }
     }
+    const unsigned place = 1u << GM_ROOM_X | 1u << GM_ROOM_Y;
+    if (given & place && (given & place) != place) {
+        return gm_fail(fault, line->place, "%s: has x = and y =, or neither", words[line->word].word);
+    }
     const struct {
         enum gm_room_word word;
         unsigned some;
@@ -221,6 +224,7 @@ static bool read_single(struct gm_room *room, struct gm_text_line line, bool *me
         {"about", &room->about, NULL, false},
         {"mesh", &room->mesh, NULL, false},
         {"units", &room->units, NULL, false},
+        {"scalar", &room->scalar, NULL, false},
         {"viscosity", NULL, &room->viscosity, false},
         {"diffusivity", NULL, &room->diffusivity, false},
         {"reynolds", NULL, &room->reynolds, false},
@@ -334,11 +338,12 @@ bool gm_room_read(struct gm_room *room, const char *text, size_t length, struct 
             }
         }
         if (!met) {
-            return gm_fail(fault, line.word.begin,
-                           "a room has no line %.*s:; it has geomint: title: about: mesh: units: viscosity: "
-                           "diffusivity: reynolds: schmidt: buoyancy: reference-temperature: dt: until: "
-                           "inlet: outlet: wall: source: probe: start:",
-                           (int)(letters < 40 ? letters : 40), word);
+            return gm_fail(
+                fault, line.word.begin,
+                "a room has no line %.*s:; it has geomint: title: about: mesh: units: scalar: viscosity: "
+                "diffusivity: reynolds: schmidt: buoyancy: reference-temperature: dt: until: "
+                "inlet: outlet: wall: source: probe: start:",
+                (int)(letters < 40 ? letters : 40), word);
         }
     }
     if (fault->sentence[0] || room->graph.failed) {
@@ -361,6 +366,7 @@ void gm_room_close(struct gm_room *room)
     free(room->about);
     free(room->mesh);
     free(room->units);
+    free(room->scalar);
     *room = (struct gm_room){0};
 }
 
@@ -427,6 +433,34 @@ static bool start_carried(const struct gm_room *room, const struct gm_room_line 
     return true;
 }
 
+/* A place where tracers come in; false: out of memory. */
+static bool add_smoking(struct gm_flow *flow, struct gm_flow_place place)
+{
+    struct gm_flow_place *more = realloc(flow->smoking, (flow->smoking_count + 1) * sizeof *more);
+    if (more) {
+        flow->smoking = more;
+        more[flow->smoking_count++] = place;
+    }
+    return more != NULL;
+}
+
+/* A source without a place: its rate is that of a unit of area, everywhere. */
+static bool spread_source(const struct gm_room *room, const struct gm_room_line *line, struct gm_flow *flow,
+                          double *scratch, struct gm_fault *fault)
+{
+    const struct gm_complex *complex = flow->complex;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        const double place[VARIABLES] = {0, complex->point[2 * v], complex->point[2 * v + 1], 0},
+                     rate = gm_room_value(room, line, GM_ROOM_RATE, place, 0, scratch);
+        if (!isfinite(rate)) {
+            return gm_fail(fault, line->value[GM_ROOM_RATE].place, "the rate is not finite at (%.4g, %.4g)",
+                           place[X], place[Y]);
+        }
+        flow->source[v] += complex->star0[v] * rate;
+    }
+    return true;
+}
+
 /* Sources, probes that must lie in the room, and what is carried at the start. */
 static bool place_things(const struct gm_room *room, struct gm_flow *flow, double *scratch,
                          struct gm_fault *fault)
@@ -446,6 +480,12 @@ static bool place_things(const struct gm_room *room, struct gm_flow *flow, doubl
             }
             continue;
         }
+        if (line->value[GM_ROOM_X].place == 0) {
+            if (!spread_source(room, line, flow, scratch, fault)) {
+                return false;
+            }
+            continue;
+        }
         double at[2], w[3];
         gm_room_point(room, line, scratch, at);
         const double place[VARIABLES] = {0, at[0], at[1], 0},
@@ -457,6 +497,10 @@ static bool place_things(const struct gm_room *room, struct gm_flow *flow, doubl
         }
         if (!isfinite(rate)) {
             return gm_fail(fault, line->value[GM_ROOM_RATE].place, "the rate is not finite");
+        }
+        if (line->word == GM_ROOM_SOURCE &&
+            !add_smoking(flow, (struct gm_flow_place){{at[0], at[1]}, (int)triangle})) {
+            return false;
         }
         for (int k = 0; k < 3; k++) {
             flow->source[complex->triangle[3 * triangle + (size_t)k]] += w[k] * rate;

@@ -48,7 +48,8 @@ struct gm_room {
     struct gm_formula graph;
     struct gm_room_line *lines;
     size_t count;
-    char *title, *about, *mesh, *units; /* "": not given */
+    char *title, *about, *mesh, *units; /* NULL: not given */
+    char *scalar;                       /* what pictures call what is carried; NULL: a concentration */
     double viscosity, diffusivity, reynolds,
         schmidt; /* NAN: not given; the former two are made of the latter */
     bool timed;  /* something that the boundary gives holds t */

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/flow/tracers.h"
 #include "core/flow/unknowns.h"
 #include "core/linear/cholesky.h"
 
@@ -60,6 +61,9 @@ static void complete_start(const struct gm_flow *flow, double *y)
         tracer[GM_TRACER_X] = w[0] * p[0] + w[1] * p[2] + w[2] * p[4];
         tracer[GM_TRACER_Y] = w[0] * p[1] + w[1] * p[3] + w[2] * p[5];
         tracer[GM_TRACER_TRIANGLE] = (double)t;
+    }
+    if (flow->smoke && (flow->inflow.count > 1 || flow->smoking_count > 0)) {
+        gm_tracers_wait(flow, y);
     }
 }
 

@@ -5,11 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-struct place {
-    double x[2];
-    int triangle;
-};
-
 /* Barycentric coordinates of a point; on a torus of its image next to the triangle. */
 static void coordinates(const struct gm_complex *complex, int triangle, const double x[2], double w[3])
 {
@@ -27,7 +22,7 @@ static void coordinates(const struct gm_complex *complex, int triangle, const do
 }
 
 /* Walks from place->triangle towards the point; false where the walk leaves the mesh. */
-static bool locate(const struct gm_complex *complex, struct place *place, double w[3])
+static bool locate(const struct gm_complex *complex, struct gm_flow_place *place, double w[3])
 {
     enum { FARTHEST = 1000 };
     for (int i = 0; i < FARTHEST; i++) {
@@ -50,8 +45,8 @@ static bool locate(const struct gm_complex *complex, struct place *place, double
     return false;
 }
 
-static void velocity_at(const struct gm_complex *complex, const double *velocities, const struct place *place,
-                        const double w[3], double u[2])
+static void velocity_at(const struct gm_complex *complex, const double *velocities,
+                        const struct gm_flow_place *place, const double w[3], double u[2])
 {
     const int *t = complex->triangle + 3 * place->triangle;
     for (int c = 0; c < 2; c++) {
@@ -60,13 +55,14 @@ static void velocity_at(const struct gm_complex *complex, const double *velociti
     }
 }
 
-static bool move(const struct gm_complex *complex, const double *velocities, double dt, struct place *place)
+static bool move(const struct gm_complex *complex, const double *velocities, double dt,
+                 struct gm_flow_place *place)
 {
     double w[3], u[2];
     if (!locate(complex, place, w)) {
         return false;
     }
-    const struct place start = *place;
+    const struct gm_flow_place start = *place;
     for (int stage = 1; stage <= 2; stage++) {
         velocity_at(complex, velocities, place, w, u);
         for (int c = 0; c < 2; c++) {
@@ -98,7 +94,7 @@ static bool at_outlet(const struct gm_flow *flow, int triangle)
 }
 
 /* A point of the inflow line, by the share of the flux that enters below it. */
-static void enter(const struct gm_flow *flow, double share, struct place *place)
+static void enter_with_air(const struct gm_flow *flow, double share, struct gm_flow_place *place)
 {
     const struct gm_inflow *inflow = &flow->inflow;
     const double first = inflow->psi[0], last = inflow->psi[inflow->count - 1],
@@ -109,27 +105,68 @@ static void enter(const struct gm_flow *flow, double share, struct place *place)
     }
     const double across = inflow->psi[i + 1] - inflow->psi[i], /* 0 while nothing enters */
         s = across != 0 ? (psi - inflow->psi[i]) / across : share;
+    place->triangle = inflow->triangle[i];
     for (int c = 0; c < 2; c++) {
         place->x[c] = inflow->point[2 * i + (size_t)c] +
                       s * (inflow->point[2 * i + 2 + (size_t)c] - inflow->point[2 * i + (size_t)c]);
     }
 }
 
+/* Where a tracer comes in, at its step: with the air of inlets or, every fourth of smoke, at a source. */
+static void enter(const struct gm_flow *flow, size_t tracer, long step, struct gm_flow_place *place)
+{
+    const bool smokes = flow->smoking_count > 0 && (tracer % 4 == 0 || flow->inflow.count == 0);
+    double w[3];
+    if (smokes) {
+        *place = flow->smoking[tracer / 4 % flow->smoking_count];
+    } else if (flow->inflow.count > 1) {
+        const double turn = 0.6180339887498949 * (double)step + 0.7548776662466927 * (double)tracer;
+        enter_with_air(flow, fmod(turn, 1), place);
+    }
+    locate(flow->complex, place, w); /* it comes near; the next step goes on from there */
+}
+
+void gm_tracers_wait(const struct gm_flow *flow, double *y)
+{
+    double *tracer = y + gm_flow_block_numbers(flow) + 1;
+    for (size_t i = 0; i < flow->tracers; i++, tracer += GM_TRACER_NUMBERS) {
+        struct gm_flow_place place = {{tracer[GM_TRACER_X], tracer[GM_TRACER_Y]},
+                                      (int)tracer[GM_TRACER_TRIANGLE]};
+        enter(flow, i, 0, &place);
+        tracer[GM_TRACER_X] = place.x[0];
+        tracer[GM_TRACER_Y] = place.x[1];
+        tracer[GM_TRACER_TRIANGLE] = place.triangle;
+        tracer[GM_TRACER_AGE] = -1 - (double)i;
+    }
+}
+
+/* How many tracers come in during a step: each stands for as much air as it would if they filled the room. Where
+   no air comes in, one does in two steps. */
+static double incoming(const struct gm_flow *flow, double dt)
+{
+    const struct gm_inflow *inflow = &flow->inflow;
+    return inflow->count > 1
+               ? (double)flow->tracers * dt * fabs(inflow->psi[inflow->count - 1] - inflow->psi[0]) /
+                     flow->complex->total_area
+               : 0.5;
+}
+
 void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, long step,
                       const double *y, double *out)
 {
     const struct gm_complex *complex = flow->complex;
+    const double rate = flow->smoke ? incoming(flow, dt) : 0;
     for (size_t i = 0; i < flow->tracers; i++) {
         const double *from = gm_flow_tracer(flow, y, i);
         double *to = out + (from - y);
-        struct place place = {{from[GM_TRACER_X], from[GM_TRACER_Y]}, (int)from[GM_TRACER_TRIANGLE]};
-        double age = from[GM_TRACER_AGE] + 1;
-        if (!move(complex, velocities, dt, &place) && at_outlet(flow, place.triangle)) {
-            const double turn = 0.6180339887498949 * (double)step + 0.7548776662466927 * (double)i;
-            double w[3];
-            enter(flow, fmod(turn, 1), &place);
+        struct gm_flow_place place = {{from[GM_TRACER_X], from[GM_TRACER_Y]}, (int)from[GM_TRACER_TRIANGLE]};
+        const bool waits = from[GM_TRACER_AGE] < 0;
+        double age = from[GM_TRACER_AGE] + (waits ? rate : 1);
+        const bool leaves =
+            !waits && !move(complex, velocities, dt, &place) && at_outlet(flow, place.triangle);
+        if (leaves || (waits && age >= 0)) {
+            enter(flow, i, step, &place);
             age = 0;
-            locate(complex, &place, w); /* it comes near; the next step goes on from there */
         }
         to[GM_TRACER_X] = place.x[0];
         to[GM_TRACER_Y] = place.x[1];

@@ -11,4 +11,7 @@
 void gm_tracers_carry(const struct gm_flow *flow, const double *velocities, double dt, long step,
                       const double *y, double *out);
 
+/* Has the tracers of the start y wait outside, to come in one after the other. */
+void gm_tracers_wait(const struct gm_flow *flow, double *y);
+
 #endif

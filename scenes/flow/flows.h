@@ -35,7 +35,7 @@ struct gm_flows {
     double reynolds, schmidt, viscosity, irregular, inlet_scalar, speed;
     long rows, columns, tracers;
     char mesh[GM_TEXT_SIZE], inlet[GM_TEXT_SIZE], outlet[GM_TEXT_SIZE], lid[GM_TEXT_SIZE];
-    int show, streamlines, arrows, grid, domain, star;
+    int show, streamlines, arrows, grid, domain, star, smoke;
     const struct gm_own_room *room; /* of a file's (scenes/flow/own_room.h) */
 };
 
@@ -50,6 +50,9 @@ struct gm_flows {
 #define GM_FLOWS_TRACERS(count)                                                                              \
     GM_INTEGER_ROW(struct gm_flows, tracers, "tracers", count, 0, 20000,                                     \
                    "particles that the flow carries along", .logarithmic = true)
+#define GM_FLOWS_SMOKE                                                                                       \
+    GM_BOOLEAN_ROW(struct gm_flows, smoke, "smoke", "no",                                                    \
+                   "tracers come in at inlets and sources, and do not fill the room at the start")
 #define GM_FLOWS_LOOKS(shown, streamlines_shown)                                                             \
     GM_CHOICE_ROW(struct gm_flows, show, "show", shown, gm_flows_shows, "what the picture shows",            \
                   .live = true),                                                                             \

@@ -134,8 +134,13 @@ void gm_flow_draw_tracers(struct gm_picture *picture, struct gm_panel *panel, co
         return;
     }
     const double lag = 0.012 * size; /* over the speed 1 */
-    for (size_t i = 0; i < count; i++) {
-        const double *tracer = gm_flow_tracer(flow, y, i);
+    size_t met = 0;
+    for (size_t k = 0; k < count; k++) {
+        const double *tracer = gm_flow_tracer(flow, y, k);
+        if (tracer[GM_TRACER_AGE] < 0) {
+            continue;
+        }
+        const size_t i = met++;
         double u[2];
         gm_flow_velocity(flow->complex, y, (size_t)tracer[GM_TRACER_TRIANGLE], u);
         dots[2 * i] = tails[6 * i] = tracer[GM_TRACER_X];
@@ -145,8 +150,8 @@ void gm_flow_draw_tracers(struct gm_picture *picture, struct gm_panel *panel, co
         tails[6 * i + 4] = tails[6 * i + 5] = NAN;
     }
     const enum gm_role role = over ? GM_OVER : GM_INK;
-    gm_mark_line(picture, panel, (struct gm_style){role, 0.55, 1.5, GM_SOLID}, tails, 3 * count, false);
-    gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.85, .width = 2.4}, dots, count);
+    gm_mark_line(picture, panel, (struct gm_style){role, 0.55, 1.5, GM_SOLID}, tails, 3 * met, false);
+    gm_mark_points(picture, panel, (struct gm_style){.role = role, .alpha = 0.85, .width = 2.4}, dots, met);
 }
 
 /* Arrows on an even grid, at the nearest vertices. */

@@ -30,8 +30,9 @@ struct gm_own_room {
     const char *sides[GM_ROOM_SIDES]; /* names, by the number of the side */
     struct gm_observable observables[MOST_OBSERVED];
     struct subject subjects[MOST_OBSERVED];
-    bool overfull;                                          /* there are more */
-    const char *doubled;                                    /* a key that two of them have; NULL: none */
+    bool overfull;       /* there are more */
+    const char *doubled; /* a key that two of them have; NULL: none */
+    char scalar_titles[4][128];
     char observed[MOST_OBSERVED][2][2 * GM_ROOM_NAME + 32]; /* keys and titles */
     size_t observable_count;
 };
@@ -189,6 +190,7 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     flow->viscosity = chosen->viscosity;
     flow->diffusivity = chosen->viscosity / chosen->schmidt;
     flow->tracers = (size_t)chosen->tracers;
+    flow->smoke = chosen->smoke;
     gm_flows_problem(problem, flow, "room");
     return true;
 }
@@ -236,6 +238,25 @@ static const char *unit_of(struct gm_picture *picture, const struct gm_own_room 
     return gm_picture_text(picture, "%.*s", (int)strcspn(at, ", "), at);
 }
 
+/* About the largest that sources make of the scalar: twice what the air has when it leaves. */
+static double enriched(const struct gm_flow *flow)
+{
+    double sum = 0, through = 0;
+    for (size_t v = 0; v < flow->complex->vertices; v++) {
+        sum += flow->source[v];
+    }
+    for (size_t i = 0; i < flow->openings; i++) {
+        through += flow->opening[i].inlet ? flow->opening[i].flow : 0;
+    }
+    return through > 0 ? 2 * sum / through : 0;
+}
+
+static double scalar_mean(const struct gm_view *view)
+{
+    const struct gm_flow *flow = gm_flow_of(view->problem);
+    return gm_flow_scalar_total(flow, view->state) / flow->complex->total_area;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_own_room *own = rooms_of(lanes[0]->parameters);
@@ -250,6 +271,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
             warm[k] = k == 0 ? fmin(warm[k], flow->temperature[v]) : fmax(warm[k], flow->temperature[v]);
         }
     }
+    high = fmax(high, enriched(flow));
     warm[1] = warm[1] > warm[0] ? warm[1] : warm[0] + 1;
     /* what buoyancy makes of a free fall, a quarter of it: the fastest of convection in a closed room */
     const double size = sqrt(flow->complex->total_area),
@@ -262,12 +284,15 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .axes = {units ? gm_picture_text(picture, "x / %s", length) : "x",
                  units ? gm_picture_text(picture, "y / %s", length) : "y"},
         .scalar_high = high > 0 ? high : 1,
+        .scalar_name = own->room.scalar,
         .temperature = {warm[0], warm[1]},
         .temperature_name = degree[0] ? gm_picture_text(picture, "temperature / %s", degree) : "temperature",
         .vorticity_range = 6 * speed / fmax(flow->inlet_length, size / 10),
         .speed_high = 1.2 * speed,
         .sides = own->sides,
-        .graphs = {flow->heat ? "temperature_mean" : "scalar_total",
+        .graphs = {flow->heat         ? "temperature_mean"
+                   : own->room.scalar ? "scalar_mean"
+                                      : "scalar_total",
                    flow->heat ? "kinetic_energy" : "scalar_outflow"},
     };
     gm_flows_draw(lanes, count, picture, &look);
@@ -304,6 +329,28 @@ static void observe(struct gm_own_room *own, const char *name, const char *what,
     own->observable_count++;
 }
 
+/* The mean of the scalar, and titles of what it has in common with all rooms where it has a name. */
+static void name_scalar(struct gm_own_room *own)
+{
+    static const struct {
+        const char *key, *title;
+    } titles[] = {{"scalar_mean", "mean %s"},
+                  {"scalar_total", "integral of %s"},
+                  {"scalar_outflow", "outflow of %s"},
+                  {"budget_defect", "defect of the budget of %s"}};
+    own->observables[own->observable_count++] =
+        (struct gm_observable)GM_OBSERVABLE("scalar_mean", scalar_mean, "mean concentration");
+    for (size_t k = 0; k < GM_COUNT(titles) && own->room.scalar; k++) {
+        for (size_t i = 0; i < own->observable_count; i++) {
+            if (strcmp(own->observables[i].key, titles[k].key) == 0) {
+                snprintf(own->scalar_titles[k], sizeof own->scalar_titles[k], titles[k].title,
+                         own->room.scalar);
+                own->observables[i].title = own->scalar_titles[k];
+            }
+        }
+    }
+}
+
 static bool make_observables(struct gm_own_room *own, const struct gm_triangulation *mesh)
 {
     double *scratch = malloc((own->room.graph.count + 1) * sizeof *scratch);
@@ -318,6 +365,7 @@ static bool make_observables(struct gm_own_room *own, const struct gm_triangulat
     memcpy(own->observables, common, sizeof common);
     own->observable_count = GM_COUNT(common);
     const struct gm_room *room = &own->room;
+    name_scalar(own);
     const bool heat = !isnan(room->buoyancy);
     if (heat) {
         own->observables[own->observable_count++] =
@@ -370,6 +418,7 @@ static void make_rows(struct gm_own_room *own)
                     "Schmidt number, viscosity / diffusivity", .logarithmic = true),
         GM_FLOWS_STAR,
         GM_FLOWS_TRACERS("350"),
+        GM_FLOWS_SMOKE,
         GM_FLOWS_LOOKS("scalar", "yes"),
     };
     memcpy(own->rows, rows, sizeof rows);

@@ -127,8 +127,7 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
     }
     const double size = fmax(box[1] - box[0], box[3] - box[2]),
                  edge = complex->boundary > 0 ? 0.006 * size : 0;
-    const double side = flow->inflow.count > 0 && named ? 0.1 * size : edge;
-    panel->x = (struct gm_axis){.label = "", .low = box[0] - side, .high = box[1] + side};
+    double side = flow->inflow.count > 0 && named ? 0.1 * size : edge;
     /* names of openings stand outside, above and below too */
     bool stands[2] = {false, false};
     for (size_t i = 0; named && i < flow->openings; i++) {
@@ -136,8 +135,12 @@ static struct gm_panel *draw_state(struct gm_picture *picture, const struct gm_l
         gm_flow_opening_outward(flow, &flow->opening[i], outward);
         if (fabs(outward[0]) < fabs(outward[1])) {
             stands[outward[1] > 0] = true;
+        } else if (look->sides) {
+            const double letters = (double)strlen(look->sides[flow->opening[i].side]);
+            side = fmax(side, fmin(0.021 * letters, 0.25) * size);
         }
     }
+    panel->x = (struct gm_axis){.label = "", .low = box[0] - side, .high = box[1] + side};
     panel->y = (struct gm_axis){.label = "",
                                 .low = box[2] - (stands[0] ? 0.06 * size : edge),
                                 .high = box[3] + (stands[1] ? 0.06 * size : edge)};

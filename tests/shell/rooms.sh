@@ -99,6 +99,15 @@ grep -q 'after t = 2 led to no number: no more enters by the profile' out || fai
 "$geomint" run ./rising.room scheme=steady >out 2>err
 grep -q 'changes in time, and so there is no steady state' out || fail "a steady state of what changes"
 
+# the age of air: in a steady state as much of it leaves as there is air in the room
+status 0 run "$rooms/age.room" scheme=steady --json
+within budget_defect 0 1e-13
+within scalar_outflow 11.1 11.4 # the area, but for the cells of inlets
+within scalar_mean 66 68
+within seat_scalar 49 51
+status 0 run "$rooms/office.room" smoke=yes steps=2 --json
+status 0 render "$rooms/age.room" until=1 smoke=yes --size 320x200 --out pictures
+
 # a mesh with two inlets and two outlets by the short form; the lists are groups, and not lanes
 status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 steps=2 --json
 [ "$(wc -l <out)" -eq 1 ] || fail "groups became lanes"
@@ -141,6 +150,9 @@ wrong 'viscosity: and reynolds: say the same' 'reynolds: 100'
 wrong 'diffusivity: and schmidt: say the same' 'diffusivity: 1\nschmidt: 1'
 wrong 'schmidt: is a positive number' 'schmidt: 0'
 wrong 'source: needs rate =' 'source: printer x = 1 y = 1'
+wrong 'source: has x = and y =, or neither' 'source: printer x = 1 rate = 1'
+wrong 'the rate is not finite at (0, ' 'source: printer rate = 1/x'
+wrong 'scalar: is given twice' 'scalar: age\nscalar: dust'
 wrong 'viscosity: is a positive number' '' 's/0.01/-1/'
 wrong 'a room needs a line viscosity:' '' '/viscosity/d'
 wrong 'an inlet but no outlet' '' '/outlet/d'

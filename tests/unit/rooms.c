@@ -15,6 +15,7 @@
 #include "core/flow/boundary.h"
 #include "core/flow/rectangle.h"
 #include "core/flow/start.h"
+#include "core/flow/tracers.h"
 #include "core/run.h"
 #include "core/schemes.h"
 #include "tests/common/meshes.h"
@@ -340,6 +341,55 @@ static void flows_are_shared(void **unused)
     gm_flow_close(flow);
 }
 
+/* As many tracers come in as stand for the air that does, those of sources at their place; none is seen before. */
+static void smoke_comes_in(void **unused)
+{
+    (void)unused;
+    enum { TRACERS = 400, STEPS = 25 };
+    const double dt = 0.04;
+    struct gm_flow *flow = open_room(0.15);
+    struct gm_flow_place *source = calloc(1, sizeof *source);
+    assert_non_null(source);
+    for (int k = 0; k < 3; k++) {
+        const double *corner = flow->complex->point + 2 * flow->complex->triangle[k];
+        source->x[0] += corner[0] / 3;
+        source->x[1] += corner[1] / 3;
+    }
+    flow->tracers = TRACERS;
+    flow->smoke = true;
+    flow->smoking = source;
+    flow->smoking_count = 1;
+    double in = 0;
+    size_t at_source = 0;
+    for (size_t i = 0; i < flow->openings; i++) {
+        in += flow->opening[i].inlet ? flow->opening[i].flow : 0;
+    }
+    double *y = malloc(gm_flow_size(flow) * sizeof *y),
+           *velocities = malloc(3 * flow->complex->vertices * sizeof *velocities);
+    assert_true(y && velocities && gm_flow_start_irrotational(flow, y));
+    gm_flow_vertex_velocities(flow->complex, y, velocities);
+    for (long step = 0; step <= STEPS; step++) {
+        size_t inside = 0;
+        for (size_t i = 0; i < TRACERS; i++) {
+            const double *tracer = gm_flow_tracer(flow, y, i);
+            const bool fresh = tracer[GM_TRACER_AGE] == 0;
+            inside += tracer[GM_TRACER_AGE] >= 0;
+            at_source += fresh && tracer[GM_TRACER_X] == source->x[0] && tracer[GM_TRACER_Y] == source->x[1];
+            assert_true(!fresh || i % 4 != 0 || tracer[GM_TRACER_X] == source->x[0]);
+        }
+        const double due = TRACERS * in * dt * (double)step / flow->complex->total_area;
+        if (!(fabs((double)inside - due) <= 1)) {
+            fail_msg("%zu tracers are in after %ld steps, %.2f are due", inside, step, due);
+        }
+        gm_tracers_carry(flow, velocities, dt, step, y, y);
+    }
+    const double all = TRACERS * in * dt * STEPS / flow->complex->total_area;
+    assert_true(all > 20 && fabs((double)at_source - all / 4) <= 1);
+    free(y);
+    free(velocities);
+    gm_flow_close(flow);
+}
+
 static double rises(const void *data, double s, const double at[2])
 {
     return (void)data, (void)at, s;
@@ -595,10 +645,15 @@ int main(int count, char *words[])
 {
     const struct CMUnitTest published[] = {cmocka_unit_test(natural_convection)};
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(orders),           cmocka_unit_test(circulation_is_found),
-        cmocka_unit_test(flows_are_shared), cmocka_unit_test(pressure_is_single_valued),
-        cmocka_unit_test(kelvin),           cmocka_unit_test(air_rises_at_a_hot_wall),
-        cmocka_unit_test(layers_rest),      cmocka_unit_test(pieces_follow_each_other),
+        cmocka_unit_test(orders),
+        cmocka_unit_test(circulation_is_found),
+        cmocka_unit_test(flows_are_shared),
+        cmocka_unit_test(pressure_is_single_valued),
+        cmocka_unit_test(kelvin),
+        cmocka_unit_test(air_rises_at_a_hot_wall),
+        cmocka_unit_test(smoke_comes_in),
+        cmocka_unit_test(layers_rest),
+        cmocka_unit_test(pieces_follow_each_other),
     };
     return count > 1 && strcmp(words[1], "numbers") == 0 ? cmocka_run_group_tests(published, NULL, NULL)
                                                          : cmocka_run_group_tests(tests, NULL, NULL);
