@@ -30,15 +30,16 @@ struct gm_task {
     double *carry_out;
     const double *memory; /* the scheme's own, as its family says; NULL if it has none */
     double *memory_out;
-    double t; /* the present time, t0 + n dt of this segment */
+    double t;     /* the present time, t0 + n dt of this segment */
+    double until; /* of a scheme that chooses its step: it ends with the step that reaches this time */
     double t0;
     long n;
     void *workspace; /* what the family opened for this run */
     const struct gm_settings *settings;
 };
 
-/* What it did. `done` steps succeeded for every member; if that is less than task.steps, `out` is
-   void and `status` says why step done + 1 failed. Counts are sums over the members. */
+/* What it did. `done` steps succeeded for every member; if that is less than task.steps and `until` was not
+   reached, `out` is void and `status` says why step done + 1 failed. Counts are sums over the members. */
 struct gm_progress {
     long done;
     enum gm_status status;

@@ -78,6 +78,7 @@ static struct gm_task task_of(const struct gm_run *run, int from, int to, long s
         .memory = remembers ? y + count + carried : NULL,
         .memory_out = remembers ? out + count + carried : NULL,
         .t = run->t,
+        .until = INFINITY,
         .t0 = run->t0,
         .n = run->n,
         .workspace = run->workspace,
@@ -146,12 +147,13 @@ double gm_run_per_member(const struct gm_run *run, unsigned long count)
     return (double)count / (double)run->problem->m;
 }
 
-enum gm_status gm_run_advance(struct gm_run *run, long steps)
+static enum gm_status advance(struct gm_run *run, long steps, double until)
 {
     if (run->status != GM_OK || steps <= 0) {
         return run->status;
     }
     struct gm_task task = task_of(run, run->current, 1 - run->current, steps);
+    task.until = until;
     const struct gm_family *family = run->scheme->family;
     gm_loop *loop = gm_scheme_loop(run->scheme, run->problem);
     const unsigned long refusals = gm_memory_refusals();
@@ -160,7 +162,7 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
         /* whatever the steps came to for want of memory, in factors or in a solution, is not theirs */
         return run->status = GM_OUT_OF_MEMORY;
     }
-    if (progress.done < steps) {
+    if (progress.done < steps && !(family->own_time && progress.status == GM_OK)) {
         /* loops that do not tell the failed step's iterations apart have counted them among the others */
         const struct gm_progress attempt = progress;
         run->status = progress.status;
@@ -184,6 +186,11 @@ enum gm_status gm_run_advance(struct gm_run *run, long steps)
     run->steps += progress.done;
     run->t = family->own_time ? progress.t : run->t0 + (double)run->n * run->dt;
     return run->status;
+}
+
+enum gm_status gm_run_advance(struct gm_run *run, long steps)
+{
+    return advance(run, steps, INFINITY);
 }
 
 bool gm_run_repeats(const struct gm_run *run)
@@ -247,17 +254,22 @@ long gm_run_steps_by(const struct gm_run *run, double t)
     return run->steps + (long)floor(fmin(ahead * (1 + 1e-12) + 1e-6, 1e15));
 }
 
+/* An end that is missed by round-off is reached. */
+static double reached_from(double until)
+{
+    return isfinite(until) ? until - 1e-12 * fabs(until) : until;
+}
+
 bool gm_run_goes_on(const struct gm_run *run, long steps, double until)
 {
-    const bool there = run->scheme->family->own_time && run->t >= until - 1e-12 * fabs(until);
+    const bool there = run->scheme->family->own_time && run->t >= reached_from(until);
     return run->status == GM_OK && run->steps < steps && !there;
 }
 
 enum gm_status gm_run_to(struct gm_run *run, long steps, double until)
 {
-    const bool own_time = run->scheme->family->own_time;
     while (gm_run_goes_on(run, steps, until)) {
-        gm_run_advance(run, own_time ? 1 : steps - run->steps);
+        advance(run, steps - run->steps, reached_from(until));
     }
     return run->status;
 }

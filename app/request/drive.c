@@ -153,8 +153,8 @@ bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message
     return true;
 }
 
-/* What the scene knows of a step that led to no number; false if it knows nothing. */
-static bool tell_part(const struct gm_lane *lane, char *text, size_t size)
+/* What the scene knows of a step that failed, `how`; false if it knows nothing. */
+static bool tell_part(const struct gm_lane *lane, const char *how, char *text, size_t size)
 {
     char part[GM_MESSAGE / 2] = "";
     const struct gm_view view = gm_lane_view(lane);
@@ -162,7 +162,7 @@ static bool tell_part(const struct gm_lane *lane, char *text, size_t size)
         lane->scene->failure(&view, part, sizeof part);
     }
     if (part[0]) {
-        snprintf(text, size, "the step after t = %.6g led to no number: %s", view.t, part);
+        snprintf(text, size, "the step after t = %.6g %s: %s", view.t, how, part);
     }
     return part[0] != '\0';
 }
@@ -175,7 +175,7 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
     case GM_OK:
         return;
     case GM_BLOW_UP:
-        if (tell_part(lane, text, size)) {
+        if (tell_part(lane, "led to no number", text, size)) {
             return;
         }
         snprintf(text, size, "the step after t = %.6g led beyond %.3g, or to no number at all", run->t,
@@ -183,7 +183,7 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         return;
     case GM_NO_CONVERGENCE: {
         const double iterations = gm_run_per_member(run, run->failed_iterations);
-        if (tell_part(lane, text, size)) {
+        if (tell_part(lane, "led to no number", text, size)) {
             return;
         }
         if (iterations < 1) {
@@ -203,6 +203,9 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size)
         snprintf(text, size, "the mesh would have tangled in the step after t = %.6g", run->t);
         return;
     case GM_STEP_COLLAPSE:
+        if (tell_part(lane, "was not found", text, size)) {
+            return;
+        }
         snprintf(text, size, "the scheme found no step to continue with after t = %.6g", run->t);
         return;
     case GM_OUT_OF_MEMORY:

@@ -289,6 +289,7 @@ static bool find_schemes(struct gm_request *request, char *message)
 {
     const struct gm_scene *scene = request->scene;
     const struct gm_scheme *unfit = NULL;
+    const char *lacks = NULL;
     for (size_t i = 0; i < request->count && !unfit; i++) {
         struct gm_problem problem = {0};
         if (is_repeated(request, i)) {
@@ -306,6 +307,7 @@ static bool find_schemes(struct gm_request *request, char *message)
             if (memcmp(spec->parameters, request->lanes[i].parameters, scene->size) == 0) {
                 spec->scheme = gm_scheme_find_for(spec->scheme->name, &problem);
                 unfit = gm_scheme_fits(spec->scheme, &problem) ? NULL : spec->scheme;
+                lacks = unfit ? gm_scheme_lacks(unfit, &problem) : NULL;
             }
         }
         if (scene->close) {
@@ -315,8 +317,8 @@ static bool find_schemes(struct gm_request *request, char *message)
     char words[256];
     gm_arguments_tell_scene(scene, words, sizeof words);
     return !unfit ||
-           gm_refuse(message, "scheme %s does not fit scene %s; geomint list %s names those that do",
-                     unfit->name, scene->name, words);
+           gm_refuse(message, "scheme %s does not fit scene %s%s%s; geomint list %s names those that do",
+                     unfit->name, scene->name, lacks ? ": it needs " : "", lacks ? lacks : "", words);
 }
 
 /* Evaluations per model time over the first steps; NAN with a sentence if there are none. */

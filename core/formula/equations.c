@@ -637,7 +637,8 @@ static size_t rank_of(double *a, size_t rows, size_t columns)
     return rows < columns ? rows : columns;
 }
 
-static bool is_of_coordinates(struct gm_own_system *system, gm_node_id node)
+/* Whether a node is made of parameters and the first so many components alone. */
+static bool is_of_components(struct gm_own_system *system, gm_node_id node, size_t components)
 {
     size_t count = 0;
     gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
@@ -645,7 +646,7 @@ static bool is_of_coordinates(struct gm_own_system *system, gm_node_id node)
     for (size_t i = 0; i < count; i++) {
         const struct gm_node *part = &system->graph.nodes[parts[i]];
         const bool parameter = part->a >= system->parameters && part->a < system->velocities;
-        good = good && (part->operation != GM_VARIABLE || part->a < system->n / 2 || parameter);
+        good = good && (part->operation != GM_VARIABLE || part->a < components || parameter);
     }
     system->graph.failed |= !parts;
     free(parts);
@@ -678,7 +679,7 @@ static bool check_constraints(struct gm_own_system *system, const double *start,
     bool good = true;
     for (size_t i = 0; i < system->item_count && good && !system->graph.failed; i++) {
         const struct gm_system_item *item = &system->items[i];
-        good = item->word != GM_WORD_CONSTRAINT || is_of_coordinates(system, item->nodes[0]) ||
+        good = item->word != GM_WORD_CONSTRAINT || is_of_components(system, item->nodes[0], system->n / 2) ||
                gm_fail(fault, item->place, "a constraint holds coordinates and parameters alone");
     }
     if (values && good) {
@@ -719,6 +720,27 @@ static bool check_constraints(struct gm_own_system *system, const double *start,
     return good;
 }
 
+/* A density of steps is a positive number that the state alone decides. */
+static bool check_monitor(struct gm_own_system *system, const double *values, struct gm_fault *fault)
+{
+    bool good = true;
+    for (size_t i = 0; i < system->item_count && good; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_MONITOR) {
+            continue;
+        }
+        const double density = values[item->nodes[0]];
+        good = is_of_components(system, item->nodes[0], system->n) ||
+               gm_fail(fault, item->place, "a monitor holds %s and parameters alone",
+                       system->kind <= GM_LAGRANGIAN ? "coordinates, momenta" : "components");
+        good = good &&
+               ((density > 0 && isfinite(density)) ||
+                gm_fail(fault, item->place,
+                        "the monitor is %g at the start: how dense steps are is a number above 0", density));
+    }
+    return good;
+}
+
 static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
 {
     double *start = gm_equations_start(system, NULL), *values = start ? values_for(system, start) : NULL;
@@ -747,6 +769,7 @@ static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
             isfinite(values[system->energy]) ||
             gm_fail(fault, first_not_finite(system, system->energy, values), "H is not finite at the start");
     }
+    good = good && (!values || check_monitor(system, values, fault));
     system->graph.failed |= !values;
     free(start);
     free(values);

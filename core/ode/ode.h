@@ -74,6 +74,12 @@ struct gm_kepler_split {
     void (*perturbing_force)(const struct gm_problem *problem, const double *q, double *force, size_t m);
 };
 
+/* Q(y) > 0: how dense the steps are to be of a scheme that chooses them, ds = Q dt */
+struct gm_monitor {
+    /* of one member; gradient: dQ/dy (n), or NULL */
+    void (*density)(const struct gm_problem *problem, const double *y, double *density, double *gradient);
+};
+
 /* f = f_0 + ... + f_(pieces - 1), each without divergence and with an exact flow */
 struct gm_volume {
     size_t pieces;
@@ -97,6 +103,7 @@ enum gm_ode_facet {
     GM_NEEDS_ACTION = 1u << 10,      /* an action without constraints, or a Hamiltonian that makes one, */
     GM_NEEDS_CONSTRAINTS = 1u << 11, /* or with them */
     GM_NEEDS_FRICTION = 1u << 12,    /* forces -rate p and no others */
+    GM_NEEDS_MONITOR = 1u << 13,
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
@@ -112,6 +119,7 @@ struct gm_ode {
     const struct gm_fast_linear *fast_linear;
     const struct gm_kepler_split *kepler_split;
     const struct gm_volume *volume;
+    const struct gm_monitor *monitor;
     /* made of the problem's kernels by core/ode/families/over_kernels.c */
     const struct gm_loops *loops[GM_ISA_COUNT];
 };

@@ -12,7 +12,7 @@
 #include <stdio.h>
 
 #include "core/ode/families/families.h"
-#include "core/ode/families/variational_time.h"
+#include "core/ode/families/own_time/variational_time.h"
 #include "core/ode/problems/problems.h"
 #include "scenes/frame/graph.h"
 #include "scenes/ode/asked.h"

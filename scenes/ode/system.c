@@ -499,6 +499,23 @@ static bool tell_velocities(const struct gm_system_scene *own, const struct gm_v
     return true;
 }
 
+/* Of a step whose length the monitor decided: how fast that falls. */
+static void tell_monitor(const struct gm_view *view, const double *slope, double *ahead, char *text,
+                         size_t size)
+{
+    const struct gm_monitor *monitor = gm_ode_of(view->problem)->monitor;
+    double here, there;
+    monitor->density(view->problem, view->state, &here, NULL);
+    for (size_t i = 0; i < view->problem->n; i++) {
+        ahead[i] = view->state[i] + view->dt / here * slope[i];
+    }
+    monitor->density(view->problem, ahead, &there, NULL);
+    if (!(there >= here)) {
+        snprintf(text, size, "the monitor, how dense steps are to be, is %.3g, and %.3g a step further", here,
+                 there);
+    }
+}
+
 static void tell_failure(const struct gm_view *view, char *text, size_t size)
 {
     const struct gm_system_scene *own = scene_of(view);
@@ -523,6 +540,9 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
                        : tell_part(own, view, ahead, text, size)) {
             break;
         }
+    }
+    if (!text[0] && (view->scheme->needs & GM_NEEDS_MONITOR)) {
+        tell_monitor(view, slope, ahead, text, size);
     }
     free(slope);
 }

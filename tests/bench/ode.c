@@ -191,74 +191,114 @@ static void pair_sum(void)
            "pairs of 1000 vortices", ours, theirs, ours / theirs, apart);
 }
 
-static double distance_from_start(const double *y, const double *start)
+/* Kepler's orbit from its nearest point. */
+static void nearest_point(double eccentricity, double y[4])
 {
-    return hypot(y[0] - start[0], y[1] - start[1]);
+    y[0] = 1 - eccentricity;
+    y[1] = y[2] = 0;
+    y[3] = sqrt((1 + eccentricity) / (1 - eccentricity));
 }
 
-/* The distance from the exact position after 100 periods; *spent: the time it took. */
-static double hundred_periods(const char *scheme, long steps, double *spent)
+/* The distance of y from the exact position after the time t. */
+static double distance(double eccentricity, double t, const double *y)
 {
-    const double start[] = {0.5, 0, 0, 1.7320508075688772};
+    double start[4], exact[4];
+    nearest_point(eccentricity, start);
+    gm_problem_kepler.exact->solution(&gm_problem_kepler, t, start, exact, 1);
+    return hypot(y[0] - exact[0], y[1] - exact[1]);
+}
+
+/* A way to the end of 100 periods: ours with so many steps a period, theirs with a tolerance of 1 / steps. The
+   distance from the exact position there; *spent: the time it took. */
+struct way {
+    const char *scheme; /* NULL: not ours */
+    double (*theirs)(double eccentricity, double tolerance, double *spent);
+};
+
+static double by_scheme(const char *scheme, double eccentricity, double steps, double *spent)
+{
+    const struct gm_scheme *row = gm_scheme_find_for(scheme, &gm_problem_kepler);
     const struct gm_settings settings = {0};
-    struct gm_run *run = gm_run_open(&gm_problem_kepler, gm_scheme_find_for(scheme, &gm_problem_kepler),
-                                     &settings, 0, 2 * M_PI / (double)steps, start);
+    double start[4];
+    nearest_point(eccentricity, start);
+    struct gm_run *run = gm_run_open(&gm_problem_kepler, row, &settings, 0, 2 * M_PI / steps, start);
     if (!run) {
         return INFINITY;
     }
     const double before = seconds();
-    const bool good = gm_run_advance(run, 100 * steps) == GM_OK;
+    const bool good = gm_run_until(run, 200 * M_PI) == GM_OK;
     *spent = seconds() - before;
-    const double error = good ? distance_from_start(gm_run_state(run), start) : INFINITY;
+    const double error = good ? distance(eccentricity, run->t, gm_run_state(run)) : INFINITY;
     gm_run_close(run);
     return error;
 }
 
 /* The same by GSL's Prince-Dormand stepper, which chooses its steps. */
-static double hundred_periods_by_gsl(double tolerance, double *spent)
+static double by_gsl(double eccentricity, double tolerance, double *spent)
 {
-    const double start[] = {0.5, 0, 0, 1.7320508075688772};
     struct gm_problem problem = gm_problem_kepler;
     gsl_odeiv2_system system = {field, NULL, 4, &problem};
     gsl_odeiv2_driver *driver =
         gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-2, tolerance, tolerance);
     double y[4], t = 0;
-    memcpy(y, start, sizeof y);
+    nearest_point(eccentricity, y);
     const double before = seconds();
     const bool good = gsl_odeiv2_driver_apply(driver, &t, 200 * M_PI, y) == GSL_SUCCESS;
     *spent = seconds() - before;
     gsl_odeiv2_driver_free(driver);
-    return good ? distance_from_start(y, start) : INFINITY;
+    return good ? distance(eccentricity, t, y) : INFINITY;
+}
+
+#ifdef GM_HAVE_BOOST
+static double by_boost(double eccentricity, double tolerance, double *spent)
+{
+    double y[4];
+    nearest_point(eccentricity, y);
+    const double before = seconds();
+    gm_boost_kepler_rkf78(y, 200 * M_PI, tolerance);
+    *spent = seconds() - before;
+    return distance(eccentricity, 200 * M_PI, y);
+}
+#endif
+
+static double go(const struct way *way, double eccentricity, double steps, double *spent)
+{
+    return way->scheme ? by_scheme(way->scheme, eccentricity, steps, spent)
+                       : way->theirs(eccentricity, 1 / steps, spent);
 }
 
 /* A position right to 1e-8 after 100 periods: each with the fewest steps, or the loosest tolerance, that
    reaches it. */
-static void kepler_to_eight_digits(void)
+static void kepler_to_eight_digits(double eccentricity)
 {
-    static const char *const schemes[] = {"gauss8", "kahan-li8", "blanes-moan-nystrom6"};
-    const double wanted = 1e-8;
-    double tolerance = 1e-8, theirs[ROUNDS], spent;
-    while (hundred_periods_by_gsl(tolerance, &spent) > wanted && tolerance > 1e-15) {
-        tolerance /= 1.5;
-    }
-    for (int round = 0; round < ROUNDS; round++) {
-        hundred_periods_by_gsl(tolerance, &theirs[round]);
-    }
-    const double by_gsl = median(theirs);
-    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
-        long steps = 20;
-        double ours[ROUNDS], error = hundred_periods(schemes[i], steps, &spent);
-        while (error > wanted && steps < 100000) {
-            steps += steps / 20;
-            error = hundred_periods(schemes[i], steps, &spent);
+    static const struct {
+        const char *what;
+        struct way way;
+    } lines[] = {
+        {"gauss8", {.scheme = "gauss8"}},
+        {"kahan-li8", {.scheme = "kahan-li8"}},
+        {"blanes-moan-nystrom6", {.scheme = "blanes-moan-nystrom6"}},
+        {"controlled-blanes-moan-nystrom6", {.scheme = "controlled-blanes-moan-nystrom6"}},
+        {"controlled-kahan-li8", {.scheme = "controlled-kahan-li8"}},
+        {"poincare-gauss8", {.scheme = "poincare-gauss8"}},
+        {"GSL rk8pd", {.theirs = by_gsl}},
+#ifdef GM_HAVE_BOOST
+        {"Boost rkf78", {.theirs = by_boost}},
+#endif
+    };
+    printf("Kepler to 1e-8 after 100 periods, e = %g\n", eccentricity);
+    for (size_t i = 0; i < GM_COUNT(lines); i++) {
+        const struct way *way = &lines[i].way;
+        double steps = way->scheme ? 20 : 1e8, took[ROUNDS], spent, error;
+        const double most = way->scheme ? 1e6 : 1e15;
+        while ((error = go(way, eccentricity, steps, &spent)) > 1e-8 && steps < most) {
+            steps = ceil(steps * (way->scheme ? 1.05 : 1.5));
         }
         for (int round = 0; round < ROUNDS; round++) {
-            hundred_periods(schemes[i], steps, &ours[round]);
+            go(way, eccentricity, steps, &took[round]);
         }
-        const double time = median(ours);
-        printf("Kepler to 1e-8, %-18s %8.2f ms (at most 5.1), GSL rk8pd %.2f: ratio %.2f; %ld steps a "
-               "period, error %.1e\n",
-               schemes[i], 1e3 * time, 1e3 * by_gsl, time / by_gsl, steps, error);
+        printf("  %-32s %8.2f ms, error %.1e with %s %.3g\n", lines[i].what, 1e3 * median(took), error,
+               way->scheme ? "steps a period" : "the tolerance", way->scheme ? steps : 1 / steps);
     }
 }
 
@@ -303,6 +343,7 @@ int main(void)
     }
     gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100, midpoint);
     pair_sum();
-    kepler_to_eight_digits();
+    kepler_to_eight_digits(0.5);
+    kepler_to_eight_digits(0.9);
     return 0;
 }

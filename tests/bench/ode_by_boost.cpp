@@ -65,3 +65,19 @@ extern "C" void gm_boost_vortices_rk4(double *y, double h, long steps) {
         },
         y, h, steps);
 }
+
+extern "C" void gm_boost_kepler_rkf78(double *y, double until, double tolerance) {
+    using quadruple = std::array<double, 4>;
+    quadruple state = {y[0], y[1], y[2], y[3]};
+    const auto field = [](const quadruple &at, quadruple &f, double) {
+        const double square = at[0] * at[0] + at[1] * at[1], pull = 1 / (square * std::sqrt(square));
+        f[0] = at[2];
+        f[1] = at[3];
+        f[2] = -pull * at[0];
+        f[3] = -pull * at[1];
+    };
+    odeint::integrate_adaptive(
+        odeint::make_controlled<odeint::runge_kutta_fehlberg78<quadruple>>(tolerance, tolerance), field, state,
+        0.0, until, 1e-2);
+    std::copy(state.begin(), state.end(), y);
+}

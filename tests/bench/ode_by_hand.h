@@ -26,6 +26,8 @@ void gm_hand_pair_sum(const double *state, double *f, size_t count);
 void gm_boost_kepler_verlet(double *y, double h, long steps);
 void gm_boost_kepler_rk4(double *y, double h, long steps);
 void gm_boost_vortices_rk4(double *y, double h, long steps);
+/* to the time `until`, by steps that are chosen */
+void gm_boost_kepler_rkf78(double *y, double until, double tolerance);
 
 #ifdef __cplusplus
 }

@@ -123,9 +123,11 @@ settled | grep -q 'Moving with the flow' && fail "the tour is not over"
 keys l
 wait_for '▸ disc'
 keys End
-wait_for '▸ flat'
-keys Up
-wait_for '▸ worth'
+wait_for '▸ steps'
+for tour in noether made flat worth; do
+    keys Up
+    wait_for "▸ $tour"
+done
 keys Enter
 wait_for 'What is it worth\? 1/5'
 keys q

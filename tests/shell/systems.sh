@@ -95,6 +95,16 @@ misplaced '4:8: steps: 10.5 is no whole number' 'steps: 10.5'
 misplaced '4:8: exact: x would begin at 2, and it starts at 1' 'exact: x = 2*x(0)*cos(t)'
 misplaced '3:8: p_x has no value at the start' '' 'x = 1'
 misplaced '4:14: there is no function ln; did you mean log' 'observe: r = ln(x)'
+# how dense steps are: above 0, of the state alone; where it falls too fast the run says so
+misplaced '4:10: the monitor is -1 at the start: how dense steps are is a number above 0' 'monitor: x - 2'
+misplaced '4:10: a monitor holds coordinates, momenta and parameters alone' 'monitor: 1 + t'
+refused 1 'does not fit scene system: it needs a monitor, the density of steps; geomint list' run system H='p^2/2 + q^2/2' q=1 p=0 scheme=controlled-verlet2
+printf 'coordinates: x\nH: p_x^2/2 + x^2/2\nstart: x = 1, p_x = 0\nmonitor: x - 0.5\ndt: 0.001\nuntil: 9\n' >falls.system
+"$geomint" run ./falls.system scheme=controlled-verlet2 >out 2>err
+[ $? = 2 ] || fail "a monitor that falls to 0 is no failure"
+grep -q 'the step after t = 1.0[0-9]* was not found: the monitor, how dense steps are to be, is 0.0' out ||
+    fail "no word of the monitor: $(cat out)"
+
 refused 1 'there is no scheme "verlett"; did you mean verlet$' run kepler scheme=verlett
 printf 'coordinates: x\nH: p_x^2/2 + abs(x)\nstart: x = 1, p_x = 0\n' >kink.system
 "$geomint" list kink.system --latex | grep -qF '2\,\left[x < 0\right]' || fail "the derivative of |x| in LaTeX"

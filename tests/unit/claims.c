@@ -242,6 +242,29 @@ static void structure_that_is_not_asked_for(void **unused)
     }
 }
 
+/* An ordinary control of the error is not the same way back; parts of another order or kind are caught. */
+static void steps_that_remember(void **unused)
+{
+    (void)unused;
+    struct gm_scheme wrong = changed("error-controlled-verlet");
+    wrong.claims |= GM_SYMMETRIC | GM_REVERSIBLE;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_true(certificate.order_holds);
+    assert_false(certificate.claims[1].holds);
+    assert_false(certificate.claims[2].holds);
+    wrong = changed("controlled-blanes-moan4");
+    wrong.coefficients = gm_scheme_find("controlled-verlet2")->coefficients;
+    assert_false(gm_certify(&wrong).order_holds);
+    wrong = changed("poincare-gauss6");
+    wrong.coefficients = "gauss4";
+    assert_false(gm_certify(&wrong).order_holds);
+    wrong = changed("poincare-gauss4");
+    wrong.coefficients = "radau3";
+    wrong.order = 3;
+    assert_true(gm_certify(&wrong).order_holds);
+    assert_false(gm_certify(&wrong).claims[1].holds);
+}
+
 /* A weight of a quadrature, a point of it, friction as a force like others. */
 static void a_wrong_digit_of_a_discrete_lagrangian(void **unused)
 {
@@ -528,6 +551,7 @@ int main(void)
         cmocka_unit_test(the_misprint_of_rk4sym),
         cmocka_unit_test(a_wrong_digit_of_gauss4),
         cmocka_unit_test(structure_that_is_not_asked_for),
+        cmocka_unit_test(steps_that_remember),
         cmocka_unit_test(a_wrong_digit_of_a_discrete_lagrangian),
         cmocka_unit_test(one_order_too_many),
         cmocka_unit_test(a_wrong_loop_of_a_right_tableau),

@@ -65,7 +65,7 @@ static struct gm_progress loop(const struct gm_task *task)
     each.y = task->out;
     each.memory = task->memory_out;
     double *rho = density(task);
-    while (progress.done < task->steps) {
+    while (progress.done < task->steps && progress.t < task->until) {
         const double half = *rho + task->dt / 2 * growth(&mesh, task->out);
         if (!(half > 1e-3 && half < 1e3)) {
             progress.status = GM_STEP_COLLAPSE;

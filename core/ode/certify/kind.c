@@ -28,7 +28,8 @@ static unsigned facets(const struct gm_problem *problem)
            (hamiltonian && !split ? GM_NEEDS_INSEPARABLE : 0) |
            (hamiltonian && !hamiltonian->partial ? GM_NEEDS_ENERGY : 0) |
            (action && !held ? GM_NEEDS_ACTION : 0) | (action && held ? GM_NEEDS_CONSTRAINTS : 0) |
-           (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0);
+           (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0) |
+           (ode->monitor ? GM_NEEDS_MONITOR : 0);
 }
 
 static const struct gm_facet_words words[] = {
@@ -41,6 +42,7 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_KEPLER_SPLIT, "a Kepler part with a perturbation", "perturbed Kepler problems"},
     {GM_NEEDS_FAST_LINEAR, "a stiff part that is linear", "systems with a stiff linear part"},
     {GM_NEEDS_LAGRANGIAN, "a Lagrangian of one degree of freedom", "Lagrangians of one degree of freedom"},
+    {GM_NEEDS_MONITOR, "a monitor, the density of steps", "systems with a monitor, the density of steps"},
     {GM_NEEDS_INSEPARABLE, "a Hamiltonian that does not fall into T(p) + V(q)",
      "Hamiltonian systems that do not separate"},
     {GM_NEEDS_NYSTROM, "a quadratic kinetic energy T(p)",

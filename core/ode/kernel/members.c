@@ -50,6 +50,7 @@ struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step
 {
     struct gm_members *members = task->workspace;
     const size_t n = members->n, m = task->problem->m;
+    const bool own_time = task->scheme->family->own_time;
     struct gm_progress progress = {.done = task->steps, .status = GM_OK, .t = task->t};
     for (size_t member = 0; member < m; member++) {
         gather(task->y, members->y, n, m, member);
@@ -64,6 +65,8 @@ struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step
             if (status != GM_OK) {
                 progress.done = done;
                 progress.status = status;
+            } else if (own_time && progress.t >= task->until) {
+                progress.done = done + 1;
             }
         }
         scatter(members->y, task->out, n, m, member);

@@ -34,6 +34,8 @@ struct own {
     struct gm_own_constraints constraints;
     struct gm_action action;
     double friction;
+    struct gm_tape density, slopes; /* of the monitor: Q, and Q with dQ/dy */
+    struct gm_monitor monitor;
     struct gm_tape *rates; /* of each component alone, where each has an exact flow */
     double *values;        /* of the system's variables */
     const struct gm_own_model *model;
@@ -106,6 +108,23 @@ static char *names_of(const struct gm_own_system *system)
     return names;
 }
 
+/* The monitor's node and those of its gradient; false: out of memory. */
+static bool open_slopes(struct gm_own_model *model, struct gm_own_system *system, bool *marked)
+{
+    const size_t n = model->components;
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == GM_WORD_MONITOR) {
+            model->monitor = system->items[i].nodes[0];
+            model->slopes = malloc((system->variable_count + 1) * sizeof *model->slopes);
+            memset(marked, false, system->variable_count * sizeof *marked);
+            memset(marked, true, n * sizeof *marked);
+            return model->slopes &&
+                   gm_gradient(&system->graph, model->monitor, marked, system->variable_count, model->slopes);
+        }
+    }
+    return true;
+}
+
 bool gm_own_model_open(struct gm_own_model *model, struct gm_own_system *system)
 {
     *model = (struct gm_own_model){.system = system, .components = system->n + system->timed};
@@ -132,6 +151,9 @@ bool gm_own_model_open(struct gm_own_model *model, struct gm_own_system *system)
         memset(marked, true, n);
         gm_sparse_jacobian(&system->graph, model->rates, n, marked, system->variable_count, &model->jacobian);
     }
+    if (good) {
+        good = open_slopes(model, system, marked);
+    }
     free(marked);
     const bool has_rates = system->kind != GM_LAGRANGIAN;
     return good && (!has_rates || gm_formula_quicken(&system->graph, model->rates, n)) &&
@@ -144,6 +166,7 @@ void gm_own_model_close(struct gm_own_model *model)
     gm_own_constraints_model_close(&model->constraints);
     free(model->rates);
     free(model->jacobian.entries);
+    free(model->slopes);
     free(model->names);
     *model = (struct gm_own_model){0};
 }
@@ -254,6 +277,17 @@ static void flow(const struct gm_problem *problem, size_t piece, double h, doubl
     }
 }
 
+static void density(const struct gm_problem *problem, const double *y, double *value, double *gradient)
+{
+    const struct own *own = own_of(problem);
+    if (!gradient) {
+        gm_tape_values(&own->density, y, value, 1);
+        return;
+    }
+    gm_tape_values(&own->slopes, y, gradient, 1);
+    gm_tape_values(&own->density, y, value, 1);
+}
+
 static double frequency(const struct gm_problem *problem, size_t i)
 {
     return own_of(problem)->frequencies[i];
@@ -360,6 +394,20 @@ static bool open_action(struct own *own, const double *values)
     return good;
 }
 
+/* What schemes need that choose their step. False: out of memory. */
+static bool open_monitor(struct own *own, const double *values)
+{
+    const struct gm_own_model *model = own->model;
+    const struct gm_formula *graph = &model->system->graph;
+    if (!model->slopes) {
+        return true;
+    }
+    own->monitor = (struct gm_monitor){.density = density};
+    own->ode.monitor = &own->monitor;
+    return gm_tape_open(&own->density, graph, &model->monitor, 1, model->components, values) &&
+           gm_tape_open(&own->slopes, graph, model->slopes, model->components, model->components, values);
+}
+
 static bool is_unit_mass(const struct gm_own_model *model)
 {
     const size_t half = model->system->n / 2;
@@ -455,7 +503,8 @@ bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *
         own->ode.volume = &own->volume;
     }
     own->interpreted = own->loops;
-    if (!open_tapes(own, values) || !open_mechanical(own, values) || !open_action(own, values)) {
+    if (!open_tapes(own, values) || !open_mechanical(own, values) || !open_action(own, values) ||
+        !open_monitor(own, values)) {
         return false;
     }
     own->constants[GM_KERNEL_FIELD] = own->field.constants;
@@ -527,6 +576,8 @@ void gm_own_problem_close(struct gm_problem *problem)
         gm_tape_close(&own->attraction);
         gm_tape_close(&own->perturbation);
         gm_tape_close(&own->potential);
+        gm_tape_close(&own->density);
+        gm_tape_close(&own->slopes);
         free(own->frequencies);
         free(own->rates);
         free(own->values);

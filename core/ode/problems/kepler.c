@@ -52,6 +52,17 @@ static bool formula(const struct gm_problem *problem, struct gm_formula *graph, 
     return gm_hamiltonian_read(problem, text, graph, node);
 }
 
+/* r^(-3/2), so that a revolution has equally many steps whatever its size */
+static void density(const struct gm_problem *problem, const double *y, double *value, double *gradient)
+{
+    (void)problem;
+    const double square = y[0] * y[0] + y[1] * y[1], root = sqrt(square);
+    *value = 1 / (root * sqrt(root));
+    for (size_t c = 0; c < 4 && gradient; c++) {
+        gradient[c] = c < 2 ? -1.5 * *value / square * y[c] : 0;
+    }
+}
+
 /* The root E of E - c sin E + s (1 - cos E) = anomaly in [-pi, pi]; its left side grows, for c^2 + s^2 <
    1. */
 static double solve_kepler(double c, double s, double anomaly)
@@ -108,7 +119,7 @@ static void solution(const struct gm_problem *problem, double t, const double *y
         .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},                 \
         .kepler_split =                                                                                      \
             &(const struct gm_kepler_split){.potential = potential, .perturbing_force = perturbing_force},   \
-        .loops = GM_LOOPS(its_loops)                                                                         \
+        .monitor = &(const struct gm_monitor){.density = density}, .loops = GM_LOOPS(its_loops)              \
     }
 
 const struct gm_problem gm_problem_kepler = {

@@ -15,7 +15,7 @@
    Razafindralandy et al. (2018), eqs. 55, 56, 58 and 59; C. Kane, J.E. Marsden & M. Ortiz, J. Math. Phys. 40
    (1999) 3353. The run's dt gives the direction of time only; the memory is tau, the energy, and the number
    of restarts. */
-#include "core/ode/families/variational_time.h"
+#include "core/ode/families/own_time/variational_time.h"
 
 #include <math.h>
 #include <stdlib.h>
