@@ -114,6 +114,7 @@ static struct gm_certificate begin(const struct gm_scheme *scheme)
     gm_certificate_claim(&certificate, GM_SYMPLECTIC)->tolerance = 1e-10;
     gm_certificate_claim(&certificate, GM_KEEPS_VOLUME)->tolerance = 1e-10;
     gm_certificate_claim(&certificate, GM_CONFORMAL)->tolerance = 1e-10;
+    gm_certificate_claim(&certificate, GM_POISSON_MAP)->tolerance = 1e-10;
     return certificate;
 }
 

@@ -27,6 +27,8 @@ static const struct {
     {"F", "conformal symplectic"},
     {"K", "keeps constraints"},
     {"T", "keeps hidden constraints"},
+    {"O", "keeps Casimirs"},
+    {"P", "a Poisson map"},
 };
 
 const char *gm_claim_letter(unsigned bit)

@@ -25,7 +25,9 @@ enum gm_claim {
     GM_CONFORMAL = 1u << 14,           /* with a friction -c p it shrinks every area by exp(-c t) */
     GM_KEEPS_CONSTRAINTS = 1u << 15,   /* g(q) = 0, */
     GM_KEEPS_HIDDEN = 1u << 16,        /* and dg/dq v = 0 */
-    GM_CLAIM_COUNT = 17,
+    GM_KEEPS_CASIMIRS = 1u << 17,      /* of every bracket that the scheme is for */
+    GM_POISSON_MAP = 1u << 18,         /* its derivative M carries the bracket along: M B(y0) M' = B(y1) */
+    GM_CLAIM_COUNT = 19,
 };
 
 /* A claim's letter in the explorer ("S") and its word ("symplectic"), by bit number. */

@@ -80,6 +80,17 @@ struct gm_monitor {
     void (*density)(const struct gm_problem *problem, const double *y, double *density, double *gradient);
 };
 
+/* y' = B(y) dH/dy, B skew: the bracket {y_i, y_j} = B_ij */
+struct gm_poisson {
+    /* of one member: H, dH/dy (n), and B by rows (n * n) */
+    double (*energy)(const struct gm_problem *problem, const double *y);
+    void (*gradient)(const struct gm_problem *problem, const double *y, double *gradient);
+    void (*bracket)(const struct gm_problem *problem, const double *y, double *matrix);
+    double
+        turning; /* s = +-1 where the bracket is that of angular momenta, y' = s y x dH/dy; 0: another one */
+    bool axes;   /* then: H is a sum of functions of one component each */
+};
+
 /* f = f_0 + ... + f_(pieces - 1), each without divergence and with an exact flow */
 struct gm_volume {
     size_t pieces;
@@ -104,6 +115,9 @@ enum gm_ode_facet {
     GM_NEEDS_CONSTRAINTS = 1u << 11, /* or with them */
     GM_NEEDS_FRICTION = 1u << 12,    /* forces -rate p and no others */
     GM_NEEDS_MONITOR = 1u << 13,
+    GM_NEEDS_POISSON = 1u << 14,
+    GM_NEEDS_ROTATIONS = 1u << 15, /* the bracket of angular momenta */
+    GM_NEEDS_AXES = 1u << 16,      /* and an energy that is a sum over the axes */
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
@@ -120,6 +134,7 @@ struct gm_ode {
     const struct gm_kepler_split *kepler_split;
     const struct gm_volume *volume;
     const struct gm_monitor *monitor;
+    const struct gm_poisson *poisson;
     /* made of the problem's kernels by core/ode/families/over_kernels.c */
     const struct gm_loops *loops[GM_ISA_COUNT];
 };

@@ -91,7 +91,7 @@ wait_for 'left 0'
 
 # ---- in the list of scenes ----
 
-start 80x24 COLORTERM=truecolor TERM=tmux-256color GEOMINT_TOURS="$tours"
+start 80x24 COLORTERM=truecolor TERM=tmux-256color GEOMINT_TOURS="$tours" GEOMINT_SYSTEMS="$tours/../systems"
 keys "\"$geomint\"; echo \"left \$?\"" Enter
 wait_for '▸ disc'
 keys Tab

@@ -35,6 +35,7 @@ static struct gm_problem problem_of(const char *name)
         {"vortices-two-turned", &gm_problem_vortices_four, &strength},
         {"vortices-reduced", &gm_problem_vortices_reduced, &strength},
         {"abc", &gm_problem_abc, abc},
+        {"rigid-body", &gm_problem_rigid_body, NULL},
     };
     for (size_t i = 0; i < GM_COUNT(list); i++) {
         if (strcmp(list[i].name, name) == 0) {

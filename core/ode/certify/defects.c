@@ -222,6 +222,44 @@ double gm_conformal_defect(const struct gm_subject *subject, const struct gm_sch
     return decide(subject, scheme, subject->dt, tolerance, of_conformal_form);
 }
 
+static double bracket_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                             const struct derivative *derivative)
+{
+    const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
+    const size_t n = subject->problem.n;
+    double start[MOST], end[MOST], *before = malloc(2 * n * n * sizeof *before),
+                                   *after = before ? before + n * n : NULL, defect = 0;
+    gm_subject_start(subject, scheme, start);
+    if (!before || !gm_subject_advance(subject, scheme, dt, 1, 1, start, end)) {
+        free(before);
+        return NAN;
+    }
+    poisson->bracket(&subject->problem, start, before);
+    poisson->bracket(&subject->problem, end, after);
+    for (size_t a = 0; a < n; a++) {
+        for (size_t b = 0; b < n; b++) {
+            double carried = 0;
+            for (size_t i = 0; i < n * n; i++) {
+                carried += derivative->at[a][i / n] * before[i] * derivative->at[b][i % n];
+            }
+            defect = fmax(defect, fabs(carried - after[a * n + b]));
+        }
+    }
+    free(before);
+    return defect;
+}
+
+static struct defect of_bracket(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
+                                double tolerance)
+{
+    return of_derivative(subject, scheme, dt, tolerance, 2, bracket_defect);
+}
+
+double gm_poisson_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance)
+{
+    return decide(subject, scheme, subject->dt, tolerance, of_bracket);
+}
+
 static double determinant_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,
                                  const struct derivative *derivative)
 {

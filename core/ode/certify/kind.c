@@ -4,6 +4,8 @@
 #include "core/ode/ode.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "core/certify.h"
 #include "core/count.h"
@@ -29,10 +31,16 @@ static unsigned facets(const struct gm_problem *problem)
            (hamiltonian && !hamiltonian->partial ? GM_NEEDS_ENERGY : 0) |
            (action && !held ? GM_NEEDS_ACTION : 0) | (action && held ? GM_NEEDS_CONSTRAINTS : 0) |
            (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0) |
-           (ode->monitor ? GM_NEEDS_MONITOR : 0);
+           (ode->monitor ? GM_NEEDS_MONITOR : 0) | (ode->poisson ? GM_NEEDS_POISSON : 0) |
+           (ode->poisson && ode->poisson->turning != 0 ? GM_NEEDS_ROTATIONS : 0) |
+           (ode->poisson && ode->poisson->turning != 0 && ode->poisson->axes ? GM_NEEDS_AXES : 0);
 }
 
 static const struct gm_facet_words words[] = {
+    {GM_NEEDS_AXES, "the bracket of angular momenta and an energy that is a sum over the axes",
+     "rotating bodies whose energy is a sum over the axes"},
+    {GM_NEEDS_ROTATIONS, "the bracket of angular momenta", "systems with the bracket of angular momenta"},
+    {GM_NEEDS_POISSON, "a bracket", "Poisson systems"},
     {GM_NEEDS_CONSTRAINTS, "constraints", "systems with constraints"},
     {GM_NEEDS_FRICTION, "a friction -c p, of the same c for all momenta and beside which no other force acts",
      "systems with a friction -c p"},
@@ -106,6 +114,13 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
             note(certificate, GM_CONFORMAL,
                  gm_conformal_defect(subject, scheme, tolerance(certificate, GM_CONFORMAL)), name);
         }
+        const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
+        if (poisson) {
+            note(certificate, GM_KEEPS_ENERGY,
+                 gm_drift(subject, scheme, (gm_invariant *const[]){poisson->energy}, 1), name);
+            note(certificate, GM_POISSON_MAP,
+                 gm_poisson_defect(subject, scheme, tolerance(certificate, GM_POISSON_MAP)), name);
+        }
         if (subject->volume) {
             note(certificate, GM_KEEPS_VOLUME,
                  gm_volume_defect(subject, scheme, tolerance(certificate, GM_KEEPS_VOLUME)), name);
@@ -117,7 +132,8 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
     } kept[] = {{GM_KEEPS_LINEAR, subject->linear},
                 {GM_KEEPS_QUADRATIC, subject->quadratic},
                 {GM_KEEPS_BILINEAR, subject->bilinear},
-                {GM_KEEPS_MOMENTUM_MAPS, subject->momentum}};
+                {GM_KEEPS_MOMENTUM_MAPS, subject->momentum},
+                {GM_KEEPS_CASIMIRS, subject->casimir}};
     if (subject->hamiltonian) {
         note(certificate, GM_KEEPS_ENERGY, gm_energy_drift(subject, scheme), name);
     }
@@ -188,6 +204,37 @@ static unsigned claims_of(const struct gm_subject *subject, const struct gm_kept
                         : GM_KEEPS_QUADRATIC;
 }
 
+/* Whether the bracket of a quantity with every component is 0, as far as differences tell. */
+static bool is_casimir(const struct gm_subject *subject, const struct gm_kept *kept)
+{
+    const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
+    const size_t n = subject->problem.n;
+    double y[GM_SUBJECT_COMPONENTS], slope[GM_SUBJECT_COMPONENTS], largest = 0, sum = 0;
+    double *matrix = poisson ? malloc(n * n * sizeof *matrix) : NULL;
+    memcpy(y, subject->start, sizeof y);
+    for (size_t c = 0; matrix && c < n; c++) {
+        const double h = 1e-5 * subject->scale;
+        y[c] = subject->start[c] + h;
+        const double above = kept->value(kept->data, y);
+        y[c] = subject->start[c] - h;
+        slope[c] = (above - kept->value(kept->data, y)) / (2 * h);
+        y[c] = subject->start[c];
+    }
+    if (matrix) {
+        poisson->bracket(&subject->problem, y, matrix);
+    }
+    for (size_t i = 0; matrix && i < n; i++) {
+        double moved = 0;
+        for (size_t j = 0; j < n; j++) {
+            moved += matrix[i * n + j] * slope[j];
+            sum += fabs(matrix[i * n + j] * slope[j]);
+        }
+        largest = fmax(largest, fabs(moved));
+    }
+    free(matrix);
+    return poisson && sum > 0 && largest <= 1e-6 * sum;
+}
+
 /* Whether the energy is that of the momenta turned round. */
 static bool is_even(const struct gm_subject *subject)
 {
@@ -224,7 +271,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     measure(certificate, &subject);
     certificate->order_problem = system->problem->name;
     for (size_t i = 0; i < system->kept_count; i++) {
-        const unsigned claims = claims_of(&subject, &system->kept[i]);
+        const unsigned claims = claims_of(&subject, &system->kept[i]) |
+                                (is_casimir(&subject, &system->kept[i]) ? GM_KEEPS_CASIMIRS : 0);
         for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
             if (claims >> bit & 1) {
                 note(certificate, (enum gm_claim)(1u << bit), gm_drift_of(&subject, scheme, &system->kept[i]),
@@ -244,12 +292,15 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     withhold(certificate, GM_SYMPLECTIC, subject.hamiltonian ? "the scheme chooses its steps" : no_energy);
     withhold(certificate, GM_REVERSIBLE,
              subject.hamiltonian ? "its Hamiltonian changes where the momenta turn round" : no_energy);
-    withhold(certificate, GM_KEEPS_ENERGY, no_energy);
+    withhold(certificate, GM_KEEPS_ENERGY, ode->poisson ? "the scheme chooses its steps" : no_energy);
     withhold(certificate, GM_KEEPS_VOLUME, "the system is not of three components without divergence");
     withhold(certificate, GM_KEEPS_LINEAR, "the system names no linear invariant");
     withhold(certificate, GM_KEEPS_QUADRATIC, "the system names no quadratic invariant");
     withhold(certificate, GM_KEEPS_BILINEAR, "the system names no invariant of the form q' A p");
     withhold(certificate, GM_KEEPS_MOMENTUM_MAPS, "the system names no symmetry that moves q by affine maps");
+    withhold(certificate, GM_KEEPS_CASIMIRS,
+             ode->poisson ? "the system names no Casimir" : "the system has no bracket");
+    withhold(certificate, GM_POISSON_MAP, "the system has no bracket");
     withhold(certificate, GM_CONFORMAL, "the system has no friction -c p");
     withhold(certificate, GM_KEEPS_CONSTRAINTS, "the system has no constraints");
     withhold(certificate, GM_KEEPS_HIDDEN, "the system has no constraints");

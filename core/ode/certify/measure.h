@@ -24,6 +24,7 @@ struct gm_subject {
     bool uneven;      /* H is another one where p turns round: nothing is reversible */
     double friction;  /* -c p, where it is one; 0: none */
     bool volume;      /* without divergence, to be measured */
+    gm_invariant *casimir[GM_SUBJECT_INVARIANTS]; /* of a bracket */
     gm_invariant *linear[GM_SUBJECT_INVARIANTS], *quadratic[GM_SUBJECT_INVARIANTS],
         *bilinear[GM_SUBJECT_INVARIANTS],
         *momentum
@@ -65,6 +66,8 @@ double gm_symplecticity_defect(const struct gm_subject *subject, const struct gm
 /* |M' J M - exp(-c dt) J| */
 double gm_conformal_defect(const struct gm_subject *subject, const struct gm_scheme *scheme,
                            double tolerance);
+/* |M B(y0) M' - B(y1)| */
+double gm_poisson_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance);
 double gm_volume_defect(const struct gm_subject *subject, const struct gm_scheme *scheme, double tolerance);
 
 /* What step(-dt) step(dt), and what R step R step with R: p -> -p, leave of the way back to the start. */

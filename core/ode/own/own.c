@@ -36,6 +36,8 @@ struct own {
     double friction;
     struct gm_tape density, slopes; /* of the monitor: Q, and Q with dQ/dy */
     struct gm_monitor monitor;
+    struct gm_tape gradient, bracket; /* of a Poisson system */
+    struct gm_poisson poisson;
     struct gm_tape *rates; /* of each component alone, where each has an exact flow */
     double *values;        /* of the system's variables */
     const struct gm_own_model *model;
@@ -125,6 +127,54 @@ static bool open_slopes(struct gm_own_model *model, struct gm_own_system *system
     return true;
 }
 
+/* Whether {y_1, y_2} = sign y_3, and cyclic. */
+static bool is_turning(struct gm_own_system *system, bool negative)
+{
+    bool same = system->n == 3;
+    for (size_t i = 0; i < 3 && same; i++) {
+        const gm_node_id third = gm_formula_variable(&system->graph, (i + 2) % 3);
+        const gm_node_id wanted =
+            negative ? gm_formula_apply(&system->graph, GM_OPERATION_NEGATE, third, 0) : third;
+        same = system->bracket[3 * i + (i + 1) % 3] == wanted;
+    }
+    return same;
+}
+
+/* Whether each slope holds no component but its own. False as well where memory is short: graph->failed. */
+static bool is_sum_over_axes(struct gm_own_system *system, const gm_node_id *gradient)
+{
+    bool good = true;
+    for (size_t i = 0; i < system->n && good; i++) {
+        size_t count = 0;
+        gm_node_id *parts = gm_formula_parts(&system->graph, gradient[i], &count);
+        system->graph.failed |= !parts;
+        for (size_t k = 0; parts && k < count; k++) {
+            const struct gm_node *part = &system->graph.nodes[parts[k]];
+            good = good && (part->operation != GM_VARIABLE || part->a >= system->n || part->a == i);
+        }
+        free(parts);
+    }
+    return good;
+}
+
+/* What a bracket makes of a system; false: out of memory. */
+static bool open_bracket(struct gm_own_model *model, struct gm_own_system *system, bool *marked)
+{
+    if (system->kind != GM_POISSON || system->timed) {
+        return true;
+    }
+    model->gradient = malloc((system->variable_count + 1) * sizeof *model->gradient);
+    memset(marked, false, system->variable_count * sizeof *marked);
+    memset(marked, true, system->n * sizeof *marked);
+    if (!model->gradient ||
+        !gm_gradient(&system->graph, system->energy, marked, system->variable_count, model->gradient)) {
+        return false;
+    }
+    model->turning = is_turning(system, true) ? 1 : is_turning(system, false) ? -1 : 0;
+    model->axes = is_sum_over_axes(system, model->gradient);
+    return !system->graph.failed;
+}
+
 bool gm_own_model_open(struct gm_own_model *model, struct gm_own_system *system)
 {
     *model = (struct gm_own_model){.system = system, .components = system->n + system->timed};
@@ -152,7 +202,7 @@ bool gm_own_model_open(struct gm_own_model *model, struct gm_own_system *system)
         gm_sparse_jacobian(&system->graph, model->rates, n, marked, system->variable_count, &model->jacobian);
     }
     if (good) {
-        good = open_slopes(model, system, marked);
+        good = open_slopes(model, system, marked) && open_bracket(model, system, marked);
     }
     free(marked);
     const bool has_rates = system->kind != GM_LAGRANGIAN;
@@ -167,6 +217,7 @@ void gm_own_model_close(struct gm_own_model *model)
     free(model->rates);
     free(model->jacobian.entries);
     free(model->slopes);
+    free(model->gradient);
     free(model->names);
     *model = (struct gm_own_model){0};
 }
@@ -288,6 +339,23 @@ static void density(const struct gm_problem *problem, const double *y, double *v
     gm_tape_values(&own->density, y, value, 1);
 }
 
+static double energy_of_bracket(const struct gm_problem *problem, const double *y)
+{
+    double value;
+    gm_tape_values(&own_of(problem)->energy, y, &value, 1);
+    return value;
+}
+
+static void gradient(const struct gm_problem *problem, const double *y, double *slope)
+{
+    gm_tape_values(&own_of(problem)->gradient, y, slope, 1);
+}
+
+static void bracket(const struct gm_problem *problem, const double *y, double *matrix)
+{
+    gm_tape_values(&own_of(problem)->bracket, y, matrix, 1);
+}
+
 static double frequency(const struct gm_problem *problem, size_t i)
 {
     return own_of(problem)->frequencies[i];
@@ -392,6 +460,26 @@ static bool open_action(struct own *own, const double *values)
         gm_tape_close(&tape);
     }
     return good;
+}
+
+/* What schemes for brackets need. False: out of memory. */
+static bool open_poisson(struct own *own, const double *values)
+{
+    const struct gm_own_model *model = own->model;
+    const struct gm_formula *graph = &model->system->graph;
+    const size_t n = model->system->n;
+    if (!model->gradient) {
+        return true;
+    }
+    own->poisson = (struct gm_poisson){.energy = energy_of_bracket,
+                                       .gradient = gradient,
+                                       .bracket = bracket,
+                                       .turning = model->turning,
+                                       .axes = model->axes};
+    own->ode.poisson = &own->poisson;
+    return gm_tape_open(&own->energy, graph, &model->system->energy, 1, n, values) &&
+           gm_tape_open(&own->gradient, graph, model->gradient, n, n, values) &&
+           gm_tape_open(&own->bracket, graph, model->system->bracket, n * n, n, values);
 }
 
 /* What schemes need that choose their step. False: out of memory. */
@@ -504,7 +592,7 @@ bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *
     }
     own->interpreted = own->loops;
     if (!open_tapes(own, values) || !open_mechanical(own, values) || !open_action(own, values) ||
-        !open_monitor(own, values)) {
+        !open_monitor(own, values) || !open_poisson(own, values)) {
         return false;
     }
     own->constants[GM_KERNEL_FIELD] = own->field.constants;
@@ -578,6 +666,8 @@ void gm_own_problem_close(struct gm_problem *problem)
         gm_tape_close(&own->potential);
         gm_tape_close(&own->density);
         gm_tape_close(&own->slopes);
+        gm_tape_close(&own->gradient);
+        gm_tape_close(&own->bracket);
         free(own->frequencies);
         free(own->rates);
         free(own->values);

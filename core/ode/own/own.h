@@ -22,7 +22,10 @@ struct gm_own_model {
     struct gm_own_lagrangian_model lagrangian; /* of a Lagrangian, in place of rates and Jacobian */
     struct gm_own_constraints_model constraints;
     gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
-    char *names;                 /* of the components, as in struct gm_ode */
+    gm_node_id *gradient;        /* dH/dy, of a Poisson system; NULL: it is none, or holds the time */
+    double turning;              /* as in struct gm_poisson */
+    bool axes;
+    char *names; /* of the components, as in struct gm_ode */
 };
 
 /* The system outlives the model; its graph grows here. False: out of memory. To be closed in both cases. */

@@ -6,6 +6,31 @@
 
 GM_LOOPS_DECLARE(rigid_body)
 
+static double energy(const struct gm_problem *problem, const double *y)
+{
+    (void)problem;
+    return y[0] * y[0] / 4 + y[1] * y[1] / 2 + 3 * y[2] * y[2] / 4;
+}
+
+static void gradient(const struct gm_problem *problem, const double *y, double *slope)
+{
+    (void)problem;
+    slope[0] = y[0] / 2;
+    slope[1] = y[1];
+    slope[2] = 3 * y[2] / 2;
+}
+
+static void bracket(const struct gm_problem *problem, const double *y, double *matrix)
+{
+    (void)problem;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        matrix[3 * i + i] = 0;
+        matrix[3 * i + j] = -y[k];
+        matrix[3 * j + i] = y[k];
+    }
+}
+
 const struct gm_problem gm_problem_rigid_body = {
     .name = "rigid-body",
     .n = 3,
@@ -15,6 +40,14 @@ const struct gm_problem gm_problem_rigid_body = {
         &(const struct gm_ode){
             .components = "y1 y2 y3",
             .quadratic = true,
+            .poisson =
+                &(const struct gm_poisson){
+                    .energy = energy,
+                    .gradient = gradient,
+                    .bracket = bracket,
+                    .turning = 1,
+                    .axes = true,
+                },
             .loops = GM_LOOPS(rigid_body),
         },
 };
