@@ -304,6 +304,8 @@ static bool keep_state(struct outcome *outcome, char *message)
     const struct gm_drive *drive = &outcome->drive;
     outcome->paused.seconds = drive->seconds;
     outcome->paused.rows = 0;
+    outcome->paused.spacing[0] = (double)outputs->rows.every;
+    outcome->paused.spacing[1] = outputs->rows.interval;
     if (outputs->save && !gm_save_sync(outputs->save, &outcome->paused.rows, message)) {
         return false;
     }
@@ -431,6 +433,15 @@ static bool save_tracks(const struct outcome *outcome, char *message)
     return good;
 }
 
+/* Whether the rows that were saved before are spaced as those to come. */
+static bool is_spacing(const struct outcome *outcome)
+{
+    const double *before = outcome->paused.spacing;
+    const struct gm_rows *rows = &outcome->outputs->rows;
+    return before[0] == (double)rows->every &&
+           (before[1] == rows->interval || (isnan(before[1]) && isnan(rows->interval)));
+}
+
 /* Runs one lane; how it ended, if not well, is the last row of its history. */
 static bool run_lane(struct outcome *outcome, long steps, char *message)
 {
@@ -438,6 +449,10 @@ static bool run_lane(struct outcome *outcome, long steps, char *message)
     if (outcome->outputs->pause && !gm_pause_restore(outcome->outputs->pause, outcome->drive.index,
                                                      outcome->drive.lane, &outcome->paused, message)) {
         return false;
+    }
+    if (outcome->outputs->save && outcome->paused.rows > 0 && !is_spacing(outcome)) {
+        return gm_refuse(message, "what was saved before is spaced otherwise: go on with the same --every or "
+                                  "--interval, or save to another file");
     }
     outcome->drive.seconds = outcome->paused.seconds;
     take_maxima(outcome);

@@ -10,10 +10,11 @@
 
 /* What is kept of a lane beside its state. */
 struct gm_paused {
-    double seconds;   /* processor time of its steps */
-    uint64_t rows;    /* of its states that were saved, an end out of turn not among them */
-    int64_t last_row; /* the step of the last row; -1: there is none */
-    double *numbers;  /* of the caller, as many as gm_pause_open was told */
+    double seconds;    /* processor time of its steps */
+    uint64_t rows;     /* of its states that were saved, an end out of turn not among them */
+    int64_t last_row;  /* the step of the last row; -1: there is none */
+    double spacing[2]; /* of these rows: steps, model time; 0 or NAN: not by these */
+    double *numbers;   /* of the caller, as many as gm_pause_open was told */
 };
 
 struct gm_pause;

@@ -363,6 +363,11 @@ def continued():
         check(strip(one.stdout) == strip(other.stdout), f"{words}: gone on with, it ends elsewhere")
         check(numbers_of("c.npz") == numbers_of("d.npz"), f"{words}: saved rows of a run gone on with")
         check(not os.path.exists("c.npz.part"), "what the file was made of is gone")
+    geomint("run kepler steps=7 --every 2 --checkpoint c.check --save c.npz")
+    for spacing in ("--every 3", "--interval 0.5", ""):
+        refused = geomint(f"run kepler steps=12 {spacing} --continue c.check --save c.npz", 3)
+        check("spaced otherwise" in refused.stderr, f"rows of another spacing ({spacing})")
+    geomint("run kepler steps=12 --every 2 --continue c.check --save c.npz")
     # a slip loses nothing of what was saved, and of a system with time in it there is one t
     with open("driven.system", "w") as file:
         file.write("coordinates: q\nH: p_q^2/2 + q^2/2 - q*sin(t)\nstart: q = 1, p_q = 0\ndt: 0.1\n")

@@ -280,7 +280,13 @@ def sweep(command, kind, every):
 def limit(arguments, megabytes, folder):
     """Little address space: Mesa may die of it, but not without a sentence."""
     words = ["prlimit", f"--as={megabytes * 1000000}", arguments.geomint, "render", "disc", "until=1", "--out", folder]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST, check=False)
+    # what fontconfig cannot read for want of space it takes for no font, and writes that down for all: not here
+    with tempfile.TemporaryDirectory() as caches:
+        fonts = os.path.join(caches, "fonts.conf")
+        with open(fonts, "w", encoding="utf-8") as file:
+            file.write(f"<fontconfig><cachedir>{caches}</cachedir><include>/etc/fonts/fonts.conf</include></fontconfig>")
+        done = subprocess.run(words, capture_output=True, text=True, timeout=LONGEST, check=False,
+                              env=dict(os.environ, FONTCONFIG_FILE=fonts))
     told = re.search(r"^geomint: \S+ \S+ \S+", done.stderr, re.M) and "not installed" not in done.stderr
     if done.returncode == 0 or (done.returncode == 5 and told):
         return []
