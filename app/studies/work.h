@@ -39,7 +39,10 @@ struct gm_work_table {
     bool observed;             /* it is the observable, not the distance of the states */
     const char *measure_title;
     char reference[96]; /* what the error is measured against, in words */
-    double *steps;      /* the ladder, falling: steps, or values of `ratio` */
+    const struct gm_scheme
+        *trusted; /* of a run that is the reference, and its step; NULL: the solution is exact */
+    double reference_step;
+    double *steps; /* the ladder, falling: steps, or values of `ratio` */
     size_t step_count;
     const struct gm_parameter *resolution; /* what varies beside the step; NULL: nothing does */
     double *resolutions;                   /* in the order of the plan */

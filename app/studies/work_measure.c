@@ -114,6 +114,8 @@ static double *reference_state(struct gm_work_table *table, char *message)
         const double dt = table->steps[middle] / 4;
         snprintf(table->reference, sizeof table->reference, "a run of %s with a step of %.3g", trusted->name,
                  dt);
+        table->trusted = trusted;
+        table->reference_step = dt;
         gm_lane_close(lane);
         lane = open_lane(table, trusted, dt, message);
         if (lane) {
@@ -156,6 +158,35 @@ static double error_of(const struct gm_work_table *table, const struct gm_lane *
     }
     const int observable = gm_scene_observable(scene, table->measure);
     return observable < 0 ? NAN : fabs(gm_lane_observe(lane, (size_t)observable));
+}
+
+/* The same of a scheme that chose its steps and ends behind `until`: the solution is taken on to where it ends. */
+static double error_behind(const struct gm_work_table *table, const struct gm_lane *lane,
+                           const double *reference)
+{
+    const struct gm_problem *problem = &lane->problem;
+    const double until = timing_of(table)->until, gap = lane->run->t - until;
+    const size_t count = problem->n * problem->m;
+    double *state = malloc(count * sizeof *state), error = NAN;
+    if (state && problem->exact) {
+        problem->exact->solution(problem, lane->run->t, lane->start, state, problem->m);
+        error = error_of(table, lane, state);
+    } else if (state && gap > 0) {
+        const long steps = (long)fmin(ceil(gap / table->reference_step), 1e5);
+        const struct gm_settings settings = {.compensated = 1};
+        struct gm_run *run =
+            gm_run_open(problem, table->trusted, &settings, until, gap / (double)steps, reference);
+        if (run && gm_run_advance(run, steps) == GM_OK) {
+            error = error_of(table, lane, gm_run_state(run));
+        }
+        if (run) {
+            gm_run_close(run);
+        }
+    } else if (state) {
+        error = error_of(table, lane, reference);
+    }
+    free(state);
+    return error;
 }
 
 /* Why the lane has no such number, where it says so. */
@@ -206,8 +237,9 @@ static void time_runs(struct measuring *measuring)
             point->steps = run->steps;
             point->evaluations = gm_run_per_member(run, run->evaluations);
             point->solves = gm_run_per_member(run, run->solves);
-            if (run->status == GM_OK && whole && !stopped(table) && (!reference || !own_time)) {
-                point->error = error_of(table, lane, reference);
+            if (run->status == GM_OK && whole && !stopped(table)) {
+                point->error = reference && own_time ? error_behind(table, lane, reference)
+                                                     : error_of(table, lane, reference);
                 if (!reference && isnan(point->error)) {
                     note_reason(table, lane, measuring->line);
                 }

@@ -24,6 +24,13 @@ refused 1 "no scene" stability kepler --region rk4
 grep -q '^Cheapest by run time: ' "$folder/out" || fail "no sentence"
 grep -q '^kepler,rk4,4,.*,ok,' "$folder/kepler-work-precision.csv" || fail "no row of rk4"
 
+# a scheme that chooses its steps is measured where it ends, against a reference that is taken on to there
+"$geomint" work-precision system H='p^2/2 + q^4/4' q=1 p=0.3 scheme=error-controlled-verlet,gauss8 dt=.02,.01,.005,.0025 \
+    until=3 --size 320x180 --out "$folder" >"$folder/out" 2>"$folder/err" || fail "steps of its own: $(cat "$folder/err")"
+awk -F, '$2 == "error-controlled-verlet" { if (before && (before / $8 < 2.5 || before / $8 > 6)) exit 1; before = $8; n++ }
+    END { exit n != 4 }' "$folder/system-work-precision.csv" ||
+    fail "error control is not of order 2: $(cat "$folder/system-work-precision.csv")"
+
 # the error falls by 2^4 with half the step
 awk -F, '$2 == "rk4" { if (before && (before / $8 < 10 || before / $8 > 40)) exit 1; before = $8 }' \
     "$folder/kepler-work-precision.csv" || fail "rk4 is not of order 4 in the CSV"
