@@ -71,7 +71,7 @@ void gm_flow_draw_streamlines(struct gm_picture *picture, struct gm_panel *panel
 void gm_flow_draw_walls(struct gm_picture *picture, struct gm_panel *panel, const struct gm_flow *flow)
 {
     const struct gm_complex *complex = flow->complex;
-    double *points = gm_picture_memory(picture, 4 * (complex->boundary + 1) * sizeof *points);
+    double *points = gm_picture_memory(picture, 6 * (complex->boundary + 1) * sizeof *points);
     size_t count = 0;
     for (size_t b = 0; points && b < complex->boundary; b++) {
         const int v = complex->boundary_vertex[b];
@@ -87,11 +87,10 @@ void gm_flow_draw_walls(struct gm_picture *picture, struct gm_panel *panel, cons
             continue;
         }
         memcpy(points + 2 * count++, complex->point + 2 * v, 2 * sizeof *points);
-        if (b + 1 == complex->boundary || complex->boundary_vertex[b + 1] != w) {
-            memcpy(points + 2 * count++, complex->point + 2 * w, 2 * sizeof *points);
-        } else {
-            memcpy(points + 2 * count, complex->point + 2 * w, 2 * sizeof *points);
-            count += 1;
+        memcpy(points + 2 * count++, complex->point + 2 * w, 2 * sizeof *points);
+        if (b + 1 < complex->boundary && complex->boundary_vertex[b + 1] != w) { /* another loop: a hole's */
+            points[2 * count] = points[2 * count + 1] = NAN;
+            count++;
         }
     }
     if (points) {
