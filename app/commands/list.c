@@ -223,14 +223,15 @@ static void print_parameter_json(const struct gm_parameter *row)
     printf("}");
 }
 
-/* What a command takes where nothing is said but the scene: "scheme=rk4,verlet"; malloc'ed, NULL with a
-   sentence, or when memory is short. */
-static char *default_lanes(const struct gm_scene *scene, size_t schemes, char *message)
+/* What a command takes where nothing is said but the scene, by its name or the path of its file:
+   "scheme=rk4,verlet"; malloc'ed, NULL with a sentence, or when memory is short. */
+static char *default_lanes(const char *name, size_t schemes, char *message)
 {
-    char *words[] = {strdup(scene->name)}, *text = NULL;
+    char *words[] = {strdup(name)}, *text = NULL;
     struct gm_request request;
     if (words[0] && gm_request_parse(&request, 1, words, schemes, message)) {
-        text = strdup(request.arguments + strlen(scene->name) + 1);
+        const char *lanes = strstr(request.arguments, " scheme=");
+        text = strdup(lanes ? lanes + 1 : "");
         gm_request_close(&request);
     }
     free(words[0]);
@@ -247,12 +248,12 @@ struct entry {
     char *run, *render; /* their lanes */
 };
 
-static bool open_entry(struct entry *entry, const struct gm_scene *scene, char *message)
+static bool open_entry(struct entry *entry, const struct gm_scene *scene, const char *name, char *message)
 {
     *entry = (struct entry){.scene = scene};
     entry->rows = calloc(scene->parameter_count + gm_settings_parameter_count, sizeof *entry->rows);
-    entry->run = default_lanes(scene, GM_RUN_SCHEMES, message);
-    entry->render = entry->run ? default_lanes(scene, GM_RENDER_SCHEMES, message) : NULL;
+    entry->run = default_lanes(name, GM_RUN_SCHEMES, message);
+    entry->render = entry->run ? default_lanes(name, GM_RENDER_SCHEMES, message) : NULL;
     if (!entry->rows) {
         return gm_refuse(message, "not enough memory");
     }
@@ -347,11 +348,11 @@ static void print_entry_json(const struct entry *entry)
     printf("]}\n");
 }
 
-static bool list_scene(const struct gm_scene *scene, const struct gm_options *options)
+static bool list_scene(const struct gm_scene *scene, const char *name, const struct gm_options *options)
 {
     char message[GM_MESSAGE];
     struct entry entry;
-    const bool good = open_entry(&entry, scene, message);
+    const bool good = open_entry(&entry, scene, name, message);
     if (!good) {
         gm_complain("%s", message);
     } else if (options->json) {
@@ -432,7 +433,7 @@ static int command_list(const struct gm_options *options)
     } else if (strcmp(what, "figures") == 0) {
         list_figures(options);
     } else if (scene) {
-        if (!list_scene(scene, options)) {
+        if (!list_scene(scene, what, options)) {
             return GM_EXIT_USAGE;
         }
     } else {

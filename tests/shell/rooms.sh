@@ -47,6 +47,9 @@ status 0 list lab
 grep -q 'supply_scalar_flow' out || fail "list does not know what a room observes"
 status 0 list "$rooms/lab.room" --json
 grep -q '"observables":\[.*"chemist_speed"' out || fail "list FILE.room --json"
+cp "$rooms/lab.room" ./mine.room && cp "$rooms/lab.msh" .
+status 0 list ./mine.room # that no folder of the program has
+grep -q 'supply_scalar_flow' out || fail "list does not know a room of one's own"
 refused 3 'nowhere.room could not be read' list ./nowhere.room
 status 0 complete run he
 grep -q '^heated' out || fail "a room is not offered"
