@@ -14,6 +14,15 @@ gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem 
     return by_kernels ? by_kernels : scheme->family->loop;
 }
 
+bool gm_scheme_workspace_open(const struct gm_scheme *scheme, const struct gm_problem *problem,
+                              void **workspace)
+{
+    const struct gm_family *family = scheme->family;
+    const bool needed = family->workspace_open && gm_scheme_loop(scheme, problem) == family->loop;
+    *workspace = needed ? family->workspace_open(problem, scheme) : NULL;
+    return !needed || *workspace;
+}
+
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem)
 {
     return scheme->family->kind == problem->kind && (scheme->needs & ~facets_of(problem)) == 0 &&

@@ -42,6 +42,10 @@ struct gm_kind {
 /* The loop that advances this problem by this scheme: that over the problem's kernels, else the family's;
    NULL if there is neither. The family's workspace is opened for its own loop only. */
 gm_loop *gm_scheme_loop(const struct gm_scheme *scheme, const struct gm_problem *problem);
+/* Opens the family's workspace for a loop of its own: NULL where it has none, or the loop is another. False: out
+   of memory. */
+bool gm_scheme_workspace_open(const struct gm_scheme *scheme, const struct gm_problem *problem,
+                              void **workspace);
 /* whether the problem has what the scheme needs */
 bool gm_scheme_fits(const struct gm_scheme *scheme, const struct gm_problem *problem);
 /* What the scheme needs and the problem lacks, in words; NULL if it fits, or where there is no word for

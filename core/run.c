@@ -110,13 +110,10 @@ struct gm_run *gm_run_open(const struct gm_problem *problem, const struct gm_sch
     if (!run) {
         return NULL;
     }
-    if (scheme->family->workspace_open && gm_scheme_loop(scheme, problem) == scheme->family->loop) {
-        head.workspace = scheme->family->workspace_open(problem, scheme);
-        if (!head.workspace) {
-            gm_memory_refused(); /* by a library, if by nobody else */
-            free(run);
-            return NULL;
-        }
+    if (!gm_scheme_workspace_open(scheme, problem, &head.workspace)) {
+        gm_memory_refused(); /* by a library, if by nobody else */
+        free(run);
+        return NULL;
     }
     double largest = 1;
     for (size_t i = 0; i < state_count(&head); i++) {

@@ -265,10 +265,10 @@ static void steps_that_remember(void **unused)
     wrong.coefficients = gm_scheme_find("controlled-verlet2")->coefficients;
     assert_false(gm_certify(&wrong).order_holds);
     wrong = changed("poincare-gauss6");
-    wrong.coefficients = "gauss4";
+    wrong.coefficients = gm_scheme_find("gauss4")->coefficients;
     assert_false(gm_certify(&wrong).order_holds);
     wrong = changed("poincare-gauss4");
-    wrong.coefficients = "radau3";
+    wrong.coefficients = gm_scheme_find("radau3")->coefficients;
     wrong.order = 3;
     assert_true(gm_certify(&wrong).order_holds);
     assert_false(gm_certify(&wrong).claims[1].holds);

@@ -19,6 +19,7 @@
 #include "core/ode/own/own.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/typed.h"
 
 enum { MOST = 7 }; /* components */
 
@@ -55,39 +56,12 @@ static const struct {
 };
 enum { PAIRS = GM_COUNT(pairs) };
 
-struct typed {
-    struct gm_own_system system;
-    struct gm_own_model model;
-    struct gm_problem problem;
-    double *start;
-};
-
-static void type_text(struct typed *typed, const char *text)
-{
-    struct gm_fault fault;
-    if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
-        fail_msg("%s: %s", text, fault.sentence);
-    }
-    typed->start = gm_equations_start(&typed->system, NULL);
-    assert_non_null(typed->start);
-    assert_true(gm_own_model_open(&typed->model, &typed->system));
-    assert_true(gm_own_problem_open(&typed->problem, &typed->model, typed->start));
-}
-
-static void type(struct typed *typed, int pair, bool lagrangian)
+static void type_pair(struct typed *typed, int pair, bool lagrangian)
 {
     char text[1000];
     snprintf(text, sizeof text, "%s%s%s", pairs[pair].coordinates,
              lagrangian ? pairs[pair].lagrangian : pairs[pair].hamiltonian, pairs[pair].start);
-    type_text(typed, text);
-}
-
-static void untype(struct typed *typed)
-{
-    gm_own_problem_close(&typed->problem);
-    gm_own_model_close(&typed->model);
-    gm_system_close(&typed->system);
-    free(typed->start);
+    type(typed, text);
 }
 
 static void expect_near(const char *what, const char *name, const double *a, const double *b, size_t count,
@@ -109,8 +83,8 @@ static void states_agree(void **unused)
     srand(5);
     for (int k = 0; k < PAIRS; k++) {
         struct typed l, h;
-        type(&l, k, true);
-        type(&h, k, false);
+        type_pair(&l, k, true);
+        type_pair(&h, k, false);
         const size_t n = l.problem.n;
         assert_true(n == h.problem.n && n <= MOST);
         const struct gm_loops *by_l = gm_ode_of(&l.problem)->loops[0],
@@ -154,8 +128,8 @@ static void runs_agree(void **unused)
     int compared = 0;
     for (int k = 0; k < PAIRS; k++) {
         struct typed l, h;
-        type(&l, k, true);
-        type(&h, k, false);
+        type_pair(&l, k, true);
+        type_pair(&h, k, false);
         for (size_t s = 0; s < GM_COUNT(schemes); s++) {
             const struct gm_scheme *scheme = gm_scheme_find(schemes[s]);
             assert_non_null(scheme);
@@ -185,7 +159,7 @@ static void members_are_alone(void **unused)
     enum { MEMBERS = 37 };
     for (int k = 0; k < PAIRS; k++) {
         struct typed typed;
-        type(&typed, k, true);
+        type_pair(&typed, k, true);
         const size_t n = typed.problem.n;
         double y[MOST * MEMBERS], f[MOST * MEMBERS];
         for (size_t i = 0; i < n * MEMBERS; i++) {
@@ -211,8 +185,7 @@ static void a_singular_transform_stops(void **unused)
 {
     (void)unused;
     struct typed typed;
-    type_text(&typed,
-              "coordinates: a b\nL: (v_a^2 + sin(a)^2*v_b^2)/2\nstart: a = 1, b = 0, v_a = -1, v_b = 0\n");
+    type(&typed, "coordinates: a b\nL: (v_a^2 + sin(a)^2*v_b^2)/2\nstart: a = 1, b = 0, v_a = -1, v_b = 0\n");
     double f[4], matrix[16], energy;
     const double pole[] = {0, 0, -1, 0}, beside[] = {1e-3, 0, -1, 0};
     gm_field(&typed.problem, pole, f, 1);
@@ -230,7 +203,7 @@ static void a_singular_transform_stops(void **unused)
     gm_run_close(run);
     untype(&typed);
     /* p = v / sqrt(1 + v^2) is below 1 */
-    type_text(&typed, "coordinates: q\nL: sqrt(1 + v_q^2)\nstart: q = 0, p_q = 0.5\n");
+    type(&typed, "coordinates: q\nL: sqrt(1 + v_q^2)\nstart: q = 0, p_q = 0.5\n");
     gm_field(&typed.problem, (const double[]){0, .5}, f, 1);
     assert_true(fabs(f[0] - .5 / sqrt(.75)) <= 4e-16);
     gm_field(&typed.problem, (const double[]){0, 1.5}, f, 1);

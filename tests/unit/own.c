@@ -20,6 +20,7 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/typed.h"
 
 struct retyped {
     const struct gm_problem *problem;
@@ -72,34 +73,6 @@ enum { RETYPED = GM_COUNT(retyped), MOST = 4 };
 static const double constants[] = {0.01, 0.4, 0.5};
 static const struct gm_settings settings_of[2] = {{.compensated = 0, .binding = 20, .tau0 = 0.01},
                                                   {.compensated = 1, .binding = 20, .tau0 = 0.01}};
-
-/* A system with its problem. */
-struct typed {
-    struct gm_own_system system;
-    struct gm_own_model model;
-    struct gm_problem problem;
-    double *start;
-};
-
-static void type(struct typed *typed, const char *text)
-{
-    struct gm_fault fault;
-    if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
-        fail_msg("%s", fault.sentence);
-    }
-    typed->start = gm_equations_start(&typed->system, NULL);
-    assert_non_null(typed->start);
-    assert_true(gm_own_model_open(&typed->model, &typed->system));
-    assert_true(gm_own_problem_open(&typed->problem, &typed->model, typed->start));
-}
-
-static void untype(struct typed *typed)
-{
-    gm_own_problem_close(&typed->problem);
-    gm_own_model_close(&typed->model);
-    gm_system_close(&typed->system);
-    free(typed->start);
-}
 
 static struct gm_problem built_in(int i)
 {

@@ -18,6 +18,7 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/typed.h"
 
 static const struct gm_settings settings = {0};
 
@@ -154,33 +155,6 @@ static void symplectic_in_the_extended_phase_space(void **unused)
     }
     /* steps of any length by a symplectic method are no symplectic map */
     assert_true(symplectic_defect("controlled-gauss4") > 1e-3);
-}
-
-struct typed {
-    struct gm_own_system system;
-    struct gm_own_model model;
-    struct gm_problem problem;
-    double *start;
-};
-
-static void type(struct typed *typed, const char *text)
-{
-    struct gm_fault fault;
-    if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
-        fail_msg("%s: %s", text, fault.sentence);
-    }
-    typed->start = gm_equations_start(&typed->system, NULL);
-    assert_non_null(typed->start);
-    assert_true(gm_own_model_open(&typed->model, &typed->system));
-    assert_true(gm_own_problem_open(&typed->problem, &typed->model, typed->start));
-}
-
-static void untype(struct typed *typed)
-{
-    gm_own_problem_close(&typed->problem);
-    gm_own_model_close(&typed->model);
-    gm_system_close(&typed->system);
-    free(typed->start);
 }
 
 static void a_typed_monitor(void **unused)

@@ -19,6 +19,7 @@
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/common/typed.h"
 
 static const char double_pendulum[] =
     "coordinates: a b\nL: v_a^2 + v_b^2/2 + v_a*v_b*cos(a - b) + 2*cos(a) + cos(b)\n"
@@ -46,34 +47,6 @@ static const char shaken[] =
 static const char braked[] = "coordinates: a b\nparameter: c = 0.3\n"
                              "L: (v_a^2 + (1 + a^2)*v_b^2)/2 + cos(a) - b^2/2\n"
                              "force: a = -c*p_a, b = -c*p_b\nstart: a = 0.5, b = 0.6, p_a = 0.4, p_b = 0.3\n";
-
-struct typed {
-    struct gm_own_system system;
-    struct gm_own_model model;
-    struct gm_problem problem;
-    double *start;
-};
-
-static void type(struct typed *typed, const char *text)
-{
-    struct gm_fault fault;
-    if (!gm_equations_open(&typed->system, text, strlen(text), NULL, 0, &fault)) {
-        fail_msg("%s: %s", text, fault.sentence);
-    }
-    typed->start = gm_equations_start(&typed->system, NULL);
-    assert_non_null(typed->start);
-    assert_true(gm_own_model_open(&typed->model, &typed->system));
-    assert_string_equal(gm_own_model_lacks(&typed->model), "");
-    assert_true(gm_own_problem_open(&typed->problem, &typed->model, typed->start));
-}
-
-static void untype(struct typed *typed)
-{
-    gm_own_problem_close(&typed->problem);
-    gm_own_model_close(&typed->model);
-    gm_system_close(&typed->system);
-    free(typed->start);
-}
 
 static const struct gm_scheme *fitting(const char *name, const struct gm_problem *problem)
 {

@@ -105,6 +105,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
         note(certificate, GM_REVERSIBLE,
              gm_reversibility_defect(subject, scheme, tolerance(certificate, GM_REVERSIBLE)), name);
     }
+    const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
     if (!scheme->family->own_time) {
         if (subject->hamiltonian) {
             note(certificate, GM_SYMPLECTIC,
@@ -114,10 +115,7 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
             note(certificate, GM_CONFORMAL,
                  gm_conformal_defect(subject, scheme, tolerance(certificate, GM_CONFORMAL)), name);
         }
-        const struct gm_poisson *poisson = gm_ode_of(&subject->problem)->poisson;
         if (poisson) {
-            note(certificate, GM_KEEPS_ENERGY,
-                 gm_drift(subject, scheme, (gm_invariant *const[]){poisson->energy}, 1), name);
             note(certificate, GM_POISSON_MAP,
                  gm_poisson_defect(subject, scheme, tolerance(certificate, GM_POISSON_MAP)), name);
         }
@@ -136,6 +134,9 @@ static void measure(struct gm_certificate *certificate, const struct gm_subject 
                 {GM_KEEPS_CASIMIRS, subject->casimir}};
     if (subject->hamiltonian) {
         note(certificate, GM_KEEPS_ENERGY, gm_energy_drift(subject, scheme), name);
+    } else if (poisson) {
+        note(certificate, GM_KEEPS_ENERGY,
+             gm_drift(subject, scheme, (gm_invariant *const[]){poisson->energy}, 1), name);
     }
     if (gm_action_constraints(&subject->problem) > 0) {
         const struct gm_manifold_defects defects = gm_constraint_defects(subject, scheme);
@@ -292,7 +293,7 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     withhold(certificate, GM_SYMPLECTIC, subject.hamiltonian ? "the scheme chooses its steps" : no_energy);
     withhold(certificate, GM_REVERSIBLE,
              subject.hamiltonian ? "its Hamiltonian changes where the momenta turn round" : no_energy);
-    withhold(certificate, GM_KEEPS_ENERGY, ode->poisson ? "the scheme chooses its steps" : no_energy);
+    withhold(certificate, GM_KEEPS_ENERGY, no_energy);
     withhold(certificate, GM_KEEPS_VOLUME, "the system is not of three components without divergence");
     withhold(certificate, GM_KEEPS_LINEAR, "the system names no linear invariant");
     withhold(certificate, GM_KEEPS_QUADRATIC, "the system names no quadratic invariant");
@@ -300,7 +301,8 @@ static void certify_on(const struct gm_scheme *scheme, const struct gm_certified
     withhold(certificate, GM_KEEPS_MOMENTUM_MAPS, "the system names no symmetry that moves q by affine maps");
     withhold(certificate, GM_KEEPS_CASIMIRS,
              ode->poisson ? "the system names no Casimir" : "the system has no bracket");
-    withhold(certificate, GM_POISSON_MAP, "the system has no bracket");
+    withhold(certificate, GM_POISSON_MAP,
+             ode->poisson ? "the scheme chooses its steps" : "the system has no bracket");
     withhold(certificate, GM_CONFORMAL, "the system has no friction -c p");
     withhold(certificate, GM_KEEPS_CONSTRAINTS, "the system has no constraints");
     withhold(certificate, GM_KEEPS_HIDDEN, "the system has no constraints");

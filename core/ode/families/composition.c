@@ -64,11 +64,9 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
         }
         workspace->count = i + 1;
         workspace->workspaces[i] = workspace->workspaces[same];
-        if (same == i && part->family->workspace_open &&
-            gm_scheme_loop(part, problem) == part->family->loop) {
-            workspace->workspaces[i] = part->family->workspace_open(problem, part);
-            good = workspace->workspaces[i] != NULL;
-            workspace->families[i] = good ? part->family : NULL;
+        if (same == i) {
+            good = gm_scheme_workspace_open(part, problem, &workspace->workspaces[i]);
+            workspace->families[i] = workspace->workspaces[i] ? part->family : NULL;
         }
     }
     if (!good) {

@@ -27,12 +27,12 @@
 #define ONE_STEP .composition = &gm_composition_none
 
 static const struct gm_implicit_row implicit_euler = {.stages = 1, .a = {{1}}, .b = {1}, ONE_STEP};
-static const struct gm_implicit_row midpoint = {.stages = 1, .a = {{0.5}}, .b = {1}, ONE_STEP};
+const struct gm_implicit_row gm_implicit_midpoint = {.stages = 1, .a = {{0.5}}, .b = {1}, ONE_STEP};
 static const struct gm_implicit_row trapezoidal = {
     .stages = 2, .a = {{0, 0}, {0.5, 0.5}}, .b = {0.5, 0.5}, ONE_STEP};
-static const struct gm_implicit_row gauss4 = {
+const struct gm_implicit_row gm_implicit_gauss4 = {
     .stages = 2, .a = {{0.25, 0.25 - SQRT3 / 6}, {0.25 + SQRT3 / 6, 0.25}}, .b = {0.5, 0.5}, ONE_STEP};
-static const struct gm_implicit_row gauss6 = {
+const struct gm_implicit_row gm_implicit_gauss6 = {
     .stages = 3,
     .a = {{5. / 36, 2. / 9 - SQRT15 / 15, 5. / 36 - SQRT15 / 30},
           {5. / 36 + SQRT15 / 24, 2. / 9, 5. / 36 - SQRT15 / 24},
@@ -41,7 +41,7 @@ static const struct gm_implicit_row gauss6 = {
     ONE_STEP,
 };
 /* collocation at the zeros of the shifted Legendre polynomial of degree 4 */
-static const struct gm_implicit_row gauss8 = {
+const struct gm_implicit_row gm_implicit_gauss8 = {
     .stages = 4,
     .a = {{0.08696371128436346434327, -0.02660418008499879331339, 0.01262746268940472451506,
            -0.003555149685795683156911},
@@ -536,7 +536,7 @@ static const struct gm_scheme schemes[] = {
         .title = "midpoint",
         .formula = "y₁ = y₀ + h f((y₀ + y₁)/2)",
         .reference = "Hairer, Lubich & Wanner (2006), I.1.2; Razafindralandy et al. (2018), eq. 25",
-        .coefficients = &midpoint,
+        .coefficients = &gm_implicit_midpoint,
         .order = 2,
         .claims = SYMPLECTIC_RK,
         IMPLICIT,
@@ -559,7 +559,7 @@ static const struct gm_scheme schemes[] = {
                    "a = [1/4, 1/4 − √3/6; 1/4 + √3/6, 1/4]",
         .reference =
             "J. Kuntzmann (1961); J.C. Butcher, Math. Comp. 18 (1964) 50; symplectic: Sanz-Serna (1988)",
-        .coefficients = &gauss4,
+        .coefficients = &gm_implicit_gauss4,
         .order = 4,
         .claims = SYMPLECTIC_RK,
         IMPLICIT,
@@ -569,7 +569,7 @@ static const struct gm_scheme schemes[] = {
         .title = "Gauss 6",
         .formula = "Yᵢ = y₀ + h Σⱼ aᵢⱼ f(Yⱼ),  y₁ = y₀ + h [5 f(Y₁) + 8 f(Y₂) + 5 f(Y₃)]/18,  3 Gauss nodes",
         .reference = "J.C. Butcher, Math. Comp. 18 (1964) 50; Hairer, Lubich & Wanner (2006), II.1.3",
-        .coefficients = &gauss6,
+        .coefficients = &gm_implicit_gauss6,
         .order = 6,
         .claims = SYMPLECTIC_RK,
         IMPLICIT,
@@ -579,7 +579,7 @@ static const struct gm_scheme schemes[] = {
         .title = "Gauss 8",
         .formula = "Yᵢ = y₀ + h Σⱼ aᵢⱼ f(Yⱼ),  y₁ = y₀ + h Σᵢ bᵢ f(Yᵢ),  4 Gauss nodes",
         .reference = "J.C. Butcher, Math. Comp. 18 (1964) 50; Hairer, Lubich & Wanner (2006), II.1.3",
-        .coefficients = &gauss8,
+        .coefficients = &gm_implicit_gauss8,
         .order = 8,
         .claims = SYMPLECTIC_RK,
         IMPLICIT,

@@ -16,4 +16,8 @@ struct gm_implicit_row {
     const struct gm_composition *composition;
 };
 
+/* Those that other families take steps of. */
+extern const struct gm_implicit_row gm_implicit_midpoint, gm_implicit_gauss4, gm_implicit_gauss6,
+    gm_implicit_gauss8;
+
 #endif

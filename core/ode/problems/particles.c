@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two particles of masses 1 and 3 on a line, (q1, q2, p1, p2),
        H = p1^2/2 + p2^2/6 + d^2/2 + d^4/4 + a (q1^4 + q2^4)/4,   d = q1 - q2,
-   a = *(const double *)parameters, and a monitor 1 + d^2 of steps that shorten with the distance. Masses that differ catch a scheme that takes p for the velocity. */
+   a = *(const double *)parameters, and a monitor 1 + d^2 of steps that shorten with the distance.
+   Masses that differ catch a scheme that takes p for the velocity. */
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 

@@ -14,9 +14,10 @@
 
    error-controlled-verlet: what every other code does, an estimate of the local error held at ds^2,
        h_{n+1} = h_n ds / |y_{n+1} - y_n - h_n f(y_n)|^(1/2),
-   and a step that errs by more than 2 ds^2 is made again. The step depends on where the motion came from, and what is gained by a symplectic Phi is lost. The memory is
-   h, 0, and what the sum of times carries over. Hairer, Norsett & Wanner, Solving Ordinary Differential
-   Equations I (1993), section II.4; Hairer, Lubich & Wanner (2006), section VIII.1. */
+   and a step that errs by more than 2 ds^2 is made again. The step depends on where the motion came from, and
+   what is gained by a symplectic Phi is lost. The memory is h, 0, and what the sum of times carries over.
+   Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I (1993), section II.4; Hairer, Lubich &
+   Wanner (2006), section VIII.1. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,12 +66,9 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     workspace->carry = workspace->state + 2 * n;
     workspace->field = workspace->carry + 2 * n;
     workspace->gradient = workspace->field + n;
-    if (base->family->workspace_open && gm_scheme_loop(base, problem) == base->family->loop) {
-        workspace->base_workspace = base->family->workspace_open(problem, base);
-        if (!workspace->base_workspace) {
-            workspace_close(workspace);
-            return NULL;
-        }
+    if (!gm_scheme_workspace_open(base, problem, &workspace->base_workspace)) {
+        workspace_close(workspace);
+        return NULL;
     }
     return workspace;
 }

@@ -19,14 +19,8 @@
 #include "core/ode/families/implicit_runge_kutta.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
-#include "core/schemes.h"
 
 enum { ENERGY, TIME_CARRY, REMEMBERED };
-
-static const struct gm_implicit_row *tableau(const struct gm_scheme *scheme)
-{
-    return gm_scheme_find(scheme->coefficients)->coefficients;
-}
 
 /* F(y), and 1/Q; false where Q is no density. */
 static bool slopes(const struct gm_problem *problem, double E, const double *y, double *gradient, double *F,
@@ -61,7 +55,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
                            struct gm_progress *progress)
 {
     enum { ITERATIONS = 100 };
-    const struct gm_implicit_row *row = tableau(task->scheme);
+    const struct gm_implicit_row *row = task->scheme->coefficients;
     const struct gm_problem *problem = task->problem;
     const size_t n = problem->n, stages = (size_t)row->stages;
     const double ds = task->dt, E = members->memory[ENERGY];
@@ -137,11 +131,12 @@ static enum gm_status start(const struct gm_task *task)
 
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
-    return gm_members_open(problem, REMEMBERED, (3 + (size_t)tableau(scheme)->stages) * problem->n);
+    const struct gm_implicit_row *row = scheme->coefficients;
+    return gm_members_open(problem, REMEMBERED, (3 + (size_t)row->stages) * problem->n);
 }
 
-#define IN_POINCARES_TIME(name)                                                                              \
-    .family = &gm_family_transformed_time, .coefficients = name,                                             \
+#define IN_POINCARES_TIME(row, name)                                                                         \
+    .family = &gm_family_transformed_time, .coefficients = &(row),                                           \
     .formula = "Gauss' method " name " for y′ = f/Q − (H − E) J∇Q/Q²,  t′ = 1/Q;  dt is ds = Q dt",          \
     .reference = "E. Hairer, Appl. Numer. Math. 25 (1997) 219; S. Reich, SIAM J. Numer. Anal. 36 (1999) "    \
                  "1549",                                                                                     \
@@ -151,25 +146,25 @@ static const struct gm_scheme schemes[] = {
     {
         .name = "poincare-midpoint2",
         .title = "midpoint, Poincaré's time",
-        IN_POINCARES_TIME("midpoint"),
+        IN_POINCARES_TIME(gm_implicit_midpoint, "midpoint"),
         .order = 2,
     },
     {
         .name = "poincare-gauss4",
         .title = "Gauss 4, Poincaré's time",
-        IN_POINCARES_TIME("gauss4"),
+        IN_POINCARES_TIME(gm_implicit_gauss4, "gauss4"),
         .order = 4,
     },
     {
         .name = "poincare-gauss6",
         .title = "Gauss 6, Poincaré's time",
-        IN_POINCARES_TIME("gauss6"),
+        IN_POINCARES_TIME(gm_implicit_gauss6, "gauss6"),
         .order = 6,
     },
     {
         .name = "poincare-gauss8",
         .title = "Gauss 8, Poincaré's time",
-        IN_POINCARES_TIME("gauss8"),
+        IN_POINCARES_TIME(gm_implicit_gauss8, "gauss8"),
         .order = 8,
     },
 };

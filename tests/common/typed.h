@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_TESTS_COMMON_TYPED_H
+#define GM_TESTS_COMMON_TYPED_H
+
+#include "core/formula/equations.h"
+#include "core/ode/own/own.h"
+
+/* A system that is typed, with its problem and its start. */
+struct typed {
+    struct gm_own_system system;
+    struct gm_own_model model;
+    struct gm_problem problem;
+    double *start;
+};
+
+/* Fails with the fault where the text is no system. */
+void type(struct typed *typed, const char *text);
+void untype(struct typed *typed);
+
+#endif
