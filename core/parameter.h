@@ -30,6 +30,7 @@ struct gm_parameter {
     double lowest, highest; /* inclusive range of a real or an integer */
     bool logarithmic;       /* a slider moves by factors */
     bool live;              /* a change acts on the present state; otherwise the run starts again */
+    bool looks;             /* and no step depends on it: it is the same at all times of a run */
     /* NULL-terminated, for GM_CHOICE; of a GM_TEXT the usual words, where there are such, else NULL */
     const char *const *choices;
     bool file;      /* a text that is the path of a file */

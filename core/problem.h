@@ -44,6 +44,7 @@ struct gm_progress {
     long done;
     enum gm_status status;
     unsigned long evaluations, solves, iterations;
+    unsigned long factor_solves; /* of flows: what iterations ask of factors that are made once */
     /* Of the step that was not solved, where they are not among the others. */
     unsigned long failed_iterations;
     double t; /* the time reached, of schemes that choose their own step */

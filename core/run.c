@@ -177,6 +177,7 @@ static enum gm_status advance(struct gm_run *run, long steps, double until)
     }
     run->evaluations += progress.evaluations;
     run->solves += progress.solves;
+    run->factor_solves += progress.factor_solves;
     run->iterations += progress.iterations;
     run->current = 1 - run->current;
     run->n += progress.done;
@@ -229,6 +230,7 @@ void gm_run_shorten(struct gm_run *run, double fraction)
     const struct gm_progress progress = gm_scheme_loop(run->scheme, run->problem)(&task);
     run->evaluations += progress.evaluations;
     run->solves += progress.solves;
+    run->factor_solves += progress.factor_solves;
     run->iterations += progress.iterations;
     run->t = run->t0 = task.t + task.dt;
     run->n = 0;
@@ -304,6 +306,7 @@ struct gm_run *gm_run_switch(const struct gm_run *run, const struct gm_scheme *s
         next->steps = run->steps;
         next->evaluations = run->evaluations;
         next->solves = run->solves;
+        next->factor_solves = run->factor_solves;
         next->iterations = run->iterations;
     }
     return next;

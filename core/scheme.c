@@ -85,6 +85,17 @@ const struct gm_parameter gm_settings_parameters[] = {
         .lowest = 0,
         .highest = 1,
     },
+    {
+        .key = "newmark_beta",
+        .unit = "",
+        .help = "how implicit Newmark's method is (variational-newmark2); 0: Verlet, 1/4: linear motion is "
+                "stable with every time step",
+        .type = GM_REAL,
+        .offset = offsetof(struct gm_settings, newmark_beta),
+        .standard = "0.25",
+        .lowest = 0,
+        .highest = 0.5,
+    },
 };
 const size_t gm_settings_parameter_count = GM_COUNT(gm_settings_parameters);
 
@@ -102,6 +113,7 @@ const struct gm_parameter *const gm_settings_of_sums[] = {&gm_settings_parameter
 const struct gm_parameter *const gm_settings_of_tao[] = {&gm_settings_parameters[1], NULL};
 const struct gm_parameter *const gm_settings_of_variational_time[] = {&gm_settings_parameters[2], NULL};
 const struct gm_parameter *const gm_settings_of_gsl[] = {&gm_settings_parameters[3], NULL};
+const struct gm_parameter *const gm_settings_of_newmark[] = {&gm_settings_parameters[4], NULL};
 
 bool gm_scheme_takes(const struct gm_scheme *scheme, const struct gm_parameter *row)
 {

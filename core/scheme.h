@@ -40,6 +40,7 @@ struct gm_settings {
     double binding;   /* between the two copies of phase space, of Tao's schemes */
     double tau0;      /* the first step of the schemes with variational time */
     double tolerance; /* of GSL's steppers; 0: fixed step */
+    double newmark_beta;
 };
 extern const struct gm_parameter gm_settings_parameters[];
 extern const size_t gm_settings_parameter_count;
@@ -50,6 +51,7 @@ extern const struct gm_parameter *const gm_settings_of_sums[];             /* co
 extern const struct gm_parameter *const gm_settings_of_tao[];              /* binding */
 extern const struct gm_parameter *const gm_settings_of_variational_time[]; /* tau0 */
 extern const struct gm_parameter *const gm_settings_of_gsl[];              /* tolerance */
+extern const struct gm_parameter *const gm_settings_of_newmark[];          /* newmark_beta */
 
 struct gm_coefficients; /* core/theory/coefficients.h */
 

@@ -425,7 +425,12 @@ static void put(struct writing *writing, uint32_t operation, uint32_t to, uint32
     struct gm_tape *tape = writing->tape;
     tape->code = grown(writing, tape->code, sizeof *tape->code, tape->length, &writing->code_room);
     if (!writing->failed) {
-        tape->code[tape->length++] = (struct gm_instruction){operation, to, a, b};
+        const struct gm_instruction *before =
+            tape->length > 0 && operation != GM_REPEATED ? &tape->code[tape->length - 1] : NULL;
+        const bool near = before && before->operation != GM_REPEATED;
+        const uint32_t way =
+            4 * operation + (near && a == before->to ? 1 : 0) + (near && b == before->to ? 2 : 0);
+        tape->code[tape->length++] = (struct gm_instruction){(uint16_t)operation, (uint16_t)way, to, a, b};
     }
 }
 
@@ -634,7 +639,8 @@ struct gm_instruction gm_tape_member(const struct gm_tape *tape, const struct gm
         at[k] = operands[k]->lie == GM_LISTED ? tape->lists[from + i]
                                               : from + (operands[k]->lie == GM_IN_A_ROW ? i : 0);
     }
-    return (struct gm_instruction){batch->operation, batch->to + i, at[0], at[1]};
+    return (struct gm_instruction){
+        .operation = (uint16_t)batch->operation, .to = batch->to + i, .a = at[0], .b = at[1]};
 }
 
 /* An operation for rows of `count` numbers; of an operand that is the same for all, `one`, there is one
@@ -698,30 +704,40 @@ __attribute__((noinline)) static void compute_batch(const struct gm_tape *tape,
                 batch->b.lie == GM_THE_SAME, batch->count);
 }
 
-/* One state: r holds all registers. */
+/* One state: r holds all registers. What the instruction before has made is not read back from there: in a chain
+   of operations a store and a load take longer than most of them. */
 static void compute(const struct gm_tape *tape, double *r)
 {
     const struct gm_instruction *const end = tape->code + tape->length;
+    double last = 0;
     for (const struct gm_instruction *at = tape->code; at < end; at++) {
-        const double a = r[at->a], b = r[at->b];
-        double value = a;
-        switch ((enum gm_operation)at->operation) {
+        switch (at->way) {
+#define GM_WAY(number, a_, b_, value_)                                                                       \
+    case number: {                                                                                           \
+        const double a = a_, b = b_;                                                                         \
+        (void)b;                                                                                             \
+        last = value_;                                                                                       \
+        break;                                                                                               \
+    }
+#define GM_WAYS(operation, value_)                                                                           \
+    GM_WAY(4 * (operation), r[at->a], r[at->b], value_)                                                      \
+    GM_WAY(4 * (operation) + 1, last, r[at->b], value_)                                                      \
+    GM_WAY(4 * (operation) + 2, r[at->a], last, value_)                                                      \
+    GM_WAY(4 * (operation) + 3, last, last, value_)
 #define GM_OPERATION(constant, name, latex, arity, smooth, value_, over_a, over_b)                           \
-    case GM_OPERATION_##constant:                                                                            \
-        value = value_;                                                                                      \
-        break;
+    GM_WAYS(GM_OPERATION_##constant, value_)
 #include "core/formula/operations.def"
 #undef GM_OPERATION
-        case GM_CONSTANT:
-        case GM_VARIABLE:
-            break;
-        case GM_OPERATIONS:
+            GM_WAYS(GM_VARIABLE, a)
+#undef GM_WAYS
+#undef GM_WAY
+        case 4 * GM_REPEATED:
             compute_batch(tape, &tape->batches[at->to], r);
             continue;
         default: /* it need not be asked */
             __builtin_unreachable();
         }
-        r[at->to] = value;
+        r[at->to] = last;
     }
 }
 

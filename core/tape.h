@@ -9,7 +9,9 @@
 
 /* One operation on registers. GM_VARIABLE is a copy of a; GM_REPEATED is batch number `to`. */
 struct gm_instruction {
-    uint32_t operation, to, a, b;
+    uint16_t operation;
+    uint16_t way; /* four times the operation, + 1 if a, + 2 if b is what the instruction before has made */
+    uint32_t to, a, b;
 };
 enum { GM_REPEATED = GM_OPERATIONS };
 

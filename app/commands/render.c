@@ -266,8 +266,10 @@ static bool open_sinks(struct work *work, const char *name, char *message)
         return false;
     }
     work->folder = folder_of(options);
-    if (!work->folder ||
-        !gm_frames_open(&work->frames, &work->schedule, work->folder, name, &work->provenance, message)) {
+    if (!work->folder) {
+        return gm_refuse(message, "not enough memory");
+    }
+    if (!gm_frames_open(&work->frames, &work->schedule, work->folder, name, &work->provenance, message)) {
         return false;
     }
     if (gm_checkpoint_fits(work->request)) {

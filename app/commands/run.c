@@ -133,9 +133,12 @@ static void print_json(const struct outcome *outcome, const struct gm_options *o
     if (lane->scene->stop) {
         printf(",\"stopped\":%s", gm_lane_stopped(lane) ? "true" : "false");
     }
-    printf(",\"steps\":%ld,\"evaluations\":%.0f,\"solves\":%.0f,\"seconds\":%.6g,\"observables\":{",
-           run->steps, gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves),
-           outcome->drive.seconds);
+    printf(",\"steps\":%ld,\"evaluations\":%.0f,\"solves\":%.0f", run->steps,
+           gm_run_per_member(run, run->evaluations), gm_run_per_member(run, run->solves));
+    if (run->factor_solves > 0) {
+        printf(",\"factor_solves\":%.0f", gm_run_per_member(run, run->factor_solves));
+    }
+    printf(",\"seconds\":%.6g,\"observables\":{", outcome->drive.seconds);
     for (size_t i = 0; i < outcome->outputs->chosen.count; i++) {
         printf("%s\"%s\":", i ? "," : "", told(outcome, i)->key);
         gm_json_number(outcome->values[i]);

@@ -28,6 +28,7 @@ struct gm_pointer {
     struct gm_mouse mouse;
     struct gm_hit held; /* what the button went down on */
     bool holding;
+    int column, row; /* where it was last, while it is down */
 };
 
 struct gm_explorer {

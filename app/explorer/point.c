@@ -101,6 +101,37 @@ static void click_study(struct gm_explorer *explorer, const struct gm_mouse_even
     free(words);
 }
 
+/* Whether a picture lies there that can be gone around. */
+static bool is_in_space(const struct gm_explorer *explorer, const struct gm_hit *hit)
+{
+    return hit && hit->kind == GM_HIT_PICTURE && !explorer->list.shown && explorer->open.shot &&
+           explorer->open.shot->in_space && explorer->face.page == GM_PAGE_SCENE &&
+           explorer->open.studies.shown == GM_STUDY_NONE;
+}
+
+/* What is seen follows the button: half a turn for the width of the screen. A row is as high as two columns are
+   wide. */
+static void drag_space(struct gm_explorer *explorer, const struct gm_mouse_event *event)
+{
+    struct gm_pointer *pointer = &explorer->pointer;
+    const double degrees = 180. / (explorer->screen.cells.columns > 0 ? explorer->screen.cells.columns : 1);
+    gm_worker_order(explorer->open.worker, (struct gm_order){.kind = GM_ORDER_LOOK,
+                                                             .x = degrees * (pointer->column - event->column),
+                                                             .y = 2 * degrees * (event->row - pointer->row),
+                                                             .value = 1});
+    pointer->column = event->column;
+    pointer->row = event->row;
+}
+
+/* The wheel: nearer and further over a picture in space, else through a list, or the speed. */
+static void turn_wheel(struct gm_explorer *explorer, const struct gm_mouse_event *event, bool lists)
+{
+    const bool up = event->kind == GM_MOUSE_UP;
+    const bool space =
+        !lists && is_in_space(explorer, gm_hits_at(&explorer->screen.hits, event->column, event->row));
+    gm_explorer_press(explorer, lists ? (up ? KEY_UP : KEY_DOWN) : space ? (up ? 'z' : 'Z') : up ? ']' : '[');
+}
+
 static void click(struct gm_explorer *explorer, const struct gm_mouse_event *event)
 {
     const struct gm_hit *hit = gm_hits_at(&explorer->screen.hits, event->column, event->row);
@@ -109,6 +140,8 @@ static void click(struct gm_explorer *explorer, const struct gm_mouse_event *eve
         return;
     }
     explorer->pointer.held = *hit;
+    explorer->pointer.column = event->column;
+    explorer->pointer.row = event->row;
     if (hit->kind == GM_HIT_KEY) {
         gm_explorer_press(explorer, (int)hit->index);
         return;
@@ -168,7 +201,9 @@ void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event
         click(explorer, event);
         break;
     case GM_MOUSE_DRAG:
-        if (explorer->pointer.holding && !explorer->list.shown) {
+        if (explorer->pointer.holding && is_in_space(explorer, &explorer->pointer.held)) {
+            drag_space(explorer, event);
+        } else if (explorer->pointer.holding && !explorer->list.shown) {
             drag(explorer, event->column);
         }
         break;
@@ -176,10 +211,8 @@ void gm_explorer_point(struct gm_explorer *explorer, const struct gm_mouse_event
         explorer->pointer.holding = false;
         break;
     case GM_MOUSE_UP:
-        gm_explorer_press(explorer, lists ? KEY_UP : ']');
-        break;
     case GM_MOUSE_DOWN:
-        gm_explorer_press(explorer, lists ? KEY_DOWN : '[');
+        turn_wheel(explorer, event, lists);
         break;
     }
 }

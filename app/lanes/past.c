@@ -2,6 +2,7 @@
 /* The way back of a lane: snapshots in bounded memory, thinned when they are full. */
 #include "app/lanes/past.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,6 +15,13 @@ void gm_past_close(struct gm_past *past)
     }
     free(past->moments);
     *past = (struct gm_past){0};
+}
+
+void gm_past_set(struct gm_past *past, const struct gm_parameter *row, const char *text)
+{
+    for (size_t i = 0; i < past->count; i++) {
+        gm_parameter_set(row, past->moments[i].memory, text);
+    }
 }
 
 static void thin(struct gm_past *past)
@@ -56,10 +64,18 @@ struct gm_past gm_past_copy(const struct gm_past *past)
     return copy;
 }
 
+/* Bytes from a moment's start to its snapshot: the parameters, whose size may be any (a system's texts), and
+   what the snapshot's own alignment needs. */
+static size_t snapshot_at(const struct gm_lane *lane)
+{
+    const size_t unit = _Alignof(max_align_t);
+    return (lane->scene->size + unit - 1) / unit * unit;
+}
+
 /* Writes the lane into the moment; its memory stays NULL when there is none. */
 static void save(const struct gm_lane *lane, double gone, struct gm_moment *moment)
 {
-    size_t size = lane->scene->size + gm_lane_snapshot_size(lane);
+    size_t size = snapshot_at(lane) + gm_lane_snapshot_size(lane);
     if (moment->size != size) { /* schemes differ in what they keep */
         free(moment->memory);
         moment->memory = malloc(size);
@@ -69,7 +85,7 @@ static void save(const struct gm_lane *lane, double gone, struct gm_moment *mome
         return;
     }
     memcpy(moment->memory, lane->parameters, lane->scene->size);
-    gm_lane_save(lane, (char *)moment->memory + lane->scene->size);
+    gm_lane_save(lane, (char *)moment->memory + snapshot_at(lane));
     moment->steps = lane->run->steps;
     moment->gone = gone;
 }
@@ -113,7 +129,7 @@ void gm_past_note(struct gm_past *past, const struct gm_lane *lane, double gone,
 
 static bool load(const struct gm_moment *moment, struct gm_lane *lane)
 {
-    if (!gm_lane_load(lane, (const char *)moment->memory + lane->scene->size)) {
+    if (!gm_lane_load(lane, (const char *)moment->memory + snapshot_at(lane))) {
         return false;
     }
     memcpy(lane->parameters, moment->memory, lane->scene->size);

@@ -37,6 +37,9 @@ void gm_past_note(struct gm_past *past, const struct gm_lane *lane, double gone,
 const struct gm_moment *gm_past_return(const struct gm_past *past, struct gm_lane *lane, long steps);
 const struct gm_moment *gm_past_visit(const struct gm_past *past, struct gm_lane *lane, double gone);
 
+/* Sets a parameter in all snapshots: one that is the same at all times (struct gm_parameter, looks). */
+void gm_past_set(struct gm_past *past, const struct gm_parameter *row, const char *text);
+
 /* Forgets what is later than `steps`. */
 void gm_past_forget(struct gm_past *past, long steps);
 

@@ -436,6 +436,19 @@ static bool make_change(struct gm_session *session, size_t i, const char *text, 
     return true;
 }
 
+/* Sets how a lane is looked at, for its whole run: it is as if it had been typed. */
+static bool look(struct gm_session *session, size_t i, const struct gm_parameter *row, const char *text,
+                 char *message)
+{
+    if (gm_parameter_set(row, session->lanes[i]->parameters, text) != GM_PARSED) {
+        return gm_refuse(message, "%s cannot be %s.", row->key, text);
+    }
+    gm_parameter_set(row, session->log.lanes[i].parameters, text);
+    gm_past_set(&session->pasts[i], row, text);
+    forget_arguments(session);
+    return true;
+}
+
 /* A name that tells lanes apart by what has just been changed. */
 static void rename_by_parameter(struct gm_session *session, size_t i, const char *key, const char *text)
 {
@@ -464,7 +477,8 @@ bool gm_session_set(struct gm_session *session, size_t lane, const struct gm_par
         if (alone && i != lane) {
             continue;
         }
-        if (now && !make_change(session, i, change, message)) {
+        if (now &&
+            !(row->looks ? look(session, i, row, text, message) : make_change(session, i, change, message))) {
             return false;
         }
         /* a restart that is already due keeps a live change too */

@@ -58,6 +58,7 @@ struct gm_shot {
     bool backwards;     /* time runs */
     bool turned;        /* or has run */
     bool overlaid;      /* all lanes are in one panel */
+    bool in_space;      /* the picture can be gone around */
     bool drawn;         /* the picture is a new one */
     bool running_ahead; /* nothing is drawn meanwhile */
     double progress;    /* of that, 0 to 1 */

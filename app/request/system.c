@@ -282,11 +282,12 @@ static void note(struct names *names, const char *text, size_t length)
     }
 }
 
-/* The names that a text holds, but for functions and the indices of sums. */
-static void collect(struct names *names, struct names *indices, const char *text)
+/* The names that `size` letters of a text hold, but for functions and the indices of sums. */
+static void collect(struct names *names, struct names *indices, const char *text, size_t size)
 {
-    while (*text) {
-        const size_t length = gm_name_length(text, strlen(text));
+    const char *last = text + size;
+    while (text < last) {
+        const size_t length = gm_name_length(text, (size_t)(last - text));
         if (length == 0) {
             /* digits take their exponent with them: 1e-3 */
             char *end = NULL;
@@ -302,6 +303,19 @@ static void collect(struct names *names, struct names *indices, const char *text
             note(names, text, length);
         }
         text += length;
+    }
+}
+
+/* The names in rates, x = y, y = -x: what stands on the left is a part of the state. */
+static void collect_rates(struct names *parts, struct names *names, struct names *indices, const char *text)
+{
+    while (*(text += strspn(text, " \t"))) {
+        const size_t length = first_value(text), left = gm_name_length(text, length);
+        if (left > 0) {
+            note(parts, text, left);
+        }
+        collect(names, indices, text + left, length - left);
+        text += length + (text[length] != '\0');
     }
 }
 
@@ -401,12 +415,11 @@ static bool write_typed(struct written *written, int count, char *const words[],
             lagrange |= k == 1;
             rate |= k == 2;
             coordinates |= k == 3;
-            if (k == 2) { /* its left side is a component */
-                const size_t letters = gm_name_length(value, strlen(value));
-                note(parts, value, letters);
-                value += letters;
+            if (k == 2) {
+                collect_rates(parts, names, indices, value);
+            } else {
+                collect(k < 2 ? names : parts, indices, value, strlen(value));
             }
-            collect(k < 3 ? names : parts, indices, value);
         }
     }
     bool good = lines && names;
@@ -428,7 +441,8 @@ static bool write_typed(struct written *written, int count, char *const words[],
         velocities = lagrange && (holds(names, "q1", 2) ? holds(names, "v1", 2) : holds(names, "v", 1));
         usual = default_coordinates(names, velocities);
         good = usual || gm_refuse(message, "not enough memory");
-        collect(parts, indices, usual ? strchr(usual, ':') : "");
+        const char *list = usual ? strchr(usual, ':') : "";
+        collect(parts, indices, list, strlen(list));
         note(indices, "momenta", strlen("momenta"));
         note(indices, "velocities", strlen("velocities"));
         put(written, lines, usual ? usual : "", usual ? strlen(usual) : 0);
@@ -770,7 +784,7 @@ static bool make(struct gm_made_system *made, const struct written *written, int
             gm_system_close(&system);
         } else if (gm_arguments_end(&made->words)) {
             const char *const *own = (const char *const *)made->words.words;
-            const bool field = system.kind == GM_FIELD;
+            const bool field = gm_system_is_field(&system);
             made->close = field ? gm_own_field_close : gm_system_scene_close;
             trial->scene = made->scene = field
                                              ? gm_own_field_open(&system, made->name, own, message)

@@ -56,6 +56,12 @@ struct gm_dispersive {
     /* The derivative of g at `base` along f; all arrays hold `count` real parts, then the imaginary ones. */
     void (*linearised)(const struct gm_problem *problem, const double *base, const double *f, double *g,
                        size_t count);
+    /* V with V' = g */
+    double (*potential)(const struct gm_problem *problem, double re, double im);
+    /* What a step of the box from `now` to `next` leaves of the local law of mass or charge, for every cell
+       (real parts, then imaginary ones); `means` of the solution in the cells and `faces` are scratch. */
+    void (*content)(const struct gm_problem *problem, double dt, double *means, const double *now,
+                    const double *next, struct gm_faces *faces, double *residual);
     /* The multisymplectic variables of a tangent on the faces of the cells between two levels of it (real
        parts, then imaginary ones), from the linearised box equations that are not the field's own; `base`
        holds the means of the solution in the cells. */

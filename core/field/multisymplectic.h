@@ -59,6 +59,12 @@ double gm_form_residual(const struct gm_problem *problem, const struct gm_scheme
 double gm_form_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                       const double *y, const double *memory);
 
+/* The local laws of a field on the line: of what its flow carries along (mass, charge), of energy and of
+   momentum,
+       dF1/dt + dF2/dx = 0,   dG1/dt + dG2/dx = 0
+   which follow from M s_t + K s_x = grad S(s) by the product with s_t and with s_x. */
+enum gm_local_law { GM_LAW_OF_ENERGY, GM_LAW_OF_MOMENTUM, GM_LAW_OF_CONTENT };
+
 /* Fills a component of a tangent at its start: cos(2 pi waves i / points + phase). */
 void gm_tangent_start(double *tangent, size_t points, double waves, double phase);
 

@@ -2,16 +2,27 @@
 /* Linear algebra of the steps. With z = (psi at unknowns I, omega at soft vertices O) and, psi of a hole's
    wall being one unknown, rows of its vertices summed up (the pressure comes back to itself around the hole),
        omega(z) = W (K psi + sheet) + omega_O,   W = 1 / star0, 0 at soft and slip vertices
-   steps and steady states are equations R omega(z) = right on the rows I and O. The preconditioner leaves out
-   the convection, with B = shift star0 + viscosity K:
-       z_O = B_OO^-1 r_O
-       z_I = (shift K_II + viscosity K_I W K_I)^-1 (r_I - B_IO z_O) */
+   steps and steady states are equations R omega(z) = right on the rows I and O, R = C + B with the convection
+   C and B = shift star0 + viscosity K. The preconditioner knows C where omega is free (J: I without holes, and
+   O), by incomplete factors of R_JJ; what walls give back is solved without it:
+       w_J ~ R_JJ^-1 r_J,   0 elsewhere,   z_O = w_O
+       z_I = (shift K_II + viscosity K_I W K_I)^-1 (r_I - C_IJ w_J - B_IO w_O)
+   That is the better, the thinner the layer is that walls make in a step. */
 #include "core/flow/solver.h"
 #include "core/count.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Whether omega of a vertex has an equation of its own. */
+static bool has_row(const struct gm_flow_solver *solver, size_t v)
+{
+    const struct gm_unknowns *unknowns = &solver->unknowns;
+    const int i = unknowns->index[v];
+    return solver->flow->kind[v] == GM_VERTEX_SOFT ||
+           (i >= 0 && unknowns->start[i + 1] - unknowns->start[i] == 1);
+}
 
 static bool list_unknowns(struct gm_flow_solver *solver)
 {
@@ -27,7 +38,7 @@ static bool list_unknowns(struct gm_flow_solver *solver)
         if (flow->heat && !flow->temperature_fixed[v]) {
             solver->warm_vertex[solver->warm++] = (int)v;
         }
-        solver->held[v] = flow->kind[v] == GM_VERTEX_SLIP;
+        solver->held[v] = solver->vorticity_form ? flow->kind[v] == GM_VERTEX_SLIP : !has_row(solver, v);
         if (flow->kind[v] == GM_VERTEX_SOFT) {
             solver->soft_vertex[solver->soft++] = (int)v;
         }
@@ -51,7 +62,6 @@ static bool take_memory(struct gm_flow_solver *solver)
         {&solver->b, z + solver->warm},
         {&solver->x, z + solver->warm},
         {&solver->small_b, z},
-        {&solver->small_x, z},
         {&solver->gmres, solver->vorticity_form ? 0 : gm_gmres_scratch(z)},
         {&solver->bicgstab, 8 * v},
     };
@@ -125,7 +135,6 @@ void gm_flow_solver_close(struct gm_flow_solver *solver)
     gm_unknowns_close(&solver->unknowns);
     gm_cholesky_close(solver->poisson);
     gm_cholesky_close(solver->stokes);
-    gm_cholesky_close(solver->soft_factor);
     gm_transport_close(&solver->transport);
     gm_transport_close(&solver->heat);
     free(solver->soft_vertex);
@@ -140,50 +149,6 @@ bool gm_flow_solver_give(struct gm_flow_solver *solver, double t)
     return !solver->now || solver->now->give(solver->now, t, solver->now);
 }
 
-/* The factor of shift star0 + viscosity K between soft vertices. */
-static struct gm_cholesky *factor_soft(const struct gm_flow_solver *solver, double shift, double viscosity)
-{
-    const struct gm_complex *complex = solver->flow->complex;
-    size_t capacity = solver->soft;
-    for (size_t i = 0; i < solver->soft; i++) {
-        const int v = solver->soft_vertex[i];
-        capacity += (size_t)(complex->ring_start[v + 1] - complex->ring_start[v]);
-    }
-    int *start = malloc((solver->soft + 1) * sizeof *start), *column = malloc(capacity * sizeof *column);
-    int *place = malloc(complex->vertices * sizeof *place);
-    double *value = malloc(capacity * sizeof *value);
-    struct gm_cholesky *factor = NULL;
-    if (start && column && place && value) {
-        memset(place, -1, complex->vertices * sizeof *place);
-        for (size_t i = 0; i < solver->soft; i++) {
-            place[solver->soft_vertex[i]] = (int)i;
-        }
-        int used = 0;
-        for (size_t i = 0; i < solver->soft; i++) {
-            const int v = solver->soft_vertex[i];
-            double diagonal = shift * complex->star0[v];
-            start[i] = used;
-            for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-                const double spread = viscosity * complex->star1[complex->ring_edge[k]];
-                diagonal += spread;
-                if (place[complex->ring_vertex[k]] >= 0) {
-                    column[used] = place[complex->ring_vertex[k]];
-                    value[used++] = -spread;
-                }
-            }
-            column[used] = (int)i;
-            value[used++] = diagonal;
-        }
-        start[solver->soft] = used;
-        factor = gm_cholesky_open(solver->soft, start, column, value);
-    }
-    free(start);
-    free(column);
-    free(place);
-    free(value);
-    return factor;
-}
-
 bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double viscosity)
 {
     const bool there = solver->stokes && solver->shift == shift && solver->viscosity == viscosity;
@@ -191,15 +156,10 @@ bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double v
         return true;
     }
     gm_cholesky_close(solver->stokes);
-    gm_cholesky_close(solver->soft_factor);
-    solver->soft_factor = NULL;
     solver->stokes = gm_unknowns_factor_stokes(&solver->unknowns, solver->flow, shift, viscosity);
-    if (solver->stokes && solver->soft > 0) {
-        solver->soft_factor = factor_soft(solver, shift, viscosity);
-    }
     solver->shift = shift;
     solver->viscosity = viscosity;
-    return solver->stokes && (solver->soft == 0 || solver->soft_factor);
+    return solver->stokes != NULL;
 }
 
 /* y = (R omega(z) without sheet and given psi) on the rows I and O */
@@ -231,22 +191,34 @@ static void precondition(void *data, const double *r, double *z)
     struct gm_flow_solver *solver = data;
     const struct gm_complex *complex = solver->flow->complex;
     const struct gm_unknowns *unknowns = &solver->unknowns;
-    double *b = solver->small_b;
+    const struct gm_transport *transport = &solver->transport;
+    double *b = solver->small_b, *right = solver->rate, *omega = solver->field;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        right[v] = unknowns->index[v] < 0 ? 0 : r[unknowns->index[v]];
+    }
+    for (size_t i = 0; i < solver->soft; i++) {
+        right[solver->soft_vertex[i]] = r[unknowns->count + i];
+    }
+    gm_transport_precondition(transport, right, omega);
     memcpy(b, r, unknowns->count * sizeof *b);
-    if (solver->soft > 0) {
-        double *soft = z + unknowns->count;
-        gm_cholesky_solve(solver->soft_factor, r + unknowns->count, soft);
-        for (size_t i = 0; i < solver->soft; i++) {
-            const int v = solver->soft_vertex[i];
-            for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
-                const int j = unknowns->index[complex->ring_vertex[k]];
-                if (j >= 0) {
-                    b[j] += solver->viscosity * complex->star1[complex->ring_edge[k]] * soft[i];
-                }
-            }
+    for (size_t i = 0; i < (size_t)unknowns->start[unknowns->count]; i++) {
+        const int v = unknowns->vertex[i];
+        double convected = 0, spread = 0;
+        for (int k = complex->ring_start[v]; k < complex->ring_start[v + 1]; k++) {
+            const int w = complex->ring_vertex[k];
+            const double star = solver->viscosity * complex->star1[complex->ring_edge[k]];
+            spread += star;
+            convected +=
+                (transport->ring[k] + (solver->flow->kind[w] == GM_VERTEX_SOFT ? 0 : star)) * omega[w];
         }
+        convected += (transport->diagonal[v] - solver->shift * complex->star0[v] - spread) * omega[v];
+        b[unknowns->index[v]] -= convected;
+    }
+    for (size_t i = 0; i < solver->soft; i++) {
+        z[unknowns->count + i] = omega[solver->soft_vertex[i]];
     }
     gm_cholesky_solve(solver->stokes, b, z);
+    solver->factor_solves++;
 }
 
 /* A row of the full matrix on its way: entries by column, added up. */
@@ -489,6 +461,7 @@ bool gm_flow_solver_correct(struct gm_flow_solver *solver, double size, unsigned
             return false;
         }
     }
+    gm_transport_factor(&solver->transport, solver->held);
     const struct gm_system system = {n, apply, precondition, solver};
     return gm_gmres(&system, solver->b, solver->x, tolerance * size, solver->gmres, iterations) ||
            solve_directly(solver, NULL, NULL);

@@ -17,17 +17,18 @@ struct gm_flow_solver {
     int *soft_vertex;
     size_t warm; /* vertices whose temperature is an unknown, of steady states */
     int *warm_vertex;
-    bool *held; /* vertices whose omega is given, where steps are made for omega */
+    bool *held; /* vertices whose omega has no equation of its own */
     struct gm_cholesky *poisson;
     double energy_limit;     /* no flow that these boundaries drive has more */
-    double shift, viscosity; /* that stokes and soft_factor were made for; shift = 0: none yet */
-    struct gm_cholesky *stokes, *soft_factor;
+    double shift, viscosity; /* that stokes was made for; shift = 0: none yet */
+    struct gm_cholesky *stokes;
+    unsigned long factor_solves;         /* systems solved with poisson and stokes in steps, so far */
     struct gm_transport transport, heat; /* the latter of temperature in steady states */
     double *numbers;                     /* the memory of all that follows */
     double *flux, *centre;               /* edges, triangles */
     double *rate, *field, *velocities;   /* vertices, vertices, 3 * vertices */
     double *b, *x;                       /* unknowns, soft and warm vertices */
-    double *small_b, *small_x;           /* the same, scratch of the preconditioner */
+    double *small_b;                     /* unknowns, scratch of the preconditioner */
     double *gmres, *bicgstab;
 };
 
@@ -37,8 +38,8 @@ void gm_flow_solver_close(struct gm_flow_solver *solver);
 /* Has the boundary give what it does at the time t. False where that is none (struct gm_flow, give). */
 bool gm_flow_solver_give(struct gm_flow_solver *solver, double t);
 
-/* Makes the factors of shift K_II + viscosity K_I W K_I and of B_OO (solver.c); nothing to do if they are
-   there. False if one is not positive definite or memory is short. */
+/* Makes the factor of shift K_II + viscosity K_I W K_I (solver.c); nothing to do if it is there. False if it is
+   not positive definite or memory is short. */
 bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double viscosity);
 
 /* The unknowns (psi, then omega of soft vertices) of the correction that takes the residual solver->b to 0,

@@ -12,14 +12,16 @@ bool gm_transport_open(struct gm_transport *transport, const struct gm_complex *
 {
     *transport = (struct gm_transport){.complex = complex,
                                        .diagonal = malloc(complex->vertices * sizeof(double)),
-                                       .ring = malloc(2 * complex->edges * sizeof(double))};
-    return transport->diagonal && transport->ring;
+                                       .ring = malloc(2 * complex->edges * sizeof(double)),
+                                       .pivot = malloc(complex->vertices * sizeof(double))};
+    return transport->diagonal && transport->ring && transport->pivot;
 }
 
 void gm_transport_close(struct gm_transport *transport)
 {
     free(transport->diagonal);
     free(transport->ring);
+    free(transport->pivot);
 }
 
 void gm_transport_assemble(struct gm_transport *transport, const double *flux, double shift, double share,
@@ -81,14 +83,47 @@ static double residual_of(const struct gm_transport *transport, const bool *fixe
     return sqrt(dot(residual, residual, n));
 }
 
-/* matrix diagonal^-1 p, on the rows that are not fixed */
+void gm_transport_factor(struct gm_transport *transport, const bool *fixed)
+{
+    const struct gm_complex *complex = transport->complex;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        double pivot = transport->diagonal[v];
+        for (int k = complex->ring_start[v];
+             k < complex->ring_start[v + 1] && complex->ring_vertex[k] < (int)v; k++) {
+            const int *ring = complex->edge_ring + 2 * complex->ring_edge[k];
+            pivot -= transport->ring[ring[0]] * transport->ring[ring[1]] *
+                     transport->pivot[complex->ring_vertex[k]];
+        }
+        transport->pivot[v] = fixed[v] ? 0 : 1 / pivot;
+    }
+}
+
+void gm_transport_precondition(const struct gm_transport *transport, const double *r, double *x)
+{
+    const struct gm_complex *complex = transport->complex;
+    const int *start = complex->ring_start, *vertex = complex->ring_vertex;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        double sum = r[v];
+        for (int k = start[v]; k < start[v + 1] && vertex[k] < (int)v; k++) {
+            sum -= transport->ring[k] * x[vertex[k]];
+        }
+        x[v] = transport->pivot[v] * sum;
+    }
+    for (size_t v = complex->vertices; v-- > 0;) {
+        double sum = 0;
+        for (int k = start[v + 1] - 1; k >= start[v] && vertex[k] > (int)v; k--) {
+            sum += transport->ring[k] * x[vertex[k]];
+        }
+        x[v] -= transport->pivot[v] * sum;
+    }
+}
+
+/* matrix times p preconditioned, on the rows that are not fixed */
 static void apply_scaled(const struct gm_transport *transport, const bool *fixed, const double *p,
                          double *scaled, double *product)
 {
     const size_t n = transport->complex->vertices;
-    for (size_t v = 0; v < n; v++) {
-        scaled[v] = fixed[v] ? 0 : p[v] / transport->diagonal[v];
-    }
+    gm_transport_precondition(transport, p, scaled);
     gm_transport_apply(transport, scaled, product);
     for (size_t v = 0; v < n; v++) {
         product[v] = fixed[v] ? 0 : product[v];
@@ -142,8 +177,8 @@ static bool bicgstab(const struct gm_transport *transport, const bool *fixed, do
     return false;
 }
 
-bool gm_transport_solve(const struct gm_transport *transport, const bool *fixed, const double *right,
-                        double *x, double *scratch, unsigned long *iterations)
+bool gm_transport_solve(struct gm_transport *transport, const bool *fixed, const double *right, double *x,
+                        double *scratch, unsigned long *iterations)
 {
     enum { ROUNDS = 4 };
     const size_t n = transport->complex->vertices;
@@ -169,6 +204,7 @@ bool gm_transport_solve(const struct gm_transport *transport, const bool *fixed,
         norm = fmax(norm, fixed[v] ? 0 : fabs(b[v]));
     }
     norm *= sqrt((double)n);
+    gm_transport_factor(transport, fixed);
     double left = residual_of(transport, fixed, b, x, r);
     for (int round = 0; round < ROUNDS && !solved; round++) {
         if (left <= 2e-17 * norm) {

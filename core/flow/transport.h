@@ -10,6 +10,7 @@
 struct gm_transport {
     const struct gm_complex *complex;
     double *diagonal; /* vertices */
+    double *pivot;    /* vertices: of gm_transport_factor */
     double *ring;     /* 2 * edges: row v in ring_start[v] .. ring_start[v + 1] */
 };
 
@@ -28,11 +29,17 @@ void gm_transport_assemble(struct gm_transport *transport, const double *flux, d
 /* y = matrix x */
 void gm_transport_apply(const struct gm_transport *transport, const double *x, double *y);
 
-/* Solves the rows that are not fixed for x there, to round-off: by BiCGStab with Jacobi's preconditioner (van
+/* The pivots D of (D + L) D^-1 (D + U), whose diagonal is the matrix', L and U being the matrix below and
+   above it, without the rows and columns that are fixed (DILU: Barrett et al., Templates for the solution of
+   linear systems (1994), 3.4); then x of (D + L) D^-1 (D + U) x = r, 0 where fixed. */
+void gm_transport_factor(struct gm_transport *transport, const bool *fixed);
+void gm_transport_precondition(const struct gm_transport *transport, const double *r, double *x);
+
+/* Solves the rows that are not fixed for x there, to round-off: by BiCGStab with that preconditioner (van
    der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631), repeated on the residual; by LU where that gives up.
    x: first guess, with the fixed values in place. scratch: 8 * vertices. Adds to *iterations. */
-bool gm_transport_solve(const struct gm_transport *transport, const bool *fixed, const double *right,
-                        double *x, double *scratch, unsigned long *iterations);
+bool gm_transport_solve(struct gm_transport *transport, const bool *fixed, const double *right, double *x,
+                        double *scratch, unsigned long *iterations);
 /* The same by LU, for steady states. */
 bool gm_transport_solve_directly(const struct gm_transport *transport, const bool *fixed, const double *right,
                                  double *x);

@@ -9,6 +9,7 @@
 
 #include "core/formula/derivative.h"
 #include "core/formula/legendre.h"
+#include "core/formula/linear_part.h"
 
 static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
 {
@@ -78,7 +79,8 @@ static void derive_lagrangian(struct gm_own_system *system, const gm_node_id *gr
 static bool derive(struct gm_own_system *system)
 {
     const size_t half = system->n / 2;
-    gm_node_id *gradient = system->kind == GM_RATES ? NULL : gradient_of(system, system->energy);
+    const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
+    gm_node_id *gradient = rates ? NULL : gradient_of(system, system->energy);
     if (system->kind == GM_CANONICAL && !system->graph.failed) {
         for (size_t i = 0; i < half; i++) {
             system->rates[i] = gradient[half + i];
@@ -103,7 +105,7 @@ static bool derive(struct gm_own_system *system)
     for (size_t i = 0; timed && i < system->n; i++) {
         system->timed |= system->rates[i] != GM_NO_NODE && timed[system->rates[i]];
     }
-    system->timed |= timed && system->kind != GM_RATES && timed[system->energy];
+    system->timed |= timed && !rates && timed[system->energy];
     free(marked);
     const bool good = timed && !system->graph.failed;
     free(timed);
@@ -361,6 +363,40 @@ static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_s
     return gm_equations_vanishes(system, change);
 }
 
+/* Whether a node is made of parameters and the first so many components alone. */
+static bool is_of_components(struct gm_own_system *system, gm_node_id node, size_t components)
+{
+    size_t count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_node *part = &system->graph.nodes[parts[i]];
+        const bool parameter = part->a >= system->parameters && part->a < system->velocities;
+        good = good && (part->operation != GM_VARIABLE || part->a < components || parameter);
+    }
+    system->graph.failed |= !parts;
+    free(parts);
+    return good;
+}
+
+/* A surface stands still: of what the motion changes it is not made, but of parameters, and of what is
+   kept. */
+static bool check_surface(struct gm_own_system *system, const struct gm_system_item *item,
+                          struct gm_fault *fault)
+{
+    for (size_t k = 0; k < item->count; k++) {
+        const gm_node_id rate = gm_equations_rate_of(system, item->nodes[k]);
+        const bool kept = rate == GM_NO_NODE ? is_of_components(system, item->nodes[k], 0)
+                                             : gm_equations_vanishes(system, rate) != GM_NOT_ZERO;
+        if (!kept && !system->graph.failed) {
+            return gm_fail(
+                fault, item->place,
+                "a surface stands still: its size is made of parameters, and of what the motion keeps");
+        }
+    }
+    return true;
+}
+
 static bool check_items(struct gm_own_system *system, struct gm_fault *fault)
 {
     bool forced = has(system, GM_WORD_CONSTRAINT);
@@ -376,6 +412,10 @@ static bool check_items(struct gm_own_system *system, struct gm_fault *fault)
                 return gm_fail(fault, item->place,
                                "%.60s is no invariant; what is only nearly kept is an observable, observe",
                                item->name);
+            }
+        } else if (item->word == GM_WORD_SURFACE) {
+            if (!check_surface(system, item, fault)) {
+                return false;
             }
         } else if (item->word == GM_WORD_CASIMIR) {
             item->check = check_casimir(system, item->nodes[0]);
@@ -637,22 +677,6 @@ static size_t rank_of(double *a, size_t rows, size_t columns)
     return rows < columns ? rows : columns;
 }
 
-/* Whether a node is made of parameters and the first so many components alone. */
-static bool is_of_components(struct gm_own_system *system, gm_node_id node, size_t components)
-{
-    size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
-    bool good = true;
-    for (size_t i = 0; i < count; i++) {
-        const struct gm_node *part = &system->graph.nodes[parts[i]];
-        const bool parameter = part->a >= system->parameters && part->a < system->velocities;
-        good = good && (part->operation != GM_VARIABLE || part->a < components || parameter);
-    }
-    system->graph.failed |= !parts;
-    free(parts);
-    return good;
-}
-
 /* What the motion begins with has to keep the constraints, and their rates 0; and they are to be
    independent. */
 static bool check_constraints(struct gm_own_system *system, const double *start, struct gm_fault *fault)
@@ -741,6 +765,22 @@ static bool check_monitor(struct gm_own_system *system, const double *values, st
     return good;
 }
 
+/* Half axes are lengths. */
+static bool check_sizes(struct gm_own_system *system, const double *values, struct gm_fault *fault)
+{
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        for (size_t k = 0; k < item->count && item->word == GM_WORD_SURFACE; k++) {
+            const double size = values[item->nodes[k]];
+            if (!(size > 0 && isfinite(size))) {
+                return gm_fail(fault, item->place, "the size of a surface is %g, and has to be above 0",
+                               size);
+            }
+        }
+    }
+    return true;
+}
+
 static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
 {
     double *start = gm_equations_start(system, NULL), *values = start ? values_for(system, start) : NULL;
@@ -769,7 +809,7 @@ static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
             isfinite(values[system->energy]) ||
             gm_fail(fault, first_not_finite(system, system->energy, values), "H is not finite at the start");
     }
-    good = good && (!values || check_monitor(system, values, fault));
+    good = good && (!values || (check_monitor(system, values, fault) && check_sizes(system, values, fault)));
     system->graph.failed |= !values;
     free(start);
     free(values);
@@ -819,30 +859,119 @@ static bool is_smooth(struct gm_own_system *system, struct gm_fault *fault)
     return good;
 }
 
-static bool check_field(struct gm_own_system *system, struct gm_fault *fault)
+/* What the starts, exact solutions and densities of a field hold. */
+static bool check_line(struct gm_own_system *system, size_t densities, struct gm_fault *fault)
 {
-    enum { U, U_T, T };
-    const size_t x = system->velocities;
-    const size_t in_v[] = {U}, in_start[] = {x}, in_exact[] = {x, T}, in_density[] = {U, U_T, x, x + 1};
-    bool good = is_smooth(system, fault) && holds_only(system, system->energy, in_v, 1, "V", fault);
-    for (size_t i = 0; i < system->n && good; i++) {
-        good = holds_only(system, system->variables[i].start, in_start, 1, "the start of a field", fault);
+    const size_t n = system->n, x = system->velocities, in_start[] = {x}, in_exact[] = {x, n};
+    size_t in_density[GM_MOST_FIELDS * (1 + GM_MOST_DERIVATIVES) + 1];
+    bool good = true;
+    for (size_t i = 0; i < n + densities; i++) {
+        in_density[i] = i < n ? i : x + i - n;
     }
-    if (good && system->variables[U_T].exact != GM_NO_NODE) {
-        good = gm_fail(fault, 0, "exact: is of %.60s alone", system->variables[U].name);
-    }
-    if (good && system->variables[U].exact != GM_NO_NODE) {
-        good = holds_only(system, system->variables[U].exact, in_exact, 2, "the exact solution of a field",
-                          fault);
+    for (size_t i = 0; i < n && good; i++) {
+        const struct gm_system_variable *field = &system->variables[i];
+        good = holds_only(system, field->start, in_start, 1, "the start of a field", fault) &&
+               (field->exact == GM_NO_NODE ||
+                holds_only(system, field->exact, in_exact, 2, "the exact solution of a field", fault));
     }
     for (size_t i = 0; i < system->item_count && good; i++) {
         struct gm_system_item *item = &system->items[i];
         if (item->word == GM_WORD_INVARIANT || item->word == GM_WORD_OBSERVE) {
             item->check = GM_UNTESTED;
-            good = holds_only(system, item->nodes[0], in_density, 4, "a density", fault);
+            good = holds_only(system, item->nodes[0], in_density, n + densities, "a density", fault);
         }
     }
     return good && !system->graph.failed;
+}
+
+size_t gm_system_mass_field(const struct gm_own_system *system, gm_node_id node)
+{
+    const size_t n = system->n;
+    size_t found = n, count = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
+    for (size_t k = 0; parts && k < count; k++) {
+        const struct gm_node *part = &system->graph.nodes[parts[k]];
+        if (part->operation == GM_VARIABLE && (part->a < n || part->a > system->velocities)) {
+            const size_t field = part->a < n ? part->a : (part->a - system->velocities - 1) % n;
+            found = found == n || found == field ? field : n + 1;
+        }
+    }
+    free(parts);
+    return found < n ? found : n;
+}
+
+bool gm_system_linear_part(struct gm_own_system *system, gm_node_id node, gm_node_id *line, gm_node_id *rest)
+{
+    bool *fields = calloc(system->variable_count, sizeof *fields),
+         *varying = calloc(system->variable_count, sizeof *varying);
+    for (size_t i = 0; fields && varying && i < system->variable_count; i++) {
+        fields[i] = i < system->n || (i > system->velocities && i < system->initial);
+        varying[i] = i < system->parameters || i >= system->velocities;
+    }
+    const bool good =
+        fields && varying &&
+        gm_linear_part(&system->graph, node, fields, varying, system->variable_count, line, rest);
+    free(fields);
+    free(varying);
+    return good;
+}
+
+static bool check_masses(struct gm_own_system *system, struct gm_fault *fault)
+{
+    bool known[GM_MOST_FIELDS] = {false};
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word != GM_WORD_MASS) {
+            continue;
+        }
+        const size_t field = gm_system_mass_field(system, item->nodes[0]);
+        if (field == system->n) {
+            return gm_fail(fault, item->place, "a mass is of one of the fields, as in mass: u - u_xx");
+        }
+        if (known[field]) {
+            return gm_fail(fault, item->place, "the mass of %.60s is said twice",
+                           system->variables[field].name);
+        }
+        known[field] = true;
+        gm_node_id line, rest;
+        if (!gm_system_linear_part(system, item->nodes[0], &line, &rest)) {
+            return false;
+        }
+        if (!gm_is_constant(&system->graph, rest, 0)) {
+            return gm_fail(fault, item->place,
+                           "a mass is linear in %.60s and its derivatives, with constant coefficients",
+                           system->variables[field].name);
+        }
+    }
+    return true;
+}
+
+static bool check_evolution(struct gm_own_system *system, struct gm_fault *fault)
+{
+    const size_t n = system->n, derivatives = GM_MOST_DERIVATIVES * n;
+    size_t in_rate[GM_MOST_FIELDS * (1 + GM_MOST_DERIVATIVES) + 1];
+    bool good = true;
+    for (size_t i = 0; i < n + derivatives + 1; i++) {
+        in_rate[i] = i < n ? i : system->velocities + i - n;
+    }
+    for (size_t i = 0; i < n && good; i++) {
+        good =
+            holds_only(system, system->rates[i], in_rate, n + derivatives + 1, "the rate of a field", fault);
+    }
+    return good && check_masses(system, fault) && check_line(system, derivatives + 1, fault);
+}
+
+static bool check_field(struct gm_own_system *system, struct gm_fault *fault)
+{
+    enum { U, U_T };
+    const size_t in_v[] = {U};
+    if (!is_smooth(system, fault) || !holds_only(system, system->energy, in_v, 1, "V", fault)) {
+        return false;
+    }
+    if (system->variables[U_T].exact != GM_NO_NODE) {
+        return gm_fail(fault, 0, "exact: is of %.60s alone", system->variables[U].name);
+    }
+    return check_line(system, 2, fault);
 }
 
 bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
@@ -851,8 +980,8 @@ bool gm_equations_open(struct gm_own_system *system, const char *text, size_t le
     if (!gm_system_read(system, text, length, values, count, fault) || !derive(system)) {
         return false;
     }
-    if (system->kind == GM_FIELD) {
-        return check_field(system, fault);
+    if (gm_system_is_field(system)) {
+        return system->kind == GM_FIELD ? check_field(system, fault) : check_evolution(system, fault);
     }
     return (system->kind != GM_POISSON || check_jacobi(system, fault)) && check_start(system, fault) &&
            check_items(system, fault) && !system->graph.failed;

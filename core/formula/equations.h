@@ -18,6 +18,12 @@ bool gm_equations_open(struct gm_own_system *system, const char *text, size_t le
    short. */
 double *gm_equations_start(const struct gm_own_system *system, const double *given);
 
+/* The field of an evolution that a mass is of; system->n where it is of none, or of several, or memory was
+   refused. */
+size_t gm_system_mass_field(const struct gm_own_system *system, gm_node_id node);
+/* Splits what a rate or a mass of an evolution is: gm_linear_part in the fields and their derivatives. */
+bool gm_system_linear_part(struct gm_own_system *system, gm_node_id node, gm_node_id *line, gm_node_id *rest);
+
 /* The rate of change of a node along the motion; GM_NO_NODE where it is not known (of a Lagrangian, or with a
    constraint) or memory was refused. */
 gm_node_id gm_equations_rate_of(struct gm_own_system *system, gm_node_id node);

@@ -20,8 +20,10 @@ enum {
     RATES = 1 << GM_RATES,
     POISSON = 1 << GM_POISSON,
     FIELD = 1 << GM_FIELD,
+    EVOLUTION = 1 << GM_EVOLUTION,
+    LINE = FIELD | EVOLUTION,
     MOTION = CANONICAL | LAGRANGIAN | RATES | POISSON,
-    ANY = MOTION | FIELD
+    ANY = MOTION | LINE
 };
 
 static const struct {
@@ -226,11 +228,11 @@ static const struct entry *list_of(const struct reading *reading, const char *na
 static bool is_reserved(const char *name, size_t length)
 {
     /* keys of a command line, and columns of tables */
-    static const char *const reserved[] = {"dt",          "until",     "steps",   "scheme",      "schemes",
-                                           "zip",         "overlay",   "equal",   "show",        "members",
-                                           "t",           "lane",      "meta",    "compensated", "binding",
-                                           "tau0",        "tolerance", "spread",  "scene",       "status",
-                                           "evaluations", "solves",    "seconds", "stopped",     "shape"};
+    static const char *const reserved[] = {
+        "dt",      "until",   "steps",     "scheme", "schemes",     "zip",    "overlay",
+        "equal",   "show",    "members",   "t",      "lane",        "meta",   "compensated",
+        "binding", "tau0",    "tolerance", "spread", "scene",       "status", "evaluations",
+        "solves",  "seconds", "stopped",   "shape",  "newmark_beta"};
     for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++) {
         if (strlen(reserved[i]) == length && memcmp(reserved[i], name, length) == 0) {
             return true;
@@ -239,13 +241,22 @@ static bool is_reserved(const char *name, size_t length)
     return gm_formula_reserves(name, length);
 }
 
+/* keys of a ring */
+static bool is_of_ring(const struct reading *reading, const struct entry *entry)
+{
+    static const char *const keys[] = {"half_length", "points", "space"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys && gm_system_is_field(reading->system); i++) {
+        if (entry->length == strlen(keys[i]) && memcmp(entry->name, keys[i], entry->length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool add_entry(struct reading *reading, struct entry entry)
 {
     const int brief = (int)(entry.length < 60 ? entry.length : 60);
-    const bool of_ring = reading->system->kind == GM_FIELD &&
-                         ((entry.length == 11 && memcmp(entry.name, "half_length", 11) == 0) ||
-                          (entry.length == 6 && memcmp(entry.name, "points", 6) == 0));
-    if (of_ring || (entry.role != TIME && is_reserved(entry.name, entry.length))) {
+    if (is_of_ring(reading, &entry) || (entry.role != TIME && is_reserved(entry.name, entry.length))) {
         return fail(reading, entry.place, "the name %.*s is reserved", brief, entry.name);
     }
     if (reading->entry_count == reading->entry_capacity) {
@@ -807,17 +818,22 @@ static bool find_kind(struct reading *reading)
                       *bracket = line_with(reading, GM_WORD_BRACKET),
                       *field = line_with(reading, GM_WORD_FIELD),
                       *potential = line_with(reading, GM_WORD_POTENTIAL);
-    enum gm_system_kind kind = field      ? GM_FIELD
-                               : lagrange ? GM_LAGRANGIAN
-                               : rate     ? GM_RATES
-                               : bracket  ? GM_POISSON
-                                          : GM_CANONICAL;
-    static const char *const called[] = {"with H", "with L", "with rates", "with a bracket", "with a field"};
+    enum gm_system_kind kind = field && rate && !potential ? GM_EVOLUTION
+                               : field                     ? GM_FIELD
+                               : lagrange                  ? GM_LAGRANGIAN
+                               : rate                      ? GM_RATES
+                               : bracket                   ? GM_POISSON
+                                                           : GM_CANONICAL;
+    static const char *const called[] = {"with H",         "with L",       "with rates",
+                                         "with a bracket", "with a field", "with a field and its rate"};
     if (!energy && !lagrange && !rate && !bracket && !field && !potential) {
-        return fail(reading, 0, "the file has no equation: H, L, rate, bracket and H, or field and V");
+        return fail(reading, 0,
+                    "the file has no equation: H, L, rate, bracket and H, or field and V or "
+                    "rate");
     }
-    if (!field != !potential) {
-        return field ? fail(reading, field->place, "a field needs V, as in u_tt = u_xx - V'(u)")
+    if (!field != !potential && kind != GM_EVOLUTION) {
+        return field ? fail(reading, field->place,
+                            "a field needs V, as in u_tt = u_xx - V'(u), or its rate, as in rate: u = -u_x")
                      : fail(reading, potential->place, "V is of a field, which a line \"field\" names");
     }
     if (kind == GM_POISSON && !energy) {
@@ -838,28 +854,35 @@ static bool find_kind(struct reading *reading)
     return true;
 }
 
+/* The components that stand on the left side of a rate or a bracket and are new. */
+static bool add_components_of(struct reading *reading, struct gm_span piece)
+{
+    struct gm_span rest = {piece.begin, gm_span_until(reading->text, piece, "=")};
+    for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end;
+         rest = gm_span_trimmed(reading->text, rest)) {
+        struct target target;
+        if (!read_target(reading, &rest, &target)) {
+            return false;
+        }
+        if (target.index.begin < target.index.end) {
+            return fail(reading, target.name.begin, "a system with lists needs a line \"components\"");
+        }
+        if (!entry_of(reading, reading->text + target.name.begin, target.name.end - target.name.begin, false,
+                      0)) {
+            add_names(reading, &target, COMPONENT, &reading->component_count);
+        }
+    }
+    return !reading->failed;
+}
+
 /* Components in the order in which rates and brackets name them. */
 static bool add_components_in_order(struct reading *reading, enum gm_system_word word)
 {
     for (size_t i = 0; i < reading->line_count && !reading->failed; i++) {
-        struct gm_span rest = reading->lines[i].value;
-        if (reading->lines[i].word != word) {
-            continue;
-        }
-        rest.end = gm_span_until(reading->text, rest, "=");
-        for (rest = gm_span_trimmed(reading->text, rest); rest.begin < rest.end && !reading->failed;
-             rest = gm_span_trimmed(reading->text, rest)) {
-            struct target target;
-            const struct entry *entry = NULL;
-            if (read_target(reading, &rest, &target)) {
-                entry = entry_of(reading, reading->text + target.name.begin,
-                                 target.name.end - target.name.begin, false, 0);
-                if (target.index.begin < target.index.end) {
-                    fail(reading, target.name.begin, "a system with lists needs a line \"components\"");
-                } else if (!entry) {
-                    add_names(reading, &target, COMPONENT, &reading->component_count);
-                }
-            }
+        struct gm_span rest = reading->lines[i].value, piece;
+        while (reading->lines[i].word == word && !reading->failed &&
+               gm_span_take(reading->text, &rest, ",", &piece)) {
+            add_components_of(reading, piece);
         }
     }
     return !reading->failed;
@@ -910,6 +933,32 @@ static bool arrange(struct reading *reading)
     return true;
 }
 
+/* Fields, x, and their derivatives over it */
+static bool add_fields(struct reading *reading, const struct line *field)
+{
+    char x[] = "x";
+    static const char *const derivatives[GM_MOST_DERIVATIVES] = {"_x", "_xx", "_xxx", "_xxxx"};
+    const struct entry place = {
+        .name = x, .length = 1, .place = field->place, .role = VELOCITY, .number = reading->velocity_count++};
+    if (!add_all_names(reading, field->value, COMPONENT, &reading->component_count)) {
+        return false;
+    }
+    const size_t n = reading->component_count;
+    if (n == 0 || n > GM_MOST_FIELDS) {
+        return fail(reading, field->value.begin, "there are 1 to %d fields, as in field: u v",
+                    GM_MOST_FIELDS);
+    }
+    if (!add_entry(reading, place) || !add_variable(reading, &place)) {
+        return false;
+    }
+    for (size_t k = 0; k < GM_MOST_DERIVATIVES; k++) {
+        if (!add_derived(reading, "", derivatives[k], VELOCITY, &reading->velocity_count, n)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* u and u_t, and what densities may hold beside them: x and u_x */
 static bool add_field(struct reading *reading, const struct line *field)
 {
@@ -955,6 +1004,8 @@ static bool add_state(struct reading *reading)
         }
     } else if (system->kind == GM_FIELD) {
         add_field(reading, line_with(reading, GM_WORD_FIELD));
+    } else if (system->kind == GM_EVOLUTION) {
+        add_fields(reading, line_with(reading, GM_WORD_FIELD));
     } else if (components) {
         add_all_names(reading, components->value, COMPONENT, &reading->component_count);
     } else {
@@ -1089,10 +1140,11 @@ static bool read_assignments(struct reading *reading, const struct line *line)
     return !reading->failed;
 }
 
-static bool read_bracket(struct reading *reading, const struct line *line)
+/* x y = z */
+static bool read_bracket(struct reading *reading, struct gm_span piece)
 {
     struct gm_own_system *system = reading->system;
-    struct gm_span rest = line->value;
+    struct gm_span rest = piece;
     size_t pair[2];
     for (int i = 0; i < 2; i++) {
         struct target target;
@@ -1119,22 +1171,31 @@ static bool read_bracket(struct reading *reading, const struct line *line)
     gm_node_id node, *entry = &system->bracket[pair[0] * system->n + pair[1]],
                      *opposite = &system->bracket[pair[1] * system->n + pair[0]];
     if (pair[0] == pair[1]) {
-        return fail(reading, line->value.begin, "the bracket of %s with itself is 0",
+        return fail(reading, piece.begin, "the bracket of %s with itself is 0",
                     system->variables[pair[0]].name);
     }
     if (!read_formula(reading, rest, &node)) {
         return false;
     }
     if (*entry != GM_NO_NODE) {
-        return fail(reading, line->value.begin, "the bracket of %s and %s is said twice",
+        return fail(reading, piece.begin, "the bracket of %s and %s is said twice",
                     system->variables[pair[0]].name, system->variables[pair[1]].name);
     }
     *entry = node;
-    system->bracket_place = line->value.begin;
+    system->bracket_place = piece.begin;
     system->graph.simplifies = true;
     *opposite = gm_formula_apply(&system->graph, GM_OPERATION_NEGATE, node, node);
     system->graph.simplifies = false;
     return true;
+}
+
+static bool read_brackets(struct reading *reading, const struct line *line)
+{
+    struct gm_span rest = line->value, piece;
+    while (!reading->failed && gm_span_take(reading->text, &rest, ",", &piece)) {
+        read_bracket(reading, piece);
+    }
+    return !reading->failed;
 }
 
 static bool generate(struct reading *reading, struct entry *entry, const struct target *target,
@@ -1304,6 +1365,60 @@ static bool read_view(struct reading *reading, const struct line *line)
     return !reading->failed;
 }
 
+/* surface: sphere; r   or   surface: ellipsoid; a, b, c */
+static bool read_surface(struct reading *reading, const struct line *line)
+{
+    struct gm_span rest = line->value, shape;
+    struct gm_system_item *item = add_item(reading, line, (struct gm_span){0, 0});
+    gm_span_take(reading->text, &rest, ";", &shape);
+    const char *word = reading->text + shape.begin;
+    const size_t length = shape.end - shape.begin;
+    const bool sphere = length == 6 && memcmp(word, "sphere", 6) == 0;
+    if (!item || (!sphere && (length != 9 || memcmp(word, "ellipsoid", 9) != 0))) {
+        return fail(reading, shape.begin, "a surface is a sphere or an ellipsoid: sphere; 1");
+    }
+    rest = gm_span_trimmed(reading->text, rest);
+    if (rest.begin == rest.end || !add_formulas(reading, item, rest) || item->count != (sphere ? 1 : 3)) {
+        return fail(reading, rest.begin,
+                    sphere ? "a sphere has one radius: sphere; 1"
+                           : "an ellipsoid has three half axes: ellipsoid; 1, 2, 3");
+    }
+    const gm_node_id radius = item->nodes[0];
+    return !sphere || (add_node(reading, item, radius) && add_node(reading, item, radius));
+}
+
+/* What is seen in space has a camera, whose keys are no names of the system's own; and surfaces are. */
+static bool check_space(struct reading *reading)
+{
+    static const char *const keys[] = {"azimuth", "elevation", "zoom", "turn"};
+    static const char taken[] = "the name %s is reserved: it is how a system in space is looked at";
+    const struct gm_own_system *system = reading->system;
+    bool in_space = false;
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        in_space |= (item->word == GM_WORD_VIEW && item->count == 3) ||
+                    (item->word == GM_WORD_ROD && item->count == 6);
+    }
+    for (size_t i = 0; i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        if (item->word == GM_WORD_SURFACE && !in_space) {
+            return fail(reading, item->place, "a surface stands in space, among bodies: view: x, y, z");
+        }
+        for (size_t k = 0; k < sizeof keys / sizeof *keys && in_space; k++) {
+            if (strcmp(item->name, keys[k]) == 0) {
+                return fail(reading, item->place, taken, keys[k]);
+            }
+        }
+    }
+    for (size_t k = 0; k < sizeof keys / sizeof *keys && in_space; k++) {
+        const struct entry *entry = entry_of(reading, keys[k], strlen(keys[k]), false, 0);
+        if (entry) {
+            return fail(reading, entry->place, taken, keys[k]);
+        }
+    }
+    return true;
+}
+
 static bool read_angles(struct reading *reading, const struct line *line)
 {
     struct gm_own_system *system = reading->system;
@@ -1356,6 +1471,13 @@ static bool read_ring(struct reading *reading, const struct line *line)
     return item && add_formula(reading, item, line->value);
 }
 
+static bool read_space(struct reading *reading, const struct line *line)
+{
+    char *text = reading->system->texts[GM_WORD_SPACE] = text_of(reading, line->value);
+    return text && (strcmp(text, "differences") == 0 || strcmp(text, "fourier") == 0 ||
+                    fail(reading, line->value.begin, "space is differences or fourier, not %.60s", text));
+}
+
 static bool read_what_is_said(struct reading *reading, const struct line *line)
 {
     struct gm_own_system *system = reading->system;
@@ -1387,6 +1509,8 @@ static bool read_what_is_said(struct reading *reading, const struct line *line)
     case GM_WORD_MEMBERS:
         system->texts[line->word] = text_of(reading, line->value);
         return true;
+    case GM_WORD_SPACE:
+        return read_space(reading, line);
     case GM_WORD_HALF_LENGTH:
     case GM_WORD_POINTS:
     case GM_WORD_JUMP:
@@ -1401,7 +1525,7 @@ static bool read_what_is_said(struct reading *reading, const struct line *line)
     case GM_WORD_EXACT:
         return read_assignments(reading, line);
     case GM_WORD_BRACKET:
-        return read_bracket(reading, line);
+        return read_brackets(reading, line);
     case GM_WORD_ANGLE:
         return read_angles(reading, line);
     case GM_WORD_INVARIANT:
@@ -1415,9 +1539,12 @@ static bool read_what_is_said(struct reading *reading, const struct line *line)
     case GM_WORD_VIEW:
     case GM_WORD_ROD:
         return read_view(reading, line);
+    case GM_WORD_SURFACE:
+        return read_surface(reading, line);
     case GM_WORD_CONSTRAINT:
     case GM_WORD_STOP:
     case GM_WORD_MONITOR:
+    case GM_WORD_MASS:
         item = add_item(reading, line, (struct gm_span){0, 0});
         return item && add_formula(reading, item, line->value);
     default: /* names, which were read before */
@@ -1438,7 +1565,8 @@ static bool is_complete(struct reading *reading)
 {
     struct gm_own_system *system = reading->system;
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
-    for (size_t i = 0; i < system->n && system->kind == GM_RATES; i++) {
+    const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
+    for (size_t i = 0; i < system->n && rates; i++) {
         if (system->rates[i] == GM_NO_NODE) {
             return fail(reading, 0, "there is no rate of %s", system->variables[i].name);
         }
@@ -1512,7 +1640,7 @@ static bool read_system(struct reading *reading)
             return reading->failed ? false : no_memory(reading);
         }
     }
-    return is_complete(reading) && name_parts(reading);
+    return check_space(reading) && is_complete(reading) && name_parts(reading);
 }
 
 bool gm_system_read(struct gm_own_system *system, const char *text, size_t length,

@@ -15,6 +15,7 @@ enum gm_system_kind {
     GM_RATES,      /* components with their rates */
     GM_POISSON,    /* components, a bracket, H */
     GM_FIELD,      /* u of x and t, and u_t: u_tt = u_xx - V'(u) */
+    GM_EVOLUTION,  /* fields u, v .. of x and t, whose rates, or those of their masses, are told */
     GM_SYSTEM_KINDS
 };
 
@@ -27,8 +28,12 @@ enum gm_system_word {
 
 enum { GM_LARGEST_SYSTEM = 100000000, GM_MOST_COMPONENTS = 100000 };
 
+/* Of an evolution: the most fields, and the highest derivative over x that their rates may hold. */
+enum { GM_MOST_FIELDS = 4, GM_MOST_DERIVATIVES = 4 };
+
 /* A variable of the graph. Their numbers: the n components, t, the parameters, of a Lagrangian the n / 2
-   velocities, of a field x and u_x, and the n components at the start, of which `exact` speaks. */
+   velocities, of a field x and u_x, of an evolution x, all u_x, all u_xx .. u_xxxx, and the n components at the
+   start, of which `exact` speaks. */
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
     double value;         /* of a parameter; else NaN */
@@ -54,8 +59,8 @@ struct gm_system_item {
     enum gm_identity check; /* of invariants, Casimirs and symmetries */
 };
 /* nodes: of a section what becomes 0, the two that are shown, and what must be positive; of a symmetry the
-   generator, one for a coordinate or component, and last its momentum map; of a rod one end and the other; of
-   dt, until and steps the number, in parameters. */
+   generator, one for a coordinate or component, and last its momentum map; of a rod one end and the other; of a
+   surface its three half axes; of a mass the formula; of dt, until and steps the number, in parameters. */
 
 struct gm_own_system {
     enum gm_system_kind kind;
@@ -95,6 +100,12 @@ struct gm_system_value {
 bool gm_system_read(struct gm_own_system *system, const char *text, size_t length,
                     const struct gm_system_value *values, size_t count, struct gm_fault *fault);
 void gm_system_close(struct gm_own_system *system);
+
+/* Whether it is a field on a line. */
+static inline bool gm_system_is_field(const struct gm_own_system *system)
+{
+    return system->kind == GM_FIELD || system->kind == GM_EVOLUTION;
+}
 
 /* The names of variables and of lets. It holds as long as the system. */
 struct gm_naming gm_system_naming(const struct gm_own_system *system);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* GMRES with Arnoldi's basis by Gram & Schmidt, and Givens rotations for the small least squares problem. */
+/* GMRES with Arnoldi's basis by Gram & Schmidt, and Givens rotations for the small least squares problem.
+   What the preconditioner made of the basis is kept: it may be another one each time, and the correction is
+   their sum. */
 #include "core/linear/gmres.h"
 
 #include <math.h>
@@ -9,16 +11,23 @@ enum { M = GM_GMRES_BASIS };
 
 size_t gm_gmres_scratch(size_t n)
 {
-    return (M + 4) * n;
+    return (2 * M + 3) * n; /* a product, the residual, M + 1 of the basis, M of what it became */
 }
 
 static double dot(const double *a, const double *b, size_t n)
 {
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) {
-        sum += a[i] * b[i];
+    enum { LANES = 4 }; /* sums that do not wait for each other */
+    double sum[LANES] = {0};
+    size_t i = 0;
+    for (; i + LANES <= n; i += LANES) {
+        for (size_t k = 0; k < LANES; k++) {
+            sum[k] += a[i + k] * b[i + k];
+        }
     }
-    return sum;
+    for (; i < n; i++) {
+        sum[0] += a[i] * b[i];
+    }
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 static void add(double *y, double factor, const double *x, size_t n)
@@ -28,30 +37,37 @@ static void add(double *y, double factor, const double *x, size_t n)
     }
 }
 
-/* One cycle on the residual r: adds its correction to x. The residual's norm by the recurrence. */
+/* One cycle on the residual r: adds its correction to x. The residual's norm by the recurrence. Memory behind
+   the vectors that are made is not touched. */
 static double cycle(const struct gm_system *system, const double *r, double *x, double small, double *scratch,
                     unsigned long *iterations)
 {
     const size_t n = system->n;
-    double *basis = scratch, *w = scratch + (M + 1) * n, *z = scratch + (M + 2) * n;
+    double *w = scratch, *basis[M + 1], *made[M];
+    for (size_t i = 0; i <= M; i++) {
+        basis[i] = scratch + (2 + 2 * i) * n;
+    }
+    for (size_t i = 0; i < M; i++) {
+        made[i] = basis[i] + n;
+    }
     double h[M + 1][M], c[M], s[M], g[M + 1] = {0}, y[M];
     double norm = sqrt(dot(r, r, n));
     g[0] = norm;
     for (size_t i = 0; i < n; i++) {
-        basis[i] = r[i] / norm;
+        basis[0][i] = r[i] / norm;
     }
     int m = 0;
     while (m < M && norm > small) {
-        system->precondition(system->data, basis + (size_t)m * n, z);
-        system->apply(system->data, z, w);
+        system->precondition(system->data, basis[m], made[m]);
+        system->apply(system->data, made[m], w);
         for (int i = 0; i <= m; i++) {
-            h[i][m] = dot(w, basis + (size_t)i * n, n);
-            add(w, -h[i][m], basis + (size_t)i * n, n);
+            h[i][m] = dot(w, basis[i], n);
+            add(w, -h[i][m], basis[i], n);
         }
         const double length = sqrt(dot(w, w, n));
         h[m + 1][m] = length;
         for (size_t i = 0; i < n; i++) {
-            basis[(size_t)(m + 1) * n + i] = length > 0 ? w[i] / length : 0;
+            basis[m + 1][i] = length > 0 ? w[i] / length : 0;
         }
         for (int i = 0; i < m; i++) {
             const double a = h[i][m], b = h[i + 1][m];
@@ -78,12 +94,9 @@ static double cycle(const struct gm_system *system, const double *r, double *x, 
         }
         y[i] /= h[i][i];
     }
-    memset(w, 0, n * sizeof *w);
     for (int i = 0; i < m; i++) {
-        add(w, y[i], basis + (size_t)i * n, n);
+        add(x, y[i], made[i], n);
     }
-    system->precondition(system->data, w, z);
-    add(x, 1, z, n);
     return norm;
 }
 
@@ -91,7 +104,7 @@ bool gm_gmres(const struct gm_system *system, const double *b, double *x, double
               unsigned long *iterations)
 {
     const size_t n = system->n;
-    double *r = scratch + (M + 3) * n;
+    double *r = scratch + n;
     double norm = sqrt(dot(b, b, n));
     memset(x, 0, n * sizeof *x);
     memcpy(r, b, n * sizeof *r);

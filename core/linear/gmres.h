@@ -8,7 +8,7 @@
 
 enum { GM_GMRES_BASIS = 60, GM_GMRES_CYCLES = 4 };
 
-/* A system A x = b with a preconditioner that nearly is A's inverse. */
+/* A system A x = b with a preconditioner that nearly is A's inverse; it may be another one in every call. */
 struct gm_system {
     size_t n;
     void (*apply)(void *data, const double *x, double *y);        /* y = A x */
@@ -19,8 +19,8 @@ struct gm_system {
 /* Numbers of scratch that a system of n unknowns needs. */
 size_t gm_gmres_scratch(size_t n);
 
-/* Restarted GMRES, preconditioned from the right (Saad & Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856),
-   from x = 0 until |b - A x| <= small. Adds to *iterations; false if that is not reached. */
+/* Restarted flexible GMRES, preconditioned from the right (Saad, SIAM J. Sci. Comput. 14 (1993) 461), from
+   x = 0 until |b - A x| <= small. Adds to *iterations; false if that is not reached. */
 bool gm_gmres(const struct gm_system *system, const double *b, double *x, double small, double *scratch,
               unsigned long *iterations);
 

@@ -86,9 +86,13 @@ struct gm_poisson {
     double (*energy)(const struct gm_problem *problem, const double *y);
     void (*gradient)(const struct gm_problem *problem, const double *y, double *gradient);
     void (*bracket)(const struct gm_problem *problem, const double *y, double *matrix);
-    double
-        turning; /* s = +-1 where the bracket is that of angular momenta, y' = s y x dH/dy; 0: another one */
-    bool axes;   /* then: H is a sum of functions of one component each */
+    /* s = +-1 where the bracket is that of angular momenta, y' = s y x dH/dy; or, of six components, of
+       angular momenta y and a vector z that they turn, y' = s (y x dH/dy + z x dH/dz), z' = s z x dH/dy. 0:
+       another one. */
+    double turning;
+    bool axes; /* then: H is a sum of functions of one component of y each, and of one of z */
+    /* The moments of inertia of a free body, H = sum y_i^2 / (2 moments_i); 0: it is none. */
+    double moments[3];
 };
 
 /* f = f_0 + ... + f_(pieces - 1), each without divergence and with an exact flow */
@@ -96,6 +100,16 @@ struct gm_volume {
     size_t pieces;
     /* y := the exact flow of f_piece over h, in place */
     void (*flow)(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m);
+};
+
+/* y' = L y + N(y) of `fields` lists of equal length, one behind the other, on a ring: L looks the same at every
+   point, so that it multiplies waves by matrices. */
+struct gm_semilinear {
+    size_t fields;
+    /* L on the wave of number `mode` <= points / 2, exp(2 pi i mode j / points): fields * fields by rows */
+    void (*symbol)(const struct gm_problem *problem, size_t mode, double _Complex *matrix);
+    /* N(y) of one member */
+    void (*nonlinear)(const struct gm_problem *problem, const double *y, double *rest);
 };
 
 /* The facets of a system. Where n is a constant, loops hold loops over the problem's kernels. Where n is
@@ -116,8 +130,10 @@ enum gm_ode_facet {
     GM_NEEDS_FRICTION = 1u << 12,    /* forces -rate p and no others */
     GM_NEEDS_MONITOR = 1u << 13,
     GM_NEEDS_POISSON = 1u << 14,
-    GM_NEEDS_ROTATIONS = 1u << 15, /* the bracket of angular momenta */
-    GM_NEEDS_AXES = 1u << 16,      /* and an energy that is a sum over the axes */
+    GM_NEEDS_ROTATIONS = 1u << 15, /* the bracket of angular momenta alone */
+    GM_NEEDS_AXES = 1u << 16,      /* or with a vector, and an energy that is a sum over the axes */
+    GM_NEEDS_FREE_BODY = 1u << 17,
+    GM_NEEDS_SEMILINEAR = 1u << 18,
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */
@@ -135,6 +151,7 @@ struct gm_ode {
     const struct gm_volume *volume;
     const struct gm_monitor *monitor;
     const struct gm_poisson *poisson;
+    const struct gm_semilinear *semilinear;
     /* made of the problem's kernels by core/ode/families/over_kernels.c */
     const struct gm_loops *loops[GM_ISA_COUNT];
 };

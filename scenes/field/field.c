@@ -86,6 +86,39 @@ static double end_of(const struct gm_line *line)
     return line->first + line->dx * (double)line->points;
 }
 
+static const char *law_name(const struct gm_field_look *look)
+{
+    const char *const names[] = {"energy", "momentum", look->content};
+    return names[look->show - 1];
+}
+
+/* Whether there is anything to be drawn over space and time. */
+static bool has_surface(const struct gm_lane *lane)
+{
+    const struct gm_entries *rows = &lane->entries[0];
+    return rows->count > 0 && !isnan(rows->values[0]);
+}
+
+/* The colours of a law's residuals: as far on both sides as the largest of all lanes. */
+static struct gm_field_look look_of_law(struct gm_picture *picture, const struct gm_lane *const *lanes,
+                                        size_t count, const struct gm_field_look *look)
+{
+    double low = 0, high = 1e-16;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_entries *rows = &lanes[i]->entries[0];
+        for (size_t k = 0; has_surface(lanes[i]) && k < rows->count * rows->width; k++) {
+            high = fmax(high, fabs(rows->values[k]));
+        }
+    }
+    gm_range_round(&low, &high, GM_LINEAR);
+    struct gm_field_look own = *look;
+    own.name = gm_picture_text(picture, "residual of the local %s law", law_name(look));
+    own.low = -high;
+    own.high = high;
+    own.map = GM_MAP_DIVERGING;
+    return own;
+}
+
 /* A panel for every lane: the surface so far. */
 static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                           const struct gm_field_look *look)
@@ -109,7 +142,8 @@ static void draw_surfaces(struct gm_picture *picture, const struct gm_lane *cons
             panel->y.high = panel->y.low + 1;
         }
         panel->note = gm_lane_failure(picture, lane);
-        if (rows->count == 0) {
+        if (!has_surface(lane)) {
+            panel->note = panel->note[0] || rows->count == 0 ? panel->note : "the scheme has no such law";
             continue;
         }
         panel->colour_bar = i + 1 == count;
@@ -256,9 +290,24 @@ void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lane
 {
     picture->graphs_below = true;
     gm_draw_clock(picture, lanes, count);
-    draw_surfaces(picture, lanes, count, look);
+    if (look->show == GM_SHOW_FIELD) {
+        draw_surfaces(picture, lanes, count, look);
+        draw_profiles(picture, lanes, count, look);
+        gm_draw_graphs(picture, lanes, count, graphs, graph_count);
+        return;
+    }
+    const struct gm_field_look law = look_of_law(picture, lanes, count, look);
+    const struct gm_graph residual = {
+        .observable = gm_picture_text(picture, "local_%s_residual", law_name(look)),
+        .highest = true,
+        .scale = GM_LOG,
+        .calm_low = 1e-16,
+        .calm_high = 1e-2,
+    };
+    draw_surfaces(picture, lanes, count, &law);
     draw_profiles(picture, lanes, count, look);
-    gm_draw_graphs(picture, lanes, count, graphs, graph_count);
+    gm_draw_graphs(picture, lanes, count, graphs, 1);
+    gm_draw_graphs(picture, lanes, count, &residual, 1);
 }
 
 const char *gm_shared_step(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)

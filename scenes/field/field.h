@@ -13,6 +13,9 @@ enum { GM_SURFACE_COLUMNS = 240, GM_SURFACE_ROWS = 256 };
 /* Why there is no residual of a law. */
 #define GM_NO_LAW "the scheme has no such law, or the step from here is not solved"
 
+/* What is drawn over space and time: the field, or a law, number GM_SHOW_FIELD + 1 + enum gm_local_law. */
+enum { GM_SHOW_FIELD };
+
 /* What of a lane is drawn. */
 struct gm_field_look {
     double (*value)(const struct gm_view *view, size_t node);
@@ -21,6 +24,8 @@ struct gm_field_look {
     double low, high;                                      /* the values that are shown at least */
     enum gm_colour_map map;
     enum gm_scale x_scale; /* GM_PI where the ring is a circle */
+    int show;              /* what the surfaces hold: scenes/field/local_laws.h */
+    const char *content;   /* how the third law is called: "mass" */
 };
 
 /* Rows of a parameter table: the ring, and the points of its grid, in members of the scene's own struct. */
@@ -62,7 +67,7 @@ void gm_surface_record(const struct gm_view *view, double (*value)(const struct 
 void gm_surface_record_u(const struct gm_view *view, double *entry);
 
 /* The whole picture but its titles: the clock, the surfaces from track 0, the profiles and `graph_count`
-   graphs over time. */
+   graphs over time; of a law its residual in place of the second. */
 void gm_draw_field(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                    const struct gm_field_look *look, const struct gm_graph *graphs, size_t graph_count);
 

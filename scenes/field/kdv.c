@@ -10,16 +10,19 @@
 #include <string.h>
 
 #include "core/field/problems/dispersive.h"
-#include "scenes/field/field.h"
+#include "scenes/field/local_laws.h"
 
 struct scene {
     struct gm_timing timing;
     struct gm_kdv kdv;
     double half_length;
     long points;
+    int show;
 };
 
 static const char *const initials[] = {"soliton", "two-solitons", "cosine", NULL};
+
+static const char *const shown[] = {"field", "energy-law", "momentum-law", "mass-law", NULL};
 
 static const struct gm_parameter parameters[] = {
     GM_DT("0.05", 1e-9, 10),
@@ -37,6 +40,7 @@ static const struct gm_parameter parameters[] = {
         struct scene, half_length, "50",
         "half the length of the ring (50 for two solitons, 20 for one, 1 for the cosine, unless given)"),
     GM_POINTS(struct scene, points, "1001", 5, "of the grid"),
+    GM_LAW_ROW(struct scene, show, shown),
 };
 
 /* The ring, the dispersion and the end that belong to a start. */
@@ -133,10 +137,18 @@ static const struct gm_observable observables[] = {
         "solution_error", solution_error, "largest error of u",
         .missing =
             "no exact solution is known of the cosine, nor of solitons whose tails meet on a short ring"),
+    GM_LOCAL_LAWS,
+    GM_LOG_OBSERVABLE("local_mass_residual", gm_view_content_residual, "residual of the local mass law",
+                      .missing = GM_NO_LAW),
     GM_FORM_RESIDUAL,
 };
 
-static const struct gm_track tracks[] = {GM_SURFACE_TRACK(gm_surface_record_u)};
+static void record(const struct gm_view *view, double *entry)
+{
+    gm_surface_record_shown(view, ((const struct scene *)view->parameters)->show, gm_field_u, entry);
+}
+
+static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
 /* The one soliton starts there. */
 static size_t point(const void *own, double x, double u, struct gm_choice *choices)
@@ -161,7 +173,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                        .name = "u",
                                        .low = cosine ? -1 : 0,
                                        .high = highest,
-                                       .map = GM_MAP_SEQUENTIAL};
+                                       .map = GM_MAP_SEQUENTIAL,
+                                       .show = scene->show,
+                                       .content = "mass"};
     picture->title = titles[scene->kdv.initial];
     picture->subtitle = gm_picture_text(picture, "η = %g,  μ = %.3g,  %ld points%s", scene->kdv.eta,
                                         scene->kdv.mu, scene->points, gm_shared_step(picture, lanes, count));

@@ -8,16 +8,19 @@
 #include <math.h>
 
 #include "core/field/problems/dispersive.h"
-#include "scenes/field/field.h"
+#include "scenes/field/local_laws.h"
 
 struct scene {
     struct gm_timing timing;
     struct gm_nls nls;
     double half_length;
     long points;
+    int show;
 };
 
 static const char *const initials[] = {"soliton", "collision", NULL};
+
+static const char *const shown[] = {"field", "energy-law", "momentum-law", "charge-law", NULL};
 
 static const struct gm_parameter parameters[] = {
     GM_DT("0.01", 1e-9, 10),
@@ -31,6 +34,7 @@ static const struct gm_parameter parameters[] = {
                 "at t = 0; the second starts at its mirror image"),
     GM_HALF_LENGTH(struct scene, half_length, "20", "the ring is −half_length ≤ x < half_length"),
     GM_POINTS(struct scene, points, "400", 3, "of the grid"),
+    GM_LAW_ROW(struct scene, show, shown),
 };
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
@@ -139,12 +143,15 @@ static const struct gm_observable observables[] = {
                        .scale_text = "4a³/3 a soliton"),
     GM_LOG_OBSERVABLE("solution_error", solution_error, "largest error of ψ", .missing = missing_solution),
     GM_LOG_OBSERVABLE("modulus_error", modulus_error, "largest error of |ψ|", .missing = missing_solution),
+    GM_LOCAL_LAWS,
+    GM_LOG_OBSERVABLE("local_charge_residual", gm_view_content_residual, "residual of the local charge law",
+                      .missing = GM_NO_LAW),
     GM_FORM_RESIDUAL,
 };
 
 static void record(const struct gm_view *view, double *entry)
 {
-    gm_surface_record(view, value, entry);
+    gm_surface_record_shown(view, ((const struct scene *)view->parameters)->show, value, entry);
 }
 
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
@@ -168,7 +175,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                        .name = "|ψ|",
                                        .low = 0,
                                        .high = alone ? top : 2 * top,
-                                       .map = GM_MAP_SEQUENTIAL};
+                                       .map = GM_MAP_SEQUENTIAL,
+                                       .show = scene->show,
+                                       .content = "charge"};
     picture->title = alone ? "A soliton of the nonlinear Schrödinger equation"
                            : "Two nonlinear Schrödinger solitons pass each other";
     picture->subtitle = gm_picture_text(picture, "amplitude %g,  velocity %s%g,  %ld points%s",

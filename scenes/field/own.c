@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A wave equation that somebody wrote,
+/* A field that somebody wrote: a wave equation
        u_tt = u_xx - V'(u),   H = integral of u_t^2/2 + u_x^2/2 + V(u),
+   or an evolution of one field or several
+       (M u)_t = R(u, u_x, ..),
    as a scene: the parameters of its file are keys, with the ring and its grid; what it keeps or observes are
    integrals of densities. The scene is made while the program runs, and does not change afterwards. */
 #include "scenes/field/own.h"
@@ -12,19 +14,22 @@
 
 #include "core/field/own/potential.h"
 #include "core/formula/equations.h"
+#include "core/ode/own/evolution.h"
 #include "core/tape.h"
 #include "scenes/field/wave_observables.h"
 #include "scenes/frame/written.h"
 
-enum { DT, UNTIL, HALF_LENGTH, POINTS, VALUES /* the first row of the file's own */ };
-enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, COMMON = 7 };
+enum { DT, UNTIL, HALF_LENGTH, POINTS, SPACE /* of an evolution alone */, MOST_ROWS };
+enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, COMMON = 7, MOST_GRAPHS = 3 };
 
 struct own_field {
     struct gm_scene scene; /* first: a scene is found to be this */
     struct gm_own_system system;
-    struct gm_own_wave wave;
+    struct gm_own_wave wave;           /* one of the two */
+    struct gm_own_evolution evolution; /* where `evolves` */
+    bool evolves, solved;              /* solved: an exact solution is told */
     struct gm_parameter *rows;
-    size_t row_count;
+    size_t row_count, values; /* the first row of the file's own */
     struct lane *initial;
     struct gm_observable observables[COMMON + 1 + MOST_DENSITIES];
     size_t observable_count;
@@ -44,6 +49,7 @@ struct lane {
     const struct own_field *own;
     double half_length;
     long points;
+    int space; /* enum gm_derivatives */
     double values[];
 };
 
@@ -54,7 +60,7 @@ static const struct own_field *field_of(const struct gm_view *view)
 
 static size_t parameter_count(const struct own_field *own)
 {
-    return own->row_count - VALUES;
+    return own->row_count - own->values;
 }
 
 /* Values of all variables; `given`: of those parameters alone that were given, others follow. malloc'ed. */
@@ -81,12 +87,12 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
     const struct own_field *own = lane->own;
     char *given = (char *)(lane->values + parameter_count(own));
     for (size_t i = 0; i < parameter_count(own); i++) {
-        given[i] |= gm_is_given(own->rows[VALUES + i].key, keys, count);
+        given[i] |= gm_is_given(own->rows[own->values + i].key, keys, count);
     }
     double *values = values_of(lane, given);
     bool good = values || gm_refuse(sentence, "not enough memory");
     for (size_t i = 0; i < parameter_count(own) && good; i++) {
-        const struct gm_parameter *row = &own->rows[VALUES + i];
+        const struct gm_parameter *row = &own->rows[own->values + i];
         const double value = lane->values[i] = values[own->system.parameters + i];
         good = (value >= row->lowest && value <= row->highest) ||
                gm_refuse(sentence, "%s is %g with these values, and lies between %g and %g", row->key, value,
@@ -98,27 +104,50 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
 
 static void close_problem(struct gm_problem *problem)
 {
-    gm_own_wave_close(problem);
+    if (problem->kind == &gm_kind_ode) {
+        gm_own_evolution_shut(problem);
+    } else {
+        gm_own_wave_close(problem);
+    }
+}
+
+/* Opens the problem with these values. */
+static bool open_problem(const struct lane *lane, struct gm_problem *problem, const double *values)
+{
+    const struct own_field *own = lane->own;
+    const struct gm_line line = gm_ring(lane->half_length, lane->points);
+    if (own->evolves) {
+        return gm_own_evolution_open(problem, &own->evolution, values, &line,
+                                     (enum gm_derivatives)lane->space);
+    }
+    if (!gm_own_wave_open(problem, &own->wave, values)) {
+        return false;
+    }
+    problem->line = line;
+    problem->n = gm_wave_size(line.points);
+    if (own->jump.outputs > 0) {
+        gm_tape_values(&own->jump, values, &problem->line.jump, 1);
+    }
+    return true;
+}
+
+static bool closes(const struct own_field *own, const struct gm_problem *problem, char *sentence)
+{
+    return own->evolves ? gm_own_evolution_closes(problem, sentence, GM_MESSAGE)
+                        : gm_own_wave_closes(problem, own->system.variables[0].name, sentence, GM_MESSAGE);
 }
 
 static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
 {
     const struct lane *lane = parameters;
-    const struct own_field *own = lane->own;
     double *values = values_of(lane, NULL);
-    bool good =
-        (values && gm_own_wave_open(problem, &own->wave, values)) || gm_refuse(sentence, "not enough memory");
+    bool good = (values && open_problem(lane, problem, values)) || gm_refuse(sentence, "not enough memory");
     if (good) {
-        problem->name = own->scene.name;
-        problem->line = gm_ring(lane->half_length, lane->points);
-        if (own->jump.outputs > 0) {
-            gm_tape_values(&own->jump, values, &problem->line.jump, 1);
-        }
-        problem->n = gm_wave_size(problem->line.points);
-        good = gm_own_wave_closes(problem, own->system.variables[0].name, sentence, GM_MESSAGE);
+        problem->name = lane->own->scene.name;
+        good = closes(lane->own, problem, sentence);
     }
     if (!good && values) {
-        gm_own_wave_close(problem);
+        close_problem(problem);
     }
     free(values);
     return good;
@@ -126,19 +155,47 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
 
 static void start(const void *parameters, const struct gm_problem *problem, double *y)
 {
-    gm_own_wave_levels(problem, ((const struct gm_timing *)parameters)->dt, y);
+    if (problem->kind == &gm_kind_ode) {
+        gm_own_evolution_start(problem, y);
+    } else {
+        gm_own_wave_levels(problem, ((const struct gm_timing *)parameters)->dt, y);
+    }
 }
 
 /* ---- what is observed ---- */
 
 static double exact(const struct gm_view *view, double x)
 {
-    return gm_own_wave_exact(view->problem, x, view->t);
+    return field_of(view)->evolves ? gm_own_evolution_exact(view->problem, 0, x, view->t)
+                                   : gm_own_wave_exact(view->problem, x, view->t);
 }
 
 static double solution_error(const struct gm_view *view)
 {
-    return gm_field_error(view, exact);
+    const struct gm_line *line = &view->problem->line;
+    double largest = gm_field_error(view, exact);
+    for (size_t i = line->points; field_of(view)->evolves && i < view->problem->n; i++) {
+        const double x = gm_line_node(line, i % line->points),
+                     error = fabs(view->state[i] -
+                                  gm_own_evolution_exact(view->problem, i / line->points, x, view->t));
+        largest = error > largest || isnan(error) ? error : largest;
+    }
+    return largest;
+}
+
+/* Where the first field is highest: of the parabola through the highest node and both beside it. */
+static double crest(const struct gm_view *view)
+{
+    const struct gm_line *line = &view->problem->line;
+    const double *u = view->state;
+    const size_t points = line->points;
+    size_t top = 0;
+    for (size_t i = 1; i < points; i++) {
+        top = u[i] > u[top] ? i : top;
+    }
+    const double left = u[top > 0 ? top - 1 : points - 1], right = u[top + 1 < points ? top + 1 : 0],
+                 bend = left - 2 * u[top] + right;
+    return gm_line_node(line, top) + (bend < 0 ? line->dx * (left - right) / (2 * bend) : 0);
 }
 
 /* The integral of a density, in the middle between the two levels of the state. */
@@ -148,6 +205,9 @@ static double integral(const struct gm_view *view)
     const struct gm_own_system *system = &own->system;
     const size_t number = (size_t)(view->observable - own->observables) - own->first_density;
     const struct gm_line *line = &view->problem->line;
+    if (own->evolves) {
+        return gm_own_evolution_integral(view->problem, number, view->state);
+    }
     const double *u = view->state, *other = u + line->points, gap = other[line->points];
     double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, density;
     for (size_t i = 0; values && i < line->points; i++) {
@@ -165,15 +225,46 @@ static double integral(const struct gm_view *view)
     return sum * line->dx;
 }
 
+/* The error, where it is known, and what is kept: of a wave its energies, of an evolution what its file names. */
+static size_t graphs_of(const struct own_field *own, struct gm_graph *graphs)
+{
+    const struct gm_graph kept = {.highest = true, .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2};
+    size_t count = 0;
+    if (own->solved) {
+        graphs[count] = kept;
+        graphs[count].observable = "solution_error";
+        graphs[count].calm_low = 1e-3;
+        graphs[count++].calm_high = 1;
+    }
+    if (!own->evolves) {
+        static const char *const energies[] = {"energy_error", "own_energy_error"};
+        for (size_t i = own->solved ? 1 : 0; i < GM_COUNT(energies); i++) {
+            graphs[count] = kept;
+            graphs[count++].observable = energies[i];
+        }
+        return count;
+    }
+    for (size_t i = own->first_density; i < own->observable_count && count < MOST_GRAPHS; i++) {
+        if (own->observables[i].kept) {
+            graphs[count] = kept;
+            graphs[count++].observable = own->observables[i].key;
+        }
+    }
+    if (count == 0) {
+        graphs[count++] = (struct gm_graph){.observable = "amplitude", .highest = true};
+    }
+    return count;
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct lane *lane = lanes[0]->parameters;
     const struct own_field *own = lane->own;
-    const bool crosses = own->low < -0.2 * own->high, known = own->wave.exact != GM_NO_NODE;
+    const bool crosses = own->low < -0.2 * own->high;
     const double most = fmax(fabs(own->low), fabs(own->high)), margin = 0.1 * (own->high - own->low);
     const struct gm_field_look look = {
         .value = gm_field_u,
-        .exact = known ? exact : NULL,
+        .exact = own->solved ? exact : NULL,
         .name = own->system.variables[0].name,
         .low = crosses ? -most - margin : own->low - margin,
         .high = crosses ? most + margin : own->high + margin,
@@ -182,19 +273,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     picture->title = own->scene.title;
     picture->subtitle = gm_picture_text(picture, "%ld points,  Δx = %g%s", lane->points,
                                         lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count));
-    const struct gm_graph graphs[] = {
-        {.observable = known ? "solution_error" : "energy_error",
-         .highest = true,
-         .scale = GM_LOG,
-         .calm_low = known ? 1e-3 : 1e-16,
-         .calm_high = known ? 1 : 1e-2},
-        {.observable = "own_energy_error",
-         .highest = true,
-         .scale = GM_LOG,
-         .calm_low = 1e-16,
-         .calm_high = 1e-2},
-    };
-    gm_draw_field(picture, lanes, count, &look, graphs, GM_COUNT(graphs));
+    struct gm_graph graphs[MOST_GRAPHS];
+    gm_draw_field(picture, lanes, count, &look, graphs, graphs_of(own, graphs));
 }
 
 /* The limit of the scheme's steps at the state that a run was started in. */
@@ -256,7 +336,8 @@ static bool make_rows(struct own_field *own)
 {
     const struct gm_own_system *system = &own->system;
     const size_t parameters = system->velocities - system->parameters;
-    own->row_count = VALUES + parameters;
+    own->values = own->evolves ? MOST_ROWS : SPACE;
+    own->row_count = own->values + parameters;
     own->rows = calloc(own->row_count, sizeof *own->rows);
     own->initial = calloc(1, sizeof *own->initial + parameters * (sizeof(double) + 1));
     double *values = gm_equations_start(system, NULL);
@@ -265,24 +346,29 @@ static bool make_rows(struct own_field *own)
         return false;
     }
     own->initial->own = own;
+    const long least = own->evolves ? 5 : 3;
     const double half_length = number_of(own, values, GM_WORD_HALF_LENGTH, 20),
                  points = number_of(own, values, GM_WORD_POINTS, 400),
                  dt = number_of(own, values, GM_WORD_DT, gm_written_rounded(half_length / points)),
                  steps = number_of(own, values, GM_WORD_STEPS, 2 * half_length / dt),
                  until = number_of(own, values, GM_WORD_UNTIL, steps * dt);
-    const struct gm_parameter common[VALUES] = {
+    static const char *const spaces[] = {"differences", "fourier", NULL};
+    const char *space = system->texts[GM_WORD_SPACE];
+    const struct gm_parameter common[MOST_ROWS] = {
         [DT] = GM_DT(number_text(own, dt), 1e-9, 1e6),
         [UNTIL] = GM_UNTIL(number_text(own, until)),
         [HALF_LENGTH] = GM_HALF_LENGTH(struct lane, half_length, number_text(own, half_length),
                                        "the ring is −half_length ≤ x < half_length"),
-        [POINTS] = GM_POINTS(struct lane, points, number_text(own, points), 3, "of the grid"),
+        [POINTS] = GM_POINTS(struct lane, points, number_text(own, points), least, "of the grid"),
+        [SPACE] = GM_CHOICE_ROW(struct lane, space, "space", space ? space : spaces[0], spaces,
+                                "derivatives: central differences of order 2, or of waves through the nodes"),
     };
-    memcpy(own->rows, common, sizeof common);
+    memcpy(own->rows, common, own->values * sizeof *common);
     bool good = true;
     for (size_t i = 0; i < parameters; i++) {
         const struct gm_system_variable *variable = &system->variables[system->parameters + i];
         const bool ranged = !isnan(variable->low);
-        own->rows[VALUES + i] = (struct gm_parameter){
+        own->rows[own->values + i] = (struct gm_parameter){
             .key = variable->name,
             .unit = variable->unit ? variable->unit : "",
             .help = variable->meaning && variable->meaning[0] ? variable->meaning : "a parameter",
@@ -310,12 +396,17 @@ static bool make_rows(struct own_field *own)
 static bool make_observables(struct own_field *own, char *sentence)
 {
     static const struct gm_observable common[COMMON] = {GM_WAVE_INVARIANTS, GM_WAVE_LAWS};
+    static const struct gm_observable evolving[] = {
+        GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),
+        GM_OBSERVABLE("crest", crest, "x where u is highest"),
+    };
     static const struct gm_observable error =
         GM_LOG_OBSERVABLE("solution_error", solution_error, "distance from the exact solution");
     const struct gm_own_system *system = &own->system;
-    memcpy(own->observables, common, sizeof common);
-    own->observable_count = COMMON;
-    if (own->wave.exact != GM_NO_NODE) {
+    memcpy(own->observables, own->evolves ? evolving : common,
+           own->evolves ? sizeof evolving : sizeof common);
+    own->observable_count = own->evolves ? GM_COUNT(evolving) : COMMON;
+    if (own->solved) {
         own->observables[own->observable_count++] = error;
     }
     own->first_density = own->observable_count;
@@ -357,7 +448,8 @@ static bool make_schemes(struct own_field *own, const struct gm_problem *problem
                             sentence)) {
         return false;
     }
-    own->scene.schemes = count > 0 ? own->schemes : gm_wave_schemes;
+    static const char *const evolving[] = {"etdrk4", "midpoint", NULL};
+    own->scene.schemes = count > 0 ? own->schemes : own->evolves ? evolving : gm_wave_schemes;
     return true;
 }
 
@@ -368,7 +460,7 @@ static void make_work(struct own_field *own)
     own->work = (struct gm_work){.arguments = "",
                                  .coarsest = own->initial->half_length / (double)own->initial->points * 2,
                                  .halvings = 5};
-    if (own->wave.exact != GM_NO_NODE) {
+    if (own->solved) {
         own->work.measure = "solution_error";
         own->work.resolution = "points";
         own->work.resolutions = own->resolutions;
@@ -390,6 +482,9 @@ static const char *title_of(struct own_field *own)
     if (system->texts[GM_WORD_TITLE]) {
         return system->texts[GM_WORD_TITLE];
     }
+    if (own->evolves) {
+        return "A field of one’s own";
+    }
     char *formula = gm_formula_text(&system->graph, system->energy, &naming), *text = NULL;
     const bool brief = formula && strlen(formula) <= SHORT;
     if (brief && asprintf(&text, "Waves in the potential V = %s", formula) < 0) {
@@ -404,9 +499,13 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
 {
     struct gm_own_system *system = &own->system;
     gm_refuse(sentence, "not enough memory");
-    if (!gm_own_wave_derive(&own->wave, system) || !make_rows(own)) {
+    own->evolves = system->kind == GM_EVOLUTION;
+    if (!(own->evolves ? gm_own_evolution_derive(&own->evolution, system)
+                       : gm_own_wave_derive(&own->wave, system)) ||
+        !make_rows(own)) {
         return false;
     }
+    own->solved = (own->evolves ? own->evolution.exact[0] : own->wave.exact) != GM_NO_NODE;
     const struct gm_system_item *jump = item_of(system, GM_WORD_JUMP);
     own->track = (struct gm_track)GM_SURFACE_TRACK(gm_surface_record_u);
     own->scene = (struct gm_scene){
@@ -414,7 +513,7 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
         .title = title_of(own),
         .blurb = system->texts[GM_WORD_ABOUT] ? system->texts[GM_WORD_ABOUT] : "A field of one’s own.",
         .watch = system->texts[GM_WORD_WATCH] ? system->texts[GM_WORD_WATCH] : "",
-        .time = "what light needs for a length of 1",
+        .time = own->evolves ? "that of the equation" : "what light needs for a length of 1",
         .size = sizeof *own->initial + parameter_count(own) * (sizeof(double) + 1),
         .initial = own->initial,
         .words = words,
@@ -442,7 +541,7 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
     double *y = malloc(problem.n * sizeof *y);
     bool good = y && make_observables(own, sentence) && make_schemes(own, &problem, sentence);
     if (good) {
-        gm_own_wave_levels(&problem, own->initial->timing.dt, y);
+        start(own->initial, &problem, y);
         own->low = own->high = y[0];
         for (size_t i = 0; i < points; i++) {
             gm_range_add(&own->low, &own->high, y[i]);
@@ -453,7 +552,7 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
         }
     }
     free(y);
-    gm_own_wave_close(&problem);
+    close_problem(&problem);
     make_work(own);
     own->scene.observables = own->observables;
     own->scene.observable_count = own->observable_count;
@@ -484,6 +583,7 @@ void gm_own_field_close(const struct gm_scene *scene)
         gm_tape_close(&own->densities[i]);
     }
     gm_tape_close(&own->jump);
+    gm_own_evolution_close(&own->evolution);
     gm_kept_texts_close(&own->texts);
     gm_system_close(&own->system);
     free(own->rows);

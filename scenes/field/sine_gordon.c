@@ -20,10 +20,13 @@ struct scene {
     struct gm_sine_gordon solution;
     double half_length;
     long points;
+    int show;
 };
 
 static const char *const initials[] = {"breather",      "kink",          "antikink",
                                        "kink-antikink", "antikink-kink", NULL};
+
+static const char *const shown[] = {"field", "energy-law", "momentum-law", NULL};
 
 static const struct gm_parameter parameters[] = {
     GM_DT("0.05", 1e-6, 100),
@@ -37,6 +40,7 @@ static const struct gm_parameter parameters[] = {
                 "of a kink at t = 0; in a collision, of both from the middle"),
     GM_HALF_LENGTH(struct scene, half_length, "20", "the ring is −half_length ≤ x < half_length"),
     GM_POINTS(struct scene, points, "800", 3, "of the grid"),
+    GM_LAW_ROW(struct scene, show, shown),
 };
 
 static bool setup(const void *own, struct gm_problem *problem, char *sentence)
@@ -85,7 +89,12 @@ static const struct gm_observable observables[] = {
     GM_WAVE_LAWS,
 };
 
-static const struct gm_track tracks[] = {GM_SURFACE_TRACK(gm_surface_record_u)};
+static void record(const struct gm_view *view, double *entry)
+{
+    gm_surface_record_shown(view, ((const struct scene *)view->parameters)->show, gm_field_u, entry);
+}
+
+static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
 
 /* A kink starts there; of two that meet the other one at the mirror image. */
 static size_t point(const void *own, double x, double u, struct gm_choice *choices)
@@ -107,8 +116,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const double jump = gm_sine_gordon_jump(&scene->solution);
     const bool whole = jump != 0;
     const double highest = scene->solution.initial == GM_BREATHER ? 5 : 2 * M_PI;
-    struct gm_field_look look = {
-        .value = gm_field_u, .exact = exact, .name = "u", .low = -highest, .high = highest};
+    struct gm_field_look look = {.value = gm_field_u,
+                                 .exact = exact,
+                                 .name = "u",
+                                 .low = -highest,
+                                 .high = highest,
+                                 .show = scene->show};
     look.map = whole ? GM_MAP_SEQUENTIAL : GM_MAP_DIVERGING;
     look.low = whole ? 0 : -highest;
     picture->title = titles[scene->solution.initial];

@@ -30,16 +30,6 @@ double gm_view_amplitude(const struct gm_view *view)
     return largest;
 }
 
-double gm_view_energy_residual(const struct gm_view *view)
-{
-    return gm_wave_energy_residual(view->problem, view->scheme, view->dt, view->state);
-}
-
-double gm_view_momentum_residual(const struct gm_view *view)
-{
-    return gm_wave_momentum_residual(view->problem, view->scheme, view->dt, view->state);
-}
-
 /* A breather has none, a kink of the sine-Gordon equation that of its mass 8 at its velocity. */
 double gm_unit_momentum(const void *parameters)
 {

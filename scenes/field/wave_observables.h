@@ -2,7 +2,7 @@
 #ifndef GM_SCENES_FIELD_WAVE_OBSERVABLES_H
 #define GM_SCENES_FIELD_WAVE_OBSERVABLES_H
 
-#include "scenes/field/field.h"
+#include "scenes/field/local_laws.h"
 
 /* What scenes of u_tt = u_xx - V'(u) have in common: rows of observables, and the schemes. */
 
@@ -10,8 +10,6 @@ double gm_view_energy(const struct gm_view *view);
 double gm_view_own_energy(const struct gm_view *view);
 double gm_view_momentum(const struct gm_view *view);
 double gm_view_amplitude(const struct gm_view *view);
-double gm_view_energy_residual(const struct gm_view *view);
-double gm_view_momentum_residual(const struct gm_view *view);
 double gm_unit_momentum(const void *parameters);
 
 /* clang-format off */
@@ -23,10 +21,7 @@ double gm_unit_momentum(const void *parameters);
                        .scale = gm_unit_momentum, .scale_text = "1")
 #define GM_WAVE_LAWS                                                                                         \
     GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),                                            \
-    GM_LOG_OBSERVABLE("local_energy_residual", gm_view_energy_residual, "residual of the local energy law",  \
-                      .missing = GM_NO_LAW),                                                                 \
-    GM_LOG_OBSERVABLE("local_momentum_residual", gm_view_momentum_residual,                                  \
-                      "residual of the local momentum law", .missing = GM_NO_LAW),                           \
+    GM_LOCAL_LAWS,                                                                                           \
     GM_FORM_RESIDUAL
 /* clang-format on */
 

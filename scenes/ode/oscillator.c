@@ -76,7 +76,8 @@ static bool varies_time(const struct gm_view *view)
 
 static double tau(const struct gm_view *view)
 {
-    return view->memory && varies_time(view) ? view->memory[GM_VARIATIONAL_TAU] : view->dt;
+    const bool chosen = view->scheme->family->parameters == gm_settings_of_variational_time;
+    return view->memory && chosen ? view->memory[GM_VARIATIONAL_TAU] : view->dt;
 }
 
 static double restarts(const struct gm_view *view)

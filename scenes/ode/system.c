@@ -148,7 +148,8 @@ static void stops(const struct gm_view *view, const double *states, const double
 
 static size_t sight_width(const struct gm_view *view)
 {
-    return 2 * gm_system_sight(view->parameters)->bodies;
+    const struct gm_sight *sight = gm_system_sight(view->parameters);
+    return sight->dimensions * sight->bodies;
 }
 
 static void record_sight(const struct gm_view *view, double *entry)
@@ -158,10 +159,10 @@ static void record_sight(const struct gm_view *view, double *entry)
         gm_system_values(&sight->tape, view, view->problem->m - 1, entry);
         return;
     }
-    double *all = malloc((2 * sight->bodies + 4 * sight->rods) * sizeof *all);
+    double *all = malloc(gm_sight_numbers(sight) * sizeof *all);
     if (all) {
         gm_system_values(&sight->tape, view, view->problem->m - 1, all);
-        memcpy(entry, all, 2 * sight->bodies * sizeof *entry);
+        memcpy(entry, all, sight->dimensions * sight->bodies * sizeof *entry);
     }
     free(all);
 }
@@ -317,10 +318,30 @@ static bool starts_on_manifold(const struct gm_system_lane *lane, const struct g
                      defects.constraint, defects.hidden);
 }
 
+/* Whether the surfaces have sizes. */
+static bool has_surfaces(const struct gm_system_lane *lane, char *sentence)
+{
+    double sizes[3 * GM_MOST_SURFACES], *values = start_values(lane, NULL);
+    if (!values) {
+        return gm_refuse(sentence, "not enough memory");
+    }
+    gm_tape_values(&lane->own->surfaces, values, sizes, 1);
+    free(values);
+    for (size_t i = 0; i < lane->own->surfaces.outputs; i++) {
+        if (!(sizes[i] > 0 && isfinite(sizes[i]))) {
+            return gm_refuse(sentence, "the size of a surface is %g, and has to be above 0", sizes[i]);
+        }
+    }
+    return true;
+}
+
 static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
 {
     const struct gm_system_lane *lane = parameters;
     const struct gm_system_scene *own = lane->own;
+    if (own->surfaces.outputs > 0 && !has_surfaces(lane, sentence)) {
+        return false;
+    }
     double *values = malloc(own->system.variable_count * sizeof *values);
     for (size_t i = 0; values && i < own->system.variable_count; i++) {
         values[i] = own->system.variables[i].value;
@@ -613,6 +634,13 @@ static double radian_time(const void *parameters)
 
 /* ---- a click ---- */
 
+/* Where a plane is shown there is nothing to go around. */
+static const char *idle(const void *parameters, const char *key)
+{
+    const struct gm_system_lane *lane = parameters;
+    return gm_camera_has(key) && gm_system_sight(lane)->dimensions < 3 ? "a plane is shown" : NULL;
+}
+
 static size_t point(const void *parameters, double x, double y, struct gm_choice *choices)
 {
     const struct gm_system_lane *lane = parameters;
@@ -673,7 +701,7 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
     own->row_count = VALUES + parameters + n;
     own->first_start = VALUES + parameters;
-    own->rows = calloc(own->row_count, sizeof *own->rows);
+    own->rows = calloc(own->row_count + GM_CAMERA_KEYS, sizeof *own->rows);
     own->variables = calloc(own->row_count, sizeof *own->variables);
     own->initial = calloc(1, sizeof *own->initial + (own->row_count) * (sizeof(double) + 1));
     double *start = gm_equations_start(system, NULL);
@@ -692,8 +720,10 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
         [SHOW] = GM_CHOICE_ROW(struct gm_system_lane, show, "show", "all", NULL,
                                "all, the section, or a plane of two components"),
     };
+    static const struct gm_parameter camera[] = {GM_CAMERA_ROWS(struct gm_system_lane, camera)};
     if (good) {
         memcpy(own->rows, common, sizeof common);
+        memcpy(own->rows + own->row_count, camera, sizeof camera);
         own->initial->own = own;
     }
     for (size_t row = VALUES; good && row < own->row_count; row++) {
@@ -734,7 +764,7 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
 static bool make_timing(struct gm_system_scene *own, char *sentence)
 {
     const struct gm_own_system *system = &own->system;
-    gm_parameters_reset(own->rows + VALUES, own->row_count - VALUES, own->initial);
+    gm_parameters_reset(own->rows + VALUES, own->row_count + GM_CAMERA_KEYS - VALUES, own->initial);
     own->initial->members = 1;
     own->radian = radian_time(own->initial);
     double *values = start_values(own->initial, NULL);
@@ -976,25 +1006,68 @@ static bool describe_axis(struct gm_system_scene *own, struct gm_sight *sight, s
 static bool open_plane(struct gm_system_scene *own, struct gm_sight *sight, gm_node_id x, gm_node_id y)
 {
     const gm_node_id nodes[] = {x, y};
+    sight->dimensions = 2;
     sight->bodies = 1;
     sight->fixed = calloc(1, sizeof *sight->fixed);
     return sight->fixed && describe_axis(own, sight, 0, x) && describe_axis(own, sight, 1, y) &&
            open_tape(own, &sight->tape, nodes, 2);
 }
 
-/* Two coordinates of a point: of three, drawn obliquely. */
-static void project(struct gm_system_scene *own, const gm_node_id *at, size_t dimensions, gm_node_id *plane)
+/* Copies the formulas of all lines of a word; returns where they end. */
+static gm_node_id *copy_nodes(const struct gm_own_system *system, enum gm_system_word word, gm_node_id *to)
 {
-    struct gm_formula *graph = &own->system.graph;
-    plane[0] = at[0];
-    plane[1] = at[1];
-    if (dimensions == 3) {
-        const double share[] = {GM_OBLIQUE_X, GM_OBLIQUE_Y};
-        plane[1] = at[2];
-        for (size_t k = 0; k < 2; k++) {
-            const gm_node_id factor = gm_formula_constant(graph, share[k]);
-            plane[k] = gm_formula_apply(graph, GM_OPERATION_ADD, plane[k],
-                                        gm_formula_apply(graph, GM_OPERATION_MULTIPLY, factor, at[1]));
+    const struct gm_system_item *item;
+    for (size_t i = 0; (item = item_of(system, word, i)); i++) {
+        memcpy(to, item->nodes, item->count * sizeof *to);
+        to += item->count;
+    }
+    return to;
+}
+
+/* Which bodies stand still. */
+static bool find_fixed(const struct gm_own_system *system, struct gm_sight *sight, const gm_node_id *nodes)
+{
+    bool *marked = calloc(system->variable_count, sizeof *marked), *moves = NULL;
+    for (size_t i = 0; marked && i <= system->n; i++) {
+        marked[i] = true;
+    }
+    moves = marked ? gm_formula_dependent(&system->graph, marked, system->variable_count) : NULL;
+    for (size_t i = 0; moves && i < sight->bodies; i++) {
+        sight->fixed[i] = true;
+        for (size_t k = 0; k < sight->dimensions; k++) {
+            sight->fixed[i] = sight->fixed[i] && !moves[nodes[i * sight->dimensions + k]];
+        }
+    }
+    free(marked);
+    free(moves);
+    return moves != NULL;
+}
+
+/* Axes of a plane have names where its one body tells them, and clicks there are starts; those of space are x, y
+   and z where the first body does not tell others. */
+static void name_axes(const struct gm_own_system *system, struct gm_sight *sight)
+{
+    static const char *const usual[] = {"x", "y", "z"};
+    const struct gm_system_item *first = item_of(system, GM_WORD_VIEW, 0);
+    const bool in_space = sight->dimensions == 3;
+    bool told = first && (in_space || sight->rods == 0);
+    for (size_t k = 0; told && k < sight->dimensions; k++) {
+        const struct gm_node *at = &system->graph.nodes[first->nodes[k]];
+        told = at->operation == GM_VARIABLE && at->a < system->n;
+        if (told) {
+            sight->labels[k] = system->variables[at->a].name;
+            sight->components[k % 2] = in_space ? -1 : (long)at->a;
+        }
+    }
+    for (size_t k = 0; k < 3 && !told; k++) {
+        sight->labels[k] = in_space ? usual[k] : NULL;
+    }
+    if (sight->bodies > 1 && sight->components[0] >= 0) {
+        sight->labels[0] = sight->labels[1] = NULL; /* they are those of one body only */
+        for (size_t i = 1; i < sight->bodies; i++) {
+            if (!sight->fixed[i]) {
+                sight->components[0] = sight->components[1] = -1;
+            }
         }
     }
 }
@@ -1002,59 +1075,34 @@ static void project(struct gm_system_scene *own, const gm_node_id *at, size_t di
 /* What `view` and `rod` lines say. */
 static bool open_view(struct gm_system_scene *own, struct gm_sight *sight)
 {
-    struct gm_own_system *system = &own->system;
+    const struct gm_own_system *system = &own->system;
     const size_t views = count_items(system, GM_WORD_VIEW), rods = count_items(system, GM_WORD_ROD);
-    gm_node_id *nodes = calloc(2 * views + 4 * rods, sizeof *nodes), *to = nodes;
-    bool *marked = calloc(system->variable_count, sizeof *marked), *moves = NULL;
-    *sight = (struct gm_sight){.name = "view", .bodies = views, .rods = rods, .components = {-1, -1}};
+    const size_t dimensions =
+        views > 0 ? item_of(system, GM_WORD_VIEW, 0)->count : item_of(system, GM_WORD_ROD, 0)->count / 2;
+    *sight = (struct gm_sight){
+        .name = "view", .dimensions = dimensions, .bodies = views, .rods = rods, .components = {-1, -1}};
+    gm_node_id *nodes = calloc(gm_sight_numbers(sight), sizeof *nodes);
     sight->fixed = calloc(views + 1, sizeof *sight->fixed);
-    bool good = nodes && marked && sight->fixed;
-    for (size_t i = 0; good && i < views; i++, to += 2) {
-        const struct gm_system_item *item = item_of(system, GM_WORD_VIEW, i);
-        project(own, item->nodes, item->count, to);
-        sight->in_space |= item->count == 3;
-    }
-    for (size_t i = 0; good && i < rods; i++, to += 4) {
-        const struct gm_system_item *item = item_of(system, GM_WORD_ROD, i);
-        project(own, item->nodes, item->count / 2, to);
-        project(own, item->nodes + item->count / 2, item->count / 2, to + 2);
-        sight->in_space |= item->count == 6;
-    }
-    for (size_t i = 0; good && i <= system->n; i++) {
-        marked[i] = true;
-    }
-    moves = good ? gm_formula_dependent(&system->graph, marked, system->variable_count) : NULL;
-    good = moves && open_tape(own, &sight->tape, nodes, 2 * views + 4 * rods);
-    for (size_t i = 0; good && i < views; i++) {
-        sight->fixed[i] = !moves[nodes[2 * i]] && !moves[nodes[2 * i + 1]];
-    }
-    /* axes have names where the first body tells them */
-    const struct gm_system_item *first = views > 0 ? item_of(system, GM_WORD_VIEW, 0) : NULL;
-    for (size_t k = 0; good && first && rods == 0 && k < first->count; k++) {
-        const struct gm_node *at = &system->graph.nodes[first->nodes[k]];
-        const bool component = at->operation == GM_VARIABLE && at->a < system->n;
-        if (component && k < 2 && !sight->in_space) {
-            sight->components[k] = (long)at->a;
-        }
-        if (component) {
-            sight->labels[k] = system->variables[at->a].name;
-        }
-    }
-    if (!sight->labels[0] || !sight->labels[1]) {
-        sight->labels[0] = sight->labels[1] = sight->labels[2] = NULL;
-    }
-    if (views > 1 && sight->components[0] >= 0) {
-        sight->labels[0] = sight->labels[1] = NULL; /* they are those of one body only */
-        for (size_t i = 1; i < views; i++) {
-            if (!sight->fixed[i]) {
-                sight->components[0] = sight->components[1] = -1;
-            }
-        }
+    bool good = nodes && sight->fixed;
+    if (good) {
+        copy_nodes(system, GM_WORD_ROD, copy_nodes(system, GM_WORD_VIEW, nodes));
+        good =
+            find_fixed(system, sight, nodes) && open_tape(own, &sight->tape, nodes, gm_sight_numbers(sight));
+        name_axes(system, sight);
     }
     free(nodes);
-    free(marked);
-    free(moves);
     return good;
+}
+
+static bool open_surfaces(struct gm_system_scene *own, char *sentence)
+{
+    gm_node_id nodes[3 * GM_MOST_SURFACES];
+    const size_t count = count_items(&own->system, GM_WORD_SURFACE);
+    if (count > GM_MOST_SURFACES) {
+        return gm_refuse(sentence, "a system has at most %d surfaces; this has %zu", GM_MOST_SURFACES, count);
+    }
+    copy_nodes(&own->system, GM_WORD_SURFACE, nodes);
+    return count == 0 || open_tape(own, &own->surfaces, nodes, 3 * count);
 }
 
 static bool add_pair(struct gm_system_scene *own, size_t a, size_t b)
@@ -1272,6 +1320,7 @@ static bool make(struct gm_system_scene *own, const char *name, const char *cons
         .mark = gm_kept_texts_add(&own->texts, gm_written_mark(name, system->source)),
         .parameters = own->rows,
         .parameter_count = own->row_count,
+        .idle = idle,
         .settle = settle,
         .setup = setup,
         .close = close_problem,
@@ -1288,10 +1337,11 @@ static bool make(struct gm_system_scene *own, const char *name, const char *cons
     }
     own->rows[MEMBERS].standard = members ? members : "1";
     if (!make_timing(own, sentence) || (end && !open_tape(own, &own->stop, end->nodes, 1)) ||
-        !make_sights(own) || !setup(own->initial, &problem, sentence)) {
+        !make_sights(own) || !open_surfaces(own, sentence) || !setup(own->initial, &problem, sentence)) {
         return false;
     }
     make_tracks(own);
+    own->scene.parameter_count += own->sights[0].dimensions == 3 ? GM_CAMERA_KEYS : 0;
     if (end) {
         own->scene.stop = stop;
         own->scene.stops = stops;
@@ -1344,6 +1394,7 @@ void gm_system_scene_close(const struct gm_scene *scene)
         close_sight(&own->sights[i]);
     }
     close_sight(&own->section);
+    gm_tape_close(&own->surfaces);
     for (size_t i = 0; own->formulas && i < own->observable_count; i++) {
         gm_tape_close(&own->formulas[i]);
     }

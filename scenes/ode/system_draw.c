@@ -8,13 +8,12 @@
 
 #include "scenes/frame/graph.h"
 #include "scenes/ode/system_draw.h"
+#include "scenes/ode/system_space.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4, TURN = 12 };
 
 /* A path whose mean chord is longer, of the panel, is drawn as dots: between them it is not known. */
 static const double longest_chord = 0.05;
-/* The bright end of a path is this part of the whole run. */
-static const double bright = 0.15;
 
 static const struct gm_system_lane *own_of(const struct gm_lane *lane)
 {
@@ -128,28 +127,25 @@ static const char *typeset_name(struct gm_picture *picture, const char *name)
 
 /* ---- the range that is shown ---- */
 
-struct range {
-    double low[2], high[2];
-};
+static const struct gm_seen nothing = {{1, 1, 1}, {0, 0, 0}, 0};
 
-static const struct range nothing = {{1, 1}, {0, 0}};
-
-static void hold(struct range *range, const double *points, size_t count, size_t stride)
+static void hold(struct gm_seen *seen, const double *points, size_t count, size_t dimensions)
 {
     for (size_t i = 0; i < count; i++) {
-        gm_range_add(&range->low[0], &range->high[0], points[i * stride]);
-        gm_range_add(&range->low[1], &range->high[1], points[i * stride + 1]);
+        double square = 0;
+        for (size_t k = 0; k < dimensions; k++) {
+            const double x = points[i * dimensions + k];
+            gm_range_add(&seen->low[k], &seen->high[k], x);
+            square += x * x;
+        }
+        seen->far = isfinite(square) ? fmax(seen->far, sqrt(square)) : seen->far;
     }
 }
 
-static double extent(const struct range *range)
+static double extent(const struct gm_seen *seen)
 {
-    return fmax(range->high[0] - range->low[0], range->high[1] - range->low[1]);
-}
-
-static size_t numbers_of(const struct gm_sight *sight)
-{
-    return 2 * sight->bodies + 4 * sight->rods;
+    return fmax(fmax(seen->high[0] - seen->low[0], seen->high[1] - seen->low[1]),
+                seen->high[2] - seen->low[2]);
 }
 
 /* Whether the members are a disc in the plane that is shown. */
@@ -162,13 +158,14 @@ static bool is_disc(const struct gm_lane *lane, const struct gm_sight *sight)
 }
 
 /* What one lane has shown up to now. */
-static struct range lane_range(const struct gm_lane *lane, const struct gm_sight *sight, double *numbers)
+static struct gm_seen lane_range(const struct gm_lane *lane, const struct gm_sight *sight, double *numbers)
 {
-    struct range range = nothing;
+    struct gm_seen range = nothing;
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
-    hold(&range, past->values, past->count * past->width / 2, 2);
-    hold(&range, trail->values, trail->count * trail->width / 2, 2);
+    const size_t dimensions = sight->dimensions;
+    hold(&range, past->values, past->count * past->width / dimensions, dimensions);
+    hold(&range, trail->values, trail->count * trail->width / dimensions, dimensions);
     if (is_disc(lane, sight)) {
         const struct gm_entries *shapes = &lane->entries[GM_TRACK_SHAPES];
         hold(&range, shapes->values, shapes->count * shapes->width / 2, 2);
@@ -176,24 +173,18 @@ static struct range lane_range(const struct gm_lane *lane, const struct gm_sight
     const size_t m = view.problem->m, stride = 1 + m / 512;
     for (size_t member = 0; member < m; member += stride) {
         gm_system_values(&sight->tape, &view, m - 1 - member, numbers);
-        hold(&range, numbers, numbers_of(sight) / 2, 2);
+        hold(&range, numbers, gm_sight_numbers(sight) / dimensions, dimensions);
     }
     return range;
 }
 
-/* How far the three directions of space are drawn from the origin. */
-static double space_reach(const struct range *range)
+static void hold_range(struct gm_seen *range, const struct gm_seen *other)
 {
-    return 1.08 * fmax(fmax(fabs(range->low[0]), fabs(range->high[0])),
-                       fmax(fabs(range->low[1]), fabs(range->high[1])));
-}
-
-static void hold_range(struct range *range, const struct range *other)
-{
-    for (size_t k = 0; k < 2; k++) {
+    for (size_t k = 0; k < 3 && other->low[k] <= other->high[k]; k++) {
         gm_range_add(&range->low[k], &range->high[k], other->low[k]);
         gm_range_add(&range->low[k], &range->high[k], other->high[k]);
     }
+    range->far = fmax(range->far, other->far);
 }
 
 /* Whether two lanes have the same system from the same start. */
@@ -207,10 +198,10 @@ static bool is_same(const struct gm_lane *a, const struct gm_lane *b)
 
 /* What those lanes show that have the system of lane `like`, so that growth and decay are seen side by side;
    but who runs away makes the others at most half as large. */
-static struct range range_like(const struct gm_lane *const *lanes, size_t count, size_t like,
-                               const struct range *ranges, const struct gm_sight *sight)
+static struct gm_seen range_like(const struct gm_lane *const *lanes, size_t count, size_t like,
+                                 const struct gm_seen *ranges)
 {
-    struct range all = nothing, least = nothing;
+    struct gm_seen all = nothing, least = nothing;
     size_t held = 0;
     for (size_t i = 0; i < count; i++) {
         if (is_same(lanes[i], lanes[like])) {
@@ -221,17 +212,12 @@ static struct range range_like(const struct gm_lane *const *lanes, size_t count,
             held++;
         }
     }
-    if (sight->in_space && sight->labels[0]) { /* and the three directions */
-        const double reach = space_reach(&least);
-        const double ends[] = {-reach, -reach, reach, reach};
-        hold(&all, ends, 2, 2);
-        hold(&least, ends, 2, 2);
-    }
     const double room = fmax(0.5 * extent(&least), 1e-9);
-    for (size_t k = 0; k < 2 && held > 1; k++) {
+    for (size_t k = 0; k < 3 && held > 1; k++) {
         all.low[k] = fmax(all.low[k], least.low[k] - room);
         all.high[k] = fmin(all.high[k], least.high[k] + room);
     }
+    all.far = held > 1 ? fmin(all.far, least.far + room) : all.far;
     return all;
 }
 
@@ -240,13 +226,12 @@ static struct range range_like(const struct gm_lane *const *lanes, size_t count,
 static const double largest_ratio = 4;
 
 /* The range of every lane's panel, in place of that of the lane. */
-static void set_ranges(const struct gm_lane *const *lanes, size_t count, const struct gm_sight *sight,
-                       struct range *ranges)
+static void set_ranges(const struct gm_lane *const *lanes, size_t count, struct gm_seen *ranges)
 {
-    struct range *own = ranges + count, all = nothing;
+    struct gm_seen *own = ranges + count, all = nothing;
     double least = INFINITY, most = 0;
     for (size_t i = 0; i < count; i++) {
-        own[i] = range_like(lanes, count, i, ranges, sight);
+        own[i] = range_like(lanes, count, i, ranges);
         hold_range(&all, &own[i]);
         least = fmin(least, extent(&own[i]));
         most = fmax(most, extent(&own[i]));
@@ -330,27 +315,16 @@ static bool is_curve(const struct gm_panel *panel, const double *points, size_t 
     return chords == 0 || sum < longest_chord * (double)chords;
 }
 
-/* The first entry of the bright end. */
-static size_t bright_from(const struct gm_lane *lane, const struct gm_entries *past)
-{
-    const struct gm_timing *timing = lane->parameters;
-    const double whole = timing->until < GM_NEVER ? timing->until - lane->t0 : lane->run->t - lane->t0;
-    size_t first = past->count;
-    while (first > 0 && past->times[first - 1] > lane->run->t - bright * whole) {
-        first--;
-    }
-    return past->count - first < 24 ? (past->count > 24 ? past->count - 24 : 0) : first;
-}
-
 static void draw_body(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                       const struct gm_sight *sight, size_t body, const double *now, double *points)
 {
-    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST], *trail = &lane->entries[GM_TRACK_TRAIL];
+    const struct gm_entries *trail = &lane->entries[GM_TRACK_TRAIL];
     const enum gm_role role = gm_lane_role(lane->shown.colour);
     const size_t count = path_of(lane, GM_TRACK_PAST, sight, body, 0, now, points);
     if (is_curve(panel, points, count)) {
         gm_mark_line(picture, panel, (struct gm_style){role, 0.3, 1.1, GM_SOLID}, points, count, false);
-        const size_t end = path_of(lane, GM_TRACK_PAST, sight, body, bright_from(lane, past), now, points);
+        const size_t end =
+            path_of(lane, GM_TRACK_PAST, sight, body, gm_system_bright_from(lane), now, points);
         gm_draw_trail(picture, panel, (struct gm_style){role, 0.95, 2.2, GM_SOLID}, points, end);
         return;
     }
@@ -414,20 +388,6 @@ static void draw_disc(struct gm_picture *picture, struct gm_panel *panel, const 
     }
 }
 
-/* Where lines would be drawn that lead to no name: the three directions of space. */
-static void draw_space(struct gm_picture *picture, struct gm_panel *panel, const struct gm_sight *sight)
-{
-    const double reach = 0.8 * fmin(fmin(-panel->x.low, panel->x.high), fmin(-panel->y.low, panel->y.high));
-    const double ends[3][2] = {{1, 0}, {GM_OBLIQUE_X, GM_OBLIQUE_Y}, {0, 1}};
-    for (size_t k = 0; k < 3 && sight->labels[0]; k++) {
-        const double line[] = {-reach * ends[k][0], -reach * ends[k][1], reach * ends[k][0],
-                               reach * ends[k][1]};
-        gm_mark_line(picture, panel, (struct gm_style){GM_SECONDARY, 0.55, 1, GM_SOLID}, line, 2, false);
-        gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
-                     1.06 * line[2], 1.06 * line[3], GM_ANCHOR_CENTRE, typeset(picture, sight->labels[k]));
-    }
-}
-
 static void draw_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                       const struct gm_sight *sight, double *numbers)
 {
@@ -484,38 +444,52 @@ static bool is_equal(const struct gm_sight *sight, const struct gm_panel *panel)
            (!sight->angles[0] && !sight->angles[1] && ratio > 0.4 && ratio < 2.5);
 }
 
+static void set_plane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_sight *sight,
+                      const struct gm_seen *range)
+{
+    set_axis(picture, &panel->x, sight->labels[0], sight->angles[0], range->low[0], range->high[0]);
+    set_axis(picture, &panel->y, sight->labels[1], sight->angles[1], range->low[1], range->high[1]);
+    panel->axes = sight->labels[0] != NULL;
+    panel->equal = is_equal(sight, panel);
+}
+
 static void draw_states(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
 {
     const struct gm_sight *sight = gm_system_sight(lanes[0]->parameters);
-    double *numbers = gm_picture_memory(picture, (numbers_of(sight) + 1) * sizeof *numbers);
-    struct range *ranges = gm_picture_memory(picture, 2 * count * sizeof *ranges);
+    double *numbers = gm_picture_memory(picture, (gm_sight_numbers(sight) + 1) * sizeof *numbers);
+    struct gm_seen *ranges = gm_picture_memory(picture, 2 * count * sizeof *ranges);
     if (!numbers || !ranges) {
         return;
     }
     for (size_t i = 0; i < count; i++) {
         ranges[i] = lane_range(lanes[i], sight, numbers);
     }
-    set_ranges(lanes, count, sight, ranges);
+    set_ranges(lanes, count, ranges);
     struct gm_panel *panel = NULL;
+    struct gm_space space;
     for (struct gm_walk walk = {.lanes = lanes, .count = count}; gm_walk_next(&walk);) {
         if (walk.first) {
-            struct range range = ranges[0];
+            struct gm_seen range = ranges[0];
             for (size_t i = 0; i < count; i++) {
                 range = lanes[i] == walk.lane ? ranges[i] : range;
             }
             panel = gm_walk_panel(picture, &walk, "");
             panel->title = typeset_name(picture, panel->title);
-            set_axis(picture, &panel->x, sight->in_space ? NULL : sight->labels[0], sight->angles[0],
-                     range.low[0], range.high[0]);
-            set_axis(picture, &panel->y, sight->in_space ? NULL : sight->labels[1], sight->angles[1],
-                     range.low[1], range.high[1]);
-            panel->axes = sight->labels[0] && !sight->in_space;
-            panel->equal = is_equal(sight, panel);
-            if (sight->in_space) {
-                draw_space(picture, panel, sight);
+            if (sight->dimensions == 3) {
+                const char *names[3];
+                for (size_t k = 0; k < 3; k++) {
+                    names[k] = typeset(picture, sight->labels[k]);
+                }
+                space = gm_system_space(picture, panel, walk.lane, &range, names);
+            } else {
+                set_plane(picture, panel, sight, &range);
             }
         }
-        draw_lane(picture, panel, walk.lane, sight, numbers);
+        if (sight->dimensions == 3) {
+            gm_system_draw_in_space(picture, panel, &space, walk.lane);
+        } else {
+            draw_lane(picture, panel, walk.lane, sight, numbers);
+        }
     }
 }
 
@@ -525,7 +499,7 @@ static void set_section(struct gm_picture *picture, struct gm_panel *panel,
                         const struct gm_lane *const *lanes, size_t count)
 {
     const struct gm_sight *sight = &own_of(lanes[0])->own->section;
-    struct range range = nothing;
+    struct gm_seen range = nothing;
     for (size_t i = 0; i < count; i++) {
         const struct gm_entries *crossings = &lanes[i]->entries[GM_TRACK_SECTION];
         hold(&range, crossings->values, crossings->count, 2);

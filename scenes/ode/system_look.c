@@ -6,6 +6,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The bright end of a path is this part of the whole run. */
+static const double bright = 0.15;
+
+size_t gm_sight_numbers(const struct gm_sight *sight)
+{
+    return sight->dimensions * (sight->bodies + 2 * sight->rods);
+}
+
+size_t gm_system_bright_from(const struct gm_lane *lane)
+{
+    const struct gm_entries *past = &lane->entries[GM_TRACK_PAST];
+    const struct gm_timing *timing = lane->parameters;
+    const double whole = timing->until < GM_NEVER ? timing->until - lane->t0 : lane->run->t - lane->t0;
+    size_t first = past->count;
+    while (first > 0 && past->times[first - 1] > lane->run->t - bright * whole) {
+        first--;
+    }
+    return past->count - first < 24 ? (past->count > 24 ? past->count - 24 : 0) : first;
+}
+
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane)
 {
     const struct gm_system_scene *own = lane->own;

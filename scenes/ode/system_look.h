@@ -5,29 +5,27 @@
 
 #include "core/ode/own/own.h"
 #include "core/tape.h"
+#include "scenes/frame/camera.h"
+#include "scenes/frame/lane.h"
 #include "scenes/frame/written.h"
 
-/* A way to look at the state: bodies and rods, or one point, in a plane. */
+/* A way to look at the state: bodies and rods, or one point, in a plane or in space. */
 struct gm_sight {
     const char *name;      /* as show= says it */
-    size_t bodies, rods;   /* 2 numbers of a body, then 4 of a rod */
+    size_t dimensions;     /* 2, or 3 in space */
+    size_t bodies, rods;   /* as many numbers of a body, then twice as many of a rod */
     struct gm_tape tape;   /* of all variables to these numbers */
     bool *fixed;           /* of each body: it does not move */
     const char *labels[3]; /* of the axes; NULL: they have no names */
     bool angles[2];        /* an axis is an angle */
     long components[2];    /* an axis is this component of the state; -1: it is none */
-    bool in_space;         /* three coordinates, drawn obliquely */
 };
 
 enum { GM_SYSTEM_ROWS = 6 /* dt, until, members, spread, shape, show: the others are the system's own */ };
 enum { GM_SHAPE_DISC, GM_SHAPE_GRID, GM_SHAPE_LINE };
 enum { GM_SHOW_ALL, GM_SHOW_SECTION /* then planes, and last the modified energy, where there is one */ };
 enum { GM_TRACK_PAST, GM_TRACK_TRAIL, GM_TRACK_SHAPES, GM_TRACK_SECTION, GM_SYSTEM_TRACKS };
-enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_PREFERRED = 12 };
-
-/* The direction that leads away from the eye is drawn to the upper right, shortened. */
-#define GM_OBLIQUE_X 0.43
-#define GM_OBLIQUE_Y 0.25
+enum { GM_MOST_CONDITIONS = 8, GM_MOST_SIGHTS = 64, GM_MOST_PREFERRED = 12, GM_MOST_SURFACES = 8 };
 
 /* What follows from a system once. */
 struct gm_system_scene {
@@ -49,8 +47,9 @@ struct gm_system_scene {
     size_t conditions;
     bool has_section, stroboscopic, turns; /* what becomes 0 is an angle */
     struct gm_tape stop, exact, timing[3];
-    size_t disc[2]; /* the components that members differ in */
-    double radian;  /* 1 / the largest frequency at the start */
+    struct gm_tape surfaces; /* half axes at the start, three of each */
+    size_t disc[2];          /* the components that members differ in */
+    double radian;           /* 1 / the largest frequency at the start */
     struct gm_work work;
     struct gm_stability stability;
     double values[5];
@@ -66,6 +65,7 @@ struct gm_system_lane {
     long members;
     double spread;
     int shape, show;
+    struct gm_camera camera;
     double values[]; /* of the rows from first_value on; behind them whether each row was given, as bytes */
 };
 
@@ -74,6 +74,10 @@ void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, si
 /* The same of `count` other states of the last member, each with its time: struct gm_scene, stops. */
 void gm_system_values_of(const struct gm_tape *tape, const struct gm_view *view, const double *states,
                          const double *times, size_t count, double *values);
+/* How many numbers a sight tells of a state. */
+size_t gm_sight_numbers(const struct gm_sight *sight);
+/* From which entry of the past on the path of a body is bright: a part of the whole run. */
+size_t gm_system_bright_from(const struct gm_lane *lane);
 /* What a lane shows of its state. */
 const struct gm_sight *gm_system_sight(const struct gm_system_lane *lane);
 

@@ -16,6 +16,7 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/bench/ensembles.h"
 #include "tests/bench/ode_by_hand.h"
 
 enum { ROUNDS = 15, MEMBERS = 10000 };
@@ -71,6 +72,9 @@ static double measure(const struct line *line)
     struct gm_problem problem = *line->problem;
     problem.m = line->m;
     problem.parameters = line->parameters;
+    if (problem.m > 1) {
+        gm_bench_ensemble(&problem);
+    }
     double *y = malloc(problem.n * problem.m * sizeof *y);
     struct gm_run *run = y ? open_run(&problem, line, y) : NULL;
     if (!run) {
@@ -118,6 +122,44 @@ static double measure(const struct line *line)
     gm_run_close(run);
     free(y);
     return ours;
+}
+
+/* The oscillator by Verlet in single steps, as a run that is looked at makes them, beside many steps at once
+   and beside a plain pass over the same members. */
+static void single_steps(size_t m)
+{
+    const struct line line = {"", "verlet", &gm_problem_oscillator, .start = {0, 1}, .h = M_PI / 60, .m = m};
+    struct gm_problem problem = gm_problem_oscillator;
+    problem.m = m;
+    double *y = malloc(problem.n * m * sizeof *y);
+    struct gm_run *run = y ? open_run(&problem, &line, y) : NULL;
+    if (!run) {
+        printf("single steps: not enough memory\n");
+        free(y);
+        return;
+    }
+    const long steps = m < 100000 ? (long)(4000000 / m) : 40;
+    const double unit = 1e-9 * (double)steps * (double)m;
+    double single[ROUNDS], at_once[ROUNDS], plain[ROUNDS];
+    for (int round = 0; round < ROUNDS; round++) {
+        double start = seconds();
+        for (long i = 0; i < steps; i++) {
+            gm_run_advance(run, 1);
+        }
+        single[round] = (seconds() - start) / unit;
+        start = seconds();
+        gm_run_advance(run, steps);
+        at_once[round] = (seconds() - start) / unit;
+        start = seconds();
+        gm_hand_ensemble_oscillator_verlet(y, m, line.h, steps);
+        plain[round] = (seconds() - start) / unit;
+    }
+    const double one = median(single), many = median(at_once), pass = median(plain);
+    printf("single steps, %7zu members        %8.3f ns, many at once %.3f: ratio %.2f, a plain pass %.3f: "
+           "ratio %.2f\n",
+           m, one, many, one / many, pass, one / pass);
+    gm_run_close(run);
+    free(y);
 }
 
 static int field(double t, const double y[], double f[], void *problem)
@@ -342,6 +384,9 @@ int main(void)
                        : midpoint;
     }
     gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100, midpoint);
+    for (size_t m = 1000; m <= 1000000; m *= 10) {
+        single_steps(m);
+    }
     pair_sum();
     kepler_to_eight_digits(0.5);
     kepler_to_eight_digits(0.9);

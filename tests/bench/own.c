@@ -23,6 +23,7 @@
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
+#include "tests/bench/ensembles.h"
 
 enum { ROUNDS = 21 };
 
@@ -354,7 +355,9 @@ int main(int argc, char *argv[])
         for (size_t i = 0; i < GM_COUNT(schemes); i++) {
             for (size_t m = 1; m <= 10000; m *= 10000) {
                 struct gm_lane *lane = native_lane(schemes[i], m);
-                against_kernel(problem, gm_problem_kepler, lane, start, schemes[i], m, m == 1 ? 30000 : 30);
+                struct gm_problem kernel = gm_problem_kepler;
+                gm_bench_ensemble(&kernel);
+                against_kernel(problem, kernel, lane, start, schemes[i], m, m == 1 ? 30000 : 30);
                 gm_lane_close(lane);
             }
         }

@@ -382,6 +382,9 @@ static void room_totals(void **unused)
     print_message("room: divergence %.2g, defect of the budget %.2g\n", divergence, defect);
     assert_true(divergence <= 2e-16);
     assert_true(defect <= 1e-13);
+    const double solves = (double)lane->run->factor_solves / (double)lane->run->steps;
+    print_message("room: %.2f systems a step with factors that are made once\n", solves);
+    assert_true(solves > 1 && solves <= 12);
     gm_lane_close(lane);
 }
 

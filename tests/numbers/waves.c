@@ -49,6 +49,34 @@ static void breathers_at_equal_steps(void **unused)
     field_run_close(&run);
 }
 
+/* The local laws of Korteweg-de Vries and Schroedinger: mass and charge to round-off, energy and momentum with
+   the square of the step, the mesh as fine as the step. */
+static void the_local_laws_of_the_box(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *coarse, *fine, *kept;
+    } runs[] = {
+        {"kdv scheme=box points=501 dt=0.05 until=10", "kdv scheme=box points=1002 dt=0.025 until=10",
+         "local_mass_residual"},
+        {"nls scheme=box points=801 dt=0.005 until=3", "nls scheme=box points=1602 dt=0.0025 until=3",
+         "local_charge_residual"},
+    };
+    for (size_t k = 0; k < GM_COUNT(runs); k++) {
+        static const char *const laws[] = {"local_energy_residual", "local_momentum_residual"};
+        for (size_t law = 0; law < 2; law++) {
+            const double coarse = value_at_end(runs[k].coarse, laws[law]);
+            const double order = log2(coarse / value_at_end(runs[k].fine, laws[law]));
+            print_message("%s, %s: %.3g, order %.3f\n", runs[k].coarse, laws[law], coarse, order);
+            assert_true(coarse > 1e-6 && fabs(order - 2) < 0.1);
+        }
+        const double kept = value_at_end(runs[k].coarse, runs[k].kept);
+        print_message("%s, %s: %.2g\n", runs[k].coarse, runs[k].kept, kept);
+        assert_true(kept < 2e-11);
+    }
+    assert_true(isnan(value_at_end("nls scheme=split-step2 until=1", "local_charge_residual")));
+}
+
 static void the_law_of_the_box(void **unused)
 {
     (void)unused;
@@ -292,13 +320,10 @@ static void waves_on_a_ring(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(breathers_at_equal_steps),
-        cmocka_unit_test(breathers_at_twice_the_step),
-        cmocka_unit_test(the_law_of_the_box),
-        cmocka_unit_test(korteweg_de_vries_solitons),
-        cmocka_unit_test(the_cosine_of_zabusky_and_kruskal),
-        cmocka_unit_test(schroedinger_solitons),
-        cmocka_unit_test(waves_on_a_ring),
+        cmocka_unit_test(breathers_at_equal_steps),   cmocka_unit_test(breathers_at_twice_the_step),
+        cmocka_unit_test(the_local_laws_of_the_box),  cmocka_unit_test(the_law_of_the_box),
+        cmocka_unit_test(korteweg_de_vries_solitons), cmocka_unit_test(the_cosine_of_zabusky_and_kruskal),
+        cmocka_unit_test(schroedinger_solitons),      cmocka_unit_test(waves_on_a_ring),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -329,8 +329,8 @@ def listed(*words, columns=None):
     done = subprocess.run([sys.argv[1], *words], env=surroundings, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     return done.returncode, done.stdout.decode(), done.stderr.decode()
 
-brought = ["compensated", "binding", "tau0", "tolerance"]
-standard = {"compensated": "yes", "binding": "1", "tau0": "0.01", "tolerance": "1e-6"}
+brought = ["compensated", "binding", "tau0", "tolerance", "newmark_beta"]
+standard = {"compensated": "yes", "binding": "1", "tau0": "0.01", "tolerance": "1e-6", "newmark_beta": "0.1"}
 lists = [["scenes", "--long"], ["schemes"], ["figures"], ["schemes", "--long"], ["figures", "--long"]]
 for scene in [json.loads(line)["scene"] for line in open("out")]:
     told = json.loads(listed("list", scene, "--json")[1])

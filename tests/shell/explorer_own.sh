@@ -154,6 +154,51 @@ for size in 80x24 160x45; do
     wait_for 'left 0'
 done
 
+# in space one goes around what is seen: by keys, the mouse and the wheel; no step is made anew, and the command
+# line tells the camera as if it had been typed
+drag() { # COLUMN ROW COLUMN ROW
+    # shellcheck disable=SC2046
+    tm send-keys -t "$pane" -H $(printf '\033[<0;%d;%dM\033[<32;%d;%dM\033[<0;%d;%dm' "$1" "$2" "$3" "$4" "$3" "$4" |
+        od -An -tx1)
+}
+start 100x40 TERM=tmux-256color GEOMINT_COLOURS=truecolor
+open rigid-body scheme=rkmk4
+wait_for 'azimuth +-60'
+wait_for 't = [1-9]'
+keys Space
+wait_for 'paused'
+time=$(screen | grep -oE 't = [0-9.]+' | head -n 1)
+keys S-Right S-Right
+wait_for 'azimuth +-50'
+keys S-Up
+wait_for 'elevation +30'
+keys S-Down S-Down
+wait_for 'elevation +20'
+keys z
+wait_for 'zoom +1.25'
+keys Z Z
+wait_for 'zoom +0.8'
+drag 40 20 20 20
+wait_for 'azimuth +-14'
+drag 20 10 20 15
+wait_for 'elevation +38'
+tm send-keys -t "$pane" -H $(printf '\033[<64;20;20M' | od -An -tx1)
+wait_for 'zoom +1 '
+[ "$(screen | grep -oE 't = [0-9.]+' | head -n 1)" = "$time" ] || fail 'the camera moved the time'
+keys y
+wait_for 'azimuth=-14'
+wait_for 'elevation=38'
+screen | grep -q -- '--changes' && fail 'the camera is a change in flight'
+keys Escape
+wait_for 'SCHEMES'
+keys ,
+wait_gone "$time"
+wait_for 'azimuth +-14' # in the past it stands where it stands
+keys '?'
+wait_for 'in space: go around it'
+keys Escape q
+wait_for 'left 0'
+
 # nothing breaks it: control characters, letters of two cells, halves of them, a long paste, deep parentheses
 start 60x14 TERM=tmux-256color
 open

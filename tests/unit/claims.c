@@ -19,7 +19,7 @@
 #include "core/ode/families/families.h"
 #include "core/ode/families/implicit_runge_kutta.h"
 #include "core/ode/families/splitting.h"
-#include "core/ode/families/variational.h"
+#include "core/ode/families/variational/discrete_lagrangian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 #include "core/schemes.h"
@@ -142,6 +142,11 @@ static void properties_that_are_false(void **unused)
         {"crouch-grossman4", GM_SYMMETRIC},
         {"midpoint", GM_POISSON_MAP},
         {"rotations2", GM_KEEPS_ENERGY},
+        {"projected-gauss4", GM_SYMPLECTIC},
+        {"projected-gauss6", GM_SYMMETRIC},
+        {"projected-rk4", GM_KEEPS_MOMENTUM_MAPS},
+        {"variational-newmark2", GM_KEEPS_ENERGY},
+        {"symplectic-energy-momentum2", GM_KEEPS_ENERGY},
         {"energy-collocation4", GM_POISSON_MAP},
         {"trapezoidal", GM_KEEPS_BILINEAR},
         {"avf2", GM_KEEPS_BILINEAR},
@@ -249,6 +254,46 @@ static void structure_that_is_not_asked_for(void **unused)
         assert_true(certificate.claims[wrong[i].bit].measured);
         assert_true(certificate.claims[wrong[i].bit].defect > 1e-11);
     }
+}
+
+/* The midpoint rule, which moves time by what is no constant of the motion; and rotations about the axes. */
+static void moser_and_veselov_with_other_steps(void **unused)
+{
+    (void)unused;
+    const struct gm_scheme *right = gm_scheme_find("discrete-moser-veselov");
+    static const struct {
+        const char *steps;
+        unsigned broken;
+    } wrong[] = {{"midpoint", GM_POISSON_MAP}, {"rotations2", GM_KEEPS_ENERGY | GM_KEEPS_QUADRATIC}};
+    assert_string_equal(right->name, "discrete-moser-veselov2");
+    for (size_t i = 0; i < GM_COUNT(wrong); i++) {
+        struct gm_scheme scheme = changed(wrong[i].steps);
+        scheme.needs = right->needs;
+        scheme.claims = right->claims;
+        const struct gm_certificate certificate = gm_certify(&scheme);
+        assert_true(certificate.order_holds && !certificate.holds);
+        for (unsigned bit = 0; bit < GM_CLAIM_COUNT; bit++) {
+            const bool claimed = right->claims >> bit & 1, broken = wrong[i].broken >> bit & 1;
+            assert_true(!claimed || certificate.claims[bit].holds != broken);
+        }
+    }
+}
+
+/* Weights of which the mean of the squared velocities is another one, or the mean of the velocities. */
+static void newmark_with_other_weights(void **unused)
+{
+    (void)unused;
+    struct gm_scheme wrong = changed("variational-newmark2");
+    struct gm_variational_row row = *(const struct gm_variational_row *)wrong.coefficients;
+    wrong.coefficients = &row;
+    row.b[0] += 0.01; /* of one end more than of the other */
+    row.b[2] -= 0.01;
+    assert_false(gm_certify(&wrong).order_holds);
+    row.b[1] = row.b[3] = -0.4;
+    row.b[0] = row.b[2] = 0.9;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_false(certificate.order_holds);
+    assert_true(certificate.claims[0].holds);
 }
 
 /* An ordinary control of the error is not the same way back; parts of another order or kind are caught. */
@@ -560,6 +605,8 @@ int main(void)
         cmocka_unit_test(the_misprint_of_rk4sym),
         cmocka_unit_test(a_wrong_digit_of_gauss4),
         cmocka_unit_test(structure_that_is_not_asked_for),
+        cmocka_unit_test(moser_and_veselov_with_other_steps),
+        cmocka_unit_test(newmark_with_other_weights),
         cmocka_unit_test(steps_that_remember),
         cmocka_unit_test(a_wrong_digit_of_a_discrete_lagrangian),
         cmocka_unit_test(one_order_too_many),

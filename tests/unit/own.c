@@ -98,10 +98,12 @@ static void facets_are_found(void **state)
     }
 }
 
-/* Not where round-off is magnified: by an instability, by quotients of differences, by choices of order. */
+/* Not where round-off is magnified: by an instability, by quotients of differences, by choices of order, or in a
+   step tau that is to keep an energy, on which that depends as tau/4 f' H'' f: 200 times at tau = .02. */
 static bool is_compared(const struct gm_scheme *scheme)
 {
-    static const char *const not [] = {"explicit-euler", "discrete-gradient2", "gsl-msadams", "gsl-msbdf"};
+    static const char *const not [] = {"explicit-euler", "discrete-gradient2", "gsl-msadams", "gsl-msbdf",
+                                       "symplectic-energy-momentum2"};
     for (size_t i = 0; i < GM_COUNT(not ); i++) {
         if (strcmp(scheme->name, not [i]) == 0) {
             return false;

@@ -18,6 +18,7 @@
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
 #include "core/formula/equations.h"
+#include "core/ode/own/evolution.h"
 #include "core/run.h"
 #include "core/schemes.h"
 
@@ -231,11 +232,56 @@ static void the_quotient_holds_at_rest(void **unused)
     close_typed(&typed);
 }
 
+/* A wave exp(i (k x - w t)) of a linear equation turns as its formula says: with waves through the nodes w is that
+   of the equation, with differences that of the grid; the mass divides it. Exponential steps make no error. */
+static void a_linear_wave_turns_as_by_hand(void **unused)
+{
+    (void)unused;
+    static const char text[] = "field: u\nrate: u = -2*u_x - u_xxx\nmass: u - u_xx\nstart: u = cos(3*x)\n";
+    enum { NODES = 32 };
+    const struct gm_line line = {.points = NODES, .dx = 2 * M_PI / NODES, .first = -M_PI};
+    const double k = 3, dx = line.dx, first = sin(k * dx) / dx, second = 2 * (1 - cos(k * dx)) / (dx * dx);
+    const double frequencies[] = {(2 * first - first * second) / (1 + second),
+                                  (2 * k - k * k * k) / (1 + k * k)};
+    for (int space = 0; space < 2; space++) {
+        struct gm_own_system system;
+        struct gm_own_evolution evolution;
+        struct gm_problem problem;
+        struct gm_fault fault;
+        char sentence[400] = "";
+        assert_true(gm_equations_open(&system, text, strlen(text), NULL, 0, &fault));
+        assert_true(gm_own_evolution_derive(&evolution, &system));
+        double *values = gm_equations_start(&system, NULL), y[NODES];
+        assert_true(gm_own_evolution_open(&problem, &evolution, values, &line, (enum gm_derivatives)space));
+        assert_true(gm_own_evolution_closes(&problem, sentence, sizeof sentence));
+        gm_own_evolution_start(&problem, y);
+        struct gm_run *run =
+            gm_run_open(&problem, gm_scheme_find_for("etdrk4", &problem), &no_settings, 0, 0.5, y);
+        assert_int_equal(gm_run_advance(run, 20), GM_OK);
+        for (size_t i = 0; i < NODES; i++) {
+            const double exact = cos(k * gm_line_node(&line, i) - frequencies[space] * 10);
+            assert_true(fabs(gm_run_state(run)[i] - exact) < 1e-12);
+        }
+        gm_run_close(run);
+        free(values);
+        gm_own_evolution_shut(&problem);
+        gm_own_evolution_close(&evolution);
+        gm_system_close(&system);
+    }
+}
+
 #define FIELD "field: u\nstart: u = cos(pi*x/20), u_t = 0\n"
 static const struct {
     const char *text, *sentence;
 } refused[] = {
     {"field: u\nstart: u = 0, u_t = 0\n", "a field needs V"},
+    {"field: u v\nrate: u = v\nstart: u = 0, v = 0\n", "there is no rate of v"},
+    {"field: u\nrate: u = t*u\nstart: u = 0\n", "the rate of a field does not hold t"},
+    {"field: u\nrate: u = u_x\nmass: u^2\nstart: u = 0\n", "a mass is linear in u"},
+    {"field: u v\nrate: u = v, v = u\nmass: u - v_xx\nstart: u = 0, v = 0\n", "a mass is of one of"},
+    {"field: u\nrate: u = u_x\nmass: u\nmass: u - u_xx\nstart: u = 0\n", "the mass of u is said twice"},
+    {"field: u\nrate: u = u_x\nspace: spline\nstart: u = 0\n", "space is differences or fourier"},
+    {"field: u\nrate: u = u_x\njump: 1\nstart: u = 0\n", "has no line \"jump\""},
     {"V: u^2\n", "which a line \"field\" names"},
     {"field: u v\nV: u^2\n", "a field has one name"},
     {FIELD "V: abs(u)\n", "V has to be smooth, and abs is not"},
@@ -310,6 +356,7 @@ int main(void)
         cmocka_unit_test(the_multisymplectic_law_holds),
         cmocka_unit_test(the_quotient_does_not_cancel),
         cmocka_unit_test(the_quotient_holds_at_rest),
+        cmocka_unit_test(a_linear_wave_turns_as_by_hand),
         cmocka_unit_test(what_is_wrong_is_said),
         cmocka_unit_test(a_field_closes_on_its_ring),
     };

@@ -11,7 +11,10 @@
 #include <string.h>
 
 #include <cmocka.h>
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_sf_elljac.h>
 
+#include "core/certify.h"
 #include "core/count.h"
 #include "core/formula/derivative.h"
 #include "core/formula/equations.h"
@@ -56,13 +59,13 @@ struct typed {
     gm_node_id gradient[MOST + 8];
 };
 
-static void type(struct typed *typed, int which)
+static void type_words(struct typed *typed, const char *name, const char *text)
 {
     struct gm_fault fault;
     bool marked[MOST + 8] = {0};
     struct gm_own_system *system = &typed->system;
-    if (!gm_equations_open(system, systems[which].text, strlen(systems[which].text), NULL, 0, &fault)) {
-        fail_msg("%s: %s", systems[which].name, fault.sentence);
+    if (!gm_equations_open(system, text, strlen(text), NULL, 0, &fault)) {
+        fail_msg("%s: %s", name, fault.sentence);
     }
     typed->start = gm_equations_start(system, NULL);
     assert_true(gm_own_model_open(&typed->model, system));
@@ -74,6 +77,11 @@ static void type(struct typed *typed, int which)
     assert_true(gm_gradient(&system->graph, system->energy, marked, system->n, typed->gradient));
     typed->values = malloc(system->graph.count * sizeof *typed->values);
     assert_true(typed->start && typed->values);
+}
+
+static void type(struct typed *typed, int which)
+{
+    type_words(typed, systems[which].name, systems[which].text);
 }
 
 static void untype(struct typed *typed)
@@ -155,7 +163,7 @@ static void schemes_advance_them(void **unused)
             if (!(distance <= (scheme->order == 1 ? 2 : .02))) {
                 fail_msg("%s, %s: %g from the reference", systems[k].name, scheme->name, distance);
             }
-            const bool turns = scheme->needs & GM_NEEDS_ROTATIONS,
+            const bool turns = scheme->needs & (GM_NEEDS_ROTATIONS | GM_NEEDS_AXES | GM_NEEDS_FREE_BODY),
                        collocation =
                            strncmp(scheme->name, "energy-collocation", strlen("energy-collocation")) == 0;
             if (turns || collocation || (systems[k].quadratic && strcmp(scheme->name, "midpoint") == 0)) {
@@ -184,8 +192,9 @@ static void schemes_advance_them(void **unused)
 static void bodies_turn(void **unused)
 {
     (void)unused;
-    static const char *const schemes[] = {"rotations2", "spherical-midpoint2", "rkmk4", "crouch-grossman3",
-                                          "crouch-grossman4"};
+    static const char *const schemes[] = {
+        "rotations2",       "spherical-midpoint2", "rkmk4",
+        "crouch-grossman3", "crouch-grossman4",    "discrete-moser-veselov2"};
     static const struct gm_settings settings = {0};
     static const char backwards[] =
         "components: x y z\nbracket: x y = z\nbracket: y z = x\nbracket: z x = y\n"
@@ -216,6 +225,9 @@ static void bodies_turn(void **unused)
         if (!(moved < 1e-11)) {
             fail_msg("%s: the Casimir moved by %.1e", schemes[i], moved);
         }
+        const double energy =
+            gm_ode_of(forth)->poisson->energy(forth, y) - gm_ode_of(forth)->poisson->energy(forth, start);
+        assert_true(!(scheme->claims & GM_KEEPS_ENERGY) || fabs(energy) < 1e-12);
         gm_run_close(a);
         gm_run_close(b);
     }
@@ -225,12 +237,211 @@ static void bodies_turn(void **unused)
     gm_system_close(&system);
 }
 
+/* Inertia (1, 2, 3), faster about the third axis than about the second: L.D. Landau & E.M. Lifshitz, Mechanics
+   (1976), section 37. */
+static void by_elliptic_functions(double t, double energy, double square, double *y)
+{
+    const double I[3] = {1, 2, 3}, low = 2 * energy * I[2] - square, high = square - 2 * energy * I[0];
+    const double rate = sqrt((I[2] - I[1]) * high / (I[0] * I[1] * I[2]));
+    double sn, cn, dn;
+    gsl_sf_elljac_e(rate * t, (I[1] - I[0]) * low / ((I[2] - I[1]) * high), &sn, &cn, &dn);
+    y[0] = I[0] * sqrt(low / (I[0] * (I[2] - I[0]))) * cn;
+    y[1] = I[1] * sqrt(low / (I[1] * (I[2] - I[1]))) * sn;
+    y[2] = I[2] * sqrt(high / (I[2] * (I[2] - I[0]))) * dn;
+}
+
+static double error_of(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                       long steps, const double *start, const double *end)
+{
+    static const struct gm_settings settings = {0};
+    double error = 0;
+    struct gm_run *run = gm_run_open(problem, scheme, &settings, 0, dt, start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, steps), GM_OK);
+    for (size_t i = 0; i < problem->n; i++) {
+        error = fmax(error, fabs(gm_run_state(run)[i] - end[i]));
+    }
+    gm_run_close(run);
+    return error;
+}
+
+static void bodies_by_elliptic_functions(void **unused)
+{
+    (void)unused;
+    static const char *const schemes[] = {
+        "rotations2",          "spherical-midpoint2", "rkmk4",
+        "crouch-grossman3",    "crouch-grossman4",    "discrete-moser-veselov2",
+        "energy-collocation2", "energy-collocation4", "midpoint"};
+    static const char text[] = "components: x y z\nbracket: x y = -z\nbracket: y z = -x\nbracket: z x = -y\n"
+                               "H: (x^2 + y^2/2 + z^2/3)/2\nstart: x = 0.8, y = 0, z = 1.5\n";
+    struct typed typed;
+    type_words(&typed, "a body of three moments", text);
+    double exact[3], start[3];
+    by_elliptic_functions(0, (0.64 + 0.75) / 2, 0.64 + 2.25, start);
+    by_elliptic_functions(10, (0.64 + 0.75) / 2, 0.64 + 2.25, exact);
+    assert_true(fabs(start[0] - 0.8) < 1e-15 && start[1] == 0 && fabs(start[2] - 1.5) < 1e-15);
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
+        const struct gm_scheme *scheme = gm_scheme_find(schemes[i]);
+        assert_true(gm_scheme_fits(scheme, &typed.problem));
+        const double coarse = error_of(&typed.problem, scheme, 0.1, 100, start, exact),
+                     fine = error_of(&typed.problem, scheme, 0.05, 200, start, exact),
+                     slope = log2(coarse / fine);
+        if (!(fabs(slope - scheme->order) < 0.2)) {
+            fail_msg("%s: slope %.2f, errors %.2e and %.2e", schemes[i], slope, coarse, fine);
+        }
+    }
+    untype(&typed);
+}
+
+/* The top of these moments, its weight 1: bracket and energy are those of the system in share/systems. */
+static const char top[] =
+    "components: a b c u v w\nparameter: I1 = 1\nparameter: I3 = 0.5\n"
+    "bracket: a b = -c\nbracket: b c = -a\nbracket: c a = -b\nbracket: a v = -w\n"
+    "bracket: b u = w\nbracket: b w = -u\nbracket: c v = u\nbracket: c u = -v\nbracket: a w = v\n"
+    "H: (a^2 + b^2)/(2*I1) + c^2/(2*I3) + w\n"
+    "start: a = 0, b = 0, c = 1, u = 0.6, v = 0, w = 0.8\n";
+
+static double vertical(const void *data, const double *y)
+{
+    (void)data;
+    return y[0] * y[3] + y[1] * y[4] + y[2] * y[5];
+}
+
+static double upright(const void *data, const double *y)
+{
+    (void)data;
+    return y[3] * y[3] + y[4] * y[4] + y[5] * y[5];
+}
+
+/* Steady precession: the axis goes round at a constant tilt, I1 P^2 cos(tilt) + 1 = I3 spin P. */
+static void tops_precess(void **unused)
+{
+    (void)unused;
+    static const struct gm_settings settings = {0};
+    const double I1 = 1, I3 = 0.5, tilt = 1, P = 0.7, spin = (I1 * P * P * cos(tilt) + 1) / (I3 * P);
+    const double start[6] = {I1 * P * sin(tilt), 0, I3 * spin, sin(tilt), 0, cos(tilt)};
+    struct typed typed;
+    type_words(&typed, "top", top);
+    const struct gm_scheme *scheme = gm_scheme_find("rotations2");
+    assert_true(gm_scheme_fits(scheme, &typed.problem));
+    assert_false(gm_scheme_fits(gm_scheme_find("rkmk4"), &typed.problem));
+    assert_false(gm_scheme_fits(gm_scheme_find("discrete-moser-veselov2"), &typed.problem));
+    double errors[3];
+    for (int finer = 0; finer < 3; finer++) {
+        const long steps = 500 << finer;
+        struct gm_run *run = gm_run_open(&typed.problem, scheme, &settings, 0, 0.1 / (1 << finer), start);
+        assert_non_null(run);
+        double angle = 0;
+        for (long n = 0; n < steps; n++) {
+            const double *y = gm_run_state(run);
+            angle += (y[0] * y[3] + y[1] * y[4]) / (I1 * (y[3] * y[3] + y[4] * y[4])) / (double)steps;
+            assert_int_equal(gm_run_advance(run, 1), GM_OK);
+        }
+        errors[finer] = fabs(angle - P);
+        gm_run_close(run);
+    }
+    if (!(fabs(log2(errors[0] / errors[1]) - 2) < 0.1 && fabs(log2(errors[1] / errors[2]) - 2) < 0.1)) {
+        fail_msg("the rate errs by %g, %g, %g", errors[0], errors[1], errors[2]);
+    }
+    untype(&typed);
+}
+
+/* M := the derivative of a step over a, b, u, v at the top that sleeps, by differences that are extrapolated */
+static void derive(const struct gm_problem *problem, double dt, const double *sleeping, double *M)
+{
+    static const int moved[] = {0, 1, 3, 4};
+    static const struct gm_settings settings = {0};
+    memset(M, 0, 16 * sizeof *M);
+    for (int k = 0; k < 4; k++) {
+        for (int finer = 0; finer < 2; finer++) {
+            for (int sign = -1; sign <= 1; sign += 2) {
+                const double push = 3e-4 / (1 + finer),
+                             weight = (finer ? 4. / 3 : -1. / 3) * sign / (2 * push);
+                double y[6];
+                memcpy(y, sleeping, sizeof y);
+                y[moved[k]] += sign * push;
+                struct gm_run *run = gm_run_open(problem, gm_scheme_find("rotations2"), &settings, 0, dt, y);
+                assert_non_null(run);
+                assert_int_equal(gm_run_advance(run, 1), GM_OK);
+                for (int i = 0; i < 4; i++) {
+                    M[4 * i + k] += weight * gm_run_state(run)[moved[i]];
+                }
+                gm_run_close(run);
+            }
+        }
+    }
+}
+
+/* Whether a step from nearby leads away. */
+static bool falls(const struct gm_problem *problem, double dt, double spin)
+{
+    const double sleeping[6] = {0, 0, 0.5 * spin, 0, 0, 1};
+    double M[16], largest = 0;
+    derive(problem, dt, sleeping, M);
+    gsl_matrix_view view = gsl_matrix_view_array(M, 4, 4);
+    gsl_vector_complex *values = gsl_vector_complex_alloc(4);
+    gsl_eigen_nonsymm_workspace *workspace = gsl_eigen_nonsymm_alloc(4);
+    assert_int_equal(gsl_eigen_nonsymm(&view.matrix, values, workspace), 0);
+    for (size_t i = 0; i < 4; i++) {
+        const gsl_complex value = gsl_vector_complex_get(values, i);
+        largest = fmax(largest, hypot(GSL_REAL(value), GSL_IMAG(value)));
+    }
+    gsl_eigen_nonsymm_free(workspace);
+    gsl_vector_complex_free(values);
+    return largest > 1 + 1e-5;
+}
+
+/* A top sleeps upright while 4 I1 < I3^2 spin^2, here while it spins faster than 4. */
+static void tops_sleep(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    double errors[3];
+    type_words(&typed, "top", top);
+    for (int finer = 0; finer < 3; finer++) {
+        double slow = 3, fast = 5;
+        const double dt = 0.2 / (1 << finer);
+        assert_true(falls(&typed.problem, dt, slow) && !falls(&typed.problem, dt, fast));
+        while (fast - slow > 1e-8) {
+            const double spin = (slow + fast) / 2;
+            *(falls(&typed.problem, dt, spin) ? &slow : &fast) = spin;
+        }
+        errors[finer] = fabs(slow - 4);
+    }
+    if (!(fabs(log2(errors[0] / errors[1]) - 2) < 0.1 && fabs(log2(errors[1] / errors[2]) - 2) < 0.1)) {
+        fail_msg("the threshold errs by %g, %g, %g", errors[0], errors[1], errors[2]);
+    }
+    untype(&typed);
+}
+
+/* The exact pieces of a top make a Poisson map; RK4 that claims as much is refused. */
+static void tops_are_certified(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    type_words(&typed, "top", top);
+    typed.start[0] = 0.4;
+    const struct gm_kept kept[] = {{"vertical", vertical, NULL}, {"upright", upright, NULL}};
+    const struct gm_certified_system system = {
+        .problem = &typed.problem, .start = typed.start, .dt = 0.1, .kept = kept, .kept_count = 2};
+    struct gm_scheme scheme = *gm_scheme_find("rotations2");
+    struct gm_certificate on = gm_certify_on(&scheme, &system);
+    assert_true(on.holds && on.ladder.settled && fabs(on.order - 2) < 0.05);
+    assert_true(on.claims[17].measured && on.claims[17].holds && on.claims[18].measured);
+    struct gm_scheme wrong = *gm_scheme_find("rk4");
+    wrong.claims = scheme.claims;
+    on = gm_certify_on(&wrong, &system);
+    assert_true(!on.holds && !on.claims[17].holds && !on.claims[18].holds);
+    untype(&typed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nodes_make_the_field),
-        cmocka_unit_test(schemes_advance_them),
-        cmocka_unit_test(bodies_turn),
+        cmocka_unit_test(nodes_make_the_field), cmocka_unit_test(schemes_advance_them),
+        cmocka_unit_test(bodies_turn),          cmocka_unit_test(bodies_by_elliptic_functions),
+        cmocka_unit_test(tops_precess),         cmocka_unit_test(tops_sleep),
+        cmocka_unit_test(tops_are_certified),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -285,6 +285,7 @@ static bool is_without_reference(const char *name)
                                 "levi-civita",
                                 "variational-rectangle-restart",
                                 "variational-midpoint",
+                                "symplectic-energy-momentum2",
                                 "variational-midpoint2",
                                 "variational-trapezoidal2",
                                 "variational-simpson4",
@@ -296,7 +297,14 @@ static bool is_without_reference(const char *name)
                                 "rattle2",
                                 "shake2",
                                 "constrained-lobatto4",
-                                "constrained-lobatto6"};
+                                "constrained-lobatto6",
+                                "variational-newmark2",
+                                "projected-gauss4",
+                                "projected-gauss6",
+                                "projected-rk4",
+                                "exponential-euler1",
+                                "lawson4",
+                                "etdrk4"};
     for (size_t i = 0; i < GM_COUNT(list); i++) {
         if (strcmp(list[i], name) == 0) {
             return true;

@@ -389,6 +389,7 @@ static void lagrangians_are_checked(void **unused)
 
 #define CANONICAL "coordinates: q\nstart: q = 1, p_q = 0\n"
 #define THREE "components: x y z\nstart: x = 1, y = 1, z = 1\n"
+#define SPACE "rate: x = y\nrate: y = -x\nrate: z = x\nview: x, y, z\n" /* four lines */
 
 static const struct {
     const char *text;
@@ -465,6 +466,18 @@ static const struct {
     {CANONICAL "H: p_q^2/2\nangle: p_q\n", 4, 8, "one of the coordinates"},
     {CANONICAL "H: p_q^2/2\nview: q\n", 4, 7, "two or three coordinates"},
     {CANONICAL "H: p_q^2/2\nrod: 0, 0\n", 4, 6, "a rod has two ends"},
+    {THREE SPACE "surface: cube; 1\n", 7, 10, "a sphere or an ellipsoid"},
+    {THREE SPACE "surface: sphere\n", 7, 16, "a sphere has one radius"},
+    {THREE SPACE "surface: sphere; 1, 2\n", 7, 18, "a sphere has one radius"},
+    {THREE SPACE "surface: ellipsoid; 1, 2\n", 7, 21, "three half axes"},
+    {THREE SPACE "surface: sphere; 0\n", 7, 10, "the size of a surface is 0"},
+    {THREE SPACE "surface: ellipsoid; 1, -2, 1\n", 7, 10, "the size of a surface is -2"},
+    {THREE SPACE "surface: sphere; 2 + x\n", 7, 10, "a surface stands still"},
+    {THREE SPACE "surface: sphere; 1 + t\n", 7, 10, "a surface stands still"},
+    {THREE SPACE "parameter: zoom = 1\n", 7, 12, "the name zoom is reserved"},
+    {THREE SPACE "observe: azimuth = x\n", 7, 10, "the name azimuth is reserved"},
+    {THREE "rate: x = y\nrate: y = z\nrate: z = x\nview: x, y\nsurface: sphere; 1\n", 7, 10,
+     "a surface stands in space"},
     {CANONICAL "H: p_q^2/2\nsection: q\n", 4, 10, "where something is 0"},
     {CANONICAL "H: p_q^2/2\nsection: q = 0\n", 4, 15, "shows two values"},
     {CANONICAL "H: p_q^2/2\nobserve: q[1] = 0\n", 4, 12, "no index"},

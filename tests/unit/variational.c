@@ -15,7 +15,10 @@
 #include "core/certify.h"
 #include "core/count.h"
 #include "core/formula/equations.h"
+#include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 #include "core/ode/own/own.h"
+#include "core/ode/problems/problems.h"
 #include "core/ode/variational/manifold.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -58,10 +61,11 @@ static const struct gm_scheme *fitting(const char *name, const struct gm_problem
     return scheme;
 }
 
+static const struct gm_settings settings = {.newmark_beta = 0.15};
+
 /* The state after so many steps, of at most 12 components. */
 static void go(const struct typed *typed, const char *name, double dt, long steps, double *end)
 {
-    static const struct gm_settings settings = {0};
     struct gm_run *run =
         gm_run_open(&typed->problem, fitting(name, &typed->problem), &settings, 0, dt, typed->start);
     assert_non_null(run);
@@ -91,9 +95,9 @@ static double about_z(const void *data, const double *y)
     return y[0] * y[4] - y[1] * y[3];
 }
 
-static const char *const variational[] = {"variational-midpoint2", "variational-trapezoidal2",
-                                          "variational-simpson4",  "variational-galerkin2",
-                                          "variational-galerkin4", "variational-galerkin6"};
+static const char *const variational[] = {
+    "variational-midpoint2", "variational-trapezoidal2", "variational-simpson4", "variational-galerkin2",
+    "variational-galerkin4", "variational-galerkin6",    "variational-newmark2"};
 enum { VARIATIONAL = GM_COUNT(variational) };
 
 /* Orders are measured against GSL's stepper on the field of the system, claims on its own steps. */
@@ -175,6 +179,136 @@ static void the_same_methods(void **unused)
     }
 }
 
+/* Newmark's method as books have it, for q'' = -q/|q|^3 in space; Q are its places. */
+static void newmark(double beta, double dt, long steps, double *Q, double *v)
+{
+    double a[3], r = sqrt(Q[0] * Q[0] + Q[1] * Q[1] + Q[2] * Q[2]);
+    for (int c = 0; c < 3; c++) {
+        a[c] = -Q[c] / (r * r * r);
+    }
+    for (long n = 0; n < steps; n++) {
+        double next[3], there[3];
+        memcpy(there, a, sizeof there);
+        for (int iteration = 0; iteration < 60; iteration++) {
+            for (int c = 0; c < 3; c++) {
+                next[c] = Q[c] + dt * v[c] + dt * dt * ((0.5 - beta) * a[c] + beta * there[c]);
+            }
+            r = sqrt(next[0] * next[0] + next[1] * next[1] + next[2] * next[2]);
+            for (int c = 0; c < 3; c++) {
+                there[c] = -next[c] / (r * r * r);
+            }
+        }
+        for (int c = 0; c < 3; c++) {
+            v[c] += dt / 2 * (a[c] + there[c]);
+            Q[c] = next[c];
+            a[c] = there[c];
+        }
+    }
+}
+
+/* What the variational one has of Q are x = Q - beta h^2 a(Q); for beta = 0 it is Verlet's scheme. */
+static void newmarks_method(void **unused)
+{
+    (void)unused;
+    const double beta = settings.newmark_beta, dt = 0.05;
+    struct typed typed;
+    type(&typed, kepler_in_space);
+    double Q[3], v[3], end[6], start[6];
+    memcpy(Q, typed.start, sizeof Q);
+    memcpy(v, typed.start + 3, sizeof v);
+    for (int late = 0; late < 2; late++) {
+        const double r = sqrt(Q[0] * Q[0] + Q[1] * Q[1] + Q[2] * Q[2]),
+                     factor = 1 + beta * dt * dt / (r * r * r);
+        for (int c = 0; c < 3; c++) {
+            (late ? end : start)[c] = Q[c] * factor;
+            (late ? end : start)[3 + c] = v[c];
+        }
+        if (!late) {
+            newmark(beta, dt, 200, Q, v);
+        }
+    }
+    memcpy(typed.start, start, sizeof start);
+    double found[6];
+    go(&typed, "variational-newmark2", dt, 200, found);
+    assert_true(apart(found, end, 6) < 1e-12);
+    static const struct gm_settings none = {0};
+    struct gm_run *run =
+        gm_run_open(&typed.problem, fitting("variational-newmark2", &typed.problem), &none, 0, dt, start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, 200), GM_OK);
+    go(&typed, "verlet", dt, 200, end);
+    assert_true(apart(gm_run_state(run), end, 6) < 1e-12);
+    gm_run_close(run);
+    untype(&typed);
+}
+
+/* Of one degree of freedom the variation of time is that of the scheme that there was. */
+static void times_of_one_degree(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"symplectic-energy-momentum2", "variational-midpoint"};
+    static const struct gm_settings first = {.tau0 = 0.02};
+    const double start[2] = {0.3, 1.2};
+    struct gm_run *runs[2];
+    for (int k = 0; k < 2; k++) {
+        runs[k] = gm_run_open(&gm_problem_pendulum, gm_scheme_find(names[k]), &first, 0, 1, start);
+        assert_non_null(runs[k]);
+        assert_int_equal(gm_run_advance(runs[k], 100), GM_OK);
+    }
+    assert_true(apart(gm_run_state(runs[0]), gm_run_state(runs[1]), 2) < 1e-10);
+    assert_true(fabs(runs[0]->t - runs[1]->t) < 1e-10);
+    gm_run_close(runs[0]);
+    gm_run_close(runs[1]);
+}
+
+/* The energy in the middle of every step is that of the first to round-off, while there is a root. */
+static void energies_of_times(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {double_pendulum, kepler_in_space, pendulum_in_angles, two_masses};
+    static const struct gm_settings first = {.tau0 = 0.02};
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        struct typed typed;
+        type(&typed, texts[i]);
+        const struct gm_scheme *scheme = fitting("symplectic-energy-momentum2", &typed.problem);
+        double middle[6], kept = 0, largest = 0;
+        struct gm_run *run = gm_run_open(&typed.problem, scheme, &first, 0, 1, typed.start);
+        assert_non_null(run);
+        for (long steps = 0; steps < 100; steps++) {
+            memcpy(middle, gm_run_state(run), typed.problem.n * sizeof *middle);
+            assert_int_equal(gm_run_advance(run, 1), GM_OK);
+            for (size_t c = 0; c < typed.problem.n; c++) {
+                middle[c] = (middle[c] + gm_run_state(run)[c]) / 2;
+            }
+            const double energy = gm_energy(&typed.problem, middle);
+            kept = steps == 0 ? energy : kept;
+            largest = fmax(largest, fabs(energy - kept));
+        }
+        if (!(largest < 2e-14 * (1 + fabs(kept)))) {
+            fail_msg("%s: the energy is off by %g", texts[i], largest);
+        }
+        gm_run_close(run);
+        untype(&typed);
+    }
+}
+
+/* An orbit of eccentricity .9 comes to where f' H'' f is 0, and no step leads on. */
+static void times_without_a_root(void **unused)
+{
+    (void)unused;
+    static const struct gm_settings first = {.tau0 = 0.005};
+    struct typed typed;
+    type(&typed, "coordinates: x y\nH: (p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2)\n"
+                 "start: x = 0.1, y = 0, p_x = 0, p_y = sqrt(19)\n");
+    const struct gm_scheme *scheme = fitting("symplectic-energy-momentum2", &typed.problem);
+    struct gm_run *run = gm_run_open(&typed.problem, scheme, &first, 0, 1, typed.start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, 10000), GM_STEP_COLLAPSE);
+    assert_true(run->t > 0 && run->t < M_PI && isfinite(gm_run_state(run)[0]));
+    gm_run_close(run);
+    untype(&typed);
+}
+
 /* Of the runs that round-off is watched in; 1e5 with the argument `all`. */
 static long many_steps = 5000;
 
@@ -183,7 +317,6 @@ static double lost(const char *text, const char *name, double (*map)(const void 
 {
     struct typed typed;
     type(&typed, text);
-    static const struct gm_settings settings = {0};
     struct gm_run *run =
         gm_run_open(&typed.problem, fitting(name, &typed.problem), &settings, 0, 0.05, typed.start);
     assert_non_null(run);
@@ -226,7 +359,10 @@ static void constraints_are_kept(void **unused)
     } schemes[] = {{"rattle2", 2, true},
                    {"shake2", 2, false},
                    {"constrained-lobatto4", 4, true},
-                   {"constrained-lobatto6", 6, true}};
+                   {"constrained-lobatto6", 6, true},
+                   {"projected-gauss4", 4, true},
+                   {"projected-gauss6", 6, true},
+                   {"projected-rk4", 4, true}};
     struct typed space, angles;
     double end[6], of_angles[4];
     type(&space, pendulum_in_space);
@@ -290,7 +426,6 @@ static void a_chain(void **unused)
 static void no_root(void **unused)
 {
     (void)unused;
-    static const struct gm_settings settings = {0};
     struct typed typed;
     type(&typed, "coordinates: q\nL: v_q^2/2 + q^4\nstart: q = 1, v_q = 1\n");
     struct gm_run *run = gm_run_open(&typed.problem, fitting("variational-midpoint2", &typed.problem),
@@ -332,6 +467,10 @@ int main(int count, char **words)
         cmocka_unit_test(orders_and_claims),
         cmocka_unit_test(forces_and_time),
         cmocka_unit_test(the_same_methods),
+        cmocka_unit_test(newmarks_method),
+        cmocka_unit_test(times_of_one_degree),
+        cmocka_unit_test(energies_of_times),
+        cmocka_unit_test(times_without_a_root),
         cmocka_unit_test(momentum_maps),
         cmocka_unit_test(constraints_are_kept),
         cmocka_unit_test(a_chain),

@@ -19,21 +19,24 @@
 #include "core/formula/facts.h"
 #include "core/formula/number.h"
 #include "core/memory.h"
+#include "core/ode/own/evolution.h"
 #include "core/ode/own/own.h"
 #include "core/schemes.h"
 #include "render/message.h"
 
-static const char *const kinds[GM_SYSTEM_KINDS] = {"canonical", "lagrangian", "ode", "poisson", "field"};
-static const char *const titles[GM_SYSTEM_KINDS] = {"A canonical system", "A Lagrangian system",
-                                                    "An ordinary differential equation", "A Poisson system",
-                                                    "A wave equation"};
-static const char *const energies[GM_SYSTEM_KINDS] = {"H", "L", "", "H", "V"};
+static const char *const kinds[GM_SYSTEM_KINDS] = {"canonical", "lagrangian", "ode",
+                                                   "poisson",   "field",      "evolution"};
+static const char *const titles[GM_SYSTEM_KINDS] = {
+    "A canonical system", "A Lagrangian system", "An ordinary differential equation",
+    "A Poisson system",   "A wave equation",     "An evolution equation on a line"};
+static const char *const energies[GM_SYSTEM_KINDS] = {"H", "L", "", "H", "V", ""};
 
 enum { MOST_EQUATIONS = 40 }; /* that are printed; --json has them all */
 
 struct report {
     struct gm_own_system system;
     struct gm_own_model model;
+    struct gm_own_evolution evolution;
     struct gm_problem problem; /* for the file's values; not opened where no scheme can advance it */
 };
 
@@ -62,6 +65,21 @@ static void print_equation(const struct report *report, const char *left, gm_nod
     free(text);
 }
 
+/* "u_t", or with a mass "(u - u_xx)_t" */
+static void name_rate(const struct report *report, size_t i, char *left, size_t size)
+{
+    const struct gm_own_system *system = &report->system;
+    snprintf(left, size, "%.60s_t", system->variables[i].name);
+    for (size_t k = 0; k < system->item_count; k++) {
+        const struct gm_system_item *item = &system->items[k];
+        if (item->word == GM_WORD_MASS && gm_system_mass_field(system, item->nodes[0]) == i) {
+            char *mass = formula_of(report, item->nodes[0], false);
+            snprintf(left, size, "(%.100s)_t", mass ? mass : "");
+            free(mass);
+        }
+    }
+}
+
 /* What the rate of component number i is called, and its node; GM_NO_NODE: it has none. */
 static gm_node_id equation_of(const struct report *report, size_t i, char *left, size_t size)
 {
@@ -75,7 +93,11 @@ static gm_node_id equation_of(const struct report *report, size_t i, char *left,
         snprintf(left, size, "%.60s_tt - %.60s_xx", system->variables[0].name, system->variables[0].name);
         return system->rates[i];
     }
-    snprintf(left, size, "%.60s'", system->variables[i].name);
+    if (system->kind == GM_EVOLUTION) {
+        name_rate(report, i, left, size);
+    } else {
+        snprintf(left, size, "%.60s'", system->variables[i].name);
+    }
     return system->rates[i];
 }
 
@@ -158,7 +180,7 @@ static void print_parameters(const struct report *report)
     }
     printf("\nstart\n");
     for (size_t i = 0; start && i < system->n && i < MOST_EQUATIONS; i++) {
-        if (system->kind == GM_FIELD) {
+        if (gm_system_is_field(system)) {
             print_equation(report, system->variables[i].name, system->variables[i].start);
             continue;
         }
@@ -172,7 +194,7 @@ static void print_equations(const struct report *report)
 {
     const struct gm_own_system *system = &report->system;
     printf("\nequations\n");
-    if (system->kind != GM_RATES) {
+    if (energies[system->kind][0]) {
         print_equation(report, energies[system->kind], system->energy);
     }
     for (size_t i = 0; i < system->item_count; i++) {
@@ -234,9 +256,28 @@ static const char *const field_facts[][2] = {
 };
 enum { FIELD_FACTS = GM_COUNT(field_facts) };
 
+/* The linear part of the rate of a field, in words; malloc'ed. */
+static char *linear_fact(const struct report *report, size_t i)
+{
+    char *line = formula_of(report, report->evolution.linear[i], false), *text = NULL;
+    if (line &&
+        asprintf(&text,
+                 strcmp(line, "0") == 0 ? "none that is linear in the rate of %s" : "in the rate of %s: %s",
+                 report->system.variables[i].name, line) < 0) {
+        text = NULL;
+    }
+    free(line);
+    return text;
+}
+
 static void print_facts(const struct report *report)
 {
     printf("\nstructure\n");
+    for (size_t i = 0; i < report->system.n && report->system.kind == GM_EVOLUTION; i++) {
+        char *text = linear_fact(report, i);
+        gm_print_wrapped(text ? text : "", printf("  %-16s yes ", "linear part"), 23);
+        free(text);
+    }
     for (size_t i = 0; i < FIELD_FACTS && report->system.kind == GM_FIELD; i++) {
         gm_print_wrapped(field_facts[i][1], printf("  %-16s yes ", field_facts[i][0]), 23);
     }
@@ -256,7 +297,7 @@ static void print_facts(const struct report *report)
 
 static void print_schemes(const struct report *report)
 {
-    const char *lacks = report->system.kind == GM_FIELD ? "" : gm_own_model_lacks(&report->model);
+    const char *lacks = gm_system_is_field(&report->system) ? "" : gm_own_model_lacks(&report->model);
     printf("\nschemes that fit\n");
     char *text = NULL;
     size_t size = 0;
@@ -291,7 +332,7 @@ static void print_json(const struct report *report)
     comma = "";
     for (size_t i = 0; start && i < system->n; i++, comma = ",") {
         printf("%s", comma);
-        if (system->kind == GM_FIELD) {
+        if (gm_system_is_field(system)) {
             char *text = formula_of(report, system->variables[i].start, false);
             gm_json_pair(system->variables[i].name, text ? text : "");
             free(text);
@@ -335,6 +376,13 @@ static void print_json(const struct report *report)
         printf("%s\"%s\":{\"holds\":true,", comma, field_facts[i][0]);
         gm_json_pair("reason", field_facts[i][1]);
         printf("}");
+    }
+    for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++, comma = ",") {
+        char *text = linear_fact(report, i);
+        printf("%s\"linear_part_%s\":{\"holds\":true,", comma, system->variables[i].name);
+        gm_json_pair("reason", text ? text : "");
+        printf("}");
+        free(text);
     }
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
         const struct gm_finding *finding = &report->model.findings[fact];
@@ -389,7 +437,7 @@ static void print_latex(struct report *report)
     const struct gm_own_system *system = &report->system;
     const size_t half = system->n / 2;
     printf("\\begin{align}\n");
-    if (system->kind != GM_RATES) {
+    if (energies[system->kind][0]) {
         char *text = formula_of(report, system->energy, true);
         printf("  %s &= %s \\\\\n", energies[system->kind], text ? text : "");
         free(text);
@@ -466,11 +514,16 @@ static bool are_known(const struct gm_own_system *system, const struct gm_system
 static bool open_problem(struct report *report)
 {
     double *start = NULL;
-    if (report->system.kind == GM_FIELD) {
+    if (gm_system_is_field(&report->system)) {
         struct gm_own_wave wave;
+        const struct gm_line any = {.points = 5, .dx = 1}; /* its facets are those of every ring */
+        const bool waves = report->system.kind == GM_FIELD;
         start = gm_equations_start(&report->system, NULL);
-        const bool opened = start && gm_own_wave_derive(&wave, &report->system) &&
-                            gm_own_wave_open(&report->problem, &wave, start);
+        const bool opened = start && (waves ? gm_own_wave_derive(&wave, &report->system) &&
+                                                  gm_own_wave_open(&report->problem, &wave, start)
+                                            : gm_own_evolution_derive(&report->evolution, &report->system) &&
+                                                  gm_own_evolution_open(&report->problem, &report->evolution,
+                                                                        start, &any, GM_SPACE_DIFFERENCES));
         free(start);
         return opened;
     }
@@ -528,6 +581,9 @@ int gm_list_system(const struct gm_arguments *arguments, const char *path, enum 
     }
     if (report.system.kind == GM_FIELD) {
         gm_own_wave_close(&report.problem);
+    } else if (report.system.kind == GM_EVOLUTION) {
+        gm_own_evolution_shut(&report.problem);
+        gm_own_evolution_close(&report.evolution);
     } else {
         gm_own_problem_close(&report.problem);
     }

@@ -284,6 +284,10 @@ static void define_ordinary_arrows(void)
     define_key("\033[B", KEY_DOWN);
     define_key("\033[C", KEY_RIGHT);
     define_key("\033[D", KEY_LEFT);
+    define_key("\033[1;2A", KEY_SR); /* with shift, which few descriptions of terminals name */
+    define_key("\033[1;2B", KEY_SF);
+    define_key("\033[1;2C", KEY_SRIGHT);
+    define_key("\033[1;2D", KEY_SLEFT);
 }
 
 static bool open_screen(int wake, struct gm_terminal *terminal, char *message)

@@ -116,8 +116,32 @@ static enum gm_key_result press_change(const struct gm_keystroke *press)
 
 static enum gm_key_result press_nudge(const struct gm_keystroke *press)
 {
-    bool down = press->key == KEY_SLEFT || press->key == '-';
-    return order_parameter(press, GM_ORDER_NUDGE, down ? -1 : 1);
+    return order_parameter(press, GM_ORDER_NUDGE, press->key == '-' ? -1 : 1);
+}
+
+/* In space shift with the arrows goes around what is seen, else it changes finely. */
+static enum gm_key_result press_look(const struct gm_keystroke *press)
+{
+    enum { DEGREES = 5 };
+    if (press->shot->in_space) {
+        const int key = press->key;
+        return gm_keystroke_order(press, (struct gm_order){.kind = GM_ORDER_LOOK,
+                                                           .x = key == KEY_SLEFT    ? -DEGREES
+                                                                : key == KEY_SRIGHT ? DEGREES
+                                                                                    : 0,
+                                                           .y = key == KEY_SR   ? DEGREES
+                                                                : key == KEY_SF ? -DEGREES
+                                                                                : 0,
+                                                           .value = 1});
+    }
+    const bool across = press->key == KEY_SLEFT || press->key == KEY_SRIGHT;
+    return across ? order_parameter(press, GM_ORDER_NUDGE, press->key == KEY_SLEFT ? -1 : 1) : GM_KEY_DONE;
+}
+
+static enum gm_key_result press_zoom(const struct gm_keystroke *press)
+{
+    return gm_keystroke_order(
+        press, (struct gm_order){.kind = GM_ORDER_LOOK, .value = press->key == 'z' ? 1.25 : 1 / 1.25});
 }
 
 static enum gm_key_result press_type(const struct gm_keystroke *press)
@@ -233,12 +257,19 @@ const struct gm_key_row gm_key_rows[] = {
      7,
      "change it; live ones act at once, others start again",
      .press = press_change},
-    {{'-', '+', KEY_SLEFT, KEY_SRIGHT},
-     "- +",
+    {{'-', '+'}, "- +", NULL, 0, "change it finely, by about a tenth of that", .press = press_nudge},
+    {{KEY_SLEFT, KEY_SRIGHT, KEY_SR, KEY_SF},
+     "shift ← →",
      NULL,
      0,
-     "change it finely, by about a tenth of that; shift with ← → does the same",
-     .press = press_nudge},
+     "in space: go around it, with ↑ ↓ above or below, as dragging the picture does; else as - +",
+     .press = press_look},
+    {{'z', 'Z'},
+     "z Z",
+     NULL,
+     0,
+     "in space: nearer, further; so does the wheel over the picture",
+     .press = press_zoom},
     {{'\n', '\r', KEY_ENTER}, "enter", NULL, 0, "type its value: 0.013, 1e-3, pi/60", .press = press_type},
     {{KEY_BACKSPACE, 127, 8}, "⌫", NULL, 0, "set it to its default", .press = press_default},
     {{'v'},

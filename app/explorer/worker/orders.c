@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "app/explorer/worker/orders.h"
+#include "core/count.h"
 
 static void move_parameter(struct gm_play *play, const struct gm_order *order)
 {
@@ -30,6 +31,31 @@ static void move_parameter(struct gm_play *play, const struct gm_order *order)
                         message)) {
         gm_play_say(play, message);
     }
+}
+
+/* Moves the camera: the azimuth goes round, the elevation and the zoom end where they end. */
+static bool look(struct gm_play *play, const struct gm_order *order, char *message)
+{
+    struct gm_session *session = &play->session;
+    const void *owner = gm_session_owner(session, play->selected, false);
+    static const char *const keys[] = {"azimuth", "elevation", "zoom"};
+    for (size_t k = 0; k < GM_COUNT(keys); k++) {
+        const struct gm_parameter *row = gm_scene_parameter(session->scene, keys[k]);
+        if (!row || gm_scene_idle(session->scene, owner, keys[k])) {
+            return true; /* there is nothing to go around */
+        }
+        const double value = gm_parameter_get(row, owner);
+        double moved = k == 0 ? value + order->x : k == 1 ? value + order->y : value * order->value;
+        moved -= k == 0 ? 360 * floor((moved + 180) / 360) : 0;
+        moved = fmin(fmax(moved, row->lowest), row->highest);
+        char text[GM_TYPED];
+        snprintf(text, sizeof text, "%.4g", moved);
+        if (moved != value &&
+            !gm_session_set(session, play->selected, row, false, text, &play->restart, message)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static void step_forward(struct gm_play *play)
@@ -154,6 +180,9 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         break;
     case GM_ORDER_SELECT:
         select_lane(play, order);
+        break;
+    case GM_ORDER_LOOK:
+        ok = look(play, order, message);
         break;
     case GM_ORDER_POINT:
         ok = start_from(play, order->x, order->y, message);

@@ -35,7 +35,8 @@ enum gm_order_kind {
     GM_ORDER_STANDARD, /* a parameter to its default */
     GM_ORDER_TYPE,     /* a parameter to `text` */
     GM_ORDER_SLIDE,    /* a parameter to the part `value` of its range */
-    GM_ORDER_POINT,    /* start again from the point (x, y) of a state's panel, where the scene knows how */
+    GM_ORDER_LOOK,  /* from a place x degrees further in azimuth, y in elevation, and `value` times as near */
+    GM_ORDER_POINT, /* start again from the point (x, y) of a state's panel, where the scene knows how */
     GM_ORDER_RESTART,
 };
 

@@ -260,7 +260,9 @@ char *gm_sweep_head(const struct gm_sweep *sweep)
     fputs("scene,scheme", stream);
     for (size_t i = 0; i < sweep->words.count; i++) {
         if (is_column(&sweep->words.list[i])) {
-            fprintf(stream, ",%s", sweep->words.list[i].key);
+            const char *key = sweep->words.list[i].key;
+            /* behind the status stands how many were made */
+            fprintf(stream, ",%s", strcmp(key, "steps") == 0 ? "steps_asked" : key);
         }
     }
     fputs(",status,t,steps,evaluations,solves,seconds", stream);

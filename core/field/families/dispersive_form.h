@@ -3,9 +3,18 @@
 #define GM_CORE_FIELD_FAMILIES_DISPERSIVE_FORM_H
 
 #include "core/field/field.h"
+#include "core/field/multisymplectic.h"
 
 /* gm_family.form of the box for equations of first order in time. */
 double gm_dispersive_form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
                           const double *y, bool by_differences);
+
+/* What the next step of the box leaves of a local law in every cell,
+       energy     [V(b) - V(a) - (b - a) V'((a + b)/2)] / dt    from a = A_x f^n to b = A_x f^{n+1}
+       momentum   the same over dx                              from a = A_t f_i to b = A_t f_{i+1}
+   with V' = g, of second order, and of mass or charge what rounding leaves. `scheme` is the box. False where
+   memory is short or the step fails. */
+bool gm_dispersive_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                        const double *y, enum gm_local_law law, double *residual);
 
 #endif

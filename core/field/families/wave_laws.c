@@ -114,61 +114,44 @@ static double cell_law(const struct gm_problem *problem, double a, double b, dou
     return (b - a) / step * (wave->quotient(problem, a, b) - wave->slope(problem, (a + b) / 2));
 }
 
-double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                               const double *y)
+static void cell_laws(const struct gm_problem *problem, double dt, const double *y, enum gm_local_law law,
+                      double *residual)
 {
-    const enum gm_wave_law kind = law_of(scheme);
-    if (kind != GM_LAW_NODES && kind != GM_LAW_CELLS) {
-        return NAN;
-    }
     const struct gm_line *line = &problem->line;
-    double largest = 0;
-    if (kind == GM_LAW_CELLS) {
-        const double *u = y, *o = y + line->points;
-        for (size_t i = 0; i < line->points; i++) {
-            const double a = (o[i] + at(line, o, i, 1)) / 2, b = (u[i] + at(line, u, i, 1)) / 2;
-            largest = fmax(largest, fabs(cell_law(problem, a, b, dt)));
-        }
-        return largest;
-    }
-    struct gm_levels levels;
-    if (!gm_levels_open(&levels, problem, scheme, dt, y, NULL)) {
-        return NAN;
-    }
+    const double *u = y, *o = y + line->points;
     for (size_t i = 0; i < line->points; i++) {
-        const double rate = (levels.next[i] - levels.past[i]) / (2 * dt);
-        const double law = node_law(problem, &levels, dt, i, levels.next[i], levels.past[i]);
-        largest = fmax(largest, fabs(rate * law));
+        if (law == GM_LAW_OF_ENERGY) {
+            const double a = (o[i] + at(line, o, i, 1)) / 2, b = (u[i] + at(line, u, i, 1)) / 2;
+            residual[i] = cell_law(problem, a, b, dt);
+        } else {
+            const double a = (o[i] + u[i]) / 2, b = (at(line, o, i, 1) + at(line, u, i, 1)) / 2;
+            residual[i] = cell_law(problem, a, b, line->dx);
+        }
     }
-    gm_levels_close(&levels);
-    return largest;
 }
 
-double gm_wave_momentum_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                                 const double *y)
+bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                  const double *y, enum gm_local_law law, double *residual)
 {
     const enum gm_wave_law kind = law_of(scheme);
-    if (kind != GM_LAW_NODES && kind != GM_LAW_CELLS) {
-        return NAN;
-    }
     const struct gm_line *line = &problem->line;
-    double largest = 0;
-    if (kind == GM_LAW_CELLS) {
-        const double *u = y, *o = y + line->points;
-        for (size_t i = 0; i < line->points; i++) {
-            const double a = (o[i] + u[i]) / 2, b = (at(line, o, i, 1) + at(line, u, i, 1)) / 2;
-            largest = fmax(largest, fabs(cell_law(problem, a, b, line->dx)));
-        }
-        return largest;
-    }
     struct gm_levels levels;
-    if (!gm_levels_open(&levels, problem, scheme, dt, y, NULL)) {
-        return NAN;
+    if (kind == GM_LAW_CELLS) {
+        cell_laws(problem, dt, y, law, residual);
+        return true;
+    }
+    if (kind != GM_LAW_NODES || !gm_levels_open(&levels, problem, scheme, dt, y, NULL)) {
+        return false;
     }
     for (size_t i = 0; i < line->points; i++) {
-        const double a = at(line, levels.now, i, 1), b = at(line, levels.now, i, -1);
-        largest = fmax(largest, fabs((a - b) / (2 * line->dx) * node_law(problem, &levels, dt, i, a, b)));
+        if (law == GM_LAW_OF_ENERGY) {
+            const double rate = (levels.next[i] - levels.past[i]) / (2 * dt);
+            residual[i] = rate * node_law(problem, &levels, dt, i, levels.next[i], levels.past[i]);
+        } else {
+            const double a = at(line, levels.now, i, 1), b = at(line, levels.now, i, -1);
+            residual[i] = (a - b) / (2 * line->dx) * node_law(problem, &levels, dt, i, a, b);
+        }
     }
     gm_levels_close(&levels);
-    return largest;
+    return true;
 }

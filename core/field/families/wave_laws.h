@@ -2,7 +2,7 @@
 #ifndef GM_CORE_FIELD_FAMILIES_WAVE_LAWS_H
 #define GM_CORE_FIELD_FAMILIES_WAVE_LAWS_H
 
-#include "core/field/field.h"
+#include "core/field/multisymplectic.h"
 
 /* The conservation laws of u_tt - u_xx + V'(u) = 0 and what is left of them on a grid. `y` is the state of a
    wave problem: two levels, u and the other, o, and the time between them, dt.
@@ -17,11 +17,9 @@ double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_sche
 /* -dx sum (u - o)/dt (u_{i+1} - u_{i-1} + o_{i+1} - o_{i-1}) / (4 dx) */
 double gm_wave_momentum(const struct gm_problem *problem, const double *y);
 
-/* The largest residual over the grid of the scheme's local law of energy and of momentum. NaN where the
-   scheme has other laws, memory is short or the next step fails. */
-double gm_wave_energy_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                               const double *y);
-double gm_wave_momentum_residual(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
-                                 const double *y);
+/* What is left of the scheme's local law of energy or of momentum at every node, or in every cell of the box.
+   False where the scheme has other laws, memory is short or the next step fails. */
+bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                  const double *y, enum gm_local_law law, double *residual);
 
 #endif

@@ -112,6 +112,32 @@ static void complete(const struct gm_problem *problem, double dt, const double *
     }
 }
 
+static double potential(const struct gm_problem *problem, double re, double im)
+{
+    (void)im;
+    return gm_kdv_of(problem)->eta * re * re * re / 6;
+}
+
+/* D_t A^3 u + D_x [A g + mu D^2 A_t u], g in the cells: the mass */
+static void content(const struct gm_problem *problem, double dt, double *means, const double *now,
+                    const double *next, struct gm_faces *faces, double *residual)
+{
+    const size_t points = problem->line.points;
+    const double dx = problem->line.dx, eta = gm_kdv_of(problem)->eta, mu = gm_kdv_of(problem)->mu;
+    double *flux = faces->scratch;
+    for (size_t i = 0; i < points; i++) {
+        const size_t r = (i + 1) % points, r2 = (i + 2) % points;
+        const double bend = (now[r2] + next[r2] - 2 * (now[r] + next[r]) + now[i] + next[i]) / 2;
+        flux[i] = eta / 4 * (means[i] * means[i] + means[r] * means[r]) + mu * bend / (dx * dx);
+    }
+    for (size_t i = 0; i < points; i++) {
+        const size_t r = (i + 1) % points, r2 = (i + 2) % points, r3 = (i + 3) % points;
+        const double change =
+            next[i] - now[i] + 3 * (next[r] - now[r] + next[r2] - now[r2]) + next[r3] - now[r3];
+        residual[i] = change / (8 * dt) + (flux[r] - flux[i]) / dx;
+    }
+}
+
 /* The distance from a place on the ring. */
 static double around(const struct gm_line *line, double distance)
 {
@@ -239,6 +265,8 @@ static const struct gm_dispersive dispersive = {.power = 3,
                                                 .derivative = true,
                                                 .nonlinear = nonlinear,
                                                 .linearised = linearised,
+                                                .potential = potential,
+                                                .content = content,
                                                 .complete = complete};
 
 const struct gm_problem gm_problem_kdv = {

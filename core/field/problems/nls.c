@@ -98,6 +98,34 @@ static void complete(const struct gm_problem *problem, double dt, const double *
     }
 }
 
+static double potential(const struct gm_problem *problem, double re, double im)
+{
+    (void)problem;
+    const double square = re * re + im * im;
+    return square * square / 4;
+}
+
+/* D_t |A_x psi|^2/2 + D_x Im[conj(A_t psi) (v + i w)]: the charge. g is of degree 3: it is what the derivative
+   of g at m/sqrt 3 makes of m, so that the solution itself can be completed as a tangent. */
+static void content(const struct gm_problem *problem, double dt, double *means, const double *now,
+                    const double *next, struct gm_faces *faces, double *residual)
+{
+    const size_t points = problem->line.points;
+    for (size_t i = 0; i < 2 * points; i++) {
+        means[i] /= sqrt(3);
+    }
+    complete(problem, dt, means, now, next, faces);
+    for (size_t i = 0; i < points; i++) {
+        const double *lower = faces->lower + i * DIMENSION, *upper = faces->upper + i * DIMENSION;
+        const double *left = faces->sides + i * DIMENSION, *right = left + DIMENSION;
+        const double change =
+            (upper[P] - lower[P]) * (upper[P] + lower[P]) + (upper[Q] - lower[Q]) * (upper[Q] + lower[Q]);
+        residual[i] = change / (2 * dt) +
+                      (right[P] * right[W] - right[Q] * right[V] - left[P] * left[W] + left[Q] * left[V]) /
+                          problem->line.dx;
+    }
+}
+
 /* Adds one soliton; on the ring its phase follows it. */
 static void add_soliton(const struct gm_nls *nls, const struct gm_line *line, double c, double x0, double x,
                         double t, double *re, double *im)
@@ -169,6 +197,8 @@ static const struct gm_dispersive dispersive = {.power = 2,
                                                 .complex_valued = true,
                                                 .nonlinear = nonlinear,
                                                 .linearised = linearised,
+                                                .potential = potential,
+                                                .content = content,
                                                 .complete = complete};
 
 const struct gm_problem gm_problem_nls = {

@@ -103,6 +103,7 @@ static void half_step(struct gm_flow_solver *solver, double dt, double *y)
     if (solver->unknowns.count > 0) {
         gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
                                   solver->x, psi_half);
+        solver->factor_solves++;
     }
 }
 
@@ -152,6 +153,7 @@ static bool advance_vorticity(struct gm_flow_solver *solver, const struct row *r
     if (solver->unknowns.count > 0) {
         gm_unknowns_solve_poisson(&solver->unknowns, flow, solver->poisson, solver->rate, solver->b,
                                   solver->x, y);
+        solver->factor_solves++;
     }
     progress->solves += 2;
     return true;
@@ -409,6 +411,8 @@ static struct gm_progress loop(const struct gm_task *task)
     const struct gm_flow *flow = gm_flow_of(task->problem);
     const struct row *row = task->scheme->coefficients;
     struct gm_progress progress = {.status = GM_OK};
+    struct gm_flow_solver *solver = task->workspace;
+    const unsigned long factor_solves = solver->factor_solves;
     memcpy(task->out, task->y, task->problem->n * sizeof *task->y);
     if (row == &steady) {
         memcpy(task->memory_out, task->memory, MEMORY * sizeof *task->memory);
@@ -416,8 +420,8 @@ static struct gm_progress loop(const struct gm_task *task)
     while (progress.done < task->steps) {
         progress.status =
             row == &steady
-                ? step_steady(task->workspace, task->memory_out, task->out, &progress)
-                : step(task->workspace, row,
+                ? step_steady(solver, task->memory_out, task->out, &progress)
+                : step(solver, row,
                        (task->t0 + task->dt * (double)(task->n + progress.done)) * flow->time_unit,
                        task->dt * flow->time_unit, task->steps_before + progress.done, task->out, &progress);
         if (progress.status == GM_OK && !within(task->out, task->problem->n, task->limit)) {
@@ -428,6 +432,7 @@ static struct gm_progress loop(const struct gm_task *task)
         }
         progress.done++;
     }
+    progress.factor_solves = solver->factor_solves - factor_solves;
     return progress;
 }
 

@@ -32,13 +32,17 @@ static unsigned facets(const struct gm_problem *problem)
            (action && !held ? GM_NEEDS_ACTION : 0) | (action && held ? GM_NEEDS_CONSTRAINTS : 0) |
            (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0) |
            (ode->monitor ? GM_NEEDS_MONITOR : 0) | (ode->poisson ? GM_NEEDS_POISSON : 0) |
-           (ode->poisson && ode->poisson->turning != 0 ? GM_NEEDS_ROTATIONS : 0) |
-           (ode->poisson && ode->poisson->turning != 0 && ode->poisson->axes ? GM_NEEDS_AXES : 0);
+           (ode->poisson && ode->poisson->turning != 0 && problem->n == 3 ? GM_NEEDS_ROTATIONS : 0) |
+           (ode->poisson && ode->poisson->turning != 0 && ode->poisson->axes ? GM_NEEDS_AXES : 0) |
+           (ode->poisson && ode->poisson->moments[0] != 0 ? GM_NEEDS_FREE_BODY : 0) |
+           (ode->semilinear ? GM_NEEDS_SEMILINEAR : 0);
 }
 
 static const struct gm_facet_words words[] = {
+    {GM_NEEDS_FREE_BODY, "the bracket of angular momenta and the energy of a free rigid body",
+     "free rigid bodies"},
     {GM_NEEDS_AXES, "the bracket of angular momenta and an energy that is a sum over the axes",
-     "rotating bodies whose energy is a sum over the axes"},
+     "rotating bodies whose energy is a sum over the axes, free or as a top"},
     {GM_NEEDS_ROTATIONS, "the bracket of angular momenta", "systems with the bracket of angular momenta"},
     {GM_NEEDS_POISSON, "a bracket", "Poisson systems"},
     {GM_NEEDS_CONSTRAINTS, "constraints", "systems with constraints"},
@@ -49,6 +53,8 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_VOLUME, "parts without divergence that can be solved", "fields without divergence, in pieces"},
     {GM_NEEDS_KEPLER_SPLIT, "a Kepler part with a perturbation", "perturbed Kepler problems"},
     {GM_NEEDS_FAST_LINEAR, "a stiff part that is linear", "systems with a stiff linear part"},
+    {GM_NEEDS_SEMILINEAR, "a linear part that is the same at every point of a ring",
+     "fields on a ring, with a linear part"},
     {GM_NEEDS_LAGRANGIAN, "a Lagrangian of one degree of freedom", "Lagrangians of one degree of freedom"},
     {GM_NEEDS_MONITOR, "a monitor, the density of steps", "systems with a monitor, the density of steps"},
     {GM_NEEDS_INSEPARABLE, "a Hamiltonian that does not fall into T(p) + V(q)",

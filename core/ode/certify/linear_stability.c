@@ -40,7 +40,7 @@ enum gm_linear_test gm_linear_test_of(const struct gm_scheme *scheme)
 static double grown(const struct gm_problem *problem, const struct gm_scheme *scheme, double h,
                     const double *y, long steps, double *end)
 {
-    const struct gm_settings settings = {.binding = 20, .tau0 = 0.1};
+    const struct gm_settings settings = {.binding = 20, .tau0 = 0.1, .newmark_beta = 0.25};
     struct gm_run *run = gm_run_open(problem, scheme, &settings, 0, h, y);
     double size = NAN;
     if (run) {

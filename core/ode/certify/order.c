@@ -125,7 +125,8 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
     const bool own_time = scheme->family->own_time;
     const double unit = subject->unit > 0 ? subject->unit : 1,
                  scale = subject->scale > 0 ? subject->scale : 1;
-    const double span = scheme->needs & GM_NEEDS_LAGRANGIAN ? 0.4 : scheme->order < 5 ? 2 : 10;
+    const bool varies_time = scheme->family->parameters == gm_settings_of_variational_time;
+    const double span = varies_time ? 0.4 : scheme->order < 5 ? 2 : 10;
     const double plateau = 1e-12 * scale, ceiling = 0.1 * scale, until = span * unit;
     double exact[TIMES][GM_SUBJECT_COMPONENTS];
     if (!own_time && !solve_at_times(subject, until, exact)) {
@@ -143,7 +144,8 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
             continue;
         }
         const double dt = until / (double)(TIMES * between);
-        const struct gm_settings settings = {.compensated = 1, .binding = 5, .tau0 = dt};
+        const struct gm_settings settings = {
+            .compensated = 1, .binding = 5, .tau0 = dt, .newmark_beta = 0.15};
         const double error = own_time ? error_at_own_time(subject, scheme, &settings, dt, until)
                                       : error_of(subject, scheme, &settings, dt, between, exact);
         if (error < plateau) {

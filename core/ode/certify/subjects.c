@@ -65,6 +65,24 @@ static double angular_impulse(const struct gm_problem *problem, const double *y)
     return sum;
 }
 
+static double ring_sum(const struct gm_problem *problem, const double *y)
+{
+    double sum = 0;
+    for (size_t i = 0; i < problem->n; i++) {
+        sum += y[i];
+    }
+    return sum;
+}
+
+static double ring_square(const struct gm_problem *problem, const double *y)
+{
+    double sum = 0;
+    for (size_t i = 0; i < problem->n; i++) {
+        sum += y[i] * y[i];
+    }
+    return sum;
+}
+
 /* of the oscillator: not of the form q' A p, as angular momentum is, which more schemes keep */
 static double circle(const struct gm_problem *problem, const double *y)
 {
@@ -139,6 +157,13 @@ static const struct {
       .hamiltonian = true,
       .quadratic = {angular_momentum},
       .bilinear = {angular_momentum}}},
+    {&gm_problem_ring,
+     NULL,
+     {.start = {0.4, 0.9, 1.3, 0.7, -0.2, -0.5, 0.1, 0.3, -0.4, 0.6, 0.2, 0.5},
+      .dt = 0.3,
+      .only = GM_NEEDS_SEMILINEAR,
+      .linear = {ring_sum},
+      .quadratic = {ring_square}}},
     {&gm_problem_fpu,
      &omega,
      {.start = {0.4, 0.1, -0.2, 0.02, 0.03, -0.02, 0.5, -0.3, 0.2, 0.3, 0.1, -0.2},
@@ -217,7 +242,7 @@ static bool advance_doubled(const struct gm_problem *problem, const struct gm_sc
 /* for the schemes that choose their step tau0 is what dt is for the others */
 static struct gm_settings settings_for(double dt)
 {
-    return (struct gm_settings){.compensated = 1, .binding = 5, .tau0 = fabs(dt)};
+    return (struct gm_settings){.compensated = 1, .binding = 5, .tau0 = fabs(dt), .newmark_beta = 0.15};
 }
 
 bool gm_subject_advance(const struct gm_subject *subject, const struct gm_scheme *scheme, double dt,

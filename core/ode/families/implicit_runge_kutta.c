@@ -3,8 +3,9 @@
        z_i = h sum_j a_ij f(y0 + z_j)
        y1  = y0 + h sum_i b_i f(y0 + z_i)
    solved to round-off by fixed-point iteration, and where that does not contract, or the problem is stiff, by
-   Newton's method. A method is symplectic if b_i a_ij + b_j a_ji = b_i b_j. E. Hairer, C. Lubich & G. Wanner,
-   Geometric Numerical Integration (2006), sections II.1, VI.4, VIII.6. */
+   Newton's method; of fields on a ring with a linear part by core/ode/families/implicit_modes.c. A method is
+   symplectic if b_i a_ij + b_j a_ji = b_i b_j. E. Hairer, C. Lubich & G. Wanner, Geometric Numerical Integration
+   (2006), sections II.1, VI.4, VIII.6. */
 #include "core/ode/families/implicit_runge_kutta.h"
 
 #include <math.h>
@@ -14,6 +15,7 @@
 #include "core/clones.h"
 #include "core/count.h"
 #include "core/ode/families/families.h"
+#include "core/ode/families/implicit_modes.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/kernel/tiles.h"
@@ -115,12 +117,38 @@ static size_t newton_room(size_t stages, size_t n)
     return (1 + 3 * stages) * n + n * n + stages * n * stages * n;
 }
 
+/* One of the two. */
+struct work {
+    void *tiles, *modes;
+};
+
+static void workspace_close(void *workspace)
+{
+    struct work *work = workspace;
+    gm_implicit_modes_close(work->modes);
+    free(work->tiles);
+    free(work);
+}
+
 static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_implicit_row *row = scheme->coefficients;
     const size_t n = gm_tile_components(problem), stages = (size_t)row->stages;
-    return gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
-                         gm_matrix_size(problem) > 0 ? newton_room(stages, n) : 0);
+    struct work *work = calloc(1, sizeof *work);
+    if (!work) {
+        return NULL;
+    }
+    if (gm_ode_of(problem)->semilinear && problem->m == 1) {
+        work->modes = gm_implicit_modes_open(problem, row);
+    } else {
+        work->tiles = gm_tiles_open(problem, (3 * stages + 1) * n + OVER_MEMBERS,
+                                    gm_matrix_size(problem) > 0 ? newton_room(stages, n) : 0);
+    }
+    if (!work->modes && !work->tiles) {
+        workspace_close(work);
+        return NULL;
+    }
+    return work;
 }
 
 /* Components [from, to) of the increments, z := h a f, of the members that go on, and the sum of the changes:
@@ -508,7 +536,14 @@ GM_CLONES static enum gm_status step_many(const struct gm_task *task, struct gm_
 
 static struct gm_progress advance(const struct gm_task *task)
 {
-    return gm_tiles_advance(task, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
+    const struct work *work = task->workspace;
+    struct gm_task part = *task;
+    if (work->modes) {
+        part.workspace = work->modes;
+        return gm_implicit_modes_advance(&part);
+    }
+    part.workspace = work->tiles;
+    return gm_tiles_advance(&part, task->scheme->coefficients, task->problem->m == 1 ? step_one : step_many);
 }
 
 #define MIDPOINTS(name)                                                                                      \
@@ -693,5 +728,5 @@ const struct gm_family gm_family_implicit_runge_kutta = {
     .loop = advance,
     .carries_passive = true,
     .workspace_open = workspace_open,
-    .workspace_close = free,
+    .workspace_close = workspace_close,
 };

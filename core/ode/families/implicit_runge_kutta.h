@@ -1,22 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The row of an implicit Runge-Kutta method, which its loops over kernels and its own loop share. */
+/* The implicit Runge-Kutta methods that other families take steps of. */
 #ifndef GM_CORE_ODE_FAMILIES_IMPLICIT_RUNGE_KUTTA_H
 #define GM_CORE_ODE_FAMILIES_IMPLICIT_RUNGE_KUTTA_H
 
-#include "core/ode/families/compositions.h"
+#include "core/ode/families/implicit_row.h"
 
-/* For up to so many stages there is a loop that knows how many they are; and the most. */
-enum { GM_IMPLICIT_KNOWN_STAGES = 4, GM_IMPLICIT_STAGES = 16 };
-
-/* An implicit Runge-Kutta method, or a composition of one with itself. */
-struct gm_implicit_row {
-    int stages;
-    double a[GM_IMPLICIT_STAGES][GM_IMPLICIT_STAGES];
-    double b[GM_IMPLICIT_STAGES];
-    const struct gm_composition *composition;
-};
-
-/* Those that other families take steps of. */
 extern const struct gm_implicit_row gm_implicit_midpoint, gm_implicit_gauss4, gm_implicit_gauss6,
     gm_implicit_gauss8;
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every family's loop over one problem's kernels, for single runs and for ensembles. The build compiles this
-   file once for each problem and instruction set, with
+   file once for each problem, and where there are ensembles of it for each instruction set, with
        GM_KERNELS   the problem's kernels ("core/ode/problems/fpu.kernel.h")
        GM_PROBLEM   its name (pendulum)
        GM_ISA       the instruction set's name (baseline, avx2, avx512); the flags are set to match
        GM_BASELINE  with the loops of a single run, or
-       GM_ALONE     with no others
+       GM_ALONE     with no others: an ensemble is advanced member by member
    and, where not all families are wanted, one of GM_LOOP_EXPLICIT, GM_LOOP_IMPLICIT, GM_LOOP_SPLITTING and
    GM_LOOP_NONE. The kernel file is included for each pass, over the lane type `real`. It defines
        GM_COMPONENTS   n, a constant
@@ -41,7 +41,9 @@ enum { GM_BURST = 16 };
 #define GM_PASS_SCALAR
 #include "core/ode/families/pass.h"
 #undef GM_PASS_SCALAR
+#ifndef GM_ALONE
 #include "core/ode/families/pass.h"
+#endif
 
 /* One run takes the scalar loops, an ensemble the loops over lanes. A single run gains nothing from wide
    registers, so its loops are those of the baseline alone. */
@@ -88,6 +90,27 @@ static void field(const struct gm_problem *problem, const double *y, double *f, 
     }
 }
 
+#if defined(GM_SEPARABLE) && defined(GM_LOOP_NONE)
+/* The components from `first` on of m members through one of the two kernels. */
+#define GM_HALF_OF(name, first)                                                                              \
+    static void name(const struct gm_problem *problem, const double *y, double *f, size_t m)                 \
+    {                                                                                                        \
+        enum { HALF = GM_COMPONENTS / 2 };                                                                   \
+        for (size_t i = 0; i < m; i++) {                                                                     \
+            double state[HALF], slope[HALF];                                                                 \
+            for (int c = 0; c < HALF; c++) {                                                                 \
+                state[c] = y[(size_t)(first + c) * m + i];                                                   \
+            }                                                                                                \
+            name##_scalar(state, slope, problem->parameters);                                                \
+            for (int c = 0; c < HALF; c++) {                                                                 \
+                f[(size_t)c * m + i] = slope[c];                                                             \
+            }                                                                                                \
+        }                                                                                                    \
+    }
+GM_HALF_OF(velocity, HALF)
+GM_HALF_OF(force, 0)
+#endif
+
 static void jacobian(const struct gm_problem *problem, const double *y, double *rows)
 {
     double square[GM_COMPONENTS][GM_COMPONENTS];
@@ -98,6 +121,10 @@ static void jacobian(const struct gm_problem *problem, const double *y, double *
 const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, GM_ISA) = {
     .field = field,
     .jacobian = jacobian,
+#if defined(GM_SEPARABLE) && defined(GM_LOOP_NONE)
+    .velocity = velocity,
+    .force = force,
+#endif
     .over_kernels =
         {
             [GM_OVER_NONE] = NULL,
@@ -112,3 +139,14 @@ const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, GM_ISA) = {
 #endif
         },
 };
+
+#if defined(GM_ALONE) && defined(GM_LOOPS_X86)
+/* where the program looks for those of other instruction sets */
+#define GM_SAME_LOOPS(isa)                                                                                   \
+    extern const struct gm_loops GM_LOOPS_NAME(GM_PROBLEM, isa)                                              \
+        __attribute__((alias(GM_IN_QUOTES(GM_LOOPS_NAME(GM_PROBLEM, GM_ISA)))));
+#define GM_IN_QUOTES(name) GM_IN_QUOTES_(name)
+#define GM_IN_QUOTES_(name) #name
+GM_SAME_LOOPS(avx2)
+GM_SAME_LOOPS(avx512)
+#endif

@@ -31,9 +31,9 @@ GM_INLINE void K(block_load)(struct K(block) * block, const struct gm_task *task
         block->carry[c] = K(constant)(0);
         block->force[c] = K(constant)(0);
         if (first + GM_LANES <= m) {
-            memcpy(&block->y[c], task->y + (size_t)c * m + first, sizeof(real));
+            block->y[c] = K(load)(task->y + (size_t)c * m + first);
             if (task->carry) {
-                memcpy(&block->carry[c], task->carry + (size_t)c * m + first, sizeof(real));
+                block->carry[c] = K(load)(task->carry + (size_t)c * m + first);
             }
             continue;
         }
@@ -53,11 +53,19 @@ GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_tas
     if (first >= m) {
         return;
     }
-    size_t lanes = first + GM_LANES <= m ? GM_LANES : m - first;
     for (int c = 0; c < GM_COMPONENTS; c++) {
-        memcpy(task->out + (size_t)c * m + first, &block->y[c], lanes * sizeof(double));
-        if (task->carry) {
-            memcpy(task->carry_out + (size_t)c * m + first, &block->carry[c], lanes * sizeof(double));
+        double *out = task->out + (size_t)c * m + first;
+        double *carry = task->carry ? task->carry_out + (size_t)c * m + first : NULL;
+        if (first + GM_LANES <= m) {
+            K(store)(out, block->y[c]);
+            if (carry) {
+                K(store)(carry, block->carry[c]);
+            }
+            continue;
+        }
+        memcpy(out, &block->y[c], (m - first) * sizeof(double));
+        if (carry) {
+            memcpy(carry, &block->carry[c], (m - first) * sizeof(double));
         }
     }
 }

@@ -42,8 +42,14 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
         struct K(block) before[GM_ABREAST];
 #pragma GCC unroll 8
         for (int b = 0; b < GM_ABREAST; b++) {
-            before[b] = block[b];
             counts_before[b] = counts[b];
+        }
+        /* what the first burst begins with is in memory as it is: single steps are spared a copy */
+        if (done > 0) {
+#pragma GCC unroll 8
+            for (int b = 0; b < GM_ABREAST; b++) {
+                before[b] = block[b];
+            }
         }
         mask solved = K(all)(), inside = K(all)();
         for (long i = 0; i < burst; i++) {
@@ -67,7 +73,11 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
         }
 #pragma GCC unroll 8
         for (int b = 0; b < GM_ABREAST; b++) {
-            block[b] = before[b];
+            if (done > 0) {
+                block[b] = before[b];
+            } else {
+                K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES));
+            }
             counts[b] = counts_before[b];
         }
         most = 1;

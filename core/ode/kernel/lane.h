@@ -22,6 +22,9 @@ enum { GM_WIDTH = 2 };
 #endif
 typedef double gm_lanes __attribute__((vector_size(GM_WIDTH * 8)));
 typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
+/* Lanes in the state, where they are aligned as a double is. They are moved by one instruction: memcpy makes two
+   halves of them, for which the register then has to wait. */
+typedef double gm_lanes_of_state __attribute__((vector_size(GM_WIDTH * 8), aligned(8), may_alias));
 
 #endif
 
@@ -35,6 +38,14 @@ typedef int64_t gm_lanes_mask __attribute__((vector_size(GM_WIDTH * 8)));
 GM_INLINE double K(constant)(double value)
 {
     return value;
+}
+GM_INLINE double K(load)(const double *from)
+{
+    return *from;
+}
+GM_INLINE void K(store)(double *to, double x)
+{
+    *to = x;
 }
 GM_INLINE double K(pick)(bool choose, double yes, double no)
 {
@@ -100,6 +111,14 @@ GM_INLINE bool K(either)(bool a, bool b)
 GM_INLINE gm_lanes K(constant)(double value)
 {
     return value - (gm_lanes){0};
+}
+GM_INLINE gm_lanes K(load)(const double *from)
+{
+    return *(const gm_lanes_of_state *)from;
+}
+GM_INLINE void K(store)(double *to, gm_lanes x)
+{
+    *(gm_lanes_of_state *)to = x;
 }
 GM_INLINE gm_lanes K(pick)(gm_lanes_mask choose, gm_lanes yes, gm_lanes no)
 {

@@ -16,6 +16,7 @@ struct gm_members {
     double *y;       /* n */
     double *memory;  /* remembered */
     double *scratch; /* as many doubles as were asked for */
+    void *own;       /* the family's, who closes it; NULL */
     double room[];
 };
 

@@ -127,20 +127,33 @@ static bool open_slopes(struct gm_own_model *model, struct gm_own_system *system
     return true;
 }
 
-/* Whether {y_1, y_2} = sign y_3, and cyclic. */
+/* Whether {y_i, y_j} = sign y_k and {y_i, z_j} = sign z_k for i, j, k = 1, 2, 3 and cyclic, where the
+   components are y, or y and z; the other way round with the other sign, else 0. */
 static bool is_turning(struct gm_own_system *system, bool negative)
 {
-    bool same = system->n == 3;
+    struct gm_formula *graph = &system->graph;
+    bool same = system->n == 3 || system->n == 6;
     for (size_t i = 0; i < 3 && same; i++) {
-        const gm_node_id third = gm_formula_variable(&system->graph, (i + 2) % 3);
-        const gm_node_id wanted =
-            negative ? gm_formula_apply(&system->graph, GM_OPERATION_NEGATE, third, 0) : third;
-        same = system->bracket[3 * i + (i + 1) % 3] == wanted;
+        for (size_t k = i + 1; k < system->n && same; k++) {
+            const size_t ahead = (k + 3 - i) % 3, third = (k < 3 ? 0 : 3) + (i + 3 - ahead) % 3;
+            const gm_node_id positive = gm_formula_variable(graph, third);
+            const gm_node_id wanted = ahead == 0 ? gm_formula_constant(graph, 0)
+                                      : (ahead == 1) != negative
+                                          ? positive
+                                          : gm_formula_apply(graph, GM_OPERATION_NEGATE, positive, 0);
+            same = system->bracket[system->n * i + k] == wanted;
+        }
+    }
+    for (size_t i = 3; i < system->n; i++) {
+        for (size_t k = i + 1; k < system->n; k++) {
+            same = same && system->bracket[system->n * i + k] == gm_formula_constant(graph, 0);
+        }
     }
     return same;
 }
 
-/* Whether each slope holds no component but its own. False as well where memory is short: graph->failed. */
+/* Whether the slopes over y hold no component but their own, those over z none of y. False as well where
+   memory is short: graph->failed. */
 static bool is_sum_over_axes(struct gm_own_system *system, const gm_node_id *gradient)
 {
     bool good = true;
@@ -150,7 +163,8 @@ static bool is_sum_over_axes(struct gm_own_system *system, const gm_node_id *gra
         system->graph.failed |= !parts;
         for (size_t k = 0; parts && k < count; k++) {
             const struct gm_node *part = &system->graph.nodes[parts[k]];
-            good = good && (part->operation != GM_VARIABLE || part->a >= system->n || part->a == i);
+            good = good && (part->operation != GM_VARIABLE || part->a >= system->n ||
+                            (i < 3 ? part->a == i : part->a >= 3));
         }
         free(parts);
     }
@@ -462,8 +476,30 @@ static bool open_action(struct own *own, const double *values)
     return good;
 }
 
+/* The moments of inertia of a body that nothing turns: slopes that are linear, each of its own component. */
+static void find_moments(struct own *own, const struct gm_problem *problem)
+{
+    struct gm_poisson *poisson = &own->poisson;
+    double at[3] = {0}, slopes[3];
+    if (own->model->system->n != 3 || poisson->turning == 0 || !poisson->axes || !own->ode.quadratic) {
+        return;
+    }
+    poisson->gradient(problem, at, slopes);
+    bool linear = slopes[0] == 0 && slopes[1] == 0 && slopes[2] == 0;
+    double moments[3];
+    for (int i = 0; i < 3; i++) {
+        at[i] = 1;
+        poisson->gradient(problem, at, slopes);
+        moments[i] = 1 / slopes[i];
+        linear = linear && slopes[i] != 0 && isfinite(moments[i]);
+    }
+    if (linear) {
+        memcpy(poisson->moments, moments, sizeof moments);
+    }
+}
+
 /* What schemes for brackets need. False: out of memory. */
-static bool open_poisson(struct own *own, const double *values)
+static bool open_poisson(struct own *own, const struct gm_problem *problem, const double *values)
 {
     const struct gm_own_model *model = own->model;
     const struct gm_formula *graph = &model->system->graph;
@@ -477,9 +513,13 @@ static bool open_poisson(struct own *own, const double *values)
                                        .turning = model->turning,
                                        .axes = model->axes};
     own->ode.poisson = &own->poisson;
-    return gm_tape_open(&own->energy, graph, &model->system->energy, 1, n, values) &&
-           gm_tape_open(&own->gradient, graph, model->gradient, n, n, values) &&
-           gm_tape_open(&own->bracket, graph, model->system->bracket, n * n, n, values);
+    const bool good = gm_tape_open(&own->energy, graph, &model->system->energy, 1, n, values) &&
+                      gm_tape_open(&own->gradient, graph, model->gradient, n, n, values) &&
+                      gm_tape_open(&own->bracket, graph, model->system->bracket, n * n, n, values);
+    if (good) {
+        find_moments(own, problem);
+    }
+    return good;
 }
 
 /* What schemes need that choose their step. False: out of memory. */
@@ -592,7 +632,7 @@ bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *
     }
     own->interpreted = own->loops;
     if (!open_tapes(own, values) || !open_mechanical(own, values) || !open_action(own, values) ||
-        !open_monitor(own, values) || !open_poisson(own, values)) {
+        !open_monitor(own, values) || !open_poisson(own, problem, values)) {
         return false;
     }
     own->constants[GM_KERNEL_FIELD] = own->field.constants;

@@ -61,6 +61,9 @@ extern const struct gm_problem gm_problem_abc;
 /* y' = A y in three dimensions; parameters: A, 9 doubles row by row; its trace is zero. */
 extern const struct gm_problem gm_problem_linear;
 
+/* The Korteweg-de Vries equation on a ring of 12 points, (u_0 .. u_11). */
+extern const struct gm_problem gm_problem_ring;
+
 /* Point vortices of equal strength *(const double *)parameters (not 0), (x_1..x_N, y_1..y_N). _four: N = 4,
    with kernels. _reduced: four with z3 = -z1, z4 = -z2 built in, (x1, x2, y1, y2), with kernels. The other
    two have no kernels and may carry passive particles: set n = 2 N + 2 passive, with N any number, and N = 2

@@ -47,6 +47,7 @@ const struct gm_problem gm_problem_rigid_body = {
                     .bracket = bracket,
                     .turning = 1,
                     .axes = true,
+                    .moments = {2, 1, 2. / 3},
                 },
             .loops = GM_LOOPS(rigid_body),
         },

@@ -7,7 +7,10 @@
    rotations2: H = H_1(y_1) + H_2(y_2) + H_3(y_3), each of which turns about its axis at a constant rate,
        exp(h/2 omega_1 e_1) exp(h/2 omega_2 e_2) exp(h omega_3 e_3) exp(h/2 omega_2 e_2) exp(h/2 omega_1 e_1),
    a composition of Poisson maps. R.I. McLachlan, Phys. Rev. Lett. 71 (1993) 3043; S. Reich, Physica D 76 (1994)
-   375.
+   375. A heavy top has besides a vector z that it turns, the vertical seen from the body, and a potential:
+       y' = s (y x grad T(y) + z x grad V(z)),   z' = s z x grad T(y)
+   The rotations turn z as well, between two halves of the potential's exact flow, y := y + h/2 s z x grad V(z).
+   A. Dullweber, B. Leimkuhler & R. McLachlan, J. Chem. Phys. 107 (1997) 5840.
    spherical-midpoint2:  y_1 = y_0 + h omega(z) x z,   z = |y_0| (y_0 + y_1) / |y_0 + y_1|
    R.I. McLachlan, K. Modin & O. Verdier, Phys. Rev. E 89 (2014) 061301. A Poisson map, too.
    rkmk4: Kutta's method in the algebra, with the commutators that order 4 needs,
@@ -62,16 +65,31 @@ static void turn(double factor, const double *a, double *y)
     }
 }
 
-/* h omega(y) */
+/* h omega(y), as many numbers as the state has */
 static void spin(const struct gm_problem *problem, double h, const double *y, double *k,
                  struct gm_progress *progress)
 {
     const struct gm_poisson *poisson = gm_ode_of(problem)->poisson;
     poisson->gradient(problem, y, k);
-    for (int i = 0; i < 3; i++) {
+    for (size_t i = 0; i < problem->n; i++) {
         k[i] *= -h * poisson->turning;
     }
     progress->evaluations++;
+}
+
+enum { MOST = 6 };
+
+/* The flow of the potential: y := y + h s z x grad V(z) */
+static void pull(const struct gm_problem *problem, double h, double *y, struct gm_progress *progress)
+{
+    double k[MOST], moment[3];
+    if (problem->n > 3) {
+        spin(problem, h, y, k, progress);
+        cross(k + 3, y + 3, moment);
+        for (int i = 0; i < 3; i++) {
+            y[i] += moment[i];
+        }
+    }
 }
 
 static enum gm_status about_axes(const struct gm_problem *problem, const struct crouch_grossman *unused,
@@ -79,12 +97,16 @@ static enum gm_status about_axes(const struct gm_problem *problem, const struct 
 {
     static const int axes[] = {0, 1, 2, 1, 0};
     (void)unused;
+    pull(problem, h / 2, y, progress);
     for (size_t i = 0; i < GM_COUNT(axes); i++) {
-        double k[3], about[3] = {0};
+        double k[MOST], about[3] = {0};
         spin(problem, i == 2 ? h : h / 2, y, k, progress);
         about[axes[i]] = k[axes[i]];
-        turn(1, about, y);
+        for (size_t vector = 0; vector < problem->n; vector += 3) {
+            turn(1, about, y + vector);
+        }
     }
+    pull(problem, h / 2, y, progress);
     return GM_OK;
 }
 
@@ -195,11 +217,13 @@ static const struct gm_scheme schemes[] = {
     {
         .name = "rotations2",
         .title = "rotations about the axes",
-        .formula = "exp(½h ω₁e₁) exp(½h ω₂e₂) exp(h ω₃e₃) exp(½h ω₂e₂) exp(½h ω₁e₁) y₀,  ωᵢ = −s ∂H/∂yᵢ(yᵢ)",
+        .formula =
+            "exp(½h ω₁e₁) exp(½h ω₂e₂) exp(h ω₃e₃) exp(½h ω₂e₂) exp(½h ω₁e₁) y₀,  ωᵢ = −s ∂H/∂yᵢ(yᵢ);\n"
+            "of a top, y and z turn so, between two halves y ← y + ½h s z × ∇V(z)",
         .reference = "R.I. McLachlan, Phys. Rev. Lett. 71 (1993) 3043; S. Reich, Physica D 76 (1994) 375",
         ROTATIONS(.step = about_axes),
         .order = 2,
-        .needs = GM_NEEDS_ROTATIONS | GM_NEEDS_AXES,
+        .needs = GM_NEEDS_AXES,
         .claims = GM_SYMMETRIC | GM_KEEPS_CASIMIRS | GM_POISSON_MAP,
     },
     {

@@ -20,7 +20,7 @@
    With a friction F = -c p the step without it stands between two halves of the friction's exact flow,
        p := exp(-c h / 2) p
    so that every area shrinks by exp(-c h). R.I. McLachlan & M. Perlmutter, J. Geom. Phys. 39 (2001) 276. */
-#include "core/ode/families/variational.h"
+#include "core/ode/families/variational/discrete_lagrangian.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -96,13 +96,13 @@ static void basis(const struct gm_variational_row *rule, size_t j, double c, dou
     }
 }
 
-static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+void *gm_variational_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme)
 {
     const struct gm_variational_row *rule = scheme->coefficients;
     struct gm_members *members = gm_members_open(problem, 0, room_of(problem, rule));
     if (members) {
         const struct step step = lay(problem, rule, members->scratch);
-        for (size_t i = 0; i < rule->points; i++) {
+        for (size_t i = 0; i < rule->points && !rule->tables; i++) {
             for (size_t j = 0; j <= rule->degree; j++) {
                 const size_t at = i * (rule->degree + 1) + j;
                 basis(rule, j, rule->c[i], &step.values[at], &step.slopes[at]);
@@ -327,6 +327,9 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
         step.p[a] = rule->damped ? fades * y[half + a] : y[half + a];
     }
     step.t = problem->n > 2 * half ? y[2 * half] : 0;
+    if (rule->tables) {
+        rule->tables(task->settings, step.values, step.slopes);
+    }
     if (!solve(&step, progress)) {
         return GM_NO_CONVERGENCE;
     }
@@ -346,7 +349,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     return GM_OK;
 }
 
-static struct gm_progress loop(const struct gm_task *task)
+struct gm_progress gm_variational_loop(const struct gm_task *task)
 {
     return gm_members_advance(task, make_step);
 }
@@ -389,11 +392,8 @@ static const struct gm_variational_row galerkin6 = {
     .c = {OF_GAUSS4, MORE_OF_GAUSS4, 1 - MORE_OF_GAUSS4, 1 - OF_GAUSS4},
 };
 
-#define VARIATIONAL .family = &gm_family_variational
-#define OF_ACTION VARIATIONAL, .needs = GM_NEEDS_ACTION, .claims = GEOMETRIC
-#define GEOMETRIC                                                                                            \
-    GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR |                     \
-        GM_KEEPS_MOMENTUM_MAPS
+#define VARIATIONAL .family = &gm_family_discrete_lagrangian
+#define OF_ACTION VARIATIONAL, .needs = GM_NEEDS_ACTION, .claims = GM_VARIATIONAL_CLAIMS
 #define CONSTRAINED                                                                                          \
     VARIATIONAL, .needs = GM_NEEDS_CONSTRAINTS,                                                              \
                  .claims = GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_MOMENTUM_MAPS |           \
@@ -525,12 +525,12 @@ static const struct gm_scheme schemes[] = {
     },
 };
 
-const struct gm_family gm_family_variational = {
+const struct gm_family gm_family_discrete_lagrangian = {
     .kind = &gm_kind_ode,
     .title = "variational, with fixed step",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
-    .loop = loop,
-    .workspace_open = workspace_open,
+    .loop = gm_variational_loop,
+    .workspace_open = gm_variational_workspace,
     .workspace_close = free,
 };

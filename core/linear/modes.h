@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_LINEAR_MODES_H
+#define GM_CORE_LINEAR_MODES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct gm_fourier; /* core/linear/fourier.h */
+
+/* Real fields on a ring as sums of waves: [field * points + node] and [field * points + mode]. */
+struct gm_modes {
+    size_t points, fields;
+    struct gm_fourier *fourier;
+};
+
+/* False: out of memory. To be closed in both cases. */
+bool gm_modes_open(struct gm_modes *modes, size_t points, size_t fields);
+void gm_modes_close(struct gm_modes *modes);
+
+/* The modes that are their own: 0 .. points / 2; the others are conjugates of these. */
+static inline size_t gm_modes_half(size_t points)
+{
+    return points / 2 + 1;
+}
+
+/* sum_j y_j exp(-2 pi i j k / points) of every field */
+void gm_modes_forward(const struct gm_modes *modes, const double *y, double _Complex *waves);
+/* And back, from the modes that are their own; the waves are destroyed. */
+void gm_modes_back(const struct gm_modes *modes, double _Complex *waves, double *y);
+
+#endif

@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exponential Runge-Kutta methods for y' = L y + N(y) on a ring, L exactly: it multiplies a wave of one number
+   by a small matrix. With e = exp(h L), E = exp(h L/2), phi_k = phi_k(h L) as in core/linear/complex_matrix.h,
+   and psi = phi_1(h L/2)/2:
+       exponential Euler    y1 = e y0 + h phi_1 N(y0)
+       Lawson 4             a = E y0 + h/2 E N(y0),   b = E y0 + h/2 N(a),   c = e y0 + h E N(b)
+                            y1 = e y0 + h/6 [e N(y0) + 2 E N(a) + 2 E N(b) + N(c)]
+       ETD RK4              a = E y0 + h psi N(y0),   b = E y0 + h psi N(a)
+                            c = e y0 + h psi [(E - 1) N(y0) + 2 N(b)]
+                            y1 = e y0 + h [(phi_1 - 3 phi_2 + 4 phi_3) N(y0) + (2 phi_2 - 4 phi_3) (N(a) + N(b))
+                                           + (4 phi_3 - phi_2) N(c)]
+   J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372; S.M. Cox & P.C. Matthews, J. Comput. Phys. 176 (2002) 430;
+   M. Hochbruck & A. Ostermann, Acta Numerica 19 (2010) 209. */
+#include <complex.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/linear/complex_matrix.h"
+#include "core/linear/modes.h"
+#include "core/ode/families/families.h"
+#include "core/ode/kernel/members.h"
+
+enum { STAGES = 4, LARGEST = GM_COMPLEX_LARGEST, SIZE = LARGEST * LARGEST };
+
+/* A stage, or the end, is F y0 + h sum_j M_j N_j: of a mode the matrices F, M_0 .. M_(stages - 1). */
+enum { PER_STAGE = STAGES + 1 };
+struct exponential {
+    size_t stages; /* evaluations of N */
+    /* The matrices of row 1 .. stages (the end) on one mode; those that stay 0 are not touched. whole: exp(z)
+       and phi_1 .. phi_3 of z = h L; half: of z/2. */
+    void (*rows)(size_t size, double complex (*whole)[SIZE], double complex (*half)[SIZE],
+                 double complex (*row)[PER_STAGE][SIZE]);
+};
+
+/* to += factor from */
+static void add(size_t size, double factor, const double complex *from, double complex *to)
+{
+    for (size_t i = 0; i < size; i++) {
+        to[i] += factor * from[i];
+    }
+}
+
+/* to += factor times the unit matrix */
+static void add_unit(size_t size, double factor, double complex *to)
+{
+    size_t n = 1;
+    while (n * n < size) {
+        n++;
+    }
+    for (size_t i = 0; i < n; i++) {
+        to[i * (n + 1)] += factor;
+    }
+}
+
+static void euler_rows(size_t size, double complex (*whole)[SIZE], double complex (*half)[SIZE],
+                       double complex (*row)[PER_STAGE][SIZE])
+{
+    (void)half;
+    add(size, 1, whole[0], row[0][0]);
+    add(size, 1, whole[1], row[0][1]);
+}
+
+static void lawson_rows(size_t size, double complex (*whole)[SIZE], double complex (*half)[SIZE],
+                        double complex (*row)[PER_STAGE][SIZE])
+{
+    add(size, 1, half[0], row[0][0]);
+    add(size, 0.5, half[0], row[0][1]);
+    add(size, 1, half[0], row[1][0]);
+    add_unit(size, 0.5, row[1][2]);
+    add(size, 1, whole[0], row[2][0]);
+    add(size, 1, half[0], row[2][3]);
+    add(size, 1, whole[0], row[3][0]);
+    add(size, 1. / 6, whole[0], row[3][1]);
+    add(size, 1. / 3, half[0], row[3][2]);
+    add(size, 1. / 3, half[0], row[3][3]);
+    add_unit(size, 1. / 6, row[3][4]);
+}
+
+/* psi (E - 1) = phi_1(h L) - phi_1(h L/2), as E phi_1(h L/2) = 2 phi_1(h L) - phi_1(h L/2) */
+static void etd_rows(size_t size, double complex (*whole)[SIZE], double complex (*half)[SIZE],
+                     double complex (*row)[PER_STAGE][SIZE])
+{
+    add(size, 1, half[0], row[0][0]);
+    add(size, 0.5, half[1], row[0][1]);
+    add(size, 1, half[0], row[1][0]);
+    add(size, 0.5, half[1], row[1][2]);
+    add(size, 1, whole[0], row[2][0]);
+    add(size, 1, whole[1], row[2][1]);
+    add(size, -1, half[1], row[2][1]);
+    add(size, 1, half[1], row[2][3]);
+    static const double weights[STAGES][3] = {{1, -3, 4}, {0, 2, -4}, {0, 2, -4}, {0, -1, 4}};
+    add(size, 1, whole[0], row[3][0]);
+    for (size_t j = 0; j < STAGES; j++) {
+        for (size_t k = 0; k < 3; k++) {
+            add(size, weights[j][k], whole[k + 1], row[3][j + 1]);
+        }
+    }
+}
+
+/* What is kept of a run: the matrices of every mode for one step. */
+struct work {
+    struct gm_modes modes;
+    double dt;                /* that the matrices are for; 0: none */
+    double complex *matrices; /* [mode][row][PER_STAGE][fields * fields] */
+    double complex *state, *rest, *stage;
+};
+
+static void workspace_close(void *workspace)
+{
+    struct gm_members *members = workspace;
+    struct work *work = members->own;
+    if (work) {
+        gm_modes_close(&work->modes);
+        free(work->matrices);
+        free(work->state);
+    }
+    free(work);
+    free(members);
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct exponential *row = scheme->coefficients;
+    const size_t n = problem->n, fields = gm_ode_of(problem)->semilinear->fields, points = n / fields;
+    struct gm_members *members = gm_members_open(problem, 0, n);
+    struct work *work = calloc(1, sizeof *work);
+    if (!members || !work) {
+        free(members);
+        free(work);
+        return NULL;
+    }
+    members->own = work;
+    work->matrices =
+        malloc(gm_modes_half(points) * row->stages * PER_STAGE * fields * fields * sizeof *work->matrices);
+    work->state = malloc((2 + row->stages) * n * sizeof *work->state);
+    if (!gm_modes_open(&work->modes, points, fields) || !work->matrices || !work->state) {
+        workspace_close(members);
+        return NULL;
+    }
+    work->stage = work->state + n;
+    work->rest = work->stage + n;
+    return members;
+}
+
+static void make_matrices(const struct gm_task *task, struct work *work)
+{
+    const struct exponential *row = task->scheme->coefficients;
+    const struct gm_semilinear *semilinear = gm_ode_of(task->problem)->semilinear;
+    const size_t fields = work->modes.fields, size = fields * fields;
+    double complex *to = work->matrices;
+    for (size_t mode = 0; mode < gm_modes_half(work->modes.points); mode++) {
+        double complex z[2][SIZE], packed[GM_PHI_MOST * SIZE], phi[2][GM_PHI_MOST][SIZE];
+        double complex made[STAGES][PER_STAGE][SIZE] = {0};
+        semilinear->symbol(task->problem, mode, z[0]);
+        for (size_t i = 0; i < size; i++) {
+            z[0][i] *= task->dt;
+            z[1][i] = z[0][i] / 2;
+        }
+        for (size_t part = 0; part < 2; part++) {
+            gm_complex_phi(fields, z[part], GM_PHI_MOST, packed);
+            for (size_t k = 0; k < GM_PHI_MOST; k++) {
+                memcpy(phi[part][k], packed + k * size, size * sizeof *packed);
+            }
+        }
+        row->rows(size, phi[0], phi[1], made);
+        for (size_t stage = 0; stage < row->stages; stage++) {
+            for (size_t j = 0; j < PER_STAGE; j++, to += size) {
+                memcpy(to, made[stage][j], size * sizeof *to);
+            }
+        }
+    }
+    work->dt = task->dt;
+}
+
+/* The waves of a row: F y0 + h sum of M_j N_j over the first `known`. */
+static void combine(const struct gm_task *task, struct work *work, size_t row, size_t known)
+{
+    const struct exponential *method = task->scheme->coefficients;
+    const size_t fields = work->modes.fields, size = fields * fields, points = work->modes.points,
+                 n = fields * points;
+    for (size_t mode = 0; mode < gm_modes_half(points); mode++) {
+        const double complex *matrices = work->matrices + (mode * method->stages + row) * PER_STAGE * size;
+        double complex sum[LARGEST] = {0}, of[LARGEST], part[LARGEST];
+        for (size_t j = 0; j <= known; j++) {
+            const double complex *waves = j == 0 ? work->state : work->rest + (j - 1) * n;
+            for (size_t i = 0; i < fields; i++) {
+                of[i] = waves[i * points + mode];
+            }
+            gm_complex_multiply(fields, matrices + j * size, of, part);
+            add(fields, j == 0 ? 1 : task->dt, part, sum);
+        }
+        for (size_t i = 0; i < fields; i++) {
+            work->stage[i * points + mode] = sum[i];
+        }
+    }
+}
+
+static enum gm_status step(const struct gm_task *task, struct gm_members *members,
+                           struct gm_progress *progress)
+{
+    const struct exponential *row = task->scheme->coefficients;
+    const struct gm_semilinear *semilinear = gm_ode_of(task->problem)->semilinear;
+    struct work *work = members->own;
+    if (work->dt != task->dt) {
+        make_matrices(task, work);
+    }
+    gm_modes_forward(&work->modes, members->y, work->state);
+    for (size_t stage = 0; stage < row->stages; stage++) {
+        semilinear->nonlinear(task->problem, members->y, members->scratch);
+        gm_modes_forward(&work->modes, members->scratch, work->rest + stage * members->n);
+        combine(task, work, stage, stage + 1);
+        gm_modes_back(&work->modes, work->stage, members->y);
+    }
+    progress->evaluations += row->stages;
+    return GM_OK;
+}
+
+static struct gm_progress loop(const struct gm_task *task)
+{
+    return gm_members_advance(task, step);
+}
+
+static const struct exponential euler = {1, euler_rows}, lawson = {4, lawson_rows}, etd = {4, etd_rows};
+
+#define EXPONENTIAL .family = &gm_family_exponential, .needs = GM_NEEDS_SEMILINEAR, .claims = GM_KEEPS_LINEAR
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "exponential-euler1",
+        .title = "exponential Euler",
+        .formula = "y₁ = eʰᴸ y₀ + h φ₁(hL) N(y₀),  y′ = L y + N(y)",
+        .reference =
+            "D.A. Pope, Commun. ACM 6 (1963) 491; Hochbruck & Ostermann, Acta Numerica 19 (2010) 209",
+        .coefficients = &euler,
+        .order = 1,
+        EXPONENTIAL,
+    },
+    {
+        .name = "lawson4",
+        .title = "Lawson 4",
+        .formula = "RK4 for v = e⁻ᵗᴸ y,  v′ = e⁻ᵗᴸ N(eᵗᴸ v):  an integrating factor",
+        .reference = "J.D. Lawson, SIAM J. Numer. Anal. 4 (1967) 372",
+        .coefficients = &lawson,
+        .order = 4,
+        EXPONENTIAL,
+    },
+    {
+        .name = "etdrk4",
+        .title = "ETD RK4",
+        .formula = "y₁ = eʰᴸ y₀ + h [(φ₁ − 3φ₂ + 4φ₃) N(y₀) + (2φ₂ − 4φ₃)(N(a) + N(b)) + (4φ₃ − φ₂) N(c)]",
+        .reference = "S.M. Cox & P.C. Matthews, J. Comput. Phys. 176 (2002) 430",
+        .coefficients = &etd,
+        .order = 4,
+        EXPONENTIAL,
+    },
+};
+
+const struct gm_family gm_family_exponential = {
+    .kind = &gm_kind_ode,
+    .title = "exponential Runge-Kutta",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .loop = loop,
+    .workspace_open = workspace_open,
+    .workspace_close = workspace_close,
+};

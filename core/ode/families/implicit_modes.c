@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Implicit Runge-Kutta methods for y' = L y + N(y) on a ring. The slopes K_i solve
+       K_i - h L sum_j a_ij K_j = N(y + h sum_j a_ij K_j) + L y,
+   the left side wave by wave, the right side by iteration. Slopes are never made of L times a stage, which
+   would multiply rounding by h L. Hairer & Wanner, Solving ODEs II, IV.8. */
+#include "core/ode/families/implicit_modes.h"
+
+#include <complex.h>
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/linear/complex_matrix.h"
+#include "core/linear/modes.h"
+#include "core/ode/kernel/tiles.h"
+
+enum { ITERATIONS = 150, LARGEST = GM_COMPLEX_LARGEST, UNKNOWNS = GM_IMPLICIT_STAGES * LARGEST };
+
+struct work {
+    struct gm_modes modes;
+    size_t stages, n;
+    double *z, *at, *rest;                      /* increments h sum_j a_ij K_j of the stages; n; n */
+    double complex *state, *slopes, *increment; /* waves: of y; K, stages * n; n */
+    double complex *matrix;                     /* of a mode */
+};
+
+void gm_implicit_modes_close(void *workspace)
+{
+    struct work *work = workspace;
+    if (work) {
+        gm_modes_close(&work->modes);
+        free(work->z);
+        free(work->state);
+    }
+    free(work);
+}
+
+void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_implicit_row *row)
+{
+    const size_t n = problem->n, fields = gm_ode_of(problem)->semilinear->fields,
+                 stages = (size_t)row->stages, unknowns = stages * fields;
+    struct work *work = calloc(1, sizeof *work);
+    if (!work) {
+        return NULL;
+    }
+    work->stages = stages;
+    work->n = n;
+    work->z = malloc((stages + 2) * n * sizeof *work->z);
+    work->state = malloc(((stages + 2) * n + unknowns * unknowns) * sizeof *work->state);
+    if (!gm_modes_open(&work->modes, n / fields, fields) || !work->z || !work->state) {
+        gm_implicit_modes_close(work);
+        return NULL;
+    }
+    work->at = work->z + stages * n;
+    work->rest = work->at + n;
+    work->increment = work->state + n;
+    work->slopes = work->increment + n;
+    work->matrix = work->slopes + stages * n;
+    return work;
+}
+
+/* K of one mode, from N and y: the waves of N lie where K is put. */
+static bool solve_mode(const struct gm_problem *problem, const struct gm_implicit_row *row, double h,
+                       struct work *work, size_t mode)
+{
+    const size_t fields = work->modes.fields, points = work->modes.points, stages = work->stages,
+                 size = stages * fields;
+    double complex symbol[LARGEST * LARGEST], y[LARGEST], linear[LARGEST], right[UNKNOWNS];
+    gm_ode_of(problem)->semilinear->symbol(problem, mode, symbol);
+    for (size_t i = 0; i < fields; i++) {
+        y[i] = work->state[i * points + mode];
+    }
+    gm_complex_multiply(fields, symbol, y, linear);
+    for (size_t r = 0; r < size; r++) {
+        const size_t i = r / fields, p = r % fields;
+        for (size_t c = 0; c < size; c++) {
+            const size_t j = c / fields, q = c % fields;
+            work->matrix[r * size + c] = (r == c ? 1 : 0) - h * row->a[i][j] * symbol[p * fields + q];
+        }
+        right[r] = work->slopes[i * work->n + p * points + mode] + linear[p];
+    }
+    if (!gm_complex_eliminate(size, work->matrix, right)) {
+        return false;
+    }
+    for (size_t r = 0; r < size; r++) {
+        work->slopes[r / fields * work->n + r % fields * points + mode] = right[r];
+    }
+    return true;
+}
+
+/* The nodes of h sum_j factors[j] K_j */
+static void combine(struct work *work, double h, const double *factors, double *nodes)
+{
+    const size_t fields = work->modes.fields, points = work->modes.points;
+    for (size_t field = 0; field < fields; field++) {
+        for (size_t i = field * points; i < field * points + gm_modes_half(points); i++) {
+            double complex sum = 0;
+            for (size_t j = 0; j < work->stages; j++) {
+                sum += h * factors[j] * work->slopes[j * work->n + i];
+            }
+            work->increment[i] = sum;
+        }
+    }
+    gm_modes_back(&work->modes, work->increment, nodes);
+}
+
+/* One iteration: K from the stages, and the stages from it. The sum of the changes, NaN where there is no K. */
+static double iterate(const struct gm_problem *problem, const struct gm_implicit_row *row, double h,
+                      const double *y, struct work *work)
+{
+    const size_t n = work->n;
+    for (size_t i = 0; i < work->stages; i++) {
+        for (size_t c = 0; c < n; c++) {
+            work->at[c] = y[c] + work->z[i * n + c];
+        }
+        gm_ode_of(problem)->semilinear->nonlinear(problem, work->at, work->rest);
+        gm_modes_forward(&work->modes, work->rest, work->slopes + i * n);
+    }
+    for (size_t mode = 0; mode < gm_modes_half(work->modes.points); mode++) {
+        if (!solve_mode(problem, row, h, work, mode)) {
+            return NAN;
+        }
+    }
+    double change = 0;
+    for (size_t i = 0; i < work->stages; i++) {
+        combine(work, h, row->a[i], work->at);
+        for (size_t c = 0; c < n; c++) {
+            change += fabs(work->at[c] - work->z[i * n + c]);
+            work->z[i * n + c] = work->at[c];
+        }
+    }
+    return change;
+}
+
+static bool solve(const struct gm_task *task, double h, const double *y, struct work *work,
+                  struct gm_progress *progress)
+{
+    const struct gm_implicit_row *row = task->scheme->coefficients;
+    double norm = 0, previous = INFINITY;
+    for (size_t c = 0; c < work->n; c++) {
+        norm += fabs(y[c]);
+    }
+    /* transforms round every value by what the largest have */
+    const double roundoff = 16 * (double)work->stages * DBL_EPSILON * norm;
+    gm_modes_forward(&work->modes, y, work->state);
+    memset(work->z, 0, work->stages * work->n * sizeof *work->z);
+    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
+        const double change = iterate(task->problem, row, h, y, work);
+        progress->evaluations += work->stages;
+        progress->iterations++;
+        if (!(change < 1e100)) {
+            return false;
+        }
+        if (change == 0 || (change >= previous && change <= roundoff)) {
+            return true;
+        }
+        previous = change;
+    }
+    return false;
+}
+
+struct gm_progress gm_implicit_modes_advance(const struct gm_task *task)
+{
+    const struct gm_implicit_row *row = task->scheme->coefficients;
+    struct work *work = task->workspace;
+    const size_t n = work->n;
+    double *y = task->out;
+    struct gm_progress progress = {.status = GM_OK};
+    memcpy(y, task->y, n * sizeof *y);
+    if (task->carry) {
+        memcpy(task->carry_out, task->carry, n * sizeof *y);
+    }
+    for (; progress.done < task->steps; progress.done++) {
+        for (int substep = 0; substep < row->composition->steps; substep++) {
+            const double h = task->dt * gm_composition_fraction(row->composition, substep);
+            if (!solve(task, h, y, work, &progress)) {
+                progress.status = GM_NO_CONVERGENCE;
+                return progress;
+            }
+            combine(work, h, row->b, work->at);
+            gm_tile_add(y, 1, work->at, task->carry ? task->carry_out : NULL, n);
+        }
+        for (size_t c = 0; c < n; c++) {
+            if (!(fabs(y[c]) <= task->limit)) {
+                progress.status = GM_BLOW_UP;
+                return progress;
+            }
+        }
+    }
+    return progress;
+}

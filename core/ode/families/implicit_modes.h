@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_ODE_FAMILIES_IMPLICIT_MODES_H
+#define GM_CORE_ODE_FAMILIES_IMPLICIT_MODES_H
+
+#include "core/ode/families/implicit_row.h"
+#include "core/ode/ode.h"
+
+/* Implicit Runge-Kutta methods for y' = L y + N(y) on a ring, one member: the iteration solves the stiff linear
+   part, so that it converges where h N' is small, however large h L is. */
+
+/* NULL: out of memory. */
+void *gm_implicit_modes_open(const struct gm_problem *problem, const struct gm_implicit_row *row);
+void gm_implicit_modes_close(void *workspace);
+
+/* All steps; the workspace is that of gm_implicit_modes_open. */
+struct gm_progress gm_implicit_modes_advance(const struct gm_task *task);
+
+#endif

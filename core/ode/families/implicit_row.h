@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The row of an implicit Runge-Kutta method, which its loops over kernels, over nodes and over waves share. */
+#ifndef GM_CORE_ODE_FAMILIES_IMPLICIT_ROW_H
+#define GM_CORE_ODE_FAMILIES_IMPLICIT_ROW_H
+
+#include "core/ode/families/compositions.h"
+
+/* For up to so many stages there is a loop that knows how many they are; and the most. */
+enum { GM_IMPLICIT_KNOWN_STAGES = 4, GM_IMPLICIT_STAGES = 16 };
+
+/* An implicit Runge-Kutta method, or a composition of one with itself. */
+struct gm_implicit_row {
+    int stages;
+    double a[GM_IMPLICIT_STAGES][GM_IMPLICIT_STAGES];
+    double b[GM_IMPLICIT_STAGES];
+    const struct gm_composition *composition;
+};
+
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rows of variational integrators with a fixed step: a polynomial through control points from 0 to 1, and
+   a quadrature; with constraints the control points are those of the quadrature. */
+#ifndef GM_CORE_ODE_FAMILIES_VARIATIONAL_DISCRETE_LAGRANGIAN_H
+#define GM_CORE_ODE_FAMILIES_VARIATIONAL_DISCRETE_LAGRANGIAN_H
+
+#include "core/scheme.h"
+
+enum { GM_VARIATIONAL_POINTS = 4 };
+
+struct gm_variational_row {
+    size_t degree, points;
+    double control[GM_VARIATIONAL_POINTS]; /* degree + 1 */
+    double b[GM_VARIATIONAL_POINTS], c[GM_VARIATIONAL_POINTS];
+    bool late;   /* the momenta at the end are not put into the tangent of the constraints: SHAKE */
+    bool damped; /* a friction -c p is solved apart */
+    /* Of a discrete Lagrangian that is not the action of a polynomial: l_j and l_j' at its points, for these
+       settings. The unknowns between q0 and q1 are then what the tables take them for. NULL: a polynomial. */
+    void (*tables)(const struct gm_settings *settings, double *values, double *slopes);
+};
+
+/* What every discrete Lagrangian that is its own mirror image keeps. */
+#define GM_VARIATIONAL_CLAIMS                                                                                \
+    (GM_SYMPLECTIC | GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_LINEAR | GM_KEEPS_BILINEAR |                    \
+     GM_KEEPS_MOMENTUM_MAPS)
+
+/* The loop over such rows, and its workspace, which free closes. */
+struct gm_progress gm_variational_loop(const struct gm_task *task);
+void *gm_variational_workspace(const struct gm_problem *problem, const struct gm_scheme *scheme);
+
+#endif

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The local laws of fields on a line: the largest residual, and residuals over space and time. */
+#include "scenes/field/local_laws.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/field/families/dispersive_form.h"
+#include "core/field/families/families.h"
+#include "core/field/families/wave_laws.h"
+
+static bool residuals(const struct gm_view *view, enum gm_local_law law, double *residual)
+{
+    if (gm_field_of(view->problem)->wave) {
+        return gm_wave_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
+    }
+    return view->scheme->family == &gm_family_box &&
+           gm_dispersive_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
+}
+
+static double largest(const struct gm_view *view, enum gm_local_law law)
+{
+    const size_t points = view->problem->line.points;
+    double *residual = malloc(points * sizeof *residual), most = NAN;
+    if (residual && residuals(view, law, residual)) {
+        most = 0;
+        for (size_t i = 0; i < points; i++) {
+            most = fmax(most, fabs(residual[i]));
+        }
+    }
+    free(residual);
+    return most;
+}
+
+double gm_view_energy_residual(const struct gm_view *view)
+{
+    return largest(view, GM_LAW_OF_ENERGY);
+}
+
+double gm_view_momentum_residual(const struct gm_view *view)
+{
+    return largest(view, GM_LAW_OF_MOMENTUM);
+}
+
+double gm_view_content_residual(const struct gm_view *view)
+{
+    return largest(view, GM_LAW_OF_CONTENT);
+}
+
+void gm_surface_record_shown(const struct gm_view *view, int show,
+                             double (*value)(const struct gm_view *, size_t), double *entry)
+{
+    if (show == GM_SHOW_FIELD) {
+        gm_surface_record(view, value, entry);
+        return;
+    }
+    const size_t points = view->problem->line.points, columns = gm_surface_width(view);
+    double *residual = malloc(points * sizeof *residual);
+    const bool known = residual && residuals(view, (enum gm_local_law)(show - 1), residual);
+    for (size_t k = 0; k < columns; k++) {
+        entry[k] = known ? residual[k * points / columns] : NAN;
+    }
+    free(residual);
+}
