@@ -88,6 +88,11 @@ static bool start_library(struct gm_glyphs *glyphs)
     return !glyphs->refused;
 }
 
+struct font_wanted {
+    const char *family;
+    bool bold;
+};
+
 static char *find_in(FcConfig *config, const char *family, bool bold)
 {
     char *file = NULL;
@@ -114,25 +119,27 @@ static char *find_in(FcConfig *config, const char *family, bool bold)
     return file;
 }
 
-/* The file of the installed font nearest to a family; malloc'ed. NULL if no font is installed. */
-static char *find_font(const char *family, bool bold)
+/* The installed fonts nearest to those wanted, their files malloc'ed; NULL where none is installed, or, with
+   errno ENOMEM, where there is no memory. */
+static void find_fonts(const struct font_wanted wanted[GM_FONT_COUNT], char *files[GM_FONT_COUNT])
 {
     /* a configuration of our own: that of the process, and what fontconfig keeps for all, may be in use by
-       others */
+       others; it is read once for all fonts, since that takes longer than looking */
+    errno = 0;
     FcConfig *config = FcInitLoadConfigAndFonts();
-    char *file = config ? find_in(config, family, bold) : NULL;
-    if (config) {
-        FcConfigDestroy(config);
+    for (int i = 0; config && i < GM_FONT_COUNT; i++) {
+        files[i] = find_in(config, wanted[i].family, wanted[i].bold);
     }
-    return file;
+    if (config) {
+        const int error = errno;
+        FcConfigDestroy(config);
+        errno = error;
+    }
 }
 
 struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
 {
-    static const struct {
-        const char *family;
-        bool bold;
-    } wanted[GM_FONT_COUNT] = {
+    static const struct font_wanted wanted[GM_FONT_COUNT] = {
         [GM_FONT_SANS] = {"DejaVu Sans", false},
         [GM_FONT_BOLD] = {"DejaVu Sans", true},
         [GM_FONT_MONO] = {"DejaVu Sans Mono", false},
@@ -143,13 +150,13 @@ struct gm_glyphs *gm_glyphs_open(char *message, size_t size)
         free(glyphs);
         return NULL;
     }
+    find_fonts(wanted, glyphs->files);
+    const bool short_of_memory = errno == ENOMEM;
     for (int i = 0; i < GM_FONT_COUNT; i++) {
-        errno = 0;
-        char *file = find_font(wanted[i].family, wanted[i].bold);
-        const bool missing = file == NULL && errno != ENOMEM;
+        const char *file = glyphs->files[i];
+        const bool missing = !file && !short_of_memory;
         const FT_Error error =
             file ? FT_New_Face(glyphs->library, file, 0, &glyphs->faces[i]) : FT_Err_Out_Of_Memory;
-        glyphs->files[i] = file;
         if (missing) {
             snprintf(message, size, "No font was found for \"%s\"; install the package fonts-dejavu-core.",
                      wanted[i].family);
