@@ -3,6 +3,7 @@
 #include "render/gl/canvas.h"
 
 #include <pthread.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -200,6 +201,25 @@ static void clear(const struct gm_canvas *canvas)
     gl->Clear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
+/* Four pixels at a time as three words; the shifts are those of processors whose low byte comes first. */
+static void drop_alpha(const unsigned char *rgba, unsigned char *rgb, size_t count)
+{
+    size_t i = 0;
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    for (; i + 4 <= count; i += 4) {
+        uint32_t in[4], out[3];
+        memcpy(in, rgba + 4 * i, sizeof in);
+        out[0] = (in[0] & 0xffffff) | in[1] << 24;
+        out[1] = (in[1] >> 8 & 0xffff) | in[2] << 16;
+        out[2] = (in[2] >> 16 & 0xff) | in[3] << 8;
+        memcpy(rgb + 3 * i, out, sizeof out);
+    }
+#endif
+    for (; i < count; i++) {
+        memcpy(rgb + 3 * i, rgba + 4 * i, 3);
+    }
+}
+
 /* Reading 4 bytes a pixel is a plain copy for GL; reading 3 is not. */
 static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
 {
@@ -208,12 +228,7 @@ static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl->ReadPixels(0, 0, canvas->painter.look.width, canvas->painter.look.height, GL_RGBA, GL_UNSIGNED_BYTE,
                    canvas->pixels);
-    const unsigned char *restrict from = canvas->pixels;
-    for (size_t i = 0; i < count; i++, from += 4, rgb += 3) {
-        rgb[0] = from[0];
-        rgb[1] = from[1];
-        rgb[2] = from[2];
-    }
+    drop_alpha(canvas->pixels, rgb, count);
 }
 
 static bool paint_alone(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
