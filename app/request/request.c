@@ -377,25 +377,11 @@ static bool equal_cost(struct gm_request *request, size_t index, size_t like, ch
     return !isnan(wanted);
 }
 
-static bool make_lanes(struct gm_request *request, struct gm_words *words, bool recalled, char *message)
+/* The lanes of the product, each with the parameters that its choice of the words gives. */
+static bool apply_words(struct gm_request *request, const struct gm_words *words, size_t count, char *message)
 {
     const struct gm_scene *scene = request->scene;
-    size_t count = 0;
-    if (!gm_words_count(words, GM_MOST_REQUESTED, &count, message)) {
-        return false;
-    }
-    if (request->overlay && count > GM_LANE_COLOURS) {
-        return gm_refuse(message, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
-                         GM_LANE_COLOURS, count);
-    }
-    request->lanes = calloc(count, sizeof *request->lanes);
-    if (!request->lanes) {
-        return gm_refuse(message, "not enough memory");
-    }
     const bool steps_given = gm_words_find(words, "steps") != NULL;
-    if (steps_given && gm_words_find(words, "until")) {
-        return gm_refuse(message, "steps= and until= are both given; one of them follows from the other");
-    }
     const char *keys[GM_MOST_WORDS] = {NULL};
     for (size_t i = 0; i < words->count && i < GM_MOST_WORDS; i++) {
         keys[i] = words->list[i].key;
@@ -421,7 +407,43 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, bool 
             return false;
         }
     }
-    if (!(recalled || check_effects(request, words, message)) || !find_schemes(request, message)) {
+    return true;
+}
+
+/* equal=cost: the steps of all lanes so that each pays what the first scheme pays. */
+static bool equalise(struct gm_request *request, const struct gm_words *words, char *message)
+{
+    if (gm_words_find(words, "steps")) {
+        return gm_refuse(message, "equal=cost scales the steps up to until=; steps= cannot be given with it");
+    }
+    for (size_t k = 0; k < request->count; k++) {
+        if (!equal_cost(request, k, first_scheme(words, k), message) ||
+            !settle_time(request->scene, &request->lanes[k], false, message)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool make_lanes(struct gm_request *request, struct gm_words *words, bool recalled, char *message)
+{
+    size_t count = 0;
+    if (!gm_words_count(words, GM_MOST_REQUESTED, &count, message)) {
+        return false;
+    }
+    if (request->overlay && count > GM_LANE_COLOURS) {
+        return gm_refuse(message, "overlay=yes takes up to %d lanes, a colour for each; these are %zu",
+                         GM_LANE_COLOURS, count);
+    }
+    request->lanes = calloc(count, sizeof *request->lanes);
+    if (!request->lanes) {
+        return gm_refuse(message, "not enough memory");
+    }
+    if (gm_words_find(words, "steps") && gm_words_find(words, "until")) {
+        return gm_refuse(message, "steps= and until= are both given; one of them follows from the other");
+    }
+    if (!apply_words(request, words, count, message) ||
+        !(recalled || check_effects(request, words, message)) || !find_schemes(request, message)) {
         return false;
     }
     for (size_t k = 0; k < count; k++) {
@@ -431,17 +453,8 @@ static bool make_lanes(struct gm_request *request, struct gm_words *words, bool 
             gm_show_in_order(&spec->shown, k, spec->scheme, true);
         }
     }
-    if (gm_words_chosen(words, "equal")) {
-        if (steps_given) {
-            return gm_refuse(message,
-                             "equal=cost scales the steps up to until=; steps= cannot be given with it");
-        }
-        for (size_t k = 0; k < count; k++) {
-            if (!equal_cost(request, k, first_scheme(words, k), message) ||
-                !settle_time(scene, &request->lanes[k], false, message)) {
-                return false;
-            }
-        }
+    if (gm_words_chosen(words, "equal") && !equalise(request, words, message)) {
+        return false;
     }
     return check_settings(request, words, message);
 }

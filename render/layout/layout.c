@@ -534,30 +534,62 @@ static void place_notes(struct gm_label_list *list, const struct gm_frame *frame
     }
 }
 
-const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics)
+/* How many labels a picture may have at most. */
+static size_t most_labels(const struct gm_picture *picture)
 {
-    size_t panel_count = 0, key_count = 0, note_count = 0;
+    size_t most = 8 + MOST_TOLD;
     for (const struct gm_panel *panel = picture->first; panel; panel = panel->next) {
-        panel_count++;
+        most += 4 + GM_TITLE_LINES + 3 * GM_TICK_MAX;
         for (const struct gm_mark *mark = panel->first; mark; mark = mark->next) {
-            note_count += mark->kind == GM_MARK_TEXT;
+            most += mark->kind == GM_MARK_TEXT ? 2 : 0;
         }
         for (const struct gm_key *key = panel->first_key; key; key = key->next) {
-            key_count++;
+            most += GM_KEY_LINES;
         }
     }
+    return most;
+}
+
+static size_t count_panels(const struct gm_picture *picture)
+{
+    size_t count = 0;
+    for (const struct gm_panel *panel = picture->first; panel; panel = panel->next) {
+        count++;
+    }
+    return count;
+}
+
+/* Shares the area between states and graphs: beside each other, or where that serves both better, below. */
+static void divide(struct gm_label_list *list, const struct gm_box *area, struct group *states,
+                   struct group *graphs)
+{
+    const struct gm_metrics *metrics = list->metrics;
+    states->area = graphs->area = *area;
+    if (states->count == 0 || graphs->count == 0) {
+        return;
+    }
+    const double gap = margin_of(metrics->width, group_gap * metrics->scale);
+    graphs->area.width =
+        fmin(area->width, (metrics->terse ? terse_graph_share : graph_share) * metrics->width);
+    graphs->area.x = area->x + area->width - graphs->area.width;
+    states->area.width = fmax(0.0, area->width - graphs->area.width - gap);
+    try_below(list, area, states, graphs);
+    if (list->picture->graphs_below) {
+        try_row_below(list, area, states, graphs);
+    }
+}
+
+const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct gm_metrics *metrics)
+{
+    const size_t panel_count = count_panels(picture);
     struct gm_label_list list;
     struct gm_layout *layout = gm_picture_memory(picture, sizeof *layout);
     struct gm_frame *frames = gm_picture_memory(picture, (panel_count + 1) * sizeof *frames);
-    if (!layout || !frames ||
-        !gm_labels_open(&list, picture, metrics,
-                        8 + MOST_TOLD + GM_KEY_LINES * key_count + 2 * note_count +
-                            panel_count * (4 + GM_TITLE_LINES + 3 * GM_TICK_MAX))) {
+    if (!layout || !frames || !gm_labels_open(&list, picture, metrics, most_labels(picture))) {
         return NULL;
     }
 
-    const double scale = metrics->scale;
-    const double margin = margin_of(metrics->width, side_margin * scale);
+    const double margin = margin_of(metrics->width, side_margin * metrics->scale);
     const double top = place_header(&list, picture, margin);
     const double bottom =
         picture->told_count > 0 ? place_told(&list, picture, margin) : place_caption(&list, picture, margin);
@@ -569,18 +601,7 @@ const struct gm_layout *gm_layout_make(struct gm_picture *picture, const struct 
 
     const struct gm_box area = {margin, top, fmax(0.0, metrics->width - 2.0 * margin),
                                 fmax(0.0, bottom - top)};
-    states.area = graphs.area = area;
-    if (states.count > 0 && graphs.count > 0) {
-        const double gap = margin_of(metrics->width, group_gap * scale);
-        graphs.area.width =
-            fmin(area.width, (metrics->terse ? terse_graph_share : graph_share) * metrics->width);
-        graphs.area.x = area.x + area.width - graphs.area.width;
-        states.area.width = fmax(0.0, area.width - graphs.area.width - gap);
-        try_below(&list, &area, &states, &graphs);
-        if (picture->graphs_below) {
-            try_row_below(&list, &area, &states, &graphs);
-        }
-    }
+    divide(&list, &area, &states, &graphs);
     const bool beside = states.count > 0 && graphs.area.x > area.x;
     if (states.count > 0) {
         choose_grid(&list, &states, states.count);

@@ -453,6 +453,58 @@ static double most_shown(const double *points, size_t made, double usual)
     return least > usual && isfinite(highest) ? highest : usual;
 }
 
+/* The points of a lane's curve, t and value, as many as are returned. */
+static size_t curve_of(const struct gm_lane *lane, size_t series, const struct gm_graph *graph,
+                       double *points)
+{
+    const size_t made =
+        history_points(lane, series, divisor_of(lane, series, graph->relative), graph, points);
+    if (graph->floor > 0) {
+        cut(points, made, graph->floor);
+    }
+    return made;
+}
+
+/* Gives the panel the range of all curves. True if they are 0 all along: kept to the last bit, which has no
+   logarithm. */
+static bool set_value_axis(struct gm_panel *panel, const struct gm_lane *const *lanes, size_t count,
+                           size_t series, const struct gm_graph *graph, double *points)
+{
+    const bool calm = graph->calm_low != graph->calm_high;
+    double low = calm ? graph->calm_low : 1, high = calm ? graph->calm_high : 0;
+    bool exact = lanes[0]->scene->observables[series].error;
+    for (size_t i = 0; i < count; i++) {
+        const size_t made = curve_of(lanes[i], series, graph, points);
+        exact = exact && made > 1;
+        const double most = graph->highest ? most_shown(points, made, fmax(graph->calm_high, 100)) : INFINITY;
+        for (size_t k = 0; k < made; k++) {
+            exact = exact && points[2 * k + 1] == 0;
+            if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
+                gm_range_add(&low, &high, fmin(points[2 * k + 1], most));
+            }
+        }
+    }
+    gm_range_round(&low, &high, graph->scale);
+    panel->y = (struct gm_axis){.label = "", .scale = graph->scale, .low = low, .high = high};
+    return exact;
+}
+
+static void draw_curve(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
+                       bool alone, size_t series, const struct gm_graph *graph, double *points)
+{
+    const size_t made = curve_of(lane, series, graph, points);
+    struct gm_style style = gm_lane_style(lane, 1, 2.4);
+    style.dash = graph->panel_of && alone ? GM_SOLID : style.dash;
+    for (size_t k = 0; k < made && graph->time_unit > 0; k++) {
+        points[2 * k] /= graph->time_unit;
+    }
+    gm_mark_line(picture, panel, style, points, made, false);
+    gm_mark_switches(picture, panel, lane, false);
+    if (graph->named) {
+        gm_panel_key(picture, panel, style, lane_name(lane));
+    }
+}
+
 static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
                        const struct gm_graph *graph)
 {
@@ -471,64 +523,22 @@ static void draw_graph(struct gm_picture *picture, const struct gm_lane *const *
     panel->axes = true;
     panel->title_role = GM_INK;
     set_time_axis(picture, panel, lanes, count, series, graph);
-    panel->y = (struct gm_axis){.label = "", .scale = graph->scale, .low = 1, .high = 0};
-
     double *points = gm_picture_memory(picture, 4 * GM_HISTORY_BINS * sizeof *points);
     if (!points) {
         return;
     }
-    double low = 1, high = 0;
-    bool exact =
-        scene->observables[series].error; /* kept to the last bit: an error of 0, which has no logarithm */
-    if (graph->calm_low != graph->calm_high) {
-        low = graph->calm_low;
-        high = graph->calm_high;
-    }
-    for (size_t i = 0; i < count; i++) {
-        const double divisor = divisor_of(lanes[i], series, graph->relative);
-        const size_t made = history_points(lanes[i], series, divisor, graph, points);
-        if (graph->floor > 0) {
-            cut(points, made, graph->floor);
-        }
-        exact = exact && made > 1;
-        const double most = graph->highest ? most_shown(points, made, fmax(graph->calm_high, 100)) : INFINITY;
-        for (size_t k = 0; k < made; k++) {
-            exact = exact && points[2 * k + 1] == 0;
-            if (graph->scale != GM_LOG || points[2 * k + 1] > 0) {
-                gm_range_add(&low, &high, fmin(points[2 * k + 1], most));
-            }
-        }
-    }
-    gm_range_round(&low, &high, graph->scale);
-    panel->y.low = low;
-    panel->y.high = high;
-
-    if (exact && graph->scale == GM_LOG) {
+    if (set_value_axis(panel, lanes, count, series, graph, points) && graph->scale == GM_LOG) {
         gm_mark_text(picture, panel, (struct gm_style){.role = GM_SECONDARY, .alpha = 1, .width = 1},
-                     (panel->x.low + panel->x.high) / 2, sqrt(low * high), GM_ANCHOR_CENTRE, "exactly kept");
+                     (panel->x.low + panel->x.high) / 2, sqrt(panel->y.low * panel->y.high), GM_ANCHOR_CENTRE,
+                     "exactly kept");
     }
     mark_roundoff(picture, panel);
     if (!graph->panel_of && !graph->named) {
         name_dashes(picture, panel, lanes, count);
     }
     for (size_t i = 0; i < count; i++) {
-        if (graph->panel_of && lanes[i]->shown.panel != graph->panel_of->shown.panel) {
-            continue;
-        }
-        const double divisor = divisor_of(lanes[i], series, graph->relative);
-        const size_t made = history_points(lanes[i], series, divisor, graph, points);
-        if (graph->floor > 0) {
-            cut(points, made, graph->floor);
-        }
-        struct gm_style style = gm_lane_style(lanes[i], 1, 2.4);
-        style.dash = graph->panel_of && is_alone(lanes, count, i) ? GM_SOLID : style.dash;
-        for (size_t k = 0; k < made && graph->time_unit > 0; k++) {
-            points[2 * k] /= graph->time_unit;
-        }
-        gm_mark_line(picture, panel, style, points, made, false);
-        gm_mark_switches(picture, panel, lanes[i], false);
-        if (graph->named) {
-            gm_panel_key(picture, panel, style, lane_name(lanes[i]));
+        if (!graph->panel_of || lanes[i]->shown.panel == graph->panel_of->shown.panel) {
+            draw_curve(picture, panel, lanes[i], is_alone(lanes, count, i), series, graph, points);
         }
     }
 }

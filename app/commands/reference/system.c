@@ -313,41 +313,53 @@ static void print_schemes(const struct report *report)
     free(text);
 }
 
-static void print_json(const struct report *report)
+static void print_parameters_json(const struct gm_own_system *system)
 {
-    const struct gm_own_system *system = &report->system;
+    printf(",\"parameters\":{");
     const char *comma = "";
-    char name[80];
-    printf("{");
-    gm_json_pair("title", system->texts[GM_WORD_TITLE] ? system->texts[GM_WORD_TITLE] : "");
-    printf(",");
-    gm_json_pair("kind", kinds[system->kind]);
-    printf(",\"timed\":%s,\"parameters\":{", system->timed ? "true" : "false");
     for (size_t i = system->parameters; i < system->velocities; i++, comma = ",") {
         printf("%s", comma);
         gm_json_number_pair(system->variables[i].name, system->variables[i].value);
     }
+    printf("}");
+}
+
+/* A pair of a name and a formula, the node's. */
+static void print_formula_pair(const struct report *report, const char *name, gm_node_id node)
+{
+    char *text = formula_of(report, node, false);
+    gm_json_pair(name, text ? text : "");
+    free(text);
+}
+
+static void print_start_json(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
     double *start = gm_equations_start(system, NULL);
-    printf("},\"start\":{");
-    comma = "";
+    printf(",\"start\":{");
+    const char *comma = "";
     for (size_t i = 0; start && i < system->n; i++, comma = ",") {
         printf("%s", comma);
         if (gm_system_is_field(system)) {
-            char *text = formula_of(report, system->variables[i].start, false);
-            gm_json_pair(system->variables[i].name, text ? text : "");
-            free(text);
+            print_formula_pair(report, system->variables[i].name, system->variables[i].start);
         } else {
             gm_json_number_pair(system->variables[i].name, start[i]);
         }
     }
     free(start);
-    printf("},\"equations\":{");
-    comma = "";
+    printf("}");
+}
+
+static void print_equations_json(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
+    char name[80];
+    printf(",\"equations\":{");
+    const char *comma = "";
     for (size_t i = first_equation(system); i < system->n; i++, comma = ",") {
-        char *text = formula_of(report, equation_of(report, i, name, sizeof name), false);
         printf("%s", comma);
-        gm_json_pair(name, text ? text : "");
-        free(text);
+        const gm_node_id node = equation_of(report, i, name, sizeof name);
+        print_formula_pair(report, name, node);
     }
     printf("},\"constraints\":[");
     comma = "";
@@ -370,33 +382,56 @@ static void print_json(const struct report *report)
             comma = ",";
         }
     }
-    printf("},\"structure\":{");
-    comma = "";
-    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++, comma = ",") {
-        printf("%s\"%s\":{\"holds\":true,", comma, field_facts[i][0]);
-        gm_json_pair("reason", field_facts[i][1]);
-        printf("}");
+    printf("}");
+}
+
+/* One fact of the structure, after a comma if it is not the first. */
+static void print_fact_json(bool *first, const char *word, const char *of, bool holds, const char *reason)
+{
+    printf("%s\"%s%s\":{\"holds\":%s,", *first ? "" : ",", word, of, holds ? "true" : "false");
+    gm_json_pair("reason", reason);
+    printf("}");
+    *first = false;
+}
+
+static void print_structure_json(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
+    bool first = true;
+    printf(",\"structure\":{");
+    for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++) {
+        print_fact_json(&first, field_facts[i][0], "", true, field_facts[i][1]);
     }
-    for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++, comma = ",") {
+    for (size_t i = 0; i < system->n && system->kind == GM_EVOLUTION; i++) {
         char *text = linear_fact(report, i);
-        printf("%s\"linear_part_%s\":{\"holds\":true,", comma, system->variables[i].name);
-        gm_json_pair("reason", text ? text : "");
-        printf("}");
+        print_fact_json(&first, "linear_part_", system->variables[i].name, true, text ? text : "");
         free(text);
     }
     for (enum gm_fact fact = 0; fact < GM_FACTS; fact++) {
         const struct gm_finding *finding = &report->model.findings[fact];
         char *reason = finding->asked ? gm_fact_reason(system, fact, finding) : NULL;
         if (reason) {
-            printf("%s\"%s\":{\"holds\":%s,", comma, gm_fact_word(fact), finding->holds ? "true" : "false");
-            gm_json_pair("reason", reason);
-            printf("}");
-            comma = ",";
+            print_fact_json(&first, gm_fact_word(fact), "", finding->holds, reason);
         }
         free(reason);
     }
-    printf("},\"schemes\":[");
-    comma = "";
+    printf("}");
+}
+
+static void print_json(const struct report *report)
+{
+    const struct gm_own_system *system = &report->system;
+    printf("{");
+    gm_json_pair("title", system->texts[GM_WORD_TITLE] ? system->texts[GM_WORD_TITLE] : "");
+    printf(",");
+    gm_json_pair("kind", kinds[system->kind]);
+    printf(",\"timed\":%s", system->timed ? "true" : "false");
+    print_parameters_json(system);
+    print_start_json(report);
+    print_equations_json(report);
+    print_structure_json(report);
+    printf(",\"schemes\":[");
+    const char *comma = "";
     for (size_t i = 0; i < gm_scheme_count(); i++) {
         if (fits(report, gm_scheme_at(i))) {
             printf("%s\"%s\"", comma, gm_scheme_at(i)->name);

@@ -133,6 +133,59 @@ static void select_lane(struct gm_play *play, const struct gm_order *order)
     }
 }
 
+static bool add_lane(struct gm_play *play, char *message)
+{
+    const struct gm_scheme *scheme = gm_session_unused(&play->session);
+    if (!scheme) {
+        return gm_refuse(message, "Every scheme that fits has a lane already.");
+    }
+    if (!gm_session_add(&play->session, play->selected, scheme, message)) {
+        return false;
+    }
+    play->selected = play->session.count - 1;
+    return true;
+}
+
+/* Orders that move in time. */
+static bool travel(const struct gm_order *order, struct gm_play *play, char *message)
+{
+    struct gm_session *session = &play->session;
+    bool ok = true;
+    play->paused = play->paused || order->kind == GM_ORDER_BACK || order->kind == GM_ORDER_VISIT;
+    if (order->kind == GM_ORDER_BACK) {
+        ok = gm_session_back(session, message);
+    } else if (order->kind == GM_ORDER_TURN) {
+        ok = turn(play, message);
+    } else {
+        ok = gm_session_visit(session, moment_of(session, order), message);
+    }
+    gm_agenda_rewind(&play->agenda, gm_session_time(session));
+    return ok;
+}
+
+/* Orders that change which lanes there are, and by which schemes. */
+static bool arrange(const struct gm_order *order, struct gm_play *play, char *message)
+{
+    struct gm_session *session = &play->session;
+    bool ok = true;
+    switch (order->kind) {
+    case GM_ORDER_SWITCH:
+        return gm_session_switch(session, play->selected, order->scheme, message);
+    case GM_ORDER_FORK:
+        ok = gm_session_fork(session, play->selected, order->scheme, message);
+        play->selected = ok ? session->count - 1 : play->selected;
+        return ok;
+    case GM_ORDER_OVERLAY:
+        return gm_session_overlay(session, message);
+    case GM_ORDER_ADD:
+        return add_lane(play, message);
+    default:
+        ok = gm_session_remove(session, play->selected, message);
+        play->selected = play->selected < session->count ? play->selected : session->count - 1;
+        return ok;
+    }
+}
+
 void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm_capture *capture)
 {
     struct gm_session *session = &play->session;
@@ -152,25 +205,16 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         play->paused = true;
         step_forward(play);
         break;
-    case GM_ORDER_BACK:
-        play->paused = true;
-        ok = gm_session_back(session, message);
-        gm_agenda_rewind(&play->agenda, gm_session_time(session));
-        break;
     case GM_ORDER_RESTART:
         play->restart = true;
         break;
     case GM_ORDER_SPEED:
         gm_play_set_speed(play, play->speed + order->amount);
         break;
+    case GM_ORDER_BACK:
     case GM_ORDER_TURN:
-        ok = turn(play, message);
-        gm_agenda_rewind(&play->agenda, gm_session_time(session));
-        break;
     case GM_ORDER_VISIT:
-        play->paused = true;
-        ok = gm_session_visit(session, moment_of(session, order), message);
-        gm_agenda_rewind(&play->agenda, gm_session_time(session));
+        ok = travel(order, play, message);
         break;
     case GM_ORDER_AHEAD:
         ok = run_ahead(play, order->text, message);
@@ -195,29 +239,11 @@ void gm_order_obey(const struct gm_order *order, struct gm_play *play, struct gm
         move_parameter(play, order);
         break;
     case GM_ORDER_SWITCH:
-        ok = gm_session_switch(session, play->selected, order->scheme, message);
-        break;
     case GM_ORDER_FORK:
-        ok = gm_session_fork(session, play->selected, order->scheme, message);
-        play->selected = ok ? session->count - 1 : play->selected;
-        break;
     case GM_ORDER_OVERLAY:
-        ok = gm_session_overlay(session, message);
-        break;
-    case GM_ORDER_ADD: {
-        const struct gm_scheme *scheme = gm_session_unused(session);
-        if (!scheme) {
-            gm_play_say(play, "Every scheme that fits has a lane already.");
-        } else if ((ok = gm_session_add(session, play->selected, scheme, message))) {
-            play->selected = session->count - 1;
-        }
-        break;
-    }
+    case GM_ORDER_ADD:
     case GM_ORDER_REMOVE:
-        ok = gm_session_remove(session, play->selected, message);
-        if (play->selected >= session->count) {
-            play->selected = session->count - 1;
-        }
+        ok = arrange(order, play, message);
         break;
     case GM_ORDER_RECORD:
         gm_capture_record(capture, play, (enum gm_theme)order->amount);
