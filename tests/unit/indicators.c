@@ -82,6 +82,9 @@ static double defect_of(const struct gm_problem *problem, const struct gm_scheme
     struct gm_tangent *tangent = gm_tangent_open(run);
     assert_non_null(tangent);
     assert_true(gm_tangent_size(tangent) <= 2 * MOST);
+    for (size_t i = problem->n; i < gm_tangent_size(tangent); i++) {
+        v[i] = 1e200; /* whatever stands there is no part of the question */
+    }
     bool good = gm_tangent_begin(tangent, v);
     for (int i = 0; good && i < STEPS; i++) {
         good = gm_tangent_step(tangent, v);

@@ -325,6 +325,8 @@ bool gm_tangent_begin(struct gm_tangent *tangent, double *v)
         return true;
     }
     take_before(tangent);
+    /* what is not known yet has no say in how far states are moved */
+    memset(v + tangent->n, 0, tangent->memory * sizeof *v);
     return extrapolate(tangent, v, tangent->n, recall);
 }
 
