@@ -225,6 +225,7 @@ int gm_system_open(struct gm_own_system *system, const char *path, const struct 
 
 /* ---- a formula on the command line becomes the lines of a file ---- */
 
+enum { FORMULA_H, FORMULA_L, FORMULA_RATE, FORMULA_COORDINATES };
 static const char *const formula_keys[] = {"H", "L", "rate", "coordinates", "momenta", NULL};
 
 /* The value of a word that sets this key; NULL if it sets another one. */
@@ -390,112 +391,187 @@ static const char *line_of_files(int count, char *const words[], struct gm_word_
     return NULL;
 }
 
-/* What the system is made of: its lines, and which names have a value at the start. */
-static bool write_typed(struct written *written, int count, char *const words[], struct gm_word_place *place,
-                        char *message)
+/* What is typed, on its way to the lines of a file. */
+struct typing {
+    struct written *written;
+    FILE *lines;
+    int count;
+    char *const *words;
+    struct names names; /* in the formulas of H and L, and on the right of rates */
+    struct names parts; /* components of the state */
+    struct names given; /* which have a value, and those that need none: the indices of sums */
+    bool energy, lagrange, rate, coordinates; /* which keys there are */
+    bool usual;                               /* the coordinates are q or q1, q2, as nothing else is said */
+    bool velocities;                          /* they are called v, or v1, v2 */
+};
+
+static void put_line(const struct typing *typing, const char *key, const char *value, int word)
 {
-    char *usual = NULL;
-    size_t size = 0;
-    bool velocities = false; /* they are called v, or v1, v2 */
-    FILE *lines = open_memstream(&written->text, &size);
-    struct names *names = calloc(3, sizeof *names), *indices = names ? names + 1 : NULL,
-                 *parts = names ? names + 2 : NULL;
-    bool energy = false, lagrange = false, rate = false, coordinates = false;
-    for (int i = 1; lines && names && i < count; i++) {
-        for (size_t k = 0; formula_keys[k]; k++) {
-            const char *value = value_of(words[i], formula_keys[k], strlen(formula_keys[k]));
-            if (!value) {
-                continue;
-            }
-            put(written, lines, formula_keys[k], strlen(formula_keys[k]));
-            put(written, lines, ": ", 2);
-            put_word(written, lines, words, i, (size_t)(value - words[i]), strlen(value));
-            put(written, lines, "\n", 1);
-            energy |= k == 0;
-            lagrange |= k == 1;
-            rate |= k == 2;
-            coordinates |= k == 3;
-            if (k == 2) {
-                collect_rates(parts, names, indices, value);
-            } else {
-                collect(k < 2 ? names : parts, indices, value, strlen(value));
-            }
+    put(typing->written, typing->lines, key, strlen(key));
+    put(typing->written, typing->lines, ": ", 2);
+    put_word(typing->written, typing->lines, typing->words, word, (size_t)(value - typing->words[word]),
+             strlen(value));
+    put(typing->written, typing->lines, "\n", 1);
+}
+
+/* Which formula a word is, an index into formula_keys, and where it begins; -1: none. */
+static int formula_of(const char *word, const char **value)
+{
+    for (int k = 0; formula_keys[k]; k++) {
+        if ((*value = value_of(word, formula_keys[k], strlen(formula_keys[k])))) {
+            return k;
         }
     }
-    bool good = lines && names;
-    const char *const of_files = line_of_files(count, words, place);
-    if (!good) {
-        gm_refuse(message, "not enough memory");
-    } else if (of_files) {
-        good = gm_refuse(
-            message,
-            "%s= takes the place of a line in a system's file; what is typed without one has H=, L= or "
-            "rate=",
-            of_files);
-    } else if (!energy && !lagrange && !rate) {
-        good = gm_refuse(message,
+    return -1;
+}
+
+static void put_formulas(struct typing *typing)
+{
+    for (int i = 1; i < typing->count; i++) {
+        const char *value;
+        const int key = formula_of(typing->words[i], &value);
+        if (key < 0) {
+            continue;
+        }
+        put_line(typing, formula_keys[key], value, i);
+        typing->energy |= key == FORMULA_H;
+        typing->lagrange |= key == FORMULA_L;
+        typing->rate |= key == FORMULA_RATE;
+        typing->coordinates |= key == FORMULA_COORDINATES;
+        if (key == FORMULA_RATE) {
+            collect_rates(&typing->parts, &typing->names, &typing->given, value);
+        } else {
+            const bool energy = key == FORMULA_H || key == FORMULA_L;
+            collect(energy ? &typing->names : &typing->parts, &typing->given, value, strlen(value));
+        }
+    }
+}
+
+/* Without coordinates= the usual ones; `text`, malloc'ed, holds their names. False: out of memory. */
+static bool put_usual_coordinates(struct typing *typing, char **text)
+{
+    if (typing->rate || typing->coordinates) {
+        return true;
+    }
+    const struct names *names = &typing->names;
+    typing->velocities =
+        typing->lagrange && (holds(names, "q1", 2) ? holds(names, "v1", 2) : holds(names, "v", 1));
+    *text = default_coordinates(names, typing->velocities);
+    if (!*text) {
+        return false;
+    }
+    typing->usual = true;
+    const char *list = strchr(*text, ':');
+    collect(&typing->parts, &typing->given, list, strlen(list));
+    note(&typing->given, "momenta", strlen("momenta"));
+    note(&typing->given, "velocities", strlen("velocities"));
+    put(typing->written, typing->lines, *text, strlen(*text));
+    return true;
+}
+
+static bool is_part(const struct typing *typing, const char *name, size_t length)
+{
+    return holds(&typing->parts, name, length) || is_derived(&typing->parts, name, length);
+}
+
+/* The words that give a component its value at the start, or the others, which are parameters. */
+static void put_starts_or_parameters(struct typing *typing, bool starts)
+{
+    const char *key = starts ? "start: " : "parameter: ", *formula;
+    for (int i = 1; i < typing->count; i++) {
+        const char *word = typing->words[i], *equals = strchr(word, '=');
+        const size_t plain = strcspn(word, "[=");
+        const bool part = is_part(typing, word, plain);
+        if (!equals || formula_of(word, &formula) >= 0 || part != starts ||
+            (!part && !holds(&typing->names, word, plain))) {
+            continue;
+        }
+        const size_t length = (size_t)(equals - word);
+        put(typing->written, typing->lines, key, strlen(key));
+        put_word(typing->written, typing->lines, typing->words, i, 0, length);
+        put(typing->written, typing->lines, " = ", 3);
+        put_word(typing->written, typing->lines, typing->words, i, length + 1, first_value(equals + 1));
+        put(typing->written, typing->lines, "\n", 1);
+        note(&typing->given, word, plain);
+    }
+}
+
+/* Whether a name may stand without a value. */
+static bool needs_none(const struct typing *typing, const struct name *name, bool part)
+{
+    if (is_name(name, "t", 1) || holds(&typing->given, name->text, name->length)) {
+        return true;
+    }
+    if (typing->usual && typing->lagrange && has_velocity(&typing->given, name)) {
+        return true;
+    }
+    return part ? typing->velocities && name->text[0] == 'v' /* else the momentum is given */
+                : is_part(typing, name->text, name->length);
+}
+
+/* Every name has to be given: the components at the start, all others as parameters. */
+static bool are_given(const struct typing *typing, struct gm_word_place *place, char *message)
+{
+    char missing[160] = "";
+    for (int parameters = 0; parameters < 2; parameters++) {
+        const struct names *needed = parameters ? &typing->names : &typing->parts;
+        for (size_t i = 0; i < needed->count; i++) {
+            const struct name *name = &needed->list[i];
+            if (needs_none(typing, name, !parameters)) {
+                continue;
+            }
+            const size_t used = strlen(missing);
+            *place = used ? *place : place_in(typing->count, typing->words, name->text);
+            snprintf(missing + used, sizeof missing - used, "%s%.*s=", used ? " " : "",
+                     (int)(name->length < 40 ? name->length : 40), name->text);
+        }
+    }
+    return !missing[0] || gm_refuse(message, "the formula needs values that are not given: %s", missing);
+}
+
+/* What the system is made of: its lines, and which names have a value at the start. */
+static bool put_typed(struct typing *typing, char **coordinates, struct gm_word_place *place, char *message)
+{
+    put_formulas(typing);
+    const char *const of_files = line_of_files(typing->count, typing->words, place);
+    if (of_files) {
+        return gm_refuse(message,
+                         "%s= takes the place of a line in a system's file; what is typed without one has "
+                         "H=, L= or rate=",
+                         of_files);
+    }
+    if (!typing->energy && !typing->lagrange && !typing->rate) {
+        return gm_refuse(message,
                          "scene system needs a formula: H='p^2/2 + q^4/4', or L=, or rate='x = -x' for each "
                          "component");
     }
-    if (good && !rate && !coordinates) {
-        velocities = lagrange && (holds(names, "q1", 2) ? holds(names, "v1", 2) : holds(names, "v", 1));
-        usual = default_coordinates(names, velocities);
-        good = usual || gm_refuse(message, "not enough memory");
-        const char *list = usual ? strchr(usual, ':') : "";
-        collect(parts, indices, list, strlen(list));
-        note(indices, "momenta", strlen("momenta"));
-        note(indices, "velocities", strlen("velocities"));
-        put(written, lines, usual ? usual : "", usual ? strlen(usual) : 0);
+    if (!put_usual_coordinates(typing, coordinates)) {
+        return gm_refuse(message, "not enough memory");
     }
-    /* every name has to be given: the components at the start, all others as parameters */
-    char missing[160] = "";
-    for (int starts = 0; good && starts < 2; starts++) {
-        for (int i = 1; i < count; i++) {
-            const char *equals = strchr(words[i], '=');
-            const size_t length = equals ? (size_t)(equals - words[i]) : 0, plain = strcspn(words[i], "[=");
-            bool is_formula = false;
-            for (size_t k = 0; formula_keys[k]; k++) {
-                is_formula |= value_of(words[i], formula_keys[k], strlen(formula_keys[k])) != NULL;
-            }
-            const bool derived = is_derived(parts, words[i], plain);
-            const bool part = holds(parts, words[i], plain) || derived;
-            if (!equals || is_formula || (!part && !holds(names, words[i], plain)) || part != (starts == 1)) {
-                continue;
-            }
-            const size_t letters = first_value(equals + 1);
-            const char *key = starts ? "start: " : "parameter: ";
-            put(written, lines, key, strlen(key));
-            put_word(written, lines, words, i, 0, length);
-            put(written, lines, " = ", 3);
-            put_word(written, lines, words, i, length + 1, letters);
-            put(written, lines, "\n", 1);
-            note(indices, words[i], plain);
-        }
+    put_starts_or_parameters(typing, false);
+    put_starts_or_parameters(typing, true);
+    return are_given(typing, place, message);
+}
+
+static bool write_typed(struct written *written, int count, char *const words[], struct gm_word_place *place,
+                        char *message)
+{
+    size_t size = 0;
+    char *coordinates = NULL;
+    struct typing *typing = calloc(1, sizeof *typing);
+    FILE *lines = open_memstream(&written->text, &size);
+    bool good = typing && lines;
+    if (good) {
+        typing->written = written;
+        typing->lines = lines;
+        typing->count = count;
+        typing->words = words;
+        good = put_typed(typing, &coordinates, place, message);
+    } else {
+        gm_refuse(message, "not enough memory");
     }
-    for (int k = 0; good && k < 2; k++) {
-        const struct names *needed = k ? names : parts;
-        for (size_t i = 0; i < needed->count; i++) {
-            const struct name *name = &needed->list[i];
-            const bool derived = is_derived(parts, name->text, name->length);
-            const bool is_time = is_name(name, "t", 1);
-            if (k == 0 && velocities && name->text[0] == 'v') {
-                continue; /* else the momentum is given */
-            }
-            if (!is_time && !(usual && lagrange && has_velocity(indices, name)) &&
-                !holds(indices, name->text, name->length) &&
-                !(k == 1 && (derived || holds(parts, name->text, name->length)))) {
-                const size_t used = strlen(missing);
-                *place = used ? *place : place_in(count, words, name->text);
-                snprintf(missing + used, sizeof missing - used, "%s%.*s=", used ? " " : "",
-                         (int)(name->length < 40 ? name->length : 40), name->text);
-            }
-        }
-    }
-    if (good && missing[0]) {
-        good = gm_refuse(message, "the formula needs values that are not given: %s", missing);
-    }
-    free(names);
-    free(usual);
+    free(typing);
+    free(coordinates);
     return (!lines || fclose(lines) == 0) && good;
 }
 
