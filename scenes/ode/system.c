@@ -864,67 +864,91 @@ static const char *spaced(struct gm_system_scene *own, const char *text)
     return text;
 }
 
-static const char one_member[] = "with members= of at least 4 in a disc alone";
-
-static bool make_observables(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
+static bool add_energy(struct gm_system_scene *own, const struct gm_problem *problem)
 {
     const struct gm_own_system *system = &own->system;
-    const size_t most = system->item_count + 7;
-    own->observables = calloc(most, sizeof *own->observables);
-    own->formulas = calloc(most, sizeof *own->formulas);
-    bool good = own->observables && own->formulas;
     const bool lagrangian = system->kind == GM_LAGRANGIAN, kept = !system->timed && !is_forced(system);
-    if (good && system->kind != GM_RATES && (!lagrangian || gm_ode_of(problem)->hamiltonian)) {
-        const struct gm_observable energy =
-            kept ? (struct gm_observable)GM_KEPT_OBSERVABLE("energy_error", observed, "H", "energy error")
-                 : (struct gm_observable)GM_OBSERVABLE("energy", observed, "energy, which is not constant");
-        good = add_observable(own, energy, lagrangian ? GM_NO_NODE : system->energy);
-        if (lagrangian) {
-            own->observables[0].evaluate = legendre_energy;
-        }
+    if (system->kind == GM_RATES || (lagrangian && !gm_ode_of(problem)->hamiltonian)) {
+        return true;
     }
+    struct gm_observable energy =
+        kept ? (struct gm_observable)GM_KEPT_OBSERVABLE("energy_error", observed, "H", "energy error")
+             : (struct gm_observable)GM_OBSERVABLE("energy", observed, "energy, which is not constant");
+    energy.evaluate = lagrangian ? legendre_energy : observed;
+    return add_observable(own, energy, lagrangian ? GM_NO_NODE : system->energy);
+}
+
+/* The error of an invariant, of a Casimir, or of the momentum that belongs to a symmetry, which has this number
+   among those without a name. */
+static bool add_invariant(struct gm_system_scene *own, const struct gm_system_item *item, size_t nameless)
+{
+    const bool symmetry = item->word == GM_WORD_SYMMETRY;
+    const char *name = item->name[0] ? item->name : text_of(own, "momentum%zu", nameless);
+    if (!name) {
+        return false;
+    }
+    const double scale = symmetry ? momentum_scale(own, item) : item->scale;
+    struct gm_observable row =
+        GM_KEPT_OBSERVABLE(text_of(own, "%s_error", name), observed, strlen(name) > 2 ? "I" : name,
+                           spaced(own, text_of(own, "%s error", name)), .least = scale,
+                           .scale_text = scale > 0 ? text_of(own, "%.3g", scale) : NULL);
+    row.kept = item->check != GM_NOT_ZERO; /* else forces change it: no scheme is to blame */
+    return add_observable(own, row, item->nodes[symmetry ? own->system.n / 2 : 0]);
+}
+
+/* What the file names: observe:, invariant:, casimir:, symmetry:. */
+static bool add_named(struct gm_system_scene *own)
+{
+    const struct gm_own_system *system = &own->system;
     size_t nameless = 0;
+    bool good = true;
     for (size_t i = 0; good && i < system->item_count; i++) {
         const struct gm_system_item *item = &system->items[i];
-        const bool symmetry = item->word == GM_WORD_SYMMETRY;
-        if (item->word == GM_WORD_OBSERVE) {
+        switch (item->word) {
+        case GM_WORD_OBSERVE:
             good = add_observable(own, (struct gm_observable)GM_OBSERVABLE(item->name, observed, item->name),
                                   item->nodes[0]);
-        }
-        if ((item->word != GM_WORD_INVARIANT && item->word != GM_WORD_CASIMIR && !symmetry) ||
-            (symmetry && system->kind > GM_LAGRANGIAN)) {
-            continue;
-        }
-        nameless += symmetry && !item->name[0];
-        const char *name = item->name[0] ? item->name : text_of(own, "momentum%zu", nameless);
-        const double scale = symmetry ? momentum_scale(own, item) : item->scale;
-        const char *symbol = name && strlen(name) > 2 ? "I" : name;
-        good = name && add_observable(own,
-                                      (struct gm_observable)GM_KEPT_OBSERVABLE(
-                                          text_of(own, "%s_error", name), observed, symbol,
-                                          spaced(own, text_of(own, "%s error", name)), .least = scale,
-                                          .scale_text = scale > 0 ? text_of(own, "%.3g", scale) : NULL),
-                                      item->nodes[symmetry ? system->n / 2 : 0]);
-        if (good && item->check == GM_NOT_ZERO) { /* forces change it: no scheme is to blame */
-            own->observables[own->observable_count - 1].kept = false;
+            break;
+        case GM_WORD_SYMMETRY:
+            nameless += !item->name[0];
+            good = system->kind > GM_LAGRANGIAN || add_invariant(own, item, nameless);
+            break;
+        case GM_WORD_INVARIANT:
+        case GM_WORD_CASIMIR:
+            good = add_invariant(own, item, 0);
+            break;
+        default:
+            break;
         }
     }
-    if (good && gm_action_constraints(problem) > 0) {
-        good = add_observable(own,
-                              (struct gm_observable)GM_LOG_OBSERVABLE("constraint_defect", constraint_defect,
-                                                                      "the largest |g|"),
-                              GM_NO_NODE) &&
-               add_observable(own,
-                              (struct gm_observable)GM_LOG_OBSERVABLE("hidden_defect", hidden_defect,
-                                                                      "the largest |dg/dt|"),
-                              GM_NO_NODE);
-    }
+    return good;
+}
+
+static bool add_defects(struct gm_system_scene *own, const struct gm_problem *problem)
+{
+    return gm_action_constraints(problem) == 0 ||
+           (add_observable(own,
+                           (struct gm_observable)GM_LOG_OBSERVABLE("constraint_defect", constraint_defect,
+                                                                   "the largest |g|"),
+                           GM_NO_NODE) &&
+            add_observable(own,
+                           (struct gm_observable)GM_LOG_OBSERVABLE("hidden_defect", hidden_defect,
+                                                                   "the largest |dg/dt|"),
+                           GM_NO_NODE));
+}
+
+/* The distance from exact:, of the components that it tells. */
+static bool add_solution_error(struct gm_system_scene *own)
+{
+    const struct gm_own_system *system = &own->system;
     gm_node_id *exact = calloc(system->n, sizeof *exact);
     bool told = false;
     for (size_t i = 0; exact && i < system->n; i++) {
-        told |= system->variables[i].exact != GM_NO_NODE;
-        exact[i] = system->variables[i].exact != GM_NO_NODE ? system->variables[i].exact : 0;
+        const gm_node_id node = system->variables[i].exact;
+        told |= node != GM_NO_NODE;
+        exact[i] = node != GM_NO_NODE ? node : 0;
     }
+    bool good = exact != NULL;
     if (good && told) {
         good = open_tape(own, &own->exact, exact, system->n) &&
                add_observable(own,
@@ -933,22 +957,36 @@ static bool make_observables(struct gm_system_scene *own, const struct gm_proble
                               GM_NO_NODE);
         own->work.measure = "solution_error";
     }
-    good = good && exact;
     free(exact);
-    if (good && system->n == 2) {
-        good = add_observable(own,
-                              (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
-                                                                  .missing = one_member),
-                              GM_NO_NODE);
-        if (system->kind <= GM_LAGRANGIAN && !is_forced(system)) {
-            good = good && add_observable(own,
-                                          (struct gm_observable)GM_KEPT_OBSERVABLE(
-                                              "area_error", area, "A", "area error", .missing = one_member),
-                                          GM_NO_NODE);
-            /* a disc that is drawn out far is no polygon of its members any more: no scheme is to blame */
-            own->observables[own->observable_count - 1].kept = false;
-        }
+    return good;
+}
+
+/* The area of a disc of members, in the plane. */
+static bool add_area(struct gm_system_scene *own)
+{
+    static const char one_member[] = "with members= of at least 4 in a disc alone";
+    const struct gm_own_system *system = &own->system;
+    if (system->n != 2) {
+        return true;
     }
+    struct gm_observable error =
+        GM_KEPT_OBSERVABLE("area_error", area, "A", "area error", .missing = one_member);
+    /* a disc that is drawn out far is no polygon of its members any more: no scheme is to blame */
+    error.kept = false;
+    return add_observable(own,
+                          (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
+                                                              .missing = one_member),
+                          GM_NO_NODE) &&
+           (system->kind > GM_LAGRANGIAN || is_forced(system) || add_observable(own, error, GM_NO_NODE));
+}
+
+static bool make_observables(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
+{
+    const size_t most = own->system.item_count + 7;
+    own->observables = calloc(most, sizeof *own->observables);
+    own->formulas = calloc(most, sizeof *own->formulas);
+    bool good = own->observables && own->formulas && add_energy(own, problem) && add_named(own) &&
+                add_defects(own, problem) && add_solution_error(own) && add_area(own);
     for (size_t i = 0; i < own->observable_count && good; i++) {
         for (size_t k = 0; k < i && good; k++) {
             good = strcmp(own->observables[i].key, own->observables[k].key) != 0 ||
