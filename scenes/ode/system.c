@@ -9,7 +9,6 @@
 #include "scenes/ode/system.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +21,11 @@
 #include "core/schemes.h"
 #include "scenes/frame/written.h"
 #include "scenes/ode/asked.h"
-#include "scenes/ode/system_draw.h"
+#include "scenes/ode/system/draw.h"
+#include "scenes/ode/system/failure.h"
+#include "scenes/ode/system/observed.h"
+#include "scenes/ode/system/pieces.h"
+#include "scenes/ode/system/sights.h"
 
 enum {
     DT,
@@ -30,118 +33,14 @@ enum {
     MEMBERS,
     SPREAD,
     SHAPE,
-    SHOW,
-    VALUES = GM_SYSTEM_ROWS /* the first row of the system's own */
+    SHOW, /* then the system's own: GM_SYSTEM_ROWS */
 };
 enum { MOST_OBSERVED = 60, MOST_LINEARISED = 200, MOST_FOLLOWED = 32, CROSSINGS = 1 << 14, REMEMBERED = 256 };
-
-static const struct gm_system_scene *scene_of(const struct gm_view *view)
-{
-    return ((const struct gm_system_lane *)view->parameters)->own;
-}
 
 /* Whether each row was given, bytes behind the values. */
 static char *given_of(struct gm_system_lane *lane)
 {
-    return (char *)(lane->values + (lane->own->row_count - VALUES));
-}
-
-/* ---- formulas in flight ---- */
-
-static double value_of(const struct gm_tape *tape, const struct gm_view *view)
-{
-    double value;
-    gm_system_values(tape, view, view->problem->m - 1, &value);
-    return value;
-}
-
-static double observed(const struct gm_view *view)
-{
-    const struct gm_system_scene *own = scene_of(view);
-    return value_of(&own->formulas[view->observable - own->observables], view);
-}
-
-/* Of a Lagrangian system, whose formulas hold velocities. */
-static double legendre_energy(const struct gm_view *view)
-{
-    const size_t n = view->problem->n, m = view->problem->m;
-    double *centre = malloc(n * sizeof *centre), value = NAN;
-    for (size_t i = 0; centre && i < n; i++) {
-        centre[i] = view->state[i * m + m - 1];
-    }
-    if (centre) {
-        gm_ode_of(view->problem)->hamiltonian->energy(view->problem, centre, &value, 1);
-    }
-    free(centre);
-    return value;
-}
-
-/* What constraints are off by, of the last member. */
-static struct gm_manifold_defects defects_of(const struct gm_view *view)
-{
-    const size_t n = view->problem->n, m = view->problem->m;
-    struct gm_manifold_defects defects = {NAN, NAN};
-    double *centre = malloc(n * sizeof *centre);
-    for (size_t i = 0; centre && i < n; i++) {
-        centre[i] = view->state[i * m + m - 1];
-    }
-    defects = centre ? gm_manifold_defects(view->problem, centre) : defects;
-    free(centre);
-    return defects;
-}
-
-static double constraint_defect(const struct gm_view *view)
-{
-    return defects_of(view).constraint;
-}
-
-static double hidden_defect(const struct gm_view *view)
-{
-    return defects_of(view).hidden;
-}
-
-/* The distance from the solution that the file tells, of the component that is farthest. */
-static double solution_error(const struct gm_view *view)
-{
-    const struct gm_system_scene *own = scene_of(view);
-    const size_t n = own->system.n, m = view->problem->m;
-    double *exact = malloc(n * sizeof *exact), error = exact ? 0 : NAN;
-    if (exact) {
-        gm_system_values(&own->exact, view, m - 1, exact);
-    }
-    for (size_t i = 0; exact && i < n; i++) {
-        const double away = fabs(view->state[i * m + m - 1] - exact[i]);
-        if (own->system.variables[i].exact != GM_NO_NODE) {
-            error = away > error || isnan(away) ? away : error;
-        }
-    }
-    free(exact);
-    return error;
-}
-
-/* Signed area of the polygon of the members, measured from the centre so that little cancels. */
-static double area(const struct gm_view *view)
-{
-    const struct gm_system_lane *lane = view->parameters;
-    const size_t m = view->problem->m, points = lane->shape == GM_SHAPE_DISC ? m - 1 : 0;
-    const double *x = view->state, *y = view->state + m;
-    double twice = 0;
-    for (size_t i = 0; i < points; i++) {
-        const size_t next = i + 1 < points ? i + 1 : 0;
-        twice += (x[i] - x[points]) * (y[next] - y[points]) - (x[next] - x[points]) * (y[i] - y[points]);
-    }
-    return points >= 3 ? twice / 2 : NAN;
-}
-
-static double stop(const struct gm_view *view)
-{
-    return value_of(&scene_of(view)->stop, view);
-}
-
-static void stops(const struct gm_view *view, const double *states, const double *times, size_t count,
-                  double *values)
-{
-    gm_system_values_of(&scene_of(view)->stop, view, states, times, count, values);
+    return (char *)(lane->values + (lane->own->row_count - GM_SYSTEM_ROWS));
 }
 
 /* ---- what is remembered ---- */
@@ -192,7 +91,7 @@ static size_t shape_width(const struct gm_view *view)
 
 static void record_shape(const struct gm_view *view, double *entry)
 {
-    const struct gm_system_scene *own = scene_of(view);
+    const struct gm_system_scene *own = gm_system_scene_of(view);
     const size_t m = view->problem->m, members = m > 1 ? m - 1 : 1;
     for (size_t i = 0; i < members; i += shape_stride(members), entry += 2) {
         entry[0] = view->state[own->disc[0] * m + i];
@@ -202,7 +101,7 @@ static void record_shape(const struct gm_view *view, double *entry)
 
 static double section(const struct gm_view *view)
 {
-    const struct gm_system_scene *own = scene_of(view);
+    const struct gm_system_scene *own = gm_system_scene_of(view);
     double values[1 + GM_MOST_CONDITIONS];
     gm_system_values(&own->where, view, view->member, values);
     if (own->stroboscopic) {
@@ -213,7 +112,7 @@ static double section(const struct gm_view *view)
 
 static bool is_admitted(const struct gm_view *view)
 {
-    const struct gm_system_scene *own = scene_of(view);
+    const struct gm_system_scene *own = gm_system_scene_of(view);
     double values[1 + GM_MOST_CONDITIONS];
     gm_system_values(&own->where, view, view->member, values);
     bool holds = !own->stroboscopic || cos(2 * M_PI * (view->t - view->t0) / values[0]) > 0;
@@ -225,38 +124,10 @@ static bool is_admitted(const struct gm_view *view)
 
 static void record_crossing(const struct gm_view *view, double *entry)
 {
-    gm_system_values(&scene_of(view)->section.tape, view, view->member, entry);
+    gm_system_values(&gm_system_scene_of(view)->section.tape, view, view->member, entry);
 }
 
 /* ---- from parameters to problem and start ---- */
-
-/* Item number `number` of those that a word made; NULL: there are fewer. */
-static const struct gm_system_item *item_of(const struct gm_own_system *system, enum gm_system_word word,
-                                            size_t number)
-{
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == word && number-- == 0) {
-            return &system->items[i];
-        }
-    }
-    return NULL;
-}
-
-/* Values of all variables at the start, of those rows that are `given`, or of all rows: NULL. */
-static double *start_values(const struct gm_system_lane *lane, const char *given)
-{
-    const struct gm_system_scene *own = lane->own;
-    double *known = malloc(own->system.variable_count * sizeof *known);
-    for (size_t i = 0; known && i < own->system.variable_count; i++) {
-        known[i] = NAN;
-    }
-    for (size_t row = VALUES; known && row < own->row_count; row++) {
-        known[own->variables[row]] = !given || given[row] ? lane->values[row - VALUES] : NAN;
-    }
-    double *values = known ? gm_equations_start(&own->system, known) : NULL;
-    free(known);
-    return values;
-}
 
 /* Values that were not given follow from those that were, as the file says. */
 static bool settle(void *parameters, const char *const *keys, size_t count, char *sentence)
@@ -271,14 +142,14 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
             given[row] |= strcmp(keys[i], own->rows[row].key) == 0;
         }
     }
-    double *values = start_values(lane, given);
+    double *values = gm_system_start_values(lane, given);
     if (!values) {
         return gm_refuse(sentence, "not enough memory");
     }
     bool good = true;
-    for (size_t row = VALUES; row < own->row_count && good; row++) {
+    for (size_t row = GM_SYSTEM_ROWS; row < own->row_count && good; row++) {
         const double value = values[own->variables[row]];
-        lane->values[row - VALUES] = value;
+        lane->values[row - GM_SYSTEM_ROWS] = value;
         const struct gm_parameter *bounds = &own->rows[row];
         good = isfinite(value) || gm_refuse(sentence, "%s is not finite with these values", bounds->key);
         good = good && ((value >= bounds->lowest && value <= bounds->highest) ||
@@ -288,7 +159,7 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
     for (size_t i = 0; i < GM_COUNT(own->timing) && good; i++) {
         double number = NAN;
         const enum gm_system_word word = (enum gm_system_word)((int)GM_WORD_DT + (int)i);
-        if (item_of(&own->system, word, 0)) {
+        if (gm_system_item_of(&own->system, word, 0)) {
             gm_tape_values(&own->timing[i], values, &number, 1);
         }
         if (word == GM_WORD_DT && !given[DT] && number > 0) {
@@ -306,7 +177,7 @@ static bool settle(void *parameters, const char *const *keys, size_t count, char
 static bool starts_on_manifold(const struct gm_system_lane *lane, const struct gm_problem *problem,
                                char *sentence)
 {
-    double *values = start_values(lane, NULL);
+    double *values = gm_system_start_values(lane, NULL);
     if (!values) {
         return gm_refuse(sentence, "not enough memory");
     }
@@ -321,7 +192,7 @@ static bool starts_on_manifold(const struct gm_system_lane *lane, const struct g
 /* Whether the surfaces have sizes. */
 static bool has_surfaces(const struct gm_system_lane *lane, char *sentence)
 {
-    double sizes[3 * GM_MOST_SURFACES], *values = start_values(lane, NULL);
+    double sizes[3 * GM_MOST_SURFACES], *values = gm_system_start_values(lane, NULL);
     if (!values) {
         return gm_refuse(sentence, "not enough memory");
     }
@@ -346,8 +217,8 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     for (size_t i = 0; values && i < own->system.variable_count; i++) {
         values[i] = own->system.variables[i].value;
     }
-    for (size_t row = VALUES; values && row < own->first_start; row++) {
-        values[own->variables[row]] = lane->values[row - VALUES];
+    for (size_t row = GM_SYSTEM_ROWS; values && row < own->first_start; row++) {
+        values[own->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
     }
     const bool good = values && gm_own_problem_open(problem, &own->model, values);
     free(values);
@@ -408,7 +279,7 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
     if (!centre) {
         return; /* noted: the lane says that memory was short */
     }
-    double *values = start_values(lane, NULL);
+    double *values = gm_system_start_values(lane, NULL);
     for (size_t c = 0; c < n; c++) {
         centre[c] = values ? values[c] : NAN;
     }
@@ -433,140 +304,7 @@ static void close_problem(struct gm_problem *problem)
     gm_own_problem_close(problem);
 }
 
-/* ---- what went wrong, and how fast the system is ---- */
-
-/* A formula that is no number: "log(x) is not finite where x = -0.3". */
-static void tell_node(const struct gm_own_system *system, gm_node_id node, const double *values, char *text,
-                      size_t size)
-{
-    const struct gm_naming naming = gm_system_naming(system);
-    const struct gm_node *at = &system->graph.nodes[node];
-    const gm_node_id operand = at->operation == GM_OPERATION_DIVIDE ? at->b : at->a;
-    char *part = gm_formula_text(&system->graph, node, &naming), *inside = NULL;
-    if (at->operation != GM_VARIABLE) {
-        inside = gm_formula_text(&system->graph, operand, &naming);
-    }
-    snprintf(text, size, inside ? "%.120s is not finite where %.80s = %.4g" : "%.120s is not finite",
-             part ? part : "a long formula", inside ? inside : "", inside ? values[operand] : 0);
-    free(part);
-    free(inside);
-}
-
-/* The first part of H, else of a rate, that is no number in a state; false if there is none. */
-static bool tell_part(const struct gm_system_scene *own, const struct gm_view *view, const double *state,
-                      char *text, size_t size)
-{
-    const struct gm_own_system *system = &own->system;
-    const struct gm_formula *graph = &system->graph;
-    const struct gm_system_lane *lane = view->parameters;
-    const size_t m = view->problem->m;
-    double *variables = malloc(system->variable_count * sizeof *variables);
-    double *values = malloc((graph->count + (size_t)1) * sizeof *values);
-    bool told = false;
-    for (size_t i = 0; variables && i < system->variable_count; i++) {
-        variables[i] = i < system->n ? state[i * m + m - 1] : i == system->n ? view->t : NAN;
-    }
-    for (size_t row = VALUES; variables && row < own->first_start; row++) {
-        variables[own->variables[row]] = lane->values[row - VALUES];
-    }
-    if (variables && values) {
-        gm_formula_evaluate(graph, graph->count, variables, values);
-    }
-    for (size_t i = 0; variables && values && i <= system->n && !told; i++) {
-        const gm_node_id root = i > 0                      ? system->rates[i - 1]
-                                : system->kind != GM_RATES ? system->energy
-                                                           : GM_NO_NODE;
-        size_t count = 0;
-        gm_node_id *parts =
-            root != GM_NO_NODE && !isfinite(values[root]) ? gm_formula_parts(graph, root, &count) : NULL;
-        for (size_t k = 0; parts && k < count && !told; k++) {
-            told = !isfinite(values[parts[k]]);
-            if (told) {
-                tell_node(system, parts[k], values, text, size);
-            }
-        }
-        free(parts);
-    }
-    free(variables);
-    free(values);
-    return told;
-}
-
-/* A state of a Lagrangian system, of its last member, from which it does not move on: its momenta have no
-   velocities, or no rates. */
-static bool tell_velocities(const struct gm_system_scene *own, const struct gm_view *view,
-                            const double *state, const double *slope, char *text, size_t size)
-{
-    const size_t m = view->problem->m, half = own->system.n / 2;
-    bool placed = true, moves = true, turns = true;
-    for (size_t i = 0; i < 2 * half; i++) {
-        const bool finite = isfinite(slope[i * m + m - 1]);
-        placed = placed && isfinite(state[i * m + m - 1]);
-        moves = moves && (i >= half || finite);
-        turns = turns && (i < half || finite);
-    }
-    if (!placed || (moves && turns)) {
-        return false;
-    }
-    size_t length =
-        (size_t)snprintf(text, size, "%s where ",
-                         moves ? "dL/dq is not finite"
-                               : "momenta do not determine velocities (the Legendre transform of L is "
-                                 "singular)");
-    for (size_t i = 0; i < half && length + 60 < size; i++) {
-        length += (size_t)snprintf(text + length, size - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
-                                   own->system.variables[i].name, state[i * m + m - 1]);
-    }
-    return true;
-}
-
-/* Of a step whose length the monitor decided: how fast that falls. */
-static void tell_monitor(const struct gm_view *view, const double *slope, double *ahead, char *text,
-                         size_t size)
-{
-    const struct gm_monitor *monitor = gm_ode_of(view->problem)->monitor;
-    double here, there;
-    monitor->density(view->problem, view->state, &here, NULL);
-    for (size_t i = 0; i < view->problem->n; i++) {
-        ahead[i] = view->state[i] + view->dt / here * slope[i];
-    }
-    monitor->density(view->problem, ahead, &there, NULL);
-    if (!(there >= here)) {
-        snprintf(text, size, "the monitor, how dense steps are to be, is %.3g, and %.3g a step further", here,
-                 there);
-    }
-}
-
-static void tell_failure(const struct gm_view *view, char *text, size_t size)
-{
-    const struct gm_system_scene *own = scene_of(view);
-    const size_t total = view->problem->n * view->problem->m;
-    const bool lagrangian = own->system.kind == GM_LAGRANGIAN; /* its formulas hold velocities */
-    double *slope = malloc(3 * total * sizeof *slope);
-    text[0] = '\0';
-    if (!slope) {
-        return;
-    }
-    double *const ahead = slope + total, *const there = ahead + total;
-    memcpy(ahead, view->state, total * sizeof *ahead);
-    gm_field(view->problem, view->state, slope, view->problem->m);
-    for (int part = 0; part <= 4; part++) { /* stages look ahead */
-        for (size_t i = 0; i < total && part > 0; i++) {
-            ahead[i] = view->state[i] + view->dt * part / 4 * slope[i];
-        }
-        if (lagrangian) {
-            gm_field(view->problem, ahead, there, view->problem->m);
-        }
-        if (lagrangian ? tell_velocities(own, view, ahead, there, text, size)
-                       : tell_part(own, view, ahead, text, size)) {
-            break;
-        }
-    }
-    if (!text[0] && (view->scheme->needs & GM_NEEDS_MONITOR)) {
-        tell_monitor(view, slope, ahead, text, size);
-    }
-    free(slope);
-}
+/* ---- how fast the system is ---- */
 
 /* 1 / the largest frequency of the linearised field at a state of one member, or, where nothing turns, of its
    largest rate; 1 where there is none. */
@@ -607,7 +345,7 @@ static double shortest_radian(const struct gm_system_lane *lane, int looks)
     if (lane->own->system.n > MOST_LINEARISED || !setup(lane, &problem, sentence)) {
         return 1;
     }
-    double *y = calloc(problem.n, sizeof *y), *values = start_values(lane, NULL), radian = 1;
+    double *y = calloc(problem.n, sizeof *y), *values = gm_system_start_values(lane, NULL), radian = 1;
     if (y && values) {
         memcpy(y, values, lane->own->system.n * sizeof *y);
         problem.m = 1;
@@ -658,56 +396,25 @@ static size_t point(const void *parameters, double x, double y, struct gm_choice
 
 /* ---- the scene is made ---- */
 
-__attribute__((format(printf, 2, 3))) static const char *text_of(struct gm_system_scene *own,
-                                                                 const char *format, ...)
-{
-    char *text = NULL;
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = vasprintf(&text, format, arguments);
-    va_end(arguments);
-    return gm_kept_texts_add(&own->texts, length < 0 ? NULL : text);
-}
-
-/* A tape whose inputs are all variables, so that lanes with different parameters share it. */
-static bool open_tape(struct gm_system_scene *own, struct gm_tape *tape, const gm_node_id *nodes,
-                      size_t count)
-{
-    const size_t inputs = own->system.variable_count;
-    double *unused = calloc(inputs, sizeof *unused);
-    const bool good = unused && gm_tape_open(tape, &own->system.graph, nodes, count, inputs, unused);
-    free(unused);
-    return good;
-}
-
-static size_t count_items(const struct gm_own_system *system, enum gm_system_word word)
-{
-    size_t count = 0;
-    while (item_of(system, word, count)) {
-        count++;
-    }
-    return count;
-}
-
 static const char *number_text(struct gm_system_scene *own, double value)
 {
     char text[64];
-    return text_of(own, "%s", gm_number_format(value, text, sizeof text));
+    return gm_system_kept_text(own, "%s", gm_number_format(value, text, sizeof text));
 }
 
 static bool make_rows(struct gm_system_scene *own, bool typed)
 {
     const struct gm_own_system *system = &own->system;
     const size_t n = system->n, half = n / 2, parameters = system->velocities - system->parameters;
-    own->row_count = VALUES + parameters + n;
-    own->first_start = VALUES + parameters;
+    own->row_count = GM_SYSTEM_ROWS + parameters + n;
+    own->first_start = GM_SYSTEM_ROWS + parameters;
     own->rows = calloc(own->row_count + GM_CAMERA_KEYS, sizeof *own->rows);
     own->variables = calloc(own->row_count, sizeof *own->variables);
     own->initial = calloc(1, sizeof *own->initial + (own->row_count) * (sizeof(double) + 1));
     double *start = gm_equations_start(system, NULL);
     bool good = own->rows && own->variables && own->initial && start;
     static const char *const shapes[] = {"disc", "grid", "line", NULL};
-    static const struct gm_parameter common[VALUES] = {
+    static const struct gm_parameter common[GM_SYSTEM_ROWS] = {
         [DT] = GM_DT("", 1e-30, 1e30),
         [UNTIL] = GM_UNTIL(""),
         [MEMBERS] =
@@ -726,9 +433,9 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
         memcpy(own->rows + own->row_count, camera, sizeof camera);
         own->initial->own = own;
     }
-    for (size_t row = VALUES; good && row < own->row_count; row++) {
+    for (size_t row = GM_SYSTEM_ROWS; good && row < own->row_count; row++) {
         const bool is_start = row >= own->first_start;
-        size_t number = is_start ? row - own->first_start : system->parameters + row - VALUES;
+        size_t number = is_start ? row - own->first_start : system->parameters + row - GM_SYSTEM_ROWS;
         if (is_start && system->variables[number].start == GM_NO_NODE) {
             number = system->velocities + number - half; /* it is the velocity that the file gives */
         }
@@ -744,7 +451,7 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
                     : is_start      ? "where it starts"
                                     : "a parameter",
             .type = GM_REAL,
-            .offset = offsetof(struct gm_system_lane, values) + (row - VALUES) * sizeof(double),
+            .offset = offsetof(struct gm_system_lane, values) + (row - GM_SYSTEM_ROWS) * sizeof(double),
             .standard = number_text(own, value),
             .lowest = variable->fixed ? value
                       : ranged        ? variable->low
@@ -764,15 +471,16 @@ static bool make_rows(struct gm_system_scene *own, bool typed)
 static bool make_timing(struct gm_system_scene *own, char *sentence)
 {
     const struct gm_own_system *system = &own->system;
-    gm_parameters_reset(own->rows + VALUES, own->row_count + GM_CAMERA_KEYS - VALUES, own->initial);
+    gm_parameters_reset(own->rows + GM_SYSTEM_ROWS, own->row_count + GM_CAMERA_KEYS - GM_SYSTEM_ROWS,
+                        own->initial);
     own->initial->members = 1;
     own->radian = radian_time(own->initial);
-    double *values = start_values(own->initial, NULL);
+    double *values = gm_system_start_values(own->initial, NULL);
     double numbers[3] = {NAN, NAN, NAN};
     for (size_t i = 0; values && i < 3; i++) {
         const struct gm_system_item *item =
-            item_of(system, (enum gm_system_word)((int)GM_WORD_DT + (int)i), 0);
-        if (item && open_tape(own, &own->timing[i], item->nodes, 1)) {
+            gm_system_item_of(system, (enum gm_system_word)((int)GM_WORD_DT + (int)i), 0);
+        if (item && gm_system_open_tape(own, &own->timing[i], item->nodes, 1)) {
             gm_tape_values(&own->timing[i], values, &numbers[i], 1);
         }
     }
@@ -791,427 +499,19 @@ static bool make_timing(struct gm_system_scene *own, char *sentence)
     return values && own->rows[DT].standard && own->rows[UNTIL].standard;
 }
 
-/* The exact solution, where the file tells one, begins where the system does. */
-static bool check_exact(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
+/* The ways to look at the state, and those at what the scheme does to the energy. */
+static bool make_shows(struct gm_system_scene *own)
 {
-    const size_t n = own->exact.outputs;
-    struct gm_problem alone = *problem;
-    double *start = n > 0 ? start_values(own->initial, NULL) : NULL, *exact = calloc(n + 1, sizeof *exact);
-    bool good = n == 0 || (start && exact);
-    alone.m = 1;
-    if (n > 0 && good) {
-        gm_system_values(
-            &own->exact,
-            &(struct gm_view){.parameters = own->initial, .problem = &alone, .state = start, .start = start},
-            0, exact);
-    }
-    for (size_t i = 0; good && i < n; i++) {
-        const struct gm_system_variable *variable = &own->system.variables[i];
-        const double most = 1e-9 * fmax(1, fabs(start[i]));
-        if (variable->exact != GM_NO_NODE && variable->start != GM_NO_NODE &&
-            !(fabs(exact[i] - start[i]) <= most)) {
-            good = gm_refuse(sentence, "exact: %.60s would begin at %.10g, and it starts at %.10g",
-                             variable->name, exact[i], start[i]);
-        }
-    }
-    free(start);
-    free(exact);
-    return good;
-}
-
-static bool add_observable(struct gm_system_scene *own, struct gm_observable row, gm_node_id node)
-{
-    const size_t i = own->observable_count;
-    own->observables[i] = row;
-    own->observable_count++;
-    return row.key && row.title && (node == GM_NO_NODE || open_tape(own, &own->formulas[i], &node, 1));
-}
-
-static bool is_forced(const struct gm_own_system *system)
-{
-    for (size_t i = 0; i < system->n; i++) {
-        if (system->variables[i].force != GM_NO_NODE) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* What the momentum map of a symmetry is measured by: its terms at the start, which may cancel. */
-static double momentum_scale(struct gm_system_scene *own, const struct gm_system_item *item)
-{
-    const size_t half = own->system.n / 2;
-    double *values = start_values(own->initial, NULL), *generator = malloc(half * sizeof *generator), sum = 0;
-    struct gm_tape tape = {0};
-    if (values && generator && open_tape(own, &tape, item->nodes, half)) {
-        gm_tape_values(&tape, values, generator, 1);
-        for (size_t i = 0; i < half; i++) {
-            sum += fabs(generator[i] * values[half + i]);
-        }
-    }
-    gm_tape_close(&tape);
-    free(generator);
-    free(values);
-    return isfinite(sum) ? sum : 0;
-}
-
-/* The text, which is the scene's, with blanks for what joins words. */
-static const char *spaced(struct gm_system_scene *own, const char *text)
-{
-    for (char *at = text ? own->texts.list[own->texts.count - 1] : NULL; at && *at; at++) {
-        *at = *at == '_' ? ' ' : *at;
-    }
-    return text;
-}
-
-static bool add_energy(struct gm_system_scene *own, const struct gm_problem *problem)
-{
-    const struct gm_own_system *system = &own->system;
-    const bool lagrangian = system->kind == GM_LAGRANGIAN, kept = !system->timed && !is_forced(system);
-    if (system->kind == GM_RATES || (lagrangian && !gm_ode_of(problem)->hamiltonian)) {
-        return true;
-    }
-    struct gm_observable energy =
-        kept ? (struct gm_observable)GM_KEPT_OBSERVABLE("energy_error", observed, "H", "energy error")
-             : (struct gm_observable)GM_OBSERVABLE("energy", observed, "energy, which is not constant");
-    energy.evaluate = lagrangian ? legendre_energy : observed;
-    return add_observable(own, energy, lagrangian ? GM_NO_NODE : system->energy);
-}
-
-/* The error of an invariant, of a Casimir, or of the momentum that belongs to a symmetry, which has this number
-   among those without a name. */
-static bool add_invariant(struct gm_system_scene *own, const struct gm_system_item *item, size_t nameless)
-{
-    const bool symmetry = item->word == GM_WORD_SYMMETRY;
-    const char *name = item->name[0] ? item->name : text_of(own, "momentum%zu", nameless);
-    if (!name) {
+    if (!gm_system_make_sights(own)) {
         return false;
-    }
-    const double scale = symmetry ? momentum_scale(own, item) : item->scale;
-    struct gm_observable row =
-        GM_KEPT_OBSERVABLE(text_of(own, "%s_error", name), observed, strlen(name) > 2 ? "I" : name,
-                           spaced(own, text_of(own, "%s error", name)), .least = scale,
-                           .scale_text = scale > 0 ? text_of(own, "%.3g", scale) : NULL);
-    row.kept = item->check != GM_NOT_ZERO; /* else forces change it: no scheme is to blame */
-    return add_observable(own, row, item->nodes[symmetry ? own->system.n / 2 : 0]);
-}
-
-/* What the file names: observe:, invariant:, casimir:, symmetry:. */
-static bool add_named(struct gm_system_scene *own)
-{
-    const struct gm_own_system *system = &own->system;
-    size_t nameless = 0;
-    bool good = true;
-    for (size_t i = 0; good && i < system->item_count; i++) {
-        const struct gm_system_item *item = &system->items[i];
-        switch (item->word) {
-        case GM_WORD_OBSERVE:
-            good = add_observable(own, (struct gm_observable)GM_OBSERVABLE(item->name, observed, item->name),
-                                  item->nodes[0]);
-            break;
-        case GM_WORD_SYMMETRY:
-            nameless += !item->name[0];
-            good = system->kind > GM_LAGRANGIAN || add_invariant(own, item, nameless);
-            break;
-        case GM_WORD_INVARIANT:
-        case GM_WORD_CASIMIR:
-            good = add_invariant(own, item, 0);
-            break;
-        default:
-            break;
-        }
-    }
-    return good;
-}
-
-static bool add_defects(struct gm_system_scene *own, const struct gm_problem *problem)
-{
-    return gm_action_constraints(problem) == 0 ||
-           (add_observable(own,
-                           (struct gm_observable)GM_LOG_OBSERVABLE("constraint_defect", constraint_defect,
-                                                                   "the largest |g|"),
-                           GM_NO_NODE) &&
-            add_observable(own,
-                           (struct gm_observable)GM_LOG_OBSERVABLE("hidden_defect", hidden_defect,
-                                                                   "the largest |dg/dt|"),
-                           GM_NO_NODE));
-}
-
-/* The distance from exact:, of the components that it tells. */
-static bool add_solution_error(struct gm_system_scene *own)
-{
-    const struct gm_own_system *system = &own->system;
-    gm_node_id *exact = calloc(system->n, sizeof *exact);
-    bool told = false;
-    for (size_t i = 0; exact && i < system->n; i++) {
-        const gm_node_id node = system->variables[i].exact;
-        told |= node != GM_NO_NODE;
-        exact[i] = node != GM_NO_NODE ? node : 0;
-    }
-    bool good = exact != NULL;
-    if (good && told) {
-        good = open_tape(own, &own->exact, exact, system->n) &&
-               add_observable(own,
-                              (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", solution_error,
-                                                                      "distance from the exact solution"),
-                              GM_NO_NODE);
-        own->work.measure = "solution_error";
-    }
-    free(exact);
-    return good;
-}
-
-/* The area of a disc of members, in the plane. */
-static bool add_area(struct gm_system_scene *own)
-{
-    static const char one_member[] = "with members= of at least 4 in a disc alone";
-    const struct gm_own_system *system = &own->system;
-    if (system->n != 2) {
-        return true;
-    }
-    struct gm_observable error =
-        GM_KEPT_OBSERVABLE("area_error", area, "A", "area error", .missing = one_member);
-    /* a disc that is drawn out far is no polygon of its members any more: no scheme is to blame */
-    error.kept = false;
-    return add_observable(own,
-                          (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
-                                                              .missing = one_member),
-                          GM_NO_NODE) &&
-           (system->kind > GM_LAGRANGIAN || is_forced(system) || add_observable(own, error, GM_NO_NODE));
-}
-
-static bool make_observables(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
-{
-    const size_t most = own->system.item_count + 7;
-    own->observables = calloc(most, sizeof *own->observables);
-    own->formulas = calloc(most, sizeof *own->formulas);
-    bool good = own->observables && own->formulas && add_energy(own, problem) && add_named(own) &&
-                add_defects(own, problem) && add_solution_error(own) && add_area(own);
-    for (size_t i = 0; i < own->observable_count && good; i++) {
-        for (size_t k = 0; k < i && good; k++) {
-            good = strcmp(own->observables[i].key, own->observables[k].key) != 0 ||
-                   gm_refuse(sentence, "there are two observables %s", own->observables[i].key);
-        }
-    }
-    return good;
-}
-
-/* Whether a formula turns with the angles: one of them further by 2 pi makes that of it, or of its
-   negative. */
-static bool is_angle(struct gm_system_scene *own, gm_node_id node)
-{
-    const struct gm_own_system *system = &own->system;
-    bool angles = false, found = false;
-    for (size_t i = 0; i < system->n; i++) {
-        angles |= system->variables[i].angle;
-    }
-    if (!angles) {
-        return false;
-    }
-    double *values = start_values(own->initial, NULL), before, after;
-    struct gm_tape tape = {0};
-    if (values && open_tape(own, &tape, &node, 1)) {
-        gm_tape_values(&tape, values, &before, 1);
-        for (size_t i = 0; i < system->n && !found; i++) {
-            if (system->variables[i].angle) {
-                values[i] += 2 * M_PI;
-                gm_tape_values(&tape, values, &after, 1);
-                values[i] -= 2 * M_PI;
-                found = fabs(fabs(after - before) - 2 * M_PI) < 1e-9;
-            }
-        }
-    }
-    gm_tape_close(&tape);
-    free(values);
-    return found;
-}
-
-/* An axis: what it is called, whether it is an angle, whether a component. */
-static bool describe_axis(struct gm_system_scene *own, struct gm_sight *sight, size_t k, gm_node_id node)
-{
-    const struct gm_own_system *system = &own->system;
-    const struct gm_node *at = &system->graph.nodes[node];
-    const struct gm_naming naming = gm_system_naming(system);
-    if (k < 2) {
-        sight->components[k] = at->operation == GM_VARIABLE && at->a < system->n ? (long)at->a : -1;
-        sight->angles[k] = is_angle(own, node);
-    }
-    sight->labels[k] = gm_kept_texts_add(&own->texts, gm_formula_text(&system->graph, node, &naming));
-    return sight->labels[k] != NULL;
-}
-
-/* A plane of two formulas. */
-static bool open_plane(struct gm_system_scene *own, struct gm_sight *sight, gm_node_id x, gm_node_id y)
-{
-    const gm_node_id nodes[] = {x, y};
-    sight->dimensions = 2;
-    sight->bodies = 1;
-    sight->fixed = calloc(1, sizeof *sight->fixed);
-    return sight->fixed && describe_axis(own, sight, 0, x) && describe_axis(own, sight, 1, y) &&
-           open_tape(own, &sight->tape, nodes, 2);
-}
-
-/* Copies the formulas of all lines of a word; returns where they end. */
-static gm_node_id *copy_nodes(const struct gm_own_system *system, enum gm_system_word word, gm_node_id *to)
-{
-    const struct gm_system_item *item;
-    for (size_t i = 0; (item = item_of(system, word, i)); i++) {
-        memcpy(to, item->nodes, item->count * sizeof *to);
-        to += item->count;
-    }
-    return to;
-}
-
-/* Which bodies stand still. */
-static bool find_fixed(const struct gm_own_system *system, struct gm_sight *sight, const gm_node_id *nodes)
-{
-    bool *marked = calloc(system->variable_count, sizeof *marked), *moves = NULL;
-    for (size_t i = 0; marked && i <= system->n; i++) {
-        marked[i] = true;
-    }
-    moves = marked ? gm_formula_dependent(&system->graph, marked, system->variable_count) : NULL;
-    for (size_t i = 0; moves && i < sight->bodies; i++) {
-        sight->fixed[i] = true;
-        for (size_t k = 0; k < sight->dimensions; k++) {
-            sight->fixed[i] = sight->fixed[i] && !moves[nodes[i * sight->dimensions + k]];
-        }
-    }
-    free(marked);
-    free(moves);
-    return moves != NULL;
-}
-
-/* Axes of a plane have names where its one body tells them, and clicks there are starts; those of space are x, y
-   and z where the first body does not tell others. */
-static void name_axes(const struct gm_own_system *system, struct gm_sight *sight)
-{
-    static const char *const usual[] = {"x", "y", "z"};
-    const struct gm_system_item *first = item_of(system, GM_WORD_VIEW, 0);
-    const bool in_space = sight->dimensions == 3;
-    bool told = first && (in_space || sight->rods == 0);
-    for (size_t k = 0; told && k < sight->dimensions; k++) {
-        const struct gm_node *at = &system->graph.nodes[first->nodes[k]];
-        told = at->operation == GM_VARIABLE && at->a < system->n;
-        if (told) {
-            sight->labels[k] = system->variables[at->a].name;
-            sight->components[k % 2] = in_space ? -1 : (long)at->a;
-        }
-    }
-    for (size_t k = 0; k < 3 && !told; k++) {
-        sight->labels[k] = in_space ? usual[k] : NULL;
-    }
-    if (sight->bodies > 1 && sight->components[0] >= 0) {
-        sight->labels[0] = sight->labels[1] = NULL; /* they are those of one body only */
-        for (size_t i = 1; i < sight->bodies; i++) {
-            if (!sight->fixed[i]) {
-                sight->components[0] = sight->components[1] = -1;
-            }
-        }
-    }
-}
-
-/* What `view` and `rod` lines say. */
-static bool open_view(struct gm_system_scene *own, struct gm_sight *sight)
-{
-    const struct gm_own_system *system = &own->system;
-    const size_t views = count_items(system, GM_WORD_VIEW), rods = count_items(system, GM_WORD_ROD);
-    const size_t dimensions =
-        views > 0 ? item_of(system, GM_WORD_VIEW, 0)->count : item_of(system, GM_WORD_ROD, 0)->count / 2;
-    *sight = (struct gm_sight){
-        .name = "view", .dimensions = dimensions, .bodies = views, .rods = rods, .components = {-1, -1}};
-    gm_node_id *nodes = calloc(gm_sight_numbers(sight), sizeof *nodes);
-    sight->fixed = calloc(views + 1, sizeof *sight->fixed);
-    bool good = nodes && sight->fixed;
-    if (good) {
-        copy_nodes(system, GM_WORD_ROD, copy_nodes(system, GM_WORD_VIEW, nodes));
-        good =
-            find_fixed(system, sight, nodes) && open_tape(own, &sight->tape, nodes, gm_sight_numbers(sight));
-        name_axes(system, sight);
-    }
-    free(nodes);
-    return good;
-}
-
-static bool open_surfaces(struct gm_system_scene *own, char *sentence)
-{
-    gm_node_id nodes[3 * GM_MOST_SURFACES];
-    const size_t count = count_items(&own->system, GM_WORD_SURFACE);
-    if (count > GM_MOST_SURFACES) {
-        return gm_refuse(sentence, "a system has at most %d surfaces; this has %zu", GM_MOST_SURFACES, count);
-    }
-    copy_nodes(&own->system, GM_WORD_SURFACE, nodes);
-    return count == 0 || open_tape(own, &own->surfaces, nodes, 3 * count);
-}
-
-static bool add_pair(struct gm_system_scene *own, size_t a, size_t b)
-{
-    struct gm_own_system *system = &own->system;
-    if (own->sight_count == GM_MOST_SIGHTS) {
-        return true;
-    }
-    struct gm_sight *sight = &own->sights[own->sight_count++];
-    own->pair_count++;
-    sight->name = text_of(own, "%s:%s", system->variables[a].name, system->variables[b].name);
-    const gm_node_id x = gm_formula_variable(&system->graph, a), y = gm_formula_variable(&system->graph, b);
-    return sight->name && open_plane(own, sight, x, y);
-}
-
-static bool make_sights(struct gm_system_scene *own)
-{
-    const struct gm_own_system *system = &own->system;
-    const size_t n = system->n, half = n / 2;
-    own->sights = calloc(GM_MOST_SIGHTS, sizeof *own->sights);
-    own->shows = calloc(GM_MOST_SIGHTS + 4, sizeof *own->shows);
-    bool good = own->sights && own->shows;
-    if (good && (count_items(system, GM_WORD_VIEW) > 0 || count_items(system, GM_WORD_ROD) > 0)) {
-        good = open_view(own, &own->sights[own->sight_count++]);
-    }
-    if (n == 1) {
-        good = good && add_pair(own, 1, 0); /* over time */
-    }
-    for (size_t i = 0; good && system->kind <= GM_LAGRANGIAN && i < half; i++) {
-        good = add_pair(own, i, half + i);
-    }
-    const size_t planar = system->kind <= GM_LAGRANGIAN ? half : n;
-    for (size_t i = 0; good && i < planar && n > 1; i++) {
-        for (size_t k = i + 1; good && k < planar && own->sight_count < GM_MOST_SIGHTS; k++) {
-            good = add_pair(own, i, k);
-        }
-    }
-    const struct gm_sight *first = &own->sights[0];
-    own->disc[1] = n == 1 ? 0 : system->kind <= GM_LAGRANGIAN ? half : 1;
-    if (good && first->components[0] >= 0 && first->components[1] >= 0 && n > 1) {
-        own->disc[0] = (size_t)first->components[0];
-        own->disc[1] = (size_t)first->components[1];
-    }
-    const struct gm_system_item *section_item = item_of(system, GM_WORD_SECTION, 0);
-    if (good && section_item) {
-        gm_node_id nodes[1 + GM_MOST_CONDITIONS] = {section_item->nodes[0]};
-        own->has_section = true;
-        own->stroboscopic = section_item->periodic;
-        own->conditions =
-            section_item->count - 3 < GM_MOST_CONDITIONS ? section_item->count - 3 : GM_MOST_CONDITIONS;
-        memcpy(nodes + 1, section_item->nodes + 3, own->conditions * sizeof *nodes);
-        own->turns = !own->stroboscopic && is_angle(own, nodes[0]);
-        own->section.name = "section";
-        good = open_plane(own, &own->section, section_item->nodes[1], section_item->nodes[2]) &&
-               open_tape(own, &own->where, nodes, 1 + own->conditions);
     }
     size_t shows = 0;
-    if (good) {
-        own->shows[shows++] = "all";
-        if (own->has_section) {
-            own->shows[shows++] = "section";
-        }
-        for (size_t i = own->sight_count - own->pair_count; i < own->sight_count; i++) {
-            own->shows[shows++] = own->sights[i].name;
-        }
-        if (own->system.kind == GM_CANONICAL) {
-            own->shows[shows++] = GM_SHOW_MODIFIED;
-        }
-        own->rows[SHOW].choices = own->shows;
+    while (own->shows[shows]) {
+        shows++;
     }
-    return good;
+    own->shows[shows] = own->system.kind == GM_CANONICAL ? GM_SHOW_MODIFIED : NULL;
+    own->rows[SHOW].choices = own->shows;
+    return true;
 }
 
 static void make_tracks(struct gm_system_scene *own)
@@ -1272,7 +572,7 @@ static bool make_studies(struct gm_system_scene *own)
 {
     static const double factors[] = {0.5, 0.75, 1, 1.5, 2};
     static const double steps[] = {0.1, 0.2, 0.5, 1, 1.5, 1.95, 2.05, 3};
-    size_t row = VALUES;
+    size_t row = GM_SYSTEM_ROWS;
     while (row < own->first_start && own->rows[row].lowest == own->rows[row].highest) {
         row++;
     }
@@ -1288,7 +588,7 @@ static bool make_studies(struct gm_system_scene *own)
     }
     const double until = gm_written_rounded(200 * own->radian);
     own->stability = (struct gm_stability){
-        .arguments = text_of(own, "until=%.17g", until),
+        .arguments = gm_system_kept_text(own, "until=%.17g", until),
         .parameter = parameter->key,
         .values = own->values,
         .value_count = count,
@@ -1300,7 +600,7 @@ static bool make_studies(struct gm_system_scene *own)
         .throughout = true,
         .error = own->observable_count > 0 && own->observables[0].kept ? own->observables[0].key : NULL,
     };
-    own->work.arguments = text_of(
+    own->work.arguments = gm_system_kept_text(
         own, "until=%.17g", fmin(atof(own->rows[UNTIL].standard), gm_written_rounded(20 * own->radian)));
     own->work.coarsest = own->radian;
     own->work.halvings = 8;
@@ -1332,7 +632,7 @@ static const char *title_of(struct gm_system_scene *own)
         whole = formula != NULL; /* too long a one is not written */
         free(formula);
     }
-    const char *kept = whole && strlen(text) <= SHORT ? text_of(own, "%s", text) : NULL;
+    const char *kept = whole && strlen(text) <= SHORT ? gm_system_kept_text(own, "%s", text) : NULL;
     return kept ? kept : "A system of one’s own";
 }
 
@@ -1365,27 +665,29 @@ static bool make(struct gm_system_scene *own, const char *name, const char *cons
         .start = start,
         .draw = gm_system_draw,
         .point = point,
-        .failure = tell_failure,
+        .failure = gm_system_tell_failure,
     };
-    const struct gm_system_item *end = item_of(system, GM_WORD_STOP, 0);
+    const struct gm_system_item *end = gm_system_item_of(system, GM_WORD_STOP, 0);
     const char *members = system->texts[GM_WORD_MEMBERS];
     struct gm_problem problem;
     if (members && gm_parameter_set(&own->rows[MEMBERS], own->initial, members) != GM_PARSED) {
         return gm_refuse(sentence, "members: %.60s is no whole number from 1 to 1e6", members);
     }
     own->rows[MEMBERS].standard = members ? members : "1";
-    if (!make_timing(own, sentence) || (end && !open_tape(own, &own->stop, end->nodes, 1)) ||
-        !make_sights(own) || !open_surfaces(own, sentence) || !setup(own->initial, &problem, sentence)) {
+    if (!make_timing(own, sentence) || (end && !gm_system_open_tape(own, &own->stop, end->nodes, 1)) ||
+        !make_shows(own) || !gm_system_open_surfaces(own, sentence) ||
+        !setup(own->initial, &problem, sentence)) {
         return false;
     }
     make_tracks(own);
     own->scene.parameter_count += own->sights[0].dimensions == 3 ? GM_CAMERA_KEYS : 0;
     if (end) {
-        own->scene.stop = stop;
-        own->scene.stops = stops;
+        own->scene.stop = gm_system_stop;
+        own->scene.stops = gm_system_stops;
         own->scene.follow = 1;
     }
-    const bool good = make_observables(own, &problem, sentence) && check_exact(own, &problem, sentence) &&
+    const bool good = gm_system_make_observables(own, &problem, sentence) &&
+                      gm_system_check_exact(own, &problem, sentence) &&
                       make_schemes(own, &problem, sentence) && make_studies(own);
     gm_own_problem_close(&problem);
     own->scene.observables = own->observables;
@@ -1419,19 +721,13 @@ const struct gm_scene *gm_system_scene_open(struct gm_own_system *system, const 
     return &own->scene;
 }
 
-static void close_sight(struct gm_sight *sight)
-{
-    gm_tape_close(&sight->tape);
-    free(sight->fixed);
-}
-
 void gm_system_scene_close(const struct gm_scene *scene)
 {
     struct gm_system_scene *own = (struct gm_system_scene *)scene; /* which it is the first member of */
     for (size_t i = 0; i < own->sight_count; i++) {
-        close_sight(&own->sights[i]);
+        gm_system_close_sight(&own->sights[i]);
     }
-    close_sight(&own->section);
+    gm_system_close_sight(&own->section);
     gm_tape_close(&own->surfaces);
     for (size_t i = 0; own->formulas && i < own->observable_count; i++) {
         gm_tape_close(&own->formulas[i]);

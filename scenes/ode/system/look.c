@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formulas of a system that somebody wrote, in a view of its scene. */
-#include "scenes/ode/system_look.h"
+#include "scenes/ode/system/look.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -8,6 +8,11 @@
 
 /* The bright end of a path is this part of the whole run. */
 static const double bright = 0.15;
+
+const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view)
+{
+    return ((const struct gm_system_lane *)view->parameters)->own;
+}
 
 size_t gm_sight_numbers(const struct gm_sight *sight)
 {

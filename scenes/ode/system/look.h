@@ -69,6 +69,9 @@ struct gm_system_lane {
     double values[]; /* of the rows from first_value on; behind them whether each row was given, as bytes */
 };
 
+/* The scene that a view is of. */
+const struct gm_system_scene *gm_system_scene_of(const struct gm_view *view);
+
 /* The values of a tape for one member of a view's state. */
 void gm_system_values(const struct gm_tape *tape, const struct gm_view *view, size_t member, double *values);
 /* The same of `count` other states of the last member, each with its time: struct gm_scene, stops. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A system of somebody's own in space: paths, rods and bodies, before and behind its surfaces. */
-#include "scenes/ode/system_space.h"
+#include "scenes/ode/system/space.h"
 
 #include <math.h>
 #include <string.h>

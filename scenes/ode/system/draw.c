@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "scenes/frame/graph.h"
-#include "scenes/ode/system_draw.h"
-#include "scenes/ode/system_space.h"
+#include "scenes/ode/system/draw.h"
+#include "scenes/ode/system/space.h"
 
 enum { MOST_GRAPHS = 3, TOLD_PARAMETERS = 4, TURN = 12 };
 

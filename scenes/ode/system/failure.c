@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The part of a formula that is no number, the momenta without velocities, the monitor that falls: what stands
+   behind the status of a run that ended. */
+#include "scenes/ode/system/failure.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/kernel/loops.h"
+#include "scenes/ode/system/look.h"
+
+/* A formula that is no number: "log(x) is not finite where x = -0.3". */
+static void tell_node(const struct gm_own_system *system, gm_node_id node, const double *values, char *text,
+                      size_t size)
+{
+    const struct gm_naming naming = gm_system_naming(system);
+    const struct gm_node *at = &system->graph.nodes[node];
+    const gm_node_id operand = at->operation == GM_OPERATION_DIVIDE ? at->b : at->a;
+    char *part = gm_formula_text(&system->graph, node, &naming), *inside = NULL;
+    if (at->operation != GM_VARIABLE) {
+        inside = gm_formula_text(&system->graph, operand, &naming);
+    }
+    snprintf(text, size, inside ? "%.120s is not finite where %.80s = %.4g" : "%.120s is not finite",
+             part ? part : "a long formula", inside ? inside : "", inside ? values[operand] : 0);
+    free(part);
+    free(inside);
+}
+
+/* The first part of H, else of a rate, that is no number in a state; false if there is none. */
+static bool tell_part(const struct gm_system_scene *own, const struct gm_view *view, const double *state,
+                      char *text, size_t size)
+{
+    const struct gm_own_system *system = &own->system;
+    const struct gm_formula *graph = &system->graph;
+    const struct gm_system_lane *lane = view->parameters;
+    const size_t m = view->problem->m;
+    double *variables = malloc(system->variable_count * sizeof *variables);
+    double *values = malloc((graph->count + (size_t)1) * sizeof *values);
+    bool told = false;
+    for (size_t i = 0; variables && i < system->variable_count; i++) {
+        variables[i] = i < system->n ? state[i * m + m - 1] : i == system->n ? view->t : NAN;
+    }
+    for (size_t row = GM_SYSTEM_ROWS; variables && row < own->first_start; row++) {
+        variables[own->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
+    }
+    if (variables && values) {
+        gm_formula_evaluate(graph, graph->count, variables, values);
+    }
+    for (size_t i = 0; variables && values && i <= system->n && !told; i++) {
+        const gm_node_id root = i > 0                      ? system->rates[i - 1]
+                                : system->kind != GM_RATES ? system->energy
+                                                           : GM_NO_NODE;
+        size_t count = 0;
+        gm_node_id *parts =
+            root != GM_NO_NODE && !isfinite(values[root]) ? gm_formula_parts(graph, root, &count) : NULL;
+        for (size_t k = 0; parts && k < count && !told; k++) {
+            told = !isfinite(values[parts[k]]);
+            if (told) {
+                tell_node(system, parts[k], values, text, size);
+            }
+        }
+        free(parts);
+    }
+    free(variables);
+    free(values);
+    return told;
+}
+
+/* A state of a Lagrangian system, of its last member, from which it does not move on: its momenta have no
+   velocities, or no rates. */
+static bool tell_velocities(const struct gm_system_scene *own, const struct gm_view *view,
+                            const double *state, const double *slope, char *text, size_t size)
+{
+    const size_t m = view->problem->m, half = own->system.n / 2;
+    bool placed = true, moves = true, turns = true;
+    for (size_t i = 0; i < 2 * half; i++) {
+        const bool finite = isfinite(slope[i * m + m - 1]);
+        placed = placed && isfinite(state[i * m + m - 1]);
+        moves = moves && (i >= half || finite);
+        turns = turns && (i < half || finite);
+    }
+    if (!placed || (moves && turns)) {
+        return false;
+    }
+    size_t length =
+        (size_t)snprintf(text, size, "%s where ",
+                         moves ? "dL/dq is not finite"
+                               : "momenta do not determine velocities (the Legendre transform of L is "
+                                 "singular)");
+    for (size_t i = 0; i < half && length + 60 < size; i++) {
+        length += (size_t)snprintf(text + length, size - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
+                                   own->system.variables[i].name, state[i * m + m - 1]);
+    }
+    return true;
+}
+
+/* Of a step whose length the monitor decided: how fast that falls. */
+static void tell_monitor(const struct gm_view *view, const double *slope, double *ahead, char *text,
+                         size_t size)
+{
+    const struct gm_monitor *monitor = gm_ode_of(view->problem)->monitor;
+    double here, there;
+    monitor->density(view->problem, view->state, &here, NULL);
+    for (size_t i = 0; i < view->problem->n; i++) {
+        ahead[i] = view->state[i] + view->dt / here * slope[i];
+    }
+    monitor->density(view->problem, ahead, &there, NULL);
+    if (!(there >= here)) {
+        snprintf(text, size, "the monitor, how dense steps are to be, is %.3g, and %.3g a step further", here,
+                 there);
+    }
+}
+
+void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
+{
+    const struct gm_system_scene *own = gm_system_scene_of(view);
+    const size_t total = view->problem->n * view->problem->m;
+    const bool lagrangian = own->system.kind == GM_LAGRANGIAN; /* its formulas hold velocities */
+    double *slope = malloc(3 * total * sizeof *slope);
+    text[0] = '\0';
+    if (!slope) {
+        return;
+    }
+    double *const ahead = slope + total, *const there = ahead + total;
+    memcpy(ahead, view->state, total * sizeof *ahead);
+    gm_field(view->problem, view->state, slope, view->problem->m);
+    for (int part = 0; part <= 4; part++) { /* stages look ahead */
+        for (size_t i = 0; i < total && part > 0; i++) {
+            ahead[i] = view->state[i] + view->dt * part / 4 * slope[i];
+        }
+        if (lagrangian) {
+            gm_field(view->problem, ahead, there, view->problem->m);
+        }
+        if (lagrangian ? tell_velocities(own, view, ahead, there, text, size)
+                       : tell_part(own, view, ahead, text, size)) {
+            break;
+        }
+    }
+    if (!text[0] && (view->scheme->needs & GM_NEEDS_MONITOR)) {
+        tell_monitor(view, slope, ahead, text, size);
+    }
+    free(slope);
+}

@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is observed of somebody's system: its energy, what its file names, the area of a disc of members, the
+   distance from the solution that it tells. */
+#include "scenes/ode/system/observed.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/ode/variational/manifold.h"
+#include "scenes/frame/rows.h"
+#include "scenes/ode/system/pieces.h"
+
+/* ---- formulas in flight ---- */
+
+static double value_of(const struct gm_tape *tape, const struct gm_view *view)
+{
+    double value;
+    gm_system_values(tape, view, view->problem->m - 1, &value);
+    return value;
+}
+
+static double observed(const struct gm_view *view)
+{
+    const struct gm_system_scene *own = gm_system_scene_of(view);
+    return value_of(&own->formulas[view->observable - own->observables], view);
+}
+
+/* Of a Lagrangian system, whose formulas hold velocities. */
+static double legendre_energy(const struct gm_view *view)
+{
+    const size_t n = view->problem->n, m = view->problem->m;
+    double *centre = malloc(n * sizeof *centre), value = NAN;
+    for (size_t i = 0; centre && i < n; i++) {
+        centre[i] = view->state[i * m + m - 1];
+    }
+    if (centre) {
+        gm_ode_of(view->problem)->hamiltonian->energy(view->problem, centre, &value, 1);
+    }
+    free(centre);
+    return value;
+}
+
+/* What constraints are off by, of the last member. */
+static struct gm_manifold_defects defects_of(const struct gm_view *view)
+{
+    const size_t n = view->problem->n, m = view->problem->m;
+    struct gm_manifold_defects defects = {NAN, NAN};
+    double *centre = malloc(n * sizeof *centre);
+    for (size_t i = 0; centre && i < n; i++) {
+        centre[i] = view->state[i * m + m - 1];
+    }
+    defects = centre ? gm_manifold_defects(view->problem, centre) : defects;
+    free(centre);
+    return defects;
+}
+
+static double constraint_defect(const struct gm_view *view)
+{
+    return defects_of(view).constraint;
+}
+
+static double hidden_defect(const struct gm_view *view)
+{
+    return defects_of(view).hidden;
+}
+
+/* The distance from the solution that the file tells, of the component that is farthest. */
+static double solution_error(const struct gm_view *view)
+{
+    const struct gm_system_scene *own = gm_system_scene_of(view);
+    const size_t n = own->system.n, m = view->problem->m;
+    double *exact = malloc(n * sizeof *exact), error = exact ? 0 : NAN;
+    if (exact) {
+        gm_system_values(&own->exact, view, m - 1, exact);
+    }
+    for (size_t i = 0; exact && i < n; i++) {
+        const double away = fabs(view->state[i * m + m - 1] - exact[i]);
+        if (own->system.variables[i].exact != GM_NO_NODE) {
+            error = away > error || isnan(away) ? away : error;
+        }
+    }
+    free(exact);
+    return error;
+}
+
+/* Signed area of the polygon of the members, measured from the centre so that little cancels. */
+static double area(const struct gm_view *view)
+{
+    const struct gm_system_lane *lane = view->parameters;
+    const size_t m = view->problem->m, points = lane->shape == GM_SHAPE_DISC ? m - 1 : 0;
+    const double *x = view->state, *y = view->state + m;
+    double twice = 0;
+    for (size_t i = 0; i < points; i++) {
+        const size_t next = i + 1 < points ? i + 1 : 0;
+        twice += (x[i] - x[points]) * (y[next] - y[points]) - (x[next] - x[points]) * (y[i] - y[points]);
+    }
+    return points >= 3 ? twice / 2 : NAN;
+}
+
+double gm_system_stop(const struct gm_view *view)
+{
+    return value_of(&gm_system_scene_of(view)->stop, view);
+}
+
+void gm_system_stops(const struct gm_view *view, const double *states, const double *times, size_t count,
+                     double *values)
+{
+    gm_system_values_of(&gm_system_scene_of(view)->stop, view, states, times, count, values);
+}
+
+/* ---- the rows of the scene ---- */
+
+/* The exact solution, where the file tells one, begins where the system does. */
+bool gm_system_check_exact(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
+{
+    const size_t n = own->exact.outputs;
+    struct gm_problem alone = *problem;
+    double *start = n > 0 ? gm_system_start_values(own->initial, NULL) : NULL,
+           *exact = calloc(n + 1, sizeof *exact);
+    bool good = n == 0 || (start && exact);
+    alone.m = 1;
+    if (n > 0 && good) {
+        gm_system_values(
+            &own->exact,
+            &(struct gm_view){.parameters = own->initial, .problem = &alone, .state = start, .start = start},
+            0, exact);
+    }
+    for (size_t i = 0; good && i < n; i++) {
+        const struct gm_system_variable *variable = &own->system.variables[i];
+        const double most = 1e-9 * fmax(1, fabs(start[i]));
+        if (variable->exact != GM_NO_NODE && variable->start != GM_NO_NODE &&
+            !(fabs(exact[i] - start[i]) <= most)) {
+            good = gm_refuse(sentence, "exact: %.60s would begin at %.10g, and it starts at %.10g",
+                             variable->name, exact[i], start[i]);
+        }
+    }
+    free(start);
+    free(exact);
+    return good;
+}
+
+static bool add_observable(struct gm_system_scene *own, struct gm_observable row, gm_node_id node)
+{
+    const size_t i = own->observable_count;
+    own->observables[i] = row;
+    own->observable_count++;
+    return row.key && row.title &&
+           (node == GM_NO_NODE || gm_system_open_tape(own, &own->formulas[i], &node, 1));
+}
+
+static bool is_forced(const struct gm_own_system *system)
+{
+    for (size_t i = 0; i < system->n; i++) {
+        if (system->variables[i].force != GM_NO_NODE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* What the momentum map of a symmetry is measured by: its terms at the start, which may cancel. */
+static double momentum_scale(struct gm_system_scene *own, const struct gm_system_item *item)
+{
+    const size_t half = own->system.n / 2;
+    double *values = gm_system_start_values(own->initial, NULL),
+           *generator = malloc(half * sizeof *generator), sum = 0;
+    struct gm_tape tape = {0};
+    if (values && generator && gm_system_open_tape(own, &tape, item->nodes, half)) {
+        gm_tape_values(&tape, values, generator, 1);
+        for (size_t i = 0; i < half; i++) {
+            sum += fabs(generator[i] * values[half + i]);
+        }
+    }
+    gm_tape_close(&tape);
+    free(generator);
+    free(values);
+    return isfinite(sum) ? sum : 0;
+}
+
+/* The text, which is the scene's, with blanks for what joins words. */
+static const char *spaced(struct gm_system_scene *own, const char *text)
+{
+    for (char *at = text ? own->texts.list[own->texts.count - 1] : NULL; at && *at; at++) {
+        *at = *at == '_' ? ' ' : *at;
+    }
+    return text;
+}
+
+static bool add_energy(struct gm_system_scene *own, const struct gm_problem *problem)
+{
+    const struct gm_own_system *system = &own->system;
+    const bool lagrangian = system->kind == GM_LAGRANGIAN, kept = !system->timed && !is_forced(system);
+    if (system->kind == GM_RATES || (lagrangian && !gm_ode_of(problem)->hamiltonian)) {
+        return true;
+    }
+    struct gm_observable energy =
+        kept ? (struct gm_observable)GM_KEPT_OBSERVABLE("energy_error", observed, "H", "energy error")
+             : (struct gm_observable)GM_OBSERVABLE("energy", observed, "energy, which is not constant");
+    energy.evaluate = lagrangian ? legendre_energy : observed;
+    return add_observable(own, energy, lagrangian ? GM_NO_NODE : system->energy);
+}
+
+/* The error of an invariant, of a Casimir, or of the momentum that belongs to a symmetry, which has this number
+   among those without a name. */
+static bool add_invariant(struct gm_system_scene *own, const struct gm_system_item *item, size_t nameless)
+{
+    const bool symmetry = item->word == GM_WORD_SYMMETRY;
+    const char *name = item->name[0] ? item->name : gm_system_kept_text(own, "momentum%zu", nameless);
+    if (!name) {
+        return false;
+    }
+    const double scale = symmetry ? momentum_scale(own, item) : item->scale;
+    struct gm_observable row = GM_KEPT_OBSERVABLE(
+        gm_system_kept_text(own, "%s_error", name), observed, strlen(name) > 2 ? "I" : name,
+        spaced(own, gm_system_kept_text(own, "%s error", name)), .least = scale,
+        .scale_text = scale > 0 ? gm_system_kept_text(own, "%.3g", scale) : NULL);
+    row.kept = item->check != GM_NOT_ZERO; /* else forces change it: no scheme is to blame */
+    return add_observable(own, row, item->nodes[symmetry ? own->system.n / 2 : 0]);
+}
+
+/* What the file names: observe:, invariant:, casimir:, symmetry:. */
+static bool add_named(struct gm_system_scene *own)
+{
+    const struct gm_own_system *system = &own->system;
+    size_t nameless = 0;
+    bool good = true;
+    for (size_t i = 0; good && i < system->item_count; i++) {
+        const struct gm_system_item *item = &system->items[i];
+        switch (item->word) {
+        case GM_WORD_OBSERVE:
+            good = add_observable(own, (struct gm_observable)GM_OBSERVABLE(item->name, observed, item->name),
+                                  item->nodes[0]);
+            break;
+        case GM_WORD_SYMMETRY:
+            nameless += !item->name[0];
+            good = system->kind > GM_LAGRANGIAN || add_invariant(own, item, nameless);
+            break;
+        case GM_WORD_INVARIANT:
+        case GM_WORD_CASIMIR:
+            good = add_invariant(own, item, 0);
+            break;
+        default:
+            break;
+        }
+    }
+    return good;
+}
+
+static bool add_defects(struct gm_system_scene *own, const struct gm_problem *problem)
+{
+    return gm_action_constraints(problem) == 0 ||
+           (add_observable(own,
+                           (struct gm_observable)GM_LOG_OBSERVABLE("constraint_defect", constraint_defect,
+                                                                   "the largest |g|"),
+                           GM_NO_NODE) &&
+            add_observable(own,
+                           (struct gm_observable)GM_LOG_OBSERVABLE("hidden_defect", hidden_defect,
+                                                                   "the largest |dg/dt|"),
+                           GM_NO_NODE));
+}
+
+/* The distance from exact:, of the components that it tells. */
+static bool add_solution_error(struct gm_system_scene *own)
+{
+    const struct gm_own_system *system = &own->system;
+    gm_node_id *exact = calloc(system->n, sizeof *exact);
+    bool told = false;
+    for (size_t i = 0; exact && i < system->n; i++) {
+        const gm_node_id node = system->variables[i].exact;
+        told |= node != GM_NO_NODE;
+        exact[i] = node != GM_NO_NODE ? node : 0;
+    }
+    bool good = exact != NULL;
+    if (good && told) {
+        good = gm_system_open_tape(own, &own->exact, exact, system->n) &&
+               add_observable(own,
+                              (struct gm_observable)GM_LOG_OBSERVABLE("solution_error", solution_error,
+                                                                      "distance from the exact solution"),
+                              GM_NO_NODE);
+        own->work.measure = "solution_error";
+    }
+    free(exact);
+    return good;
+}
+
+/* The area of a disc of members, in the plane. */
+static bool add_area(struct gm_system_scene *own)
+{
+    static const char one_member[] = "with members= of at least 4 in a disc alone";
+    const struct gm_own_system *system = &own->system;
+    if (system->n != 2) {
+        return true;
+    }
+    struct gm_observable error =
+        GM_KEPT_OBSERVABLE("area_error", area, "A", "area error", .missing = one_member);
+    /* a disc that is drawn out far is no polygon of its members any more: no scheme is to blame */
+    error.kept = false;
+    return add_observable(own,
+                          (struct gm_observable)GM_OBSERVABLE("area", area, "area of the disc of members",
+                                                              .missing = one_member),
+                          GM_NO_NODE) &&
+           (system->kind > GM_LAGRANGIAN || is_forced(system) || add_observable(own, error, GM_NO_NODE));
+}
+
+bool gm_system_make_observables(struct gm_system_scene *own, const struct gm_problem *problem, char *sentence)
+{
+    const size_t most = own->system.item_count + 7;
+    own->observables = calloc(most, sizeof *own->observables);
+    own->formulas = calloc(most, sizeof *own->formulas);
+    bool good = own->observables && own->formulas && add_energy(own, problem) && add_named(own) &&
+                add_defects(own, problem) && add_solution_error(own) && add_area(own);
+    for (size_t i = 0; i < own->observable_count && good; i++) {
+        for (size_t k = 0; k < i && good; k++) {
+            good = strcmp(own->observables[i].key, own->observables[k].key) != 0 ||
+                   gm_refuse(sentence, "there are two observables %s", own->observables[i].key);
+        }
+    }
+    return good;
+}

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the parts of a scene of somebody's system have in common while it is made. */
+#include "scenes/ode/system/pieces.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "core/formula/equations.h"
+
+const struct gm_system_item *gm_system_item_of(const struct gm_own_system *system, enum gm_system_word word,
+                                               size_t number)
+{
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == word && number-- == 0) {
+            return &system->items[i];
+        }
+    }
+    return NULL;
+}
+
+size_t gm_system_count_items(const struct gm_own_system *system, enum gm_system_word word)
+{
+    size_t count = 0;
+    while (gm_system_item_of(system, word, count)) {
+        count++;
+    }
+    return count;
+}
+
+double *gm_system_start_values(const struct gm_system_lane *lane, const char *given)
+{
+    const struct gm_system_scene *own = lane->own;
+    double *known = malloc(own->system.variable_count * sizeof *known);
+    for (size_t i = 0; known && i < own->system.variable_count; i++) {
+        known[i] = NAN;
+    }
+    for (size_t row = GM_SYSTEM_ROWS; known && row < own->row_count; row++) {
+        known[own->variables[row]] = !given || given[row] ? lane->values[row - GM_SYSTEM_ROWS] : NAN;
+    }
+    double *values = known ? gm_equations_start(&own->system, known) : NULL;
+    free(known);
+    return values;
+}
+
+const char *gm_system_kept_text(struct gm_system_scene *own, const char *format, ...)
+{
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(&text, format, arguments);
+    va_end(arguments);
+    return gm_kept_texts_add(&own->texts, length < 0 ? NULL : text);
+}
+
+bool gm_system_open_tape(struct gm_system_scene *own, struct gm_tape *tape, const gm_node_id *nodes,
+                         size_t count)
+{
+    const size_t inputs = own->system.variable_count;
+    double *unused = calloc(inputs, sizeof *unused);
+    const bool good = unused && gm_tape_open(tape, &own->system.graph, nodes, count, inputs, unused);
+    free(unused);
+    return good;
+}

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The ways to look at somebody's system: bodies and rods as its file says, the planes of two components, the
+   section; what their axes are called, and which of them are angles. */
+#include "scenes/ode/system/sights.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes/ode/system/pieces.h"
+
+/* Whether a formula turns with the angles: one of them further by 2 pi makes that of it, or of its
+   negative. */
+static bool is_angle(struct gm_system_scene *own, gm_node_id node)
+{
+    const struct gm_own_system *system = &own->system;
+    bool angles = false, found = false;
+    for (size_t i = 0; i < system->n; i++) {
+        angles |= system->variables[i].angle;
+    }
+    if (!angles) {
+        return false;
+    }
+    double *values = gm_system_start_values(own->initial, NULL), before, after;
+    struct gm_tape tape = {0};
+    if (values && gm_system_open_tape(own, &tape, &node, 1)) {
+        gm_tape_values(&tape, values, &before, 1);
+        for (size_t i = 0; i < system->n && !found; i++) {
+            if (system->variables[i].angle) {
+                values[i] += 2 * M_PI;
+                gm_tape_values(&tape, values, &after, 1);
+                values[i] -= 2 * M_PI;
+                found = fabs(fabs(after - before) - 2 * M_PI) < 1e-9;
+            }
+        }
+    }
+    gm_tape_close(&tape);
+    free(values);
+    return found;
+}
+
+/* An axis: what it is called, whether it is an angle, whether a component. */
+static bool describe_axis(struct gm_system_scene *own, struct gm_sight *sight, size_t k, gm_node_id node)
+{
+    const struct gm_own_system *system = &own->system;
+    const struct gm_node *at = &system->graph.nodes[node];
+    const struct gm_naming naming = gm_system_naming(system);
+    if (k < 2) {
+        sight->components[k] = at->operation == GM_VARIABLE && at->a < system->n ? (long)at->a : -1;
+        sight->angles[k] = is_angle(own, node);
+    }
+    sight->labels[k] = gm_kept_texts_add(&own->texts, gm_formula_text(&system->graph, node, &naming));
+    return sight->labels[k] != NULL;
+}
+
+/* A plane of two formulas. */
+static bool open_plane(struct gm_system_scene *own, struct gm_sight *sight, gm_node_id x, gm_node_id y)
+{
+    const gm_node_id nodes[] = {x, y};
+    sight->dimensions = 2;
+    sight->bodies = 1;
+    sight->fixed = calloc(1, sizeof *sight->fixed);
+    return sight->fixed && describe_axis(own, sight, 0, x) && describe_axis(own, sight, 1, y) &&
+           gm_system_open_tape(own, &sight->tape, nodes, 2);
+}
+
+/* Copies the formulas of all lines of a word; returns where they end. */
+static gm_node_id *copy_nodes(const struct gm_own_system *system, enum gm_system_word word, gm_node_id *to)
+{
+    const struct gm_system_item *item;
+    for (size_t i = 0; (item = gm_system_item_of(system, word, i)); i++) {
+        memcpy(to, item->nodes, item->count * sizeof *to);
+        to += item->count;
+    }
+    return to;
+}
+
+/* Which bodies stand still. */
+static bool find_fixed(const struct gm_own_system *system, struct gm_sight *sight, const gm_node_id *nodes)
+{
+    bool *marked = calloc(system->variable_count, sizeof *marked), *moves = NULL;
+    for (size_t i = 0; marked && i <= system->n; i++) {
+        marked[i] = true;
+    }
+    moves = marked ? gm_formula_dependent(&system->graph, marked, system->variable_count) : NULL;
+    for (size_t i = 0; moves && i < sight->bodies; i++) {
+        sight->fixed[i] = true;
+        for (size_t k = 0; k < sight->dimensions; k++) {
+            sight->fixed[i] = sight->fixed[i] && !moves[nodes[i * sight->dimensions + k]];
+        }
+    }
+    free(marked);
+    free(moves);
+    return moves != NULL;
+}
+
+/* Axes of a plane have names where its one body tells them, and clicks there are starts; those of space are x, y
+   and z where the first body does not tell others. */
+static void name_axes(const struct gm_own_system *system, struct gm_sight *sight)
+{
+    static const char *const usual[] = {"x", "y", "z"};
+    const struct gm_system_item *first = gm_system_item_of(system, GM_WORD_VIEW, 0);
+    const bool in_space = sight->dimensions == 3;
+    bool told = first && (in_space || sight->rods == 0);
+    for (size_t k = 0; told && k < sight->dimensions; k++) {
+        const struct gm_node *at = &system->graph.nodes[first->nodes[k]];
+        told = at->operation == GM_VARIABLE && at->a < system->n;
+        if (told) {
+            sight->labels[k] = system->variables[at->a].name;
+            sight->components[k % 2] = in_space ? -1 : (long)at->a;
+        }
+    }
+    for (size_t k = 0; k < 3 && !told; k++) {
+        sight->labels[k] = in_space ? usual[k] : NULL;
+    }
+    if (sight->bodies > 1 && sight->components[0] >= 0) {
+        sight->labels[0] = sight->labels[1] = NULL; /* they are those of one body only */
+        for (size_t i = 1; i < sight->bodies; i++) {
+            if (!sight->fixed[i]) {
+                sight->components[0] = sight->components[1] = -1;
+            }
+        }
+    }
+}
+
+/* What `view` and `rod` lines say. */
+static bool open_view(struct gm_system_scene *own, struct gm_sight *sight)
+{
+    const struct gm_own_system *system = &own->system;
+    const size_t views = gm_system_count_items(system, GM_WORD_VIEW),
+                 rods = gm_system_count_items(system, GM_WORD_ROD);
+    const size_t dimensions = views > 0 ? gm_system_item_of(system, GM_WORD_VIEW, 0)->count
+                                        : gm_system_item_of(system, GM_WORD_ROD, 0)->count / 2;
+    *sight = (struct gm_sight){
+        .name = "view", .dimensions = dimensions, .bodies = views, .rods = rods, .components = {-1, -1}};
+    gm_node_id *nodes = calloc(gm_sight_numbers(sight), sizeof *nodes);
+    sight->fixed = calloc(views + 1, sizeof *sight->fixed);
+    bool good = nodes && sight->fixed;
+    if (good) {
+        copy_nodes(system, GM_WORD_ROD, copy_nodes(system, GM_WORD_VIEW, nodes));
+        good = find_fixed(system, sight, nodes) &&
+               gm_system_open_tape(own, &sight->tape, nodes, gm_sight_numbers(sight));
+        name_axes(system, sight);
+    }
+    free(nodes);
+    return good;
+}
+
+bool gm_system_open_surfaces(struct gm_system_scene *own, char *sentence)
+{
+    gm_node_id nodes[3 * GM_MOST_SURFACES];
+    const size_t count = gm_system_count_items(&own->system, GM_WORD_SURFACE);
+    if (count > GM_MOST_SURFACES) {
+        return gm_refuse(sentence, "a system has at most %d surfaces; this has %zu", GM_MOST_SURFACES, count);
+    }
+    copy_nodes(&own->system, GM_WORD_SURFACE, nodes);
+    return count == 0 || gm_system_open_tape(own, &own->surfaces, nodes, 3 * count);
+}
+
+static bool add_pair(struct gm_system_scene *own, size_t a, size_t b)
+{
+    struct gm_own_system *system = &own->system;
+    if (own->sight_count == GM_MOST_SIGHTS) {
+        return true;
+    }
+    struct gm_sight *sight = &own->sights[own->sight_count++];
+    own->pair_count++;
+    sight->name = gm_system_kept_text(own, "%s:%s", system->variables[a].name, system->variables[b].name);
+    const gm_node_id x = gm_formula_variable(&system->graph, a), y = gm_formula_variable(&system->graph, b);
+    return sight->name && open_plane(own, sight, x, y);
+}
+
+bool gm_system_make_sights(struct gm_system_scene *own)
+{
+    const struct gm_own_system *system = &own->system;
+    const size_t n = system->n, half = n / 2;
+    own->sights = calloc(GM_MOST_SIGHTS, sizeof *own->sights);
+    own->shows = calloc(GM_MOST_SIGHTS + 4, sizeof *own->shows);
+    bool good = own->sights && own->shows;
+    if (good &&
+        (gm_system_count_items(system, GM_WORD_VIEW) > 0 || gm_system_count_items(system, GM_WORD_ROD) > 0)) {
+        good = open_view(own, &own->sights[own->sight_count++]);
+    }
+    if (n == 1) {
+        good = good && add_pair(own, 1, 0); /* over time */
+    }
+    for (size_t i = 0; good && system->kind <= GM_LAGRANGIAN && i < half; i++) {
+        good = add_pair(own, i, half + i);
+    }
+    const size_t planar = system->kind <= GM_LAGRANGIAN ? half : n;
+    for (size_t i = 0; good && i < planar && n > 1; i++) {
+        for (size_t k = i + 1; good && k < planar && own->sight_count < GM_MOST_SIGHTS; k++) {
+            good = add_pair(own, i, k);
+        }
+    }
+    const struct gm_sight *first = &own->sights[0];
+    own->disc[1] = n == 1 ? 0 : system->kind <= GM_LAGRANGIAN ? half : 1;
+    if (good && first->components[0] >= 0 && first->components[1] >= 0 && n > 1) {
+        own->disc[0] = (size_t)first->components[0];
+        own->disc[1] = (size_t)first->components[1];
+    }
+    const struct gm_system_item *section_item = gm_system_item_of(system, GM_WORD_SECTION, 0);
+    if (good && section_item) {
+        gm_node_id nodes[1 + GM_MOST_CONDITIONS] = {section_item->nodes[0]};
+        own->has_section = true;
+        own->stroboscopic = section_item->periodic;
+        own->conditions =
+            section_item->count - 3 < GM_MOST_CONDITIONS ? section_item->count - 3 : GM_MOST_CONDITIONS;
+        memcpy(nodes + 1, section_item->nodes + 3, own->conditions * sizeof *nodes);
+        own->turns = !own->stroboscopic && is_angle(own, nodes[0]);
+        own->section.name = "section";
+        good = open_plane(own, &own->section, section_item->nodes[1], section_item->nodes[2]) &&
+               gm_system_open_tape(own, &own->where, nodes, 1 + own->conditions);
+    }
+    size_t shows = 0;
+    if (good) {
+        own->shows[shows++] = "all";
+        if (own->has_section) {
+            own->shows[shows++] = "section";
+        }
+        for (size_t i = own->sight_count - own->pair_count; i < own->sight_count; i++) {
+            own->shows[shows++] = own->sights[i].name;
+        }
+    }
+    return good;
+}
+
+void gm_system_close_sight(struct gm_sight *sight)
+{
+    gm_tape_close(&sight->tape);
+    free(sight->fixed);
+}

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How somebody's system may be looked at. */
+#ifndef GM_SCENES_ODE_SYSTEM_SIGHTS_H
+#define GM_SCENES_ODE_SYSTEM_SIGHTS_H
+
+#include "scenes/ode/system/look.h"
+
+/* Makes the sights, the section and the words of show=, with room for another one; false where memory was refused. */
+bool gm_system_make_sights(struct gm_system_scene *own);
+void gm_system_close_sight(struct gm_sight *sight);
+
+/* The surfaces that the file names; false with a sentence where they are too many. */
+bool gm_system_open_surfaces(struct gm_system_scene *own, char *sentence);
+
+#endif
