@@ -27,73 +27,75 @@ enum { STAGES = 4, LARGEST = GM_COMPLEX_LARGEST, SIZE = LARGEST * LARGEST };
 enum { PER_STAGE = STAGES + 1 };
 struct exponential {
     size_t stages; /* evaluations of N */
-    /* The matrices of row 1 .. stages (the end) on one mode; those that stay 0 are not touched. whole: exp(z)
-       and phi_1 .. phi_3 of z = h L; half: of z/2. */
-    void (*rows)(size_t size, double complex (*whole)[SIZE], double complex (*half)[SIZE],
+    /* The n * n matrices of row 1 .. stages (the end) on one mode; those that stay 0 are not touched. whole:
+       exp(z) and phi_1 .. phi_3 of z = h L; half: of z/2. */
+    void (*rows)(size_t n, double complex (*whole)[SIZE], double complex (*half)[SIZE],
                  double complex (*row)[PER_STAGE][SIZE]);
 };
 
-/* to += factor from */
-static void add(size_t size, double factor, const double complex *from, double complex *to)
+/* to += factor from, of so many numbers */
+static void add_vector(size_t size, double factor, const double complex *from, double complex *to)
 {
     for (size_t i = 0; i < size; i++) {
         to[i] += factor * from[i];
     }
 }
 
-/* to += factor times the unit matrix */
-static void add_unit(size_t size, double factor, double complex *to)
+/* to += factor from, of n * n matrices */
+static void add(size_t n, double factor, const double complex *from, double complex *to)
 {
-    size_t n = 1;
-    while (n * n < size) {
-        n++;
-    }
+    add_vector(n * n, factor, from, to);
+}
+
+/* to += factor times the unit matrix */
+static void add_unit(size_t n, double factor, double complex *to)
+{
     for (size_t i = 0; i < n; i++) {
         to[i * (n + 1)] += factor;
     }
 }
 
-static void euler_rows(size_t size, double complex (*whole)[SIZE], double complex (*half)[SIZE],
+static void euler_rows(size_t n, double complex (*whole)[SIZE], double complex (*half)[SIZE],
                        double complex (*row)[PER_STAGE][SIZE])
 {
     (void)half;
-    add(size, 1, whole[0], row[0][0]);
-    add(size, 1, whole[1], row[0][1]);
+    add(n, 1, whole[0], row[0][0]);
+    add(n, 1, whole[1], row[0][1]);
 }
 
-static void lawson_rows(size_t size, double complex (*whole)[SIZE], double complex (*half)[SIZE],
+static void lawson_rows(size_t n, double complex (*whole)[SIZE], double complex (*half)[SIZE],
                         double complex (*row)[PER_STAGE][SIZE])
 {
-    add(size, 1, half[0], row[0][0]);
-    add(size, 0.5, half[0], row[0][1]);
-    add(size, 1, half[0], row[1][0]);
-    add_unit(size, 0.5, row[1][2]);
-    add(size, 1, whole[0], row[2][0]);
-    add(size, 1, half[0], row[2][3]);
-    add(size, 1, whole[0], row[3][0]);
-    add(size, 1. / 6, whole[0], row[3][1]);
-    add(size, 1. / 3, half[0], row[3][2]);
-    add(size, 1. / 3, half[0], row[3][3]);
-    add_unit(size, 1. / 6, row[3][4]);
+    add(n, 1, half[0], row[0][0]);
+    add(n, 0.5, half[0], row[0][1]);
+    add(n, 1, half[0], row[1][0]);
+    add_unit(n, 0.5, row[1][2]);
+    add(n, 1, whole[0], row[2][0]);
+    add(n, 1, half[0], row[2][3]);
+    add(n, 1, whole[0], row[3][0]);
+    add(n, 1. / 6, whole[0], row[3][1]);
+    add(n, 1. / 3, half[0], row[3][2]);
+    add(n, 1. / 3, half[0], row[3][3]);
+    add_unit(n, 1. / 6, row[3][4]);
 }
 
 /* psi (E - 1) = phi_1(h L) - phi_1(h L/2), as E phi_1(h L/2) = 2 phi_1(h L) - phi_1(h L/2) */
-static void etd_rows(size_t size, double complex (*whole)[SIZE], double complex (*half)[SIZE],
+static void etd_rows(size_t n, double complex (*whole)[SIZE], double complex (*half)[SIZE],
                      double complex (*row)[PER_STAGE][SIZE])
 {
-    add(size, 1, half[0], row[0][0]);
-    add(size, 0.5, half[1], row[0][1]);
-    add(size, 1, half[0], row[1][0]);
-    add(size, 0.5, half[1], row[1][2]);
-    add(size, 1, whole[0], row[2][0]);
-    add(size, 1, whole[1], row[2][1]);
-    add(size, -1, half[1], row[2][1]);
-    add(size, 1, half[1], row[2][3]);
+    add(n, 1, half[0], row[0][0]);
+    add(n, 0.5, half[1], row[0][1]);
+    add(n, 1, half[0], row[1][0]);
+    add(n, 0.5, half[1], row[1][2]);
+    add(n, 1, whole[0], row[2][0]);
+    add(n, 1, whole[1], row[2][1]);
+    add(n, -1, half[1], row[2][1]);
+    add(n, 1, half[1], row[2][3]);
     static const double weights[STAGES][3] = {{1, -3, 4}, {0, 2, -4}, {0, 2, -4}, {0, -1, 4}};
-    add(size, 1, whole[0], row[3][0]);
+    add(n, 1, whole[0], row[3][0]);
     for (size_t j = 0; j < STAGES; j++) {
         for (size_t k = 0; k < 3; k++) {
-            add(size, weights[j][k], whole[k + 1], row[3][j + 1]);
+            add(n, weights[j][k], whole[k + 1], row[3][j + 1]);
         }
     }
 }
@@ -163,7 +165,7 @@ static void make_matrices(const struct gm_task *task, struct work *work)
                 memcpy(phi[part][k], packed + k * size, size * sizeof *packed);
             }
         }
-        row->rows(size, phi[0], phi[1], made);
+        row->rows(fields, phi[0], phi[1], made);
         for (size_t stage = 0; stage < row->stages; stage++) {
             for (size_t j = 0; j < PER_STAGE; j++, to += size) {
                 memcpy(to, made[stage][j], size * sizeof *to);
@@ -188,7 +190,7 @@ static void combine(const struct gm_task *task, struct work *work, size_t row, s
                 of[i] = waves[i * points + mode];
             }
             gm_complex_multiply(fields, matrices + j * size, of, part);
-            add(fields, j == 0 ? 1 : task->dt, part, sum);
+            add_vector(fields, j == 0 ? 1 : task->dt, part, sum);
         }
         for (size_t i = 0; i < fields; i++) {
             work->stage[i * points + mode] = sum[i];
