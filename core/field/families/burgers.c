@@ -282,7 +282,7 @@ GM_CLONES static bool within(const double *u, size_t points, double lambda, doub
 bool gm_burgers_fixed(const struct gm_burgers *burgers, const struct gm_scheme *scheme)
 {
     const struct gm_burgers_row *row = scheme->coefficients;
-    return burgers->frame == GM_FRAME_FIXED || (burgers->frame == GM_FRAME_EACH && !row->invariant);
+    return gm_frame_rests(burgers->frame, row->invariant);
 }
 
 /* One step of a level to its other half, with the exact values at both ends. */
