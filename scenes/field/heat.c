@@ -196,8 +196,13 @@ static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct 
     picture->subtitle =
         gm_picture_text(picture, "the node nearest to x = %g,  ν = %g,  h = %g,  k = %s", scene->at,
                         scene->heat.diffusivity, scene->dx, gm_step_text(picture, lanes[0]->run->dt));
-    const struct gm_frame_look look = {
-        .h = scene->dx, .k = lanes[0]->run->dt, .value = "ln u/uⱼ", .carried = "ln û/ûⱼ"};
+    const struct gm_frame_look look = {.h = scene->dx,
+                                       .k = lanes[0]->run->dt,
+                                       .value = "ln u/uⱼ",
+                                       .carried = "ln û/ûⱼ",
+                                       .section = gm_heat_keeps(lanes[0]->scheme) & GM_HEAT_PROJECTIONS
+                                                      ? "ûⱼ₋₁ = ûⱼ = ûⱼ₊₁"
+                                                      : "ûⱼ₋₁ = ûⱼ₊₁"};
     if (stencils) {
         gm_draw_moving_frame(picture, lanes, count, stencils, &look);
     }

@@ -107,6 +107,7 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
     }
     finish(&panel->y, 0.15);
     if (carried) {
+        panel->note = gm_picture_text(picture, "cross-section  %s", look->section);
         const double section[] = {panel->x.low, 0, panel->x.high, 0};
         gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.5, GM_LONG_DASH}, section, 2, false);
     }
@@ -126,9 +127,12 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
         dots.width = 7 + style.width;
         gm_mark_points(picture, panel, dots, points + 2 * (MIDDLE - 1), 3);
         if (!carried) {
-            const char *typed = lanes[i]->shown.colour_name;
-            gm_panel_key(picture, panel, gm_lane_style(lanes[i], 1, 2.2),
-                         typed[0] ? typed : gm_lane_title(lanes[i]));
+            const char *typed = lanes[i]->shown.colour_name, *title = gm_lane_title(lanes[i]);
+            const char *whole = !typed[0] ? title
+                                : gm_panel_count(lanes, count) == 1
+                                    ? typed
+                                    : gm_picture_text(picture, "%s, %s", title, typed);
+            gm_panel_key(picture, panel, gm_lane_style(lanes[i], 1, 2.2), whole);
         }
     }
 }

@@ -33,7 +33,8 @@ size_t gm_stencil_node(const struct gm_line *line, double place);
 struct gm_frame_look {
     double h, k;         /* the units of x and t */
     const char *value;   /* what u of the events is, "u" */
-    const char *carried; /* how it is called when it is carried, with the cross-section: "û = 0, D₀û = 0" */
+    const char *carried; /* and what it is when it is carried, "û" */
+    const char *section; /* the cross-section that defines the frame, "û = 0, D₀û = 0" */
 };
 
 /* Four panels: the nodes as the lanes see them and where they are carried, and the values likewise. */
