@@ -84,12 +84,13 @@ enum gm_field_facet {
     GM_NEEDS_BURGERS = 1u << 2, /* u_t + u u_x = nu u_xx in moving frames */
     GM_NEEDS_KDV = 1u << 3,     /* u_t + eta u u_x + mu u_xxx = 0 */
     GM_NEEDS_NLS = 1u << 4,     /* i psi_t + psi_xx + |psi|^2 psi = 0 */
+    GM_NEEDS_HEAT = 1u << 5,    /* u_t = nu u_xx in moving frames, u > 0 */
 };
 struct gm_field {
     const struct gm_form *form; /* NULL: it has none, and so on */
     const struct gm_wave *wave;
     const struct gm_dispersive *dispersive;
-    /* GM_NEEDS_BURGERS, _KDV, _NLS: the problem's parameters are then its constants; or 0. */
+    /* GM_NEEDS_BURGERS, _KDV, _NLS, _HEAT: the problem's parameters are then its constants; or 0. */
     unsigned equation;
 };
 

@@ -8,6 +8,7 @@
    the shock even at rest where nodes are coarse.
 
    Razafindralandy, Hamdouni & Chhay (2018), section "Invariantisation":
+       figures 22, 23   the moving frame at a node (show=frame)
        figure 24   the standard schemes        figure 25   the invariantised ones
        figure 26   a self-similar viscous shock */
 #include <math.h>
@@ -38,6 +39,11 @@ static const struct gm_parameter parameters[] = {
     GM_CHOICE_ROW(struct gm_burgers_scene, burgers.printed, "form", "conservative", forms,
                   "of the convection in ftcs and crank-nicolson: D(u²/2), or u Du as printed"),
     GM_REAL_ROW(struct gm_burgers_scene, offset, "offset", "0", 0, 1, "shift of the nodes, in dx"),
+    GM_REAL_ROW(struct gm_burgers_scene, burgers.a, "a", "-0.5", -10, 10,
+                "of the frames of ftcs-family: all keep the symmetries, −1/2 alone the second order in dx"),
+    GM_REAL_ROW(struct gm_burgers_scene, burgers.d, "d", "0", -10, 10,
+                "likewise; without effect where a is −1/2"),
+    GM_FRAME_ROWS(struct gm_burgers_scene, show, at, "-0.01"),
 };
 
 static double half_length(const struct gm_burgers_scene *scene)
@@ -177,13 +183,22 @@ static double galilean_defect(const struct gm_view *view)
     return largest;
 }
 
-/* On the three nodes 0.3 - h, 0.3, 0.3 + h with the values 0.4, 0.3, 0.15, and the projection with a4 =
-   0.5. */
-static double projection_defect(const struct gm_view *view)
+/* On the three nodes 0.3 - h, 0.3, 0.3 + h with the values 0.4, 0.3, 0.15. */
+static double defect(const struct gm_view *view, const struct gm_burgers_symmetry *symmetry)
 {
     static const double u[3] = {0.4, 0.3, 0.15};
-    return gm_burgers_projection_defect(view->scheme, gm_burgers_of(view->problem)->viscosity,
-                                        view->problem->line.dx, view->dt, 0.5, 0.3, u);
+    return gm_burgers_defect(view->scheme, gm_burgers_of(view->problem), view->problem->line.dx, view->dt,
+                             symmetry, 0.3, u);
+}
+
+static double projection_defect(const struct gm_view *view)
+{
+    return defect(view, &(const struct gm_burgers_symmetry){.a4 = 0.5, .scale = 1});
+}
+
+static double scaling_defect(const struct gm_view *view)
+{
+    return defect(view, &(const struct gm_burgers_symmetry){.scale = 1.3});
 }
 
 /* Where it is 1 or more, no projection turns D0 u into 0: the frame in which an invariant scheme steps does
@@ -206,7 +221,8 @@ static const struct gm_observable observables[] = {
     GM_OBSERVABLE("compression", compression, "compression in a step, −Δt D₀u"),
     GM_LOG_OBSERVABLE("galilean_defect", galilean_defect, "difference from the run at λ = 0",
                       .missing = "the run at λ = 0 has failed"),
-    GM_LOG_OBSERVABLE("projection_defect", projection_defect, "defect of a step under projection"),
+    GM_LOG_OBSERVABLE("projection_defect", projection_defect, "defect of a step under a projection by 1/2"),
+    GM_LOG_OBSERVABLE("scaling_defect", scaling_defect, "defect of a step under a scaling by 1.3"),
 };
 
 static const char *const schemes[] = {"ftcs",
@@ -215,9 +231,21 @@ static const char *const schemes[] = {"ftcs",
                                       "crank-nicolson",
                                       "lax-wendroff-invariant",
                                       "crank-nicolson-invariant",
+                                      "ftcs-family",
                                       NULL};
 
 static const struct gm_figure figures[] = {
+    {
+        .name = "razafindralandy-22",
+        .statement = "the moving frame carries the node to the origin and the grid along",
+        .arguments = "show=frame scheme=ftcs-invariant lambda=0 until=0.2",
+    },
+    {
+        .name = "razafindralandy-23",
+        .statement =
+            "from whichever frame the nodes are seen, the moving frame carries them to the same place",
+        .arguments = "show=frame scheme=ftcs-invariant lambda=0,0.5,1 frame=moving until=0.2",
+    },
     {
         .name = "razafindralandy-24",
         .statement = "seen from a moving frame, the standard schemes make errors that grow with its velocity",

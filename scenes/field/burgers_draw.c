@@ -303,9 +303,60 @@ static void draw_graphs(struct gm_picture *picture, const struct gm_lane *const 
     }
 }
 
+/* At a node; of schemes that rest in a frame too. */
+static struct gm_moving_frame moving_frame(const struct gm_lane *lane)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_burgers_scene *scene = lane->parameters;
+    const struct gm_line *line = &view.problem->line;
+    const bool fixed = gm_burgers_fixed(&scene->burgers, view.scheme);
+    const double lambda = scene->burgers.lambda, k = view.dt, sigma = fixed ? 0 : lambda * k;
+    const size_t j = gm_stencil_node(line, scene->at + (fixed ? lambda * (view.t - view.t0) : 0));
+    const struct gm_burgers_symmetry frame =
+        gm_burgers_frame(view.scheme, &scene->burgers, line->dx, view.state + j - 1);
+    struct gm_moving_frame made = {.known = frame.a4 * k < 1};
+    for (size_t e = 0; made.known && e < 2 * GM_STENCIL; e++) {
+        const size_t i = j + e % GM_STENCIL - GM_STENCIL / 2;
+        const bool next = e >= GM_STENCIL;
+        made.seen[e] = (struct gm_event){.t = next ? k : 0,
+                                         .x = ((double)i - (double)j) * line->dx + (next ? sigma : 0),
+                                         .u = view.state[i]};
+        made.carried[e] = gm_burgers_carried(&frame, made.seen[e]);
+    }
+    return made;
+}
+
+static void draw_frame(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count)
+{
+    const struct gm_burgers_scene *scene = lanes[0]->parameters;
+    struct gm_moving_frame *made = gm_picture_memory(picture, count * sizeof *made);
+    for (size_t i = 0; made && i < count; i++) {
+        made[i] = moving_frame(lanes[i]);
+    }
+    picture->title = "The moving frame at a node of Burgers' equation";
+    picture->subtitle =
+        gm_picture_text(picture, "the node nearest to x = %g,  ν = %g,  h = %g,  k = %s", scene->at,
+                        scene->burgers.viscosity, scene->dx, gm_step_text(picture, lanes[0]->run->dt));
+    const struct gm_burgers_row *row = lanes[0]->scheme->coefficients;
+    const struct gm_frame_look look = {
+        .h = scene->dx,
+        .k = lanes[0]->run->dt,
+        .value = "u",
+        .carried = "û",
+        .section = row->family ? "a ûⱼ₊₁ + (1 + a) ûⱼ₋₁ = (1 + 2a) ûⱼ,  ûⱼ = d h² D₂û" : "ûⱼ = 0,  D₀û = 0"};
+    if (made) {
+        gm_draw_moving_frame(picture, lanes, count, made, &look);
+    }
+}
+
 void gm_burgers_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct gm_burgers_scene *scene = lanes[0]->parameters;
+    if (scene->show == GM_FRAME_SHOWN) {
+        gm_draw_clock(picture, lanes, count);
+        draw_frame(picture, lanes, count);
+        return;
+    }
     const size_t panels = gm_panel_count(lanes, count);
     double *points = gm_picture_memory(picture, 2 * (DRAWN + 3) * sizeof *points);
     if (!points) {

@@ -3,14 +3,15 @@
 #define GM_SCENES_FIELD_BURGERS_DRAW_H
 
 #include "core/field/families/burgers.h"
-#include "scenes/frame/lane.h"
+#include "scenes/field/moving_frame.h"
 
 /* The pictures of scenes/field/burgers.c, and the parameters that they tell of. */
 
 struct gm_burgers_scene {
     struct gm_timing timing;
     struct gm_burgers burgers;
-    double dx, courant, offset;
+    double dx, courant, offset, at;
+    int show;
 };
 
 void gm_burgers_draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture);

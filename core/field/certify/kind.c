@@ -11,6 +11,7 @@
 #include "core/field/certify/quantities.h"
 #include "core/field/families/burgers.h"
 #include "core/field/families/families.h"
+#include "core/field/families/heat.h"
 #include "core/field/families/wave_laws.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
@@ -26,6 +27,7 @@ static unsigned facets(const struct gm_problem *problem)
 
 static const struct gm_facet_words words[] = {
     {GM_NEEDS_BURGERS, "Burgers' equation", "Burgers' equation"},
+    {GM_NEEDS_HEAT, "the heat equation", "the heat equation"},
     {GM_NEEDS_KDV, "the Korteweg-de Vries equation", "the Korteweg-de Vries equation"},
     {GM_NEEDS_NLS, "the nonlinear Schrödinger equation", "the nonlinear Schrödinger equation"},
     {GM_NEEDS_WAVE, "a wave equation", "wave equations"},
@@ -303,7 +305,8 @@ enum { FRONT = 81 };
 /* The field after a time on a resolved front, nu = 0.1, dx = 0.05; false for a failure. */
 static bool front_after(const struct gm_scheme *scheme, double lambda, double dt, double until, double *u)
 {
-    const struct gm_burgers burgers = {.frame = GM_FRAME_MOVING, .viscosity = 0.1, .lambda = lambda};
+    const struct gm_burgers burgers = {
+        .frame = GM_FRAME_MOVING, .viscosity = 0.1, .lambda = lambda, .a = -0.3, .d = 0.2};
     struct gm_problem problem = gm_problem_burgers;
     problem.parameters = &burgers;
     problem.line = (struct gm_line){.points = FRONT, .dx = 0.05, .first = -2};
@@ -341,17 +344,72 @@ static void certify_burgers(struct gm_certificate *certificate, double *farthest
                     : NAN,
                name);
     static const double u[3] = {0.4, 0.3, 0.15};
-    const double projection = gm_burgers_projection_defect(scheme, 0.005, 0.01, 0.01, 0.5, 0.3, u);
+    const struct gm_burgers burgers = {.viscosity = 0.005, .a = -0.3, .d = 0.2};
+    const struct gm_burgers_symmetry symmetry = {.a4 = 0.5, .a5 = 0.4, .scale = 1.3};
+    const double step = gm_burgers_defect(scheme, &burgers, 0.01, 0.01, &symmetry, 0.3, u);
     good &= front_after(scheme, 2, 0.002, 0.2, boosted);
     const double boost = good ? gm_distance(boosted, level[0], FRONT) : INFINITY;
     /* three nodes do not determine an implicit step: its claim is of boosts alone */
-    gm_certificate_note(certificate, GM_EQUIVARIANT, isnan(projection) ? boost : fmax(boost, projection),
-                        name);
+    gm_certificate_note(certificate, GM_EQUIVARIANT, isnan(step) ? boost : fmax(boost, step), name);
+}
+
+/* The field after a time on two kernels, nu = 1, dx = 0.1, as the original frame sees it; false for a
+   failure. */
+static bool heat_after(const struct gm_scheme *scheme, double lambda, double dt, double until, double *u)
+{
+    const struct gm_heat heat = {
+        .start = GM_HEAT_TWO, .frame = GM_FRAME_MOVING, .diffusivity = 1, .lambda = lambda, .age = 0.25};
+    struct gm_problem problem = gm_problem_heat;
+    problem.parameters = &heat;
+    problem.line = (struct gm_line){.points = FRONT, .dx = 0.1, .first = -4};
+    problem.n = FRONT;
+    double y[FRONT];
+    for (size_t j = 0; j < FRONT; j++) {
+        y[j] = gm_heat_exact(&heat, false, gm_line_node(&problem.line, j), 0);
+    }
+    struct gm_run *run = gm_run_open(&problem, scheme, &no_settings, 0, dt, y);
+    if (!run) {
+        return false;
+    }
+    const bool good = gm_run_until(run, until) == GM_OK;
+    for (size_t j = 0; j < FRONT; j++) {
+        u[j] = gm_run_state(run)[j] / gm_heat_factor(&heat, false, gm_line_node(&problem.line, j), run->t);
+    }
+    gm_run_close(run);
+    return good;
+}
+
+static void certify_heat(struct gm_certificate *certificate, double *farthest)
+{
+    const struct gm_scheme *scheme = certificate->scheme;
+    if (!(scheme->needs & GM_NEEDS_HEAT)) {
+        return;
+    }
+    static const struct gm_heat heat = {.diffusivity = 1};
+    struct gm_problem problem = gm_problem_heat;
+    problem.parameters = &heat;
+    problem.line = (struct gm_line){.points = FRONT, .dx = 0.1, .first = -4};
+    double level[3][FRONT], boosted[FRONT];
+    bool good = true;
+    for (int k = 0; k < 3; k++) {
+        good &= heat_after(scheme, 0, ldexp(0.002, -k), 0.2, level[k]);
+    }
+    note_order(certificate, farthest,
+               good ? log2(gm_distance(level[0], level[1], FRONT) / gm_distance(level[1], level[2], FRONT))
+                    : NAN,
+               problem.name);
+    const unsigned keeps = gm_heat_keeps(scheme);
+    const struct gm_heat_symmetry symmetry = {
+        .boost = 0.5, .projection = keeps & GM_HEAT_PROJECTIONS ? 0.5 : 0, .scale = 1.3};
+    good &= heat_after(scheme, 2, 0.002, 0.2, boosted);
+    const double step = gm_heat_defect(&problem, scheme, 0.002, &symmetry, level[0]);
+    gm_certificate_note(certificate, GM_EQUIVARIANT,
+                        good ? fmax(step, gm_distance(boosted, level[0], FRONT)) : INFINITY, problem.name);
 }
 
 /* Measures the claims of a scheme for fields on a line, on every equation that it fits: order against exact
    solutions (Burgers: in time, by itself), the multisymplectic law, energy, mass and charge, return after a
-   reversed step, equivariance under boosts and projections. */
+   reversed step, equivariance under boosts, projections and scalings. */
 static void certify(const struct gm_scheme *scheme, struct gm_certificate *certificate)
 {
     (void)scheme; /* the certificate's */
@@ -360,6 +418,7 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
     certify_kdv(certificate, &farthest);
     certify_nls(certificate, &farthest);
     certify_burgers(certificate, &farthest);
+    certify_heat(certificate, &farthest);
     certificate->order_holds = farthest >= 0 && farthest < 0.15;
 }
 

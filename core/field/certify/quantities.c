@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "core/field/families/burgers.h"
+#include "core/field/families/heat.h"
 #include "core/field/problems/burgers.h"
 #include "core/run.h"
 
@@ -19,10 +20,12 @@ static void grid(const struct gm_run *run, double *values)
 /* Where the nodes are by now that move with a frame. */
 static void places(const struct gm_run *run, double *values)
 {
-    const struct gm_burgers *burgers = gm_burgers_of(run->problem);
+    const bool heat = gm_field_of(run->problem)->equation == GM_NEEDS_HEAT;
+    const double lambda = heat ? gm_heat_of(run->problem)->lambda : gm_burgers_of(run->problem)->lambda;
+    const double t0 = heat ? 0 : gm_burgers_t0(gm_burgers_of(run->problem));
     grid(run, values);
     for (size_t i = 0; i < run->problem->line.points; i++) {
-        values[i] += burgers->lambda * (run->t - gm_burgers_t0(burgers));
+        values[i] += lambda * (run->t - t0);
     }
 }
 
@@ -41,7 +44,9 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
     const size_t points = problem->line.points;
     const bool burgers = field->equation == GM_NEEDS_BURGERS;
     const bool companion = burgers && gm_burgers_of(problem)->lambda != 0;
-    const bool moving = companion && !gm_burgers_fixed(gm_burgers_of(problem), run->scheme);
+    const struct gm_heat *heat = field->equation == GM_NEEDS_HEAT ? gm_heat_of(problem) : NULL;
+    const bool moving = (companion && !gm_burgers_fixed(gm_burgers_of(problem), run->scheme)) ||
+                        (heat && heat->lambda != 0 && !gm_heat_fixed(heat, run->scheme));
     struct gm_quantity *end = add(quantities, moving ? "x" : "grid", GM_ON_NODES, points, 0);
     quantities->axis = 1;
     quantities->fixed = !moving;

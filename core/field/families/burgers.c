@@ -17,6 +17,11 @@
                          a = (u_{j+1} + 2 u_j + u_{j-1})/4 + a5
        Crank-Nicolson    m (m v + sigma a4 - u)/k + (m v + sigma a4 + a5) m (m D0 v + a4)/2
                              = nu/2 (D2 u + m^3 D2 v)
+   It is one of a family (eqs. 117 to 119), whose two numbers a and d every symmetry is kept with:
+       a4 = [a u_{j+1} - (1 + 2 a) u_j + (1 + a) u_{j-1}]/h,   a5 = d h^2 D2 u - u_j,   m = 1 - k a4
+       FTCS              v = [u - sigma a4 + k/m (nu D2 u - (u + a5) (D0 u + a4))] / m
+   There D0 u + a4 = (a + 1/2) h D2 u: what is left of the convection diffuses by (u - sigma/k)(a + 1/2) h,
+   which only a = -1/2, the frame above, turns into second order in h; d then has no effect.
    M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018), eqs. 97 to 123. */
 #include "core/field/families/burgers.h"
 
@@ -91,6 +96,25 @@ static enum gm_status ftcs_invariant(const struct gm_burgers_step *step, struct 
 {
     ftcs_invariant_nodes(step->u, step->out, step->points, step->k, step->sigma, 1 / (2 * step->h),
                          step->burgers->viscosity * step->k / (step->h * step->h));
+    progress->evaluations++;
+    return GM_OK;
+}
+
+GM_CLONES static void ftcs_family_nodes(const double *restrict u, double *restrict v, size_t points, double k,
+                                        double sigma, double h, double viscosity, double a, double d)
+{
+    for (size_t j = 1; j + 1 < points; j++) {
+        const double bend = u[j + 1] - 2 * u[j] + u[j - 1];
+        const double a4 = (a * u[j + 1] - (1 + 2 * a) * u[j] + (1 + a) * u[j - 1]) / h, m = 1 - k * a4;
+        const double rate = viscosity * bend / (h * h) - d * bend * (a + 0.5) * bend / h;
+        v[j] = (u[j] - sigma * a4 + k / m * rate) / m;
+    }
+}
+
+static enum gm_status ftcs_family(const struct gm_burgers_step *step, struct gm_progress *progress)
+{
+    ftcs_family_nodes(step->u, step->out, step->points, step->k, step->sigma, step->h,
+                      step->burgers->viscosity, step->burgers->a, step->burgers->d);
     progress->evaluations++;
     return GM_OK;
 }
@@ -282,7 +306,7 @@ GM_CLONES static bool within(const double *u, size_t points, double lambda, doub
 bool gm_burgers_fixed(const struct gm_burgers *burgers, const struct gm_scheme *scheme)
 {
     const struct gm_burgers_row *row = scheme->coefficients;
-    return burgers->frame == GM_FRAME_FIXED || (burgers->frame == GM_FRAME_EACH && !row->invariant);
+    return gm_frame_rests(burgers->frame, row->invariant);
 }
 
 /* One step of a level to its other half, with the exact values at both ends. */
@@ -349,37 +373,61 @@ static struct gm_progress advance(const struct gm_task *task)
     return progress;
 }
 
-double gm_burgers_projection_defect(const struct gm_scheme *scheme, double viscosity, double h, double k,
-                                    double a, double x, const double u[3])
+struct gm_event gm_burgers_carried(const struct gm_burgers_symmetry *symmetry, struct gm_event event)
+{
+    const double s = symmetry->scale, m = 1 - symmetry->a4 * event.t;
+    return (struct gm_event){
+        .t = s * s * event.t / m,
+        .x = s * (event.x + symmetry->a5 * event.t) / m,
+        .u = (m * event.u + symmetry->a4 * event.x + symmetry->a5) / s,
+    };
+}
+
+struct gm_burgers_symmetry gm_burgers_frame(const struct gm_scheme *scheme, const struct gm_burgers *burgers,
+                                            double h, const double u[3])
+{
+    const struct gm_burgers_row *row = scheme->coefficients;
+    const double a = row->family ? burgers->a : -0.5, d = row->family ? burgers->d : 0;
+    return (struct gm_burgers_symmetry){
+        .a4 = (a * u[2] - (1 + 2 * a) * u[1] + (1 + a) * u[0]) / h,
+        .a5 = d * (u[2] - 2 * u[1] + u[0]) - u[1],
+        .scale = 1,
+    };
+}
+
+double gm_burgers_defect(const struct gm_scheme *scheme, const struct gm_burgers *burgers, double h, double k,
+                         const struct gm_burgers_symmetry *symmetry, double x, const double u[3])
 {
     const struct gm_burgers_row *row = scheme->coefficients;
     if (row->implicit) {
         return NAN;
     }
-    const struct gm_burgers burgers = {.viscosity = viscosity};
     struct gm_progress progress = {.status = GM_OK};
-    double before[3], plain[3] = {0}, projected[3] = {0};
+    double before[3], plain[3] = {0}, carried[3] = {0};
     for (int j = 0; j < 3; j++) {
-        before[j] = u[j] + a * (x + (j - 1) * h);
+        before[j] = gm_burgers_carried(symmetry, (struct gm_event){.x = x + (j - 1) * h, .u = u[j]}).u;
     }
-    const double shrink = 1 - a * k;
-    struct gm_burgers_step step = {.burgers = &burgers, .points = 3, .h = h, .k = k, .u = u, .out = plain};
+    struct gm_burgers_step step = {.burgers = burgers, .points = 3, .h = h, .k = k, .u = u, .out = plain};
     row->method(&step, &progress);
-    step.k = k / shrink;
-    step.sigma = x / shrink - x;
+    const struct gm_event arrival =
+        gm_burgers_carried(symmetry, (struct gm_event){.t = k, .x = x, .u = plain[1]});
+    step.h = symmetry->scale * h;
+    step.k = arrival.t;
+    step.sigma = arrival.x - symmetry->scale * x;
     step.u = before;
-    step.out = projected;
+    step.out = carried;
     row->method(&step, &progress);
-    return fabs(projected[1] - (shrink * plain[1] + a * x));
+    return fabs(carried[1] - arrival.u);
 }
 
 static const struct gm_burgers_row rows[] = {
-    {ftcs, false, false},
-    {lax_wendroff, false, false},
-    {crank_nicolson, true, false},
-    {ftcs_invariant, false, true},
-    {lax_wendroff_invariant, false, true},
-    {crank_nicolson_invariant, true, true},
+    {ftcs, false, false, false},
+    {lax_wendroff, false, false, false},
+    {crank_nicolson, true, false, false},
+    {ftcs_invariant, false, true, false},
+    {lax_wendroff_invariant, false, true, false},
+    {crank_nicolson_invariant, true, true, false},
+    {ftcs_family, false, true, true},
 };
 
 #define BURGERS .family = &gm_family_burgers, .needs = GM_NEEDS_BURGERS
@@ -439,6 +487,17 @@ static const struct gm_scheme schemes[] = {
         .reference = "M. Chhay & A. Hamdouni, Symmetry 2 (2010) 868; Razafindralandy et al. (2018)",
         .coefficients = &rows[5],
         .order = 2,
+        .claims = GM_EQUIVARIANT,
+        BURGERS,
+    },
+    {
+        .name = "ftcs-family",
+        .title = "FTCS, family",
+        .formula = "v = [u − σa₄ + k/m (ν D₂u − (u + a₅)(D₀u + a₄))]/m,  m = 1 − k a₄\n"
+                   "a₄ = [a uⱼ₊₁ − (1 + 2a) uⱼ + (1 + a) uⱼ₋₁]/h,  a₅ = d h² D₂u − u",
+        .reference = "Razafindralandy et al. (2018), eqs. 111 and 117 to 119",
+        .coefficients = &rows[6],
+        .order = 1,
         .claims = GM_EQUIVARIANT,
         BURGERS,
     },

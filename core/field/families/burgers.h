@@ -23,16 +23,29 @@ struct gm_burgers_row {
     gm_burgers_method *method;
     bool implicit;
     bool invariant;
+    bool family; /* its frame is that of a and d */
 };
+
+/* A projection and a boost (eq. 98), then a scaling, about (t, x) = (0, 0):
+       (t, x, u) -> (t/m, (x + a5 t)/m, m u + a4 x + a5),   m = 1 - a4 t
+       (t, x, u) -> (s^2 t, s x, u/s) */
+struct gm_burgers_symmetry {
+    double a4, a5, scale;
+};
+struct gm_event gm_burgers_carried(const struct gm_burgers_symmetry *symmetry, struct gm_event event);
+
+/* The moving frame of three values h apart about the node in their middle, which becomes 0: eqs. 117 to 119,
+   for schemes without a and d with a = -1/2, where both neighbours become the same. */
+struct gm_burgers_symmetry gm_burgers_frame(const struct gm_scheme *scheme, const struct gm_burgers *burgers,
+                                            double h, const double u[3]);
 
 /* Whether the nodes rest in the new frame when this scheme runs. */
 bool gm_burgers_fixed(const struct gm_burgers *burgers, const struct gm_scheme *scheme);
 
-/* The defect of one step of a scheme under the projection
-       (t, x, u) -> (t / (1 - a t), x / (1 - a t), (1 - a t) u + a x)
-   from t = 0 on the three nodes x - h, x, x + h: the step of the projected data against the projected step.
-   NaN for implicit schemes, whose step three nodes do not determine. */
-double gm_burgers_projection_defect(const struct gm_scheme *scheme, double viscosity, double h, double k,
-                                    double a, double x, const double u[3]);
+/* The defect of one step of a scheme under a symmetry from t = 0 on the three nodes x - h, x, x + h: the step
+   of the carried data against the carried step. NaN for implicit schemes, whose step three nodes do not
+   determine. */
+double gm_burgers_defect(const struct gm_scheme *scheme, const struct gm_burgers *burgers, double h, double k,
+                         const struct gm_burgers_symmetry *symmetry, double x, const double u[3]);
 
 #endif

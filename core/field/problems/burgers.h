@@ -3,6 +3,7 @@
 #define GM_CORE_FIELD_PROBLEMS_BURGERS_H
 
 #include "core/field/field.h"
+#include "core/field/problems/frames.h"
 
 /* Burgers' equation u_t + u u_x = nu u_xx and its frames of reference,
        (t, x, u) -> (t, x + lambda (t - t0), u + lambda).
@@ -13,17 +14,11 @@ enum gm_burgers_test {
     GM_BURGERS_SHOCK, /* (x - tanh(x / (2 nu t))) / t, t0 = 1 */
 };
 
-/* Where the nodes are: at rest in the new frame, or moving by lambda dt a step. */
-enum gm_burgers_frame {
-    GM_FRAME_EACH, /* moving for invariant schemes, which know of it, fixed for the others */
-    GM_FRAME_FIXED,
-    GM_FRAME_MOVING,
-};
-
 struct gm_burgers {
-    int test, frame;
-    int printed; /* the convection is u D u, not D(u^2/2) */
+    int test, frame; /* enum gm_burgers_test, gm_frame_nodes */
+    int printed;     /* the convection is u D u, not D(u^2/2) */
     double viscosity, lambda;
+    double a, d; /* of the moving frames of the family (core/field/families/burgers.c) */
 };
 
 static inline const struct gm_burgers *gm_burgers_of(const struct gm_problem *problem)

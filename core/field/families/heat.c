@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Schemes for the heat equation u_t = nu u_xx: forward in time and centred in space, and what moving frames
+   make of it. The time step is k, v = u^{n+1}, r = nu k/h^2, sigma the displacement of a node in a step:
+       ordinary      v = u + r (u_{j+1} - 2 u_j + u_{j-1})
+   commutes with scalings (t, x) -> (s^2 t, s x), and with no boost. The boost of the velocity
+       a = (nu/h) ln(u_{j+1}/u_{j-1})
+   turns the three values around a node into equal ones on both sides, w = sqrt(u_{j+1} u_{j-1}), and the node
+   arrives sigma + a k away; there the step is made, and carried back:
+       boosts        v = exp(a sigma/(2 nu) + a^2 k/(4 nu)) [u + 2 r (w - u)]
+   The projection with p = (4 nu/h^2) ln(w/u_j) then makes all three the same, which diffusion leaves alone:
+       projections   v = u exp(a sigma/(2 nu) + a^2 k/(4 nu) + p (sigma + a k)^2/(4 nu m)) / sqrt(m)
+                     m = 1 - p k
+   It is exact where ln u is a quadratic in x. Both need u > 0, the last one p k < 1; the one of boosts, like
+   convection by centred differences, is stable for a^2 k < 2 nu.
+
+   Razafindralandy et al. (2018), eqs. 73 to 75, 83 and 91; the frame is built as theirs for Burgers' equation,
+   whose slope -u/2nu is that of ln u (E. Hopf, Comm. Pure Appl. Math. 3 (1950) 201). */
+#include "core/field/families/heat.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/field/families/families.h"
+
+/* One step of length k on nodes h apart, each displaced by sigma. u and v have `points` entries; the first
+   and the last of v hold the boundary values of the new level already. */
+struct step {
+    size_t points;
+    double viscosity, h, k, sigma;
+    const double *u;
+    double *v;
+};
+
+struct row {
+    void (*make)(const struct step *step);
+    unsigned keeps; /* enum gm_heat_group */
+};
+
+static void ordinary(const struct step *step)
+{
+    const double *u = step->u, r = step->viscosity * step->k / (step->h * step->h);
+    for (size_t j = 1; j + 1 < step->points; j++) {
+        step->v[j] = u[j] + r * (u[j + 1] - 2 * u[j] + u[j - 1]);
+    }
+}
+
+static void by_boosts(const struct step *step)
+{
+    const double nu = step->viscosity, h = step->h, k = step->k, *u = step->u, r = nu * k / (h * h);
+    for (size_t j = 1; j + 1 < step->points; j++) {
+        const double a = nu / h * log(u[j + 1] / u[j - 1]);
+        const double away = a / (4 * nu) * (2 * step->sigma + a * k);
+        step->v[j] = exp(away) * (u[j] + 2 * r * (sqrt(u[j + 1]) * sqrt(u[j - 1]) - u[j]));
+    }
+}
+
+static void by_projections(const struct step *step)
+{
+    const double nu = step->viscosity, h = step->h, k = step->k, *u = step->u;
+    for (size_t j = 1; j + 1 < step->points; j++) {
+        const double right = log(u[j + 1] / u[j]), left = log(u[j - 1] / u[j]);
+        const double a = nu / h * (right - left), p = 2 * nu / (h * h) * (right + left), m = 1 - p * k;
+        const double arrival = step->sigma + a * k;
+        const double away = a * (2 * step->sigma + a * k) + p * arrival * arrival / m;
+        step->v[j] = u[j] * exp(away / (4 * nu)) / sqrt(m);
+    }
+}
+
+struct gm_event gm_heat_carried(double diffusivity, const struct gm_heat_symmetry *symmetry,
+                                struct gm_event event)
+{
+    const double b = symmetry->boost, p = symmetry->projection, s = symmetry->scale;
+    const double m = 1 - p * event.t, x = event.x + b * event.t;
+    const double power = b * (2 * event.x + b * event.t) + p * x * x / m;
+    return (struct gm_event){
+        .t = s * s * event.t / m, .x = s * x / m, .u = event.u * exp(-power / (4 * diffusivity)) * sqrt(m)};
+}
+
+unsigned gm_heat_keeps(const struct gm_scheme *scheme)
+{
+    return ((const struct row *)scheme->coefficients)->keeps;
+}
+
+struct gm_heat_symmetry gm_heat_frame(const struct gm_scheme *scheme, double diffusivity, double h,
+                                      const double u[3])
+{
+    const double right = log(u[2] / u[1]), left = log(u[0] / u[1]);
+    return (struct gm_heat_symmetry){
+        .boost = diffusivity / h * (right - left),
+        .projection =
+            gm_heat_keeps(scheme) & GM_HEAT_PROJECTIONS ? 2 * diffusivity / (h * h) * (right + left) : 0,
+        .scale = 1,
+    };
+}
+
+bool gm_heat_fixed(const struct gm_heat *heat, const struct gm_scheme *scheme)
+{
+    return gm_frame_rests(heat->frame, gm_heat_keeps(scheme) & GM_HEAT_BOOSTS);
+}
+
+double gm_heat_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
+                      const struct gm_heat_symmetry *symmetry, const double *u)
+{
+    const struct row *row = scheme->coefficients;
+    const struct gm_line *line = &problem->line;
+    const double nu = gm_heat_of(problem)->diffusivity;
+    double largest = 0;
+    for (size_t j = 1; j + 1 < line->points; j++) {
+        const double here = gm_line_node(line, j) - gm_line_node(line, (line->points - 1) / 2);
+        double v[3] = {0}, carried[3], w[3] = {0};
+        struct step step = {.points = 3, .viscosity = nu, .h = line->dx, .k = k, .u = u + j - 1, .v = v};
+        row->make(&step);
+        for (int i = 0; i < 3; i++) {
+            const struct gm_event event = {.x = here + (i - 1) * line->dx, .u = u[j - 1 + (size_t)i]};
+            carried[i] = gm_heat_carried(nu, symmetry, event).u;
+        }
+        const struct gm_event arrival =
+            gm_heat_carried(nu, symmetry, (struct gm_event){.t = k, .x = here, .u = v[1]});
+        step.h *= symmetry->scale;
+        step.k = arrival.t;
+        step.sigma = arrival.x - symmetry->scale * here;
+        step.u = carried;
+        step.v = w;
+        row->make(&step);
+        const double defect = fabs(w[1] / arrival.u - 1);
+        largest = defect <= largest ? largest : defect;
+    }
+    return largest;
+}
+
+struct work {
+    size_t points;
+    double *level[2];
+};
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    const size_t points = problem->line.points;
+    struct work *work = malloc(sizeof *work + 2 * points * sizeof(double));
+    if (work) {
+        work->points = points;
+        work->level[0] = (double *)(work + 1);
+        work->level[1] = work->level[0] + points;
+    }
+    return work;
+}
+
+static struct gm_progress advance(const struct gm_task *task)
+{
+    struct work *work = task->workspace;
+    const struct row *row = task->scheme->coefficients;
+    const struct gm_heat *heat = gm_heat_of(task->problem);
+    const struct gm_line *line = &task->problem->line;
+    const size_t last = work->points - 1;
+    const bool fixed = gm_heat_fixed(heat, task->scheme);
+    struct gm_progress progress = {.status = GM_OK};
+    struct step step = {
+        .points = work->points,
+        .viscosity = heat->diffusivity,
+        .h = line->dx,
+        .k = task->dt,
+        .sigma = fixed ? 0 : heat->lambda * task->dt,
+    };
+    memcpy(work->level[0], task->y, work->points * sizeof(double));
+    for (long i = 0; i < task->steps; i++) {
+        const double t = task->t0 + (double)(task->n + i + 1) * task->dt;
+        step.u = work->level[i % 2];
+        step.v = work->level[(i + 1) % 2];
+        step.v[0] = gm_heat_exact(heat, fixed, gm_line_node(line, 0), t);
+        step.v[last] = gm_heat_exact(heat, fixed, gm_line_node(line, last), t);
+        row->make(&step);
+        progress.evaluations++;
+        if (!gm_field_within(step.v, work->points, task->limit)) {
+            progress.status = GM_BLOW_UP;
+            return progress;
+        }
+        progress.done++;
+    }
+    memcpy(task->out, work->level[task->steps % 2], work->points * sizeof(double));
+    return progress;
+}
+
+static const struct row rows[] = {
+    {ordinary, GM_HEAT_SCALINGS},
+    {by_boosts, GM_HEAT_SCALINGS | GM_HEAT_BOOSTS},
+    {by_projections, GM_HEAT_SCALINGS | GM_HEAT_BOOSTS | GM_HEAT_PROJECTIONS},
+};
+
+#define HEAT .family = &gm_family_heat, .order = 1, .needs = GM_NEEDS_HEAT
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "heat-ftcs",
+        .title = "FTCS",
+        .formula = "v = u + r (uⱼ₊₁ − 2uⱼ + uⱼ₋₁),  r = νk/h²",
+        .reference = "forward in time, centred in space; Razafindralandy et al. (2018), eq. 83",
+        .coefficients = &rows[0],
+        HEAT,
+    },
+    {
+        .name = "heat-boosts",
+        .title = "FTCS, boosts",
+        .formula = "v = exp(aσ/2ν + a²k/4ν) [u + 2r(√(uⱼ₊₁uⱼ₋₁) − u)],  a = ν/h ln(uⱼ₊₁/uⱼ₋₁)",
+        .reference = "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)",
+        .coefficients = &rows[1],
+        .claims = GM_EQUIVARIANT,
+        HEAT,
+    },
+    {
+        .name = "heat-projections",
+        .title = "FTCS, projections",
+        .formula = "v = u exp(aσ/2ν + a²k/4ν + p(σ + ak)²/4νm)/√m,  m = 1 − pk\n"
+                   "a = ν/h ln(uⱼ₊₁/uⱼ₋₁),  p = 2ν/h² ln(uⱼ₊₁uⱼ₋₁/u²)",
+        .reference = "eq. 83 in the moving frame of eq. 91, Razafindralandy et al. (2018)",
+        .coefficients = &rows[2],
+        .claims = GM_EQUIVARIANT,
+        HEAT,
+    },
+};
+
+const struct gm_family gm_family_heat = {
+    .kind = &gm_kind_field,
+    .title = "Heat equation, standard and invariantised",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .loop = advance,
+    .workspace_open = workspace_open,
+    .workspace_close = free,
+};

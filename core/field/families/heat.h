@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Symmetries of the heat equation, the moving frame that its invariant schemes step in, and what a scheme
+   keeps of them. */
+#ifndef GM_CORE_FIELD_FAMILIES_HEAT_H
+#define GM_CORE_FIELD_FAMILIES_HEAT_H
+
+#include "core/field/field.h"
+#include "core/field/problems/heat.h"
+
+/* A boost, then a projection, then a scaling, about (t, x) = (0, 0):
+       (t, x, u) -> (t, x + b t, u exp(-b x/(2 nu) - b^2 t/(4 nu)))
+       (t, x, u) -> (t, x, sqrt(1 - p t) u exp(-p x^2/(4 nu (1 - p t)))) / (1 - p t, 1 - p t, 1)
+       (t, x, u) -> (s^2 t, s x, u) */
+struct gm_heat_symmetry {
+    double boost, projection, scale;
+};
+
+/* The groups, as bits. */
+enum gm_heat_group { GM_HEAT_SCALINGS = 1, GM_HEAT_BOOSTS = 2, GM_HEAT_PROJECTIONS = 4 };
+
+/* Where a symmetry carries an event; u is NaN where the projection does not exist. */
+struct gm_event gm_heat_carried(double diffusivity, const struct gm_heat_symmetry *symmetry,
+                                struct gm_event event);
+
+/* The frame of three values h apart about the node in their middle: that boost, and for schemes that keep
+   projections that projection, after which all three are one. NaN where a value is not positive. */
+struct gm_heat_symmetry gm_heat_frame(const struct gm_scheme *scheme, double diffusivity, double h,
+                                      const double u[3]);
+
+/* Whether the nodes rest in the new frame when this scheme runs. */
+bool gm_heat_fixed(const struct gm_heat *heat, const struct gm_scheme *scheme);
+/* The groups that a scheme says it commutes with. */
+unsigned gm_heat_keeps(const struct gm_scheme *scheme);
+
+/* The defect of one step of length k under a symmetry about the middle of the nodes: the step of the carried
+   state against the carried step, at the node where it is largest, divided by the value there. The carried
+   nodes move, of which only invariant schemes know. */
+double gm_heat_defect(const struct gm_problem *problem, const struct gm_scheme *scheme, double k,
+                      const struct gm_heat_symmetry *symmetry, const double *u);
+
+#endif

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_CORE_FIELD_PROBLEMS_FRAMES_H
+#define GM_CORE_FIELD_PROBLEMS_FRAMES_H
+
+#include <stdbool.h>
+
+/* Where the nodes are of an equation that is seen from a frame with the velocity lambda: at rest in that
+   frame, or moving by lambda dt a step. */
+enum gm_frame_nodes {
+    GM_FRAME_EACH, /* moving for invariant schemes, which know of it, fixed for the others */
+    GM_FRAME_FIXED,
+    GM_FRAME_MOVING,
+};
+
+/* A point of space and time with the value of the field there: what a symmetry moves. */
+struct gm_event {
+    double t, x, u;
+};
+
+static inline bool gm_frame_rests(int frame, bool invariant)
+{
+    return frame == GM_FRAME_FIXED || (frame == GM_FRAME_EACH && !invariant);
+}
+
+#endif

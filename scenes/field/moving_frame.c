@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The picture of a moving frame (moving_frame.h). */
+#include "scenes/field/moving_frame.h"
+
+#include <math.h>
+
+const char *const gm_frame_shown[] = {"profiles", "frame", NULL};
+
+enum { MIDDLE = GM_STENCIL / 2 };
+
+size_t gm_stencil_node(const struct gm_line *line, double place)
+{
+    const double nearest = round((place - line->first) / line->dx);
+    const double last = (double)line->points - 1 - MIDDLE;
+    return (size_t)fmax(MIDDLE, fmin(last, nearest));
+}
+
+/* Widens an axis by a part of its range on both sides. */
+static void finish(struct gm_axis *axis, double part)
+{
+    const double range = axis->high > axis->low ? axis->high - axis->low : 1;
+    axis->low -= part * range;
+    axis->high += part * range;
+}
+
+static struct gm_panel *add(struct gm_picture *picture, const char *title, const char *x, const char *y)
+{
+    struct gm_panel *panel = gm_panel_add(picture, GM_PLACE_STATE, title);
+    panel->axes = true;
+    panel->title_role = GM_INK;
+    panel->x = (struct gm_axis){.label = x, .low = INFINITY, .high = -INFINITY};
+    panel->y = (struct gm_axis){.label = y, .low = INFINITY, .high = -INFINITY};
+    return panel;
+}
+
+/* Later lanes are thinner, so that lanes on the same place are all seen. */
+static struct gm_style line_style(const struct gm_lane *lane, size_t i, size_t count)
+{
+    return gm_lane_style(lane, 1, 2 + 6 * (double)(count - 1 - i) / (double)count);
+}
+
+/* The grid around the node, its stencil as points. */
+static void draw_nodes(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                       const struct gm_moving_frame *stencils, const struct gm_frame_look *look, bool carried)
+{
+    struct gm_panel *panel =
+        carried ? add(picture, "the same nodes, carried by the frame", "x̂ / h", "t̂ / k")
+                : add(picture, "a node and its neighbours, from each frame", "(x − xⱼ) / h", "(t − tⁿ) / k");
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
+        for (size_t e = 0; stencils[i].known && e < 2 * GM_STENCIL; e++) {
+            gm_range_add(&panel->x.low, &panel->x.high, events[e].x / look->h);
+            gm_range_add(&panel->y.low, &panel->y.high, events[e].t / look->k);
+        }
+    }
+    if (!(panel->x.high > panel->x.low)) {
+        panel->x = (struct gm_axis){.label = panel->x.label, .low = -2, .high = 2};
+        panel->y = (struct gm_axis){.label = panel->y.label, .low = 0, .high = 1};
+        panel->note = "there is no such frame here";
+    }
+    finish(&panel->x, 0.08);
+    finish(&panel->y, 0.2);
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
+        if (!stencils[i].known) {
+            continue;
+        }
+        double points[2 * 2 * GM_STENCIL];
+        for (size_t e = 0; e < 2 * GM_STENCIL; e++) {
+            points[2 * e] = events[e].x / look->h;
+            points[2 * e + 1] = events[e].t / look->k;
+        }
+        const struct gm_style style = line_style(lanes[i], i, count);
+        gm_mark_line(picture, panel, style, points, GM_STENCIL, false);
+        gm_mark_line(picture, panel, style, points + 2 * GM_STENCIL, GM_STENCIL, false);
+        for (size_t e = 0; e < GM_STENCIL; e++) {
+            const double *lower = &points[2 * e], *upper = &points[2 * (GM_STENCIL + e)];
+            const double world[] = {lower[0], lower[1], upper[0], upper[1]};
+            gm_mark_line(picture, panel, style, world, 2, false);
+        }
+        struct gm_style dots = style;
+        dots.width = 7 + style.width;
+        gm_mark_points(picture, panel, dots, points + 2 * (MIDDLE - 1), 3);
+        gm_mark_points(picture, panel, dots, points + 2 * (GM_STENCIL + MIDDLE), 1);
+    }
+}
+
+/* The values around the node at the present level. */
+static void draw_values(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                        const struct gm_moving_frame *stencils, const struct gm_frame_look *look,
+                        bool carried)
+{
+    struct gm_panel *panel =
+        carried ? add(picture, "the same values, carried", "x̂ / h", look->carried)
+                : add(picture, "the values there, from each frame", "(x − xⱼ) / h", look->value);
+    panel->x.low = -MIDDLE;
+    panel->x.high = MIDDLE;
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
+        for (size_t e = 0; stencils[i].known && e < GM_STENCIL; e++) {
+            gm_range_add(&panel->y.low, &panel->y.high, events[e].u);
+        }
+    }
+    finish(&panel->x, 0.08);
+    if (!(panel->y.high >= panel->y.low)) {
+        panel->y.low = panel->y.high = 0;
+    }
+    finish(&panel->y, 0.15);
+    if (carried) {
+        panel->note = gm_picture_text(picture, "cross-section  %s", look->section);
+        const double section[] = {panel->x.low, 0, panel->x.high, 0};
+        gm_mark_line(picture, panel, (struct gm_style){GM_EXACT, 1, 1.5, GM_LONG_DASH}, section, 2, false);
+    }
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
+        if (!stencils[i].known) {
+            continue;
+        }
+        double points[2 * GM_STENCIL];
+        for (size_t e = 0; e < GM_STENCIL; e++) {
+            points[2 * e] = events[e].x / look->h;
+            points[2 * e + 1] = events[e].u;
+        }
+        const struct gm_style style = line_style(lanes[i], i, count);
+        gm_mark_line(picture, panel, style, points, GM_STENCIL, false);
+        struct gm_style dots = style;
+        dots.width = 7 + style.width;
+        gm_mark_points(picture, panel, dots, points + 2 * (MIDDLE - 1), 3);
+        if (!carried) {
+            const char *typed = lanes[i]->shown.colour_name, *title = gm_lane_title(lanes[i]);
+            const char *whole = !typed[0] ? title
+                                : gm_panel_count(lanes, count) == 1
+                                    ? typed
+                                    : gm_picture_text(picture, "%s, %s", title, typed);
+            gm_panel_key(picture, panel, gm_lane_style(lanes[i], 1, 2.2), whole);
+        }
+    }
+}
+
+void gm_draw_moving_frame(struct gm_picture *picture, const struct gm_lane *const *lanes, size_t count,
+                          const struct gm_moving_frame *stencils, const struct gm_frame_look *look)
+{
+    picture->state_columns = 2;
+    draw_nodes(picture, lanes, count, stencils, look, false);
+    draw_nodes(picture, lanes, count, stencils, look, true);
+    draw_values(picture, lanes, count, stencils, look, false);
+    draw_values(picture, lanes, count, stencils, look, true);
+}
