@@ -1278,8 +1278,12 @@ static bool read_named(struct reading *reading, const struct line *line)
     if (!read_assignment(reading, piece, &target)) {
         return false;
     }
+    const bool indexed = target.index.begin < target.index.end;
+    if (indexed && reading->counter.begin == reading->counter.end) {
+        return fail(reading, target.index.begin, "this name has no index");
+    }
     struct gm_system_item *item = add_item(reading, line, target.name);
-    if (!item || (target.index.begin < target.index.end && !number_item(reading, item, target.index))) {
+    if (!item || (indexed && !number_item(reading, item, target.index))) {
         return false;
     }
     const size_t length = strlen(item->name);
