@@ -268,8 +268,15 @@ static enum gm_identity check_casimir(struct gm_own_system *system, gm_node_id n
     return direction ? all : GM_UNTESTED;
 }
 
+/* What is not 0 that had to be, and of what it is the rate. */
+struct broken {
+    const char *what; /* NULL: nothing is */
+    gm_node_id node;
+};
+
 /* Whether the constraints do not change along the generator. */
-static bool keeps_constraints(struct gm_own_system *system, const struct gm_system_item *symmetry)
+static bool keeps_constraints(struct gm_own_system *system, const struct gm_system_item *symmetry,
+                              struct broken *broken)
 {
     gm_node_id *direction = malloc((system->n + 1) * sizeof *direction);
     bool kept = true;
@@ -278,8 +285,10 @@ static bool keeps_constraints(struct gm_own_system *system, const struct gm_syst
     }
     for (size_t i = 0; direction && i < system->item_count && kept && !system->graph.failed; i++) {
         const struct gm_system_item *item = &system->items[i];
-        kept = item->word != GM_WORD_CONSTRAINT ||
-               gm_equations_vanishes(system, along(system, item->nodes[0], direction)) != GM_NOT_ZERO;
+        if (item->word == GM_WORD_CONSTRAINT) {
+            *broken = (struct broken){"a constraint", along(system, item->nodes[0], direction)};
+            kept = gm_equations_vanishes(system, broken->node) != GM_NOT_ZERO;
+        }
     }
     system->graph.failed |= !direction;
     free(direction);
@@ -302,7 +311,8 @@ static enum gm_identity check_work(struct gm_own_system *system, const struct gm
 
 /* Of coordinates: the energy does not change along the generator, lifted to momenta or velocities. Of
    components: generator and field commute. The momentum map is appended. */
-static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_system_item *item)
+static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_system_item *item,
+                                       struct broken *broken)
 {
     const size_t half = system->n / 2, n = system->n;
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
@@ -316,8 +326,8 @@ static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_s
             memcpy(direction, system->rates, n * sizeof *direction);
             direction[n] = gm_formula_constant(&system->graph, 1);
             const gm_node_id other = along(system, item->nodes[i], direction);
-            const enum gm_identity found =
-                gm_equations_vanishes(system, apply(system, GM_OPERATION_SUBTRACT, one, other));
+            *broken = (struct broken){"the motion", apply(system, GM_OPERATION_SUBTRACT, one, other)};
+            const enum gm_identity found = gm_equations_vanishes(system, broken->node);
             all = found == GM_ZERO_PROVED ? all : found;
         }
         free(direction);
@@ -349,9 +359,10 @@ static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_s
         free(slopes);
     }
     free(gradient);
-    if (!keeps_constraints(system, item)) {
+    if (!keeps_constraints(system, item, broken)) {
         return GM_NOT_ZERO;
     }
+    *broken = (struct broken){system->kind == GM_CANONICAL ? "H" : "L", change};
     gm_node_id *nodes = realloc(item->nodes, (half + 1) * sizeof *nodes);
     if (!nodes || system->graph.failed) {
         system->graph.failed = true;
@@ -361,6 +372,44 @@ static enum gm_identity check_symmetry(struct gm_own_system *system, struct gm_s
     nodes[half] = map;
     item->count = half + 1;
     return gm_equations_vanishes(system, change);
+}
+
+/* Refuses a symmetry, with how fast it changes what it should not at one of three points, whose coordinates are
+   1/2, 1 and 3/2 in turn. */
+static bool refuse_symmetry(struct gm_own_system *system, const struct gm_system_item *item,
+                            struct broken broken, struct gm_fault *fault)
+{
+    size_t count = 0, used = 0;
+    gm_node_id *parts = gm_formula_parts(&system->graph, broken.node, &count);
+    double *variables = malloc(system->variable_count * sizeof *variables);
+    double *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    char point[160] = "", rate[40] = "";
+    for (size_t turn = 0; parts && variables && values && turn < 3 && rate[0] == '\0'; turn++) {
+        for (size_t i = 0; i < system->variable_count; i++) {
+            const bool parameter = i >= system->parameters && i < system->velocities;
+            variables[i] = parameter ? system->variables[i].value : 0.5 * (double)((i + turn) % 3 + 1);
+        }
+        gm_formula_evaluate_parts(&system->graph, parts, count, variables, values);
+        const double value = values[broken.node];
+        if (isfinite(value) && fabs(value) > 1e-9) {
+            snprintf(rate, sizeof rate, ", at the rate %.4g", value);
+        }
+    }
+    for (size_t i = 0; rate[0] && i < system->variable_count && used < sizeof point - 60; i++) {
+        bool holds = false;
+        for (size_t k = 0; k < count && (i < system->parameters || i >= system->velocities); k++) {
+            const struct gm_node *part = &system->graph.nodes[parts[k]];
+            holds |= part->operation == GM_VARIABLE && part->a == i;
+        }
+        if (holds) {
+            used += (size_t)snprintf(point + used, sizeof point - used, "%s%.30s = %g",
+                                     used > 0 ? ", " : " at ", system->variables[i].name, variables[i]);
+        }
+    }
+    free(parts);
+    free(variables);
+    free(values);
+    return gm_fail(fault, item->place, "this is no symmetry: it changes %s%s%s", broken.what, rate, point);
 }
 
 /* Whether a node is made of parameters and the first so many components alone. */
@@ -424,13 +473,10 @@ static bool check_items(struct gm_own_system *system, struct gm_fault *fault)
                                "%.60s is no Casimir: its bracket with the components is not 0", item->name);
             }
         } else if (item->word == GM_WORD_SYMMETRY) {
-            item->check = check_symmetry(system, item);
+            struct broken broken = {NULL, GM_NO_NODE};
+            item->check = check_symmetry(system, item, &broken);
             if (item->check == GM_NOT_ZERO) {
-                return gm_fail(fault, item->place, "this is no symmetry: it changes %s%s",
-                               system->kind == GM_CANONICAL    ? "H"
-                               : system->kind == GM_LAGRANGIAN ? "L"
-                                                               : "the motion",
-                               has(system, GM_WORD_CONSTRAINT) ? ", or a constraint" : "");
+                return refuse_symmetry(system, item, broken, fault);
             }
             if (system->kind <= GM_LAGRANGIAN && check_work(system, item) == GM_NOT_ZERO) {
                 item->check = GM_NOT_ZERO; /* a symmetry all the same, whose law a force breaks */

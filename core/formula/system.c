@@ -72,6 +72,8 @@ struct reading {
     bool fixed;      /* parameters are constants in what is read */
     bool structural; /* and the graph depends on their values */
     bool initial;
+    struct gm_span counter; /* the index that a line is repeated with, and its value; empty: there is none */
+    long counted;
     size_t component_count, velocity_count, parameter_count;
     const struct gm_system_value *values;
     size_t value_count;
@@ -377,6 +379,11 @@ static bool attempt(struct reading *reading, struct gm_span span, const struct g
         scope.indices[scope.index_count++] =
             (struct gm_index){reading->text + bound->begin, bound->end - bound->begin, element};
     }
+    if (reading->counter.begin < reading->counter.end) {
+        scope.indices[scope.index_count++] =
+            (struct gm_index){reading->text + reading->counter.begin,
+                              reading->counter.end - reading->counter.begin, reading->counted};
+    }
     struct gm_fault fault;
     *postponed = false;
     if (gm_formula_read(&reading->system->graph, reading->text, span.begin, span.end, &scope, node, &fault)) {
@@ -423,11 +430,14 @@ static bool define(struct reading *reading, uint32_t number)
     while (depth > 0 && !reading->failed) {
         struct entry *entry = &reading->entries[stack[depth - 1]];
         const bool was_fixed = reading->fixed;
+        const struct gm_span counter = reading->counter;
         bool postponed = false;
         gm_node_id node = 0;
         reading->fixed = entry->role == PARAMETER;
+        reading->counter = (struct gm_span){0, 0};
         const bool good = attempt(reading, entry->value, &entry->bound, entry->element, &node, &postponed);
         reading->fixed = was_fixed;
+        reading->counter = counter;
         if (good) {
             entry->node = node;
             entry->state = READ;
@@ -543,14 +553,18 @@ static struct entry entry_for(const struct reading *reading, const struct target
                           .value = target->value};
 }
 
-/* The bounds of NAME[low .. high]; false where it is none. */
-static bool read_bounds(struct reading *reading, const struct target *target, long *low, long *high)
+/* low .. high; false where it is none. */
+static bool read_bounds(struct reading *reading, struct gm_span span, long *low, long *high)
 {
-    const size_t dots = gm_span_until(reading->text, target->index, "..");
-    return dots < target->index.end &&
-           read_whole(reading, (struct gm_span){target->index.begin, dots}, low) &&
-           read_whole(reading, gm_span_trimmed(reading->text, (struct gm_span){dots + 2, target->index.end}),
-                      high);
+    const size_t dots = gm_span_until(reading->text, span, "..");
+    return dots < span.end && read_whole(reading, (struct gm_span){span.begin, dots}, low) &&
+           read_whole(reading, gm_span_trimmed(reading->text, (struct gm_span){dots + 2, span.end}), high);
+}
+
+static bool is_same(const struct reading *reading, struct gm_span a, struct gm_span b)
+{
+    return a.end - a.begin == b.end - b.begin &&
+           memcmp(reading->text + a.begin, reading->text + b.begin, a.end - a.begin) == 0;
 }
 
 /* Calls `each` for the elements that a target names: one, or, where the index is a free name, all of a
@@ -566,6 +580,7 @@ static bool for_elements(struct reading *reading, const struct target *target,
     const size_t letters =
         gm_name_length(reading->text + target->index.begin, target->index.end - target->index.begin);
     const bool all = letters > 0 && target->index.begin + letters == target->index.end &&
+                     !is_same(reading, target->index, reading->counter) &&
                      !entry_of(reading, reading->text + target->index.begin, letters, false, 0);
     const bool indexed = target->index.begin < target->index.end;
     long low = 0, high = 0;
@@ -632,7 +647,7 @@ static bool add_names(struct reading *reading, const struct target *target, enum
     struct entry entry = entry_for(reading, target, role);
     long low = 0, high = 0;
     entry.indexed = target->index.begin < target->index.end;
-    if (entry.indexed && !read_bounds(reading, target, &low, &high)) {
+    if (entry.indexed && !read_bounds(reading, target->index, &low, &high)) {
         return fail(reading, target->index.begin, "the bounds of a list were expected, as in %.*s[1..3]",
                     (int)(entry.length < 60 ? entry.length : 60), entry.name);
     }
@@ -1235,6 +1250,25 @@ static bool read_symmetry(struct reading *reading, const struct line *line)
     return !reading->failed;
 }
 
+/* An index of a name becomes its last digits: length[2] is length2. */
+static bool number_item(struct reading *reading, struct gm_system_item *item, struct gm_span index)
+{
+    char *name;
+    long number = 0;
+    if (!read_whole(reading, index, &number)) {
+        return false;
+    }
+    if (number < 0) {
+        return fail(reading, index.begin, "the index of a name is 0 or more, not %ld", number);
+    }
+    if (asprintf(&name, "%s%ld", item->name, number) < 0) {
+        return no_memory(reading);
+    }
+    free(item->name);
+    item->name = name;
+    return true;
+}
+
 /* NAME = formula; scale 1 */
 static bool read_named(struct reading *reading, const struct line *line)
 {
@@ -1244,22 +1278,24 @@ static bool read_named(struct reading *reading, const struct line *line)
     if (!read_assignment(reading, piece, &target)) {
         return false;
     }
-    if (target.index.begin < target.index.end) {
+    const bool indexed = target.index.begin < target.index.end;
+    if (indexed && reading->counter.begin == reading->counter.end) {
         return fail(reading, target.index.begin, "this name has no index");
     }
-    const char *name = reading->text + target.name.begin;
-    const size_t length = target.name.end - target.name.begin;
-    if (is_reserved(name, length)) {
-        return fail(reading, target.name.begin, "the name %.*s is reserved", (int)(length < 60 ? length : 60),
-                    name);
+    struct gm_system_item *item = add_item(reading, line, target.name);
+    if (!item || (indexed && !number_item(reading, item, target.index))) {
+        return false;
     }
-    const struct entry *other = entry_of(reading, name, length, false, 0);
+    const size_t length = strlen(item->name);
+    if (is_reserved(item->name, length)) {
+        return fail(reading, target.name.begin, "the name %.60s is reserved", item->name);
+    }
+    const struct entry *other = entry_of(reading, item->name, length, false, 0);
     if (other) {
         return fail(reading, target.name.begin, "%s is defined twice, first in line %zu", other->name,
                     line_of(reading, other->place));
     }
-    struct gm_system_item *item = add_item(reading, line, target.name);
-    if (!item || !add_formula(reading, item, target.value)) {
+    if (!add_formula(reading, item, target.value)) {
         return false;
     }
     for (size_t i = 0; i + 1 < reading->system->item_count; i++) {
@@ -1552,6 +1588,39 @@ static bool read_what_is_said(struct reading *reading, const struct line *line)
     }
 }
 
+/* i = low .. high; what is said for each i, in turn. A line without a counter is said once. */
+static bool read_counted(struct reading *reading, const struct line *line)
+{
+    struct gm_span rest = line->value, head;
+    const size_t name = gm_name_length(reading->text + rest.begin, rest.end - rest.begin);
+    long low = 0, high = 0;
+    gm_span_take(reading->text, &rest, ";", &head);
+    const size_t equals = gm_span_until(reading->text, head, "=");
+    const struct gm_span counter = gm_span_trimmed(reading->text, (struct gm_span){head.begin, equals}),
+                         bounds = gm_span_trimmed(reading->text, (struct gm_span){equals + 1, head.end});
+    if (!words[line->word].repeated || head.end == line->value.end || equals == head.end || name == 0 ||
+        counter.end != counter.begin + name || gm_span_until(reading->text, bounds, "..") == bounds.end) {
+        return read_what_is_said(reading, line);
+    }
+    if (entry_of(reading, reading->text + counter.begin, name, false, 0)) {
+        return fail(reading, counter.begin, "%.*s is a name of the system: an index is another one",
+                    (int)(name < 60 ? name : 60), reading->text + counter.begin);
+    }
+    if (!read_bounds(reading, bounds, &low, &high)) {
+        return fail(reading, bounds.begin, "the bounds of an index were expected, as in i = 1 .. 3");
+    }
+    if (high - low >= GM_MOST_COMPONENTS) {
+        return fail(reading, bounds.begin, "an index has at most %d values", GM_MOST_COMPONENTS);
+    }
+    const struct line one = {line->word, line->place, gm_span_trimmed(reading->text, rest)};
+    reading->counter = counter;
+    for (reading->counted = low; reading->counted <= high && !reading->failed; reading->counted++) {
+        read_what_is_said(reading, &one);
+    }
+    reading->counter = (struct gm_span){0, 0};
+    return !reading->failed;
+}
+
 static bool all_nodes(struct reading *reading, gm_node_id **nodes, size_t count)
 {
     *nodes = malloc((count + 1) * sizeof **nodes);
@@ -1605,6 +1674,11 @@ static bool name_parts(struct reading *reading)
         }
         struct gm_system_item *item =
             add_item(reading, &line, (struct gm_span){entry->place, entry->place + entry->length});
+        char *element = NULL;
+        if (item && entry->indexed && asprintf(&element, "%s[%ld]", item->name, entry->index) >= 0) {
+            free(item->name);
+            item->name = element;
+        }
         if (item && add_node(reading, item, entry->node) &&
             system->graph.nodes[entry->node].operation > GM_VARIABLE) {
             system->parts[entry->node] = item->name;
@@ -1636,7 +1710,7 @@ static bool read_system(struct reading *reading)
         return false;
     }
     for (size_t i = 0; i < reading->line_count; i++) {
-        if (!read_what_is_said(reading, &reading->lines[i])) {
+        if (!read_counted(reading, &reading->lines[i])) {
             return reading->failed ? false : no_memory(reading);
         }
     }

@@ -87,12 +87,17 @@ struct gm_poisson {
     void (*gradient)(const struct gm_problem *problem, const double *y, double *gradient);
     void (*bracket)(const struct gm_problem *problem, const double *y, double *matrix);
     /* s = +-1 where the bracket is that of angular momenta, y' = s y x dH/dy; or, of six components, of
-       angular momenta y and a vector z that they turn, y' = s (y x dH/dy + z x dH/dz), z' = s z x dH/dy. 0:
+       an angular momentum y and a vector z that it turns, y' = s (y x dH/dy + z x dH/dz), z' = s z x dH/dy. 0:
        another one. */
     double turning;
-    bool axes; /* then: H is a sum of functions of one component of y each, and of one of z */
+    size_t spins; /* so many angular momenta, in three lists of their components; 0: that of a top, or none */
+    bool axes;    /* then: H is a sum of functions of one component of y each, and of one of z */
     /* The moments of inertia of a free body, H = sum y_i^2 / (2 moments_i); 0: it is none. */
     double moments[3];
+    /* H = H_1 + ..., each of which has an exact flow: y := that of piece number `piece` over h, of one member, in
+       place. 0: not known */
+    size_t pieces;
+    void (*flow)(const struct gm_problem *problem, size_t piece, double h, double *y);
 };
 
 /* f = f_0 + ... + f_(pieces - 1), each without divergence and with an exact flow */
@@ -131,9 +136,11 @@ enum gm_ode_facet {
     GM_NEEDS_MONITOR = 1u << 13,
     GM_NEEDS_POISSON = 1u << 14,
     GM_NEEDS_ROTATIONS = 1u << 15, /* the bracket of angular momenta alone */
-    GM_NEEDS_AXES = 1u << 16,      /* or with a vector, and an energy that is a sum over the axes */
+    GM_NEEDS_AXES = 1u << 16,      /* of one, or with a vector, and an energy that is a sum over the axes */
     GM_NEEDS_FREE_BODY = 1u << 17,
     GM_NEEDS_SEMILINEAR = 1u << 18,
+    GM_NEEDS_GROUP = 1u << 19,  /* the bracket of angular momenta alone, or with a vector */
+    GM_NEEDS_PIECES = 1u << 20, /* a bracket, and an energy in pieces that have exact flows */
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */

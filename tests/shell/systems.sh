@@ -38,7 +38,7 @@ assert len(about["equations"]) == 2 * int(sys.argv[1]) and set(about["invariants
 done
 
 # constraints are equations too, and act by multipliers
-"$geomint" list chain --latex | grep -qF '0 &= \frac{x_{1}^{2} + y_{1}^{2} - 1}{2}' || fail "list chain --latex: no constraint"
+"$geomint" list chain --latex | grep -qF '0 &= \frac{\left(x_{2} - x_{1}\right)^{2} + \left(y_{2} - y_{1}\right)^{2} - 1}{2}' || fail "list chain --latex: no constraint"
 "$geomint" list chain --latex | grep -qF '&= -g - \lambda_{5}\left(y_{5} - y_{4}\right)' || fail "list chain --latex: no multiplier"
 "$geomint" list cartesian-pendulum --json | grep -qF '"constraints":["(x^2 + y^2 - 1)/2"]' || fail "list --json: no constraint"
 

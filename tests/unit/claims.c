@@ -16,6 +16,7 @@
 #include "core/flow/families/families.h"
 #include "core/mesh/families/control.h"
 #include "core/mesh/families/families.h"
+#include "core/ode/families/compositions.h"
 #include "core/ode/families/families.h"
 #include "core/ode/families/implicit_runge_kutta.h"
 #include "core/ode/families/splitting.h"
@@ -142,6 +143,7 @@ static void properties_that_are_false(void **unused)
         {"crouch-grossman4", GM_SYMMETRIC},
         {"midpoint", GM_POISSON_MAP},
         {"rotations2", GM_KEEPS_ENERGY},
+        {"bracket-splitting4", GM_KEEPS_ENERGY},
         {"projected-gauss4", GM_SYMPLECTIC},
         {"projected-gauss6", GM_SYMMETRIC},
         {"projected-rk4", GM_KEEPS_MOMENTUM_MAPS},
@@ -243,7 +245,10 @@ static void structure_that_is_not_asked_for(void **unused)
                  {GM_NEEDS_FRICTION, GM_CONFORMAL, 14},
                  {GM_NEEDS_INSEPARABLE, GM_KEEPS_BILINEAR, 12},
                  {GM_NEEDS_ROTATIONS, GM_KEEPS_CASIMIRS, 17},
-                 {GM_NEEDS_ROTATIONS, GM_POISSON_MAP, 18}};
+                 {GM_NEEDS_ROTATIONS, GM_POISSON_MAP, 18},
+                 {GM_NEEDS_GROUP, GM_KEEPS_CASIMIRS, 17},
+                 {GM_NEEDS_PIECES, GM_KEEPS_CASIMIRS, 17},
+                 {GM_NEEDS_PIECES, GM_POISSON_MAP, 18}};
     for (size_t i = 0; i < GM_COUNT(wrong); i++) {
         struct gm_scheme scheme = changed("rk4");
         scheme.needs = wrong[i].facet;
@@ -431,6 +436,24 @@ static void a_wrong_digit_of_a_composition(void **unused)
     }
 }
 
+/* Flows of pieces in wrong proportions are still Poisson maps, and symmetric, but not of that order. */
+static void a_wrong_digit_of_a_bracket_splitting(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"bracket-splitting4", "bracket-splitting6"};
+    for (size_t i = 0; i < GM_COUNT(names); i++) {
+        struct gm_scheme wrong = changed(names[i]);
+        struct gm_composition digit = *(const struct gm_composition *)wrong.coefficients;
+        digit.gammas[0] += 1e-3;
+        digit.gammas[1] -= 1e-3;
+        wrong.coefficients = &digit;
+        const struct gm_certificate certificate = gm_certify(&wrong);
+        assert_true(!certificate.order_holds && !certificate.holds);
+        assert_true(certificate.claims[1].holds && certificate.claims[17].holds &&
+                    certificate.claims[18].holds);
+    }
+}
+
 /* The rows of implicit Runge-Kutta methods, each with one wrong digit. */
 static void a_wrong_digit_of_a_tableau(void **unused)
 {
@@ -612,6 +635,7 @@ int main(void)
         cmocka_unit_test(one_order_too_many),
         cmocka_unit_test(a_wrong_loop_of_a_right_tableau),
         cmocka_unit_test(a_wrong_digit_of_a_composition),
+        cmocka_unit_test(a_wrong_digit_of_a_bracket_splitting),
         cmocka_unit_test(a_wrong_digit_of_a_tableau),
         cmocka_unit_test(nystrom_needs_a_quadratic_kinetic_energy),
         cmocka_unit_test(names_find_the_row_that_fits),

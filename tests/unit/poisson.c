@@ -25,7 +25,15 @@
 #include "core/run.h"
 #include "core/schemes.h"
 
-enum { MOST = 6 };
+enum { MOST = 12 };
+
+/* Four spins in a ring, each turned by its neighbours. */
+#define SPINS                                                                                                \
+    "components: x[1..4] y[1..4] z[1..4]\n"                                                                  \
+    "bracket: i = 1 .. 4; x[i] y[i] = z[i], y[i] z[i] = x[i], z[i] x[i] = y[i]\n"                            \
+    "H: -sum(i = 1 .. 4, x[i]*x[mod(i, 4) + 1] + y[i]*y[mod(i, 4) + 1] + 0.7*z[i]*z[mod(i, 4) + 1])\n"       \
+    "casimir: i = 1 .. 4; length[i] = x[i]^2 + y[i]^2 + z[i]^2\n"                                            \
+    "start: x[i] = 0.3*i, y[i] = 1 - 0.4*i, z[i] = 0.2*i\n"
 
 static const struct {
     const char *name, *text;
@@ -48,6 +56,7 @@ static const struct {
      "H: (a^2 + b^2 + 2*c^2)/2 + w\ncasimir: length = u^2 + v^2 + w^2\ncasimir: vertical = a*u + b*v + c*w\n"
      "start: a = 0.1, b = 0.2, c = 3, u = 0.6, v = 0, w = 0.8\n",
      true},
+    {"spins", SPINS, true},
 };
 enum { SYSTEMS = GM_COUNT(systems) };
 
@@ -163,7 +172,8 @@ static void schemes_advance_them(void **unused)
             if (!(distance <= (scheme->order == 1 ? 2 : .02))) {
                 fail_msg("%s, %s: %g from the reference", systems[k].name, scheme->name, distance);
             }
-            const bool turns = scheme->needs & (GM_NEEDS_ROTATIONS | GM_NEEDS_AXES | GM_NEEDS_FREE_BODY),
+            const bool turns = scheme->needs & (GM_NEEDS_ROTATIONS | GM_NEEDS_AXES | GM_NEEDS_FREE_BODY |
+                                                GM_NEEDS_GROUP | GM_NEEDS_PIECES),
                        collocation =
                            strncmp(scheme->name, "energy-collocation", strlen("energy-collocation")) == 0;
             if (turns || collocation || (systems[k].quadratic && strcmp(scheme->name, "midpoint") == 0)) {
@@ -193,8 +203,9 @@ static void bodies_turn(void **unused)
 {
     (void)unused;
     static const char *const schemes[] = {
-        "rotations2",       "spherical-midpoint2", "rkmk4",
-        "crouch-grossman3", "crouch-grossman4",    "discrete-moser-veselov2"};
+        "rotations2",        "spherical-midpoint2", "rkmk4",
+        "crouch-grossman3",  "crouch-grossman4",    "discrete-moser-veselov2",
+        "bracket-splitting2"};
     static const struct gm_settings settings = {0};
     static const char backwards[] =
         "components: x y z\nbracket: x y = z\nbracket: y z = x\nbracket: z x = y\n"
@@ -271,7 +282,8 @@ static void bodies_by_elliptic_functions(void **unused)
     static const char *const schemes[] = {
         "rotations2",          "spherical-midpoint2", "rkmk4",
         "crouch-grossman3",    "crouch-grossman4",    "discrete-moser-veselov2",
-        "energy-collocation2", "energy-collocation4", "midpoint"};
+        "energy-collocation2", "energy-collocation4", "midpoint",
+        "bracket-splitting2",  "bracket-splitting4",  "bracket-splitting6"};
     static const char text[] = "components: x y z\nbracket: x y = -z\nbracket: y z = -x\nbracket: z x = -y\n"
                                "H: (x^2 + y^2/2 + z^2/3)/2\nstart: x = 0.8, y = 0, z = 1.5\n";
     struct typed typed;
@@ -324,7 +336,7 @@ static void tops_precess(void **unused)
     type_words(&typed, "top", top);
     const struct gm_scheme *scheme = gm_scheme_find("rotations2");
     assert_true(gm_scheme_fits(scheme, &typed.problem));
-    assert_false(gm_scheme_fits(gm_scheme_find("rkmk4"), &typed.problem));
+    assert_false(gm_scheme_fits(gm_scheme_find("spherical-midpoint2"), &typed.problem));
     assert_false(gm_scheme_fits(gm_scheme_find("discrete-moser-veselov2"), &typed.problem));
     double errors[3];
     for (int finer = 0; finer < 3; finer++) {
@@ -414,6 +426,141 @@ static void tops_sleep(void **unused)
     untype(&typed);
 }
 
+static void advance(const struct typed *typed, const char *name, double dt, long steps, double *end)
+{
+    static const struct gm_settings settings = {0};
+    const struct gm_scheme *scheme = gm_scheme_find_for(name, &typed->problem);
+    assert_true(scheme && gm_scheme_fits(scheme, &typed->problem));
+    struct gm_run *run = gm_run_open(&typed->problem, scheme, &settings, 0, dt, typed->start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, steps), GM_OK);
+    memcpy(end, gm_run_state(run), typed->problem.n * sizeof *end);
+    gm_run_close(run);
+}
+
+static double apart(const double *a, const double *b, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        largest = fmax(largest, fabs(a[i] - b[i]));
+    }
+    return largest;
+}
+
+/* Orders of all that fit where several are turned at once, and what motions of space keep: against Gauss' method. */
+static void groups_act(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text, *name;
+        int order;
+    } rows[] = {{SPINS, "spherical-midpoint2", 2}, {SPINS, "rkmk4", 4},
+                {SPINS, "crouch-grossman3", 3},    {SPINS, "crouch-grossman4", 4},
+                {SPINS, "bracket-splitting2", 2},  {SPINS, "bracket-splitting4", 4},
+                {SPINS, "bracket-splitting6", 6},  {top, "rkmk4", 4},
+                {top, "crouch-grossman3", 3},      {top, "crouch-grossman4", 4},
+                {top, "bracket-splitting2", 2},    {top, "bracket-splitting4", 4},
+                {top, "bracket-splitting6", 6}};
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct typed typed;
+        double exact[MOST], end[MOST], errors[2];
+        type_words(&typed, rows[i].name, rows[i].text);
+        const size_t n = typed.problem.n;
+        advance(&typed, "gauss8", 0.01, 200, exact);
+        for (int finer = 0; finer < 2; finer++) {
+            advance(&typed, rows[i].name, 0.1 / (1 + finer), 20 * (1 + finer), end);
+            errors[finer] = apart(end, exact, n);
+        }
+        if (!(fabs(log2(errors[0] / errors[1]) - rows[i].order) < 0.35)) {
+            fail_msg("%s: errors %.2e and %.2e", rows[i].name, errors[0], errors[1]);
+        }
+        /* short steps, and some that turn by more than a radian */
+        for (int longer = 0; longer < 2; longer++) {
+            advance(&typed, rows[i].name, longer ? 0.4 : 0.01, 20000, end);
+            for (size_t k = 0; k < n / 3 && n > 6; k++) {
+                const double *y = typed.start;
+                const double before = y[k] * y[k] + y[4 + k] * y[4 + k] + y[8 + k] * y[8 + k],
+                             after = end[k] * end[k] + end[4 + k] * end[4 + k] + end[8 + k] * end[8 + k];
+                assert_true(fabs(after - before) < 1e-12);
+            }
+            if (n == 6) {
+                assert_true(fabs(upright(NULL, end) - upright(NULL, typed.start)) < 1e-12);
+                assert_true(fabs(vertical(NULL, end) - vertical(NULL, typed.start)) < 1e-12);
+            }
+        }
+        untype(&typed);
+    }
+}
+
+/* The spherical midpoint rule keeps the sum of spins that turn one another, as it does every linear law. */
+static void spins_keep_their_sum(void **unused)
+{
+    (void)unused;
+    struct typed typed;
+    double end[MOST];
+    type(&typed, SYSTEMS - 1);
+    advance(&typed, "spherical-midpoint2", 0.1, 10000, end);
+    double before = 0, after = 0;
+    for (int i = 0; i < 4; i++) {
+        before += typed.start[8 + i];
+        after += end[8 + i];
+    }
+    assert_true(fabs(after - before) < 1e-12);
+    untype(&typed);
+}
+
+/* What a splitting is where its flows are known: rotations, Verlet's kicks and drifts, exponentials. */
+static void pieces_are_exact(void **unused)
+{
+    (void)unused;
+    struct typed typed, canonical;
+    double one[MOST], other[MOST];
+    type(&typed, 0);
+    advance(&typed, "bracket-splitting2", 0.1, 100, one);
+    advance(&typed, "rotations2", 0.1, 100, other);
+    assert_true(apart(one, other, 3) < 1e-13);
+    untype(&typed);
+    type_words(&canonical, "a pendulum",
+               "components: q p\nbracket: q p = 1\nH: p^2/2 - cos(q)\n"
+               "start: q = 1, p = 0.5\n");
+    advance(&canonical, "bracket-splitting2", 0.1, 100, one);
+    double q = 1, p = 0.5;
+    for (int n = 0; n < 100; n++) { /* q is the first piece, -cos(q), and so kicks come first */
+        p -= 0.05 * sin(q);
+        q += 0.1 * p;
+        p -= 0.05 * sin(q);
+    }
+    assert_true(fabs(one[0] - q) < 1e-13 && fabs(one[1] - p) < 1e-13);
+    untype(&canonical);
+    type(&typed, 1);
+    advance(&typed, "bracket-splitting2", 0.1, 100, one);
+    double x = 2, y = 2;
+    for (int n = 0; n < 100; n++) { /* H = x - log(x) + y - 2 log(y), {x, y} = -x y */
+        y *= exp(0.05 * (x - 1));
+        x *= exp(-0.1 * (y - 2));
+        y *= exp(0.05 * (x - 1));
+    }
+    assert_true(fabs(one[0] - x) < 1e-12 && fabs(one[1] - y) < 1e-12);
+    untype(&typed);
+}
+
+/* Where energies do not fall into pieces, or pieces are not linear, the splitting does not fit. */
+static void what_has_no_pieces(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {
+        "components: x y z\nbracket: x y = z, y z = x, z x = y\nH: x*y + z^2\nstart: x = 1, y = 1, z = 1\n",
+        "components: x y\nbracket: x y = y^2\nH: x + y\nstart: x = 1, y = 1\n"};
+    const struct gm_scheme *scheme = gm_scheme_find("bracket-splitting2");
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        struct typed typed;
+        type_words(&typed, "no pieces", texts[i]);
+        assert_false(gm_scheme_fits(scheme, &typed.problem));
+        assert_non_null(strstr(gm_scheme_lacks(scheme, &typed.problem), "whose flows are exact"));
+        untype(&typed);
+    }
+}
+
 /* The exact pieces of a top make a Poisson map; RK4 that claims as much is refused. */
 static void tops_are_certified(void **unused)
 {
@@ -441,7 +588,9 @@ int main(void)
         cmocka_unit_test(nodes_make_the_field), cmocka_unit_test(schemes_advance_them),
         cmocka_unit_test(bodies_turn),          cmocka_unit_test(bodies_by_elliptic_functions),
         cmocka_unit_test(tops_precess),         cmocka_unit_test(tops_sleep),
-        cmocka_unit_test(tops_are_certified),
+        cmocka_unit_test(tops_are_certified),   cmocka_unit_test(groups_act),
+        cmocka_unit_test(spins_keep_their_sum), cmocka_unit_test(pieces_are_exact),
+        cmocka_unit_test(what_has_no_pieces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

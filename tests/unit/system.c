@@ -387,6 +387,57 @@ static void lagrangians_are_checked(void **unused)
     }
 }
 
+/* A line with a counter says what as many lines say. */
+static void lines_are_counted(void **unused)
+{
+    (void)unused;
+    static const char *const texts[2] = {
+        "parameter: N = 3\ncomponents: x[1..N] y[1..N] z[1..N]\n"
+        "bracket: i = 1 .. N; x[i] y[i] = -z[i], y[i] z[i] = -x[i], z[i] x[i] = -y[i]\n"
+        "H: sum(i = 1 .. N, i*x[i]^2 + y[i]*y[mod(i, N) + 1])\nlet: far[2] = 2*x[1]\n"
+        "casimir: i = 1 .. N; length[i] = x[i]^2 + y[i]^2 + z[i]^2; scale i\n"
+        "rod: i = 2 .. N; x[i-1], y[i-1], far[2]; x[i], y[i], z[i]\n"
+        "start: x[i] = i, y[i] = 1, z[i] = i^2\n",
+        "components: x[1..3] y[1..3] z[1..3]\nbracket: x[1] y[1] = -z[1], y[1] z[1] = -x[1]\n"
+        "bracket: z[1] x[1] = -y[1], x[2] y[2] = -z[2], y[2] z[2] = -x[2], z[2] x[2] = -y[2]\n"
+        "bracket: x[3] y[3] = -z[3], y[3] z[3] = -x[3], z[3] x[3] = -y[3]\n"
+        "H: x[1]^2 + y[1]*y[2] + 2*x[2]^2 + y[2]*y[3] + 3*x[3]^2 + y[3]*y[1]\nlet: far[2] = 2*x[1]\n"
+        "casimir: length1 = x[1]^2 + y[1]^2 + z[1]^2; scale 1\n"
+        "casimir: length2 = x[2]^2 + y[2]^2 + z[2]^2; scale 2\n"
+        "casimir: length3 = x[3]^2 + y[3]^2 + z[3]^2; scale 3\n"
+        "rod: x[1], y[1], far[2]; x[2], y[2], z[2]\nrod: x[2], y[2], far[2]; x[3], y[3], z[3]\n"
+        "start: x[1] = 1, y[1] = 1, z[1] = 1, x[2] = 2, y[2] = 1, z[2] = 4, x[3] = 3, y[3] = 1, z[3] = 9\n"};
+    struct gm_own_system systems[2];
+    double *values[2];
+    for (int k = 0; k < 2; k++) {
+        struct gm_fault fault;
+        if (!gm_equations_open(&systems[k], texts[k], strlen(texts[k]), NULL, 0, &fault)) {
+            fail_msg("%s at %zu", fault.sentence, fault.offset);
+        }
+        double *start = gm_equations_start(&systems[k], NULL);
+        values[k] = malloc(systems[k].graph.count * sizeof *values[k]);
+        assert_true(start && values[k]);
+        gm_formula_evaluate(&systems[k].graph, systems[k].graph.count, start, values[k]);
+        free(start);
+    }
+    assert_true(systems[0].n == 9 && systems[1].n == 9 && systems[0].item_count == systems[1].item_count);
+    for (size_t i = 0; i < 9; i++) {
+        assert_float_equal(values[0][systems[0].rates[i]], values[1][systems[1].rates[i]], 1e-13);
+    }
+    for (size_t i = 0; i < systems[0].item_count; i++) {
+        const struct gm_system_item *one = &systems[0].items[i], *other = &systems[1].items[i];
+        assert_string_equal(one->name, other->name);
+        assert_true(one->word == other->word && one->count == other->count && one->scale == other->scale);
+        for (size_t k = 0; k < one->count; k++) {
+            assert_true(values[0][one->nodes[k]] == values[1][other->nodes[k]]);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        free(values[k]);
+        gm_system_close(&systems[k]);
+    }
+}
+
 #define CANONICAL "coordinates: q\nstart: q = 1, p_q = 0\n"
 #define THREE "components: x y z\nstart: x = 1, y = 1, z = 1\n"
 #define SPACE "rate: x = y\nrate: y = -x\nrate: z = x\nview: x, y, z\n" /* four lines */
@@ -459,9 +510,17 @@ static const struct {
      4, 13, "the derivatives of 2 have the rank 1"},
     {"coordinates: x y\nH: (p_x^2 + p_y^2)/2\nconstraint: x^2 + 2*y^2 - 1\nsymmetry: x = -y, y = x\n"
      "start: x = 1, y = 0, p_x = 0, p_y = 1\n",
-     4, 11, "this is no symmetry: it changes H, or a constraint"},
+     4, 11, "this is no symmetry: it changes a constraint, at the rate 1 at x = 0.5, y = 1"},
     {CANONICAL "H: p_q^2/2\ninvariant: a = q\n", 4, 12, "a is no invariant"},
-    {CANONICAL "H: p_q^2/2 + q^2\nsymmetry: q = 1\n", 4, 11, "no symmetry: it changes H"},
+    {CANONICAL "H: p_q^2/2\nview: q = 1 .. 2; q, 0\n", 4, 7, "q is a name of the system"},
+    {CANONICAL "H: p_q^2/2\nview: i = 1 .. 1e9; q, i\n", 4, 11, "an index has at most"},
+    {CANONICAL "H: p_q^2/2\nview: i = 1 .. q; q, i\n", 4, 16, "q is no parameter"},
+    {CANONICAL "H: p_q^2/2\nview: i = 1 .. 2; q, k\n", 4, 22, "there is no name k"},
+    {CANONICAL "H: p_q^2/2\nobserve: i = 1 .. 2; twice = q\n", 4, 22, "twice is said twice"},
+    {CANONICAL "H: p_q^2/2\nobserve: i = -1 .. 2; near[i] = q\n", 4, 28, "the index of a name is 0 or more"},
+    {CANONICAL "H: p_q^2/2\nlet: q1 = q\nobserve: i = 1 .. 2; q[i] = q\n", 5, 22, "q1 is defined twice"},
+    {CANONICAL "H: p_q^2/2 + q^2\nsymmetry: q = 1\n", 4, 11,
+     "no symmetry: it changes H, at the rate 1 at q = 0.5"},
     {CANONICAL "H: p_q^2/2\nforce: p_q = 1\n", 4, 8, "a force acts on a coordinate"},
     {CANONICAL "H: p_q^2/2\nangle: p_q\n", 4, 8, "one of the coordinates"},
     {CANONICAL "H: p_q^2/2\nview: q\n", 4, 7, "two or three coordinates"},
@@ -534,7 +593,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(structure_is_recognised),     cmocka_unit_test(equations_are_those_by_hand),
         cmocka_unit_test(lagrangians_are_transformed), cmocka_unit_test(lagrangians_are_checked),
-        cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(lines_are_counted),           cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

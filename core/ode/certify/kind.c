@@ -16,6 +16,15 @@
 #include "core/ode/kernel/members.h"
 #include "core/ode/variational/manifold.h"
 
+static unsigned facets_of_bracket(const struct gm_poisson *poisson)
+{
+    const bool turns = poisson->turning != 0;
+    return GM_NEEDS_POISSON | (turns ? GM_NEEDS_GROUP : 0) |
+           (turns && poisson->spins > 0 ? GM_NEEDS_ROTATIONS : 0) |
+           (turns && poisson->spins <= 1 && poisson->axes ? GM_NEEDS_AXES : 0) |
+           (poisson->moments[0] != 0 ? GM_NEEDS_FREE_BODY : 0) | (poisson->pieces > 0 ? GM_NEEDS_PIECES : 0);
+}
+
 static unsigned facets(const struct gm_problem *problem)
 {
     const struct gm_ode *ode = gm_ode_of(problem);
@@ -31,10 +40,7 @@ static unsigned facets(const struct gm_problem *problem)
            (hamiltonian && !hamiltonian->partial ? GM_NEEDS_ENERGY : 0) |
            (action && !held ? GM_NEEDS_ACTION : 0) | (action && held ? GM_NEEDS_CONSTRAINTS : 0) |
            (ode->action && ode->action->friction ? GM_NEEDS_FRICTION : 0) |
-           (ode->monitor ? GM_NEEDS_MONITOR : 0) | (ode->poisson ? GM_NEEDS_POISSON : 0) |
-           (ode->poisson && ode->poisson->turning != 0 && problem->n == 3 ? GM_NEEDS_ROTATIONS : 0) |
-           (ode->poisson && ode->poisson->turning != 0 && ode->poisson->axes ? GM_NEEDS_AXES : 0) |
-           (ode->poisson && ode->poisson->moments[0] != 0 ? GM_NEEDS_FREE_BODY : 0) |
+           (ode->monitor ? GM_NEEDS_MONITOR : 0) | (ode->poisson ? facets_of_bracket(ode->poisson) : 0) |
            (ode->semilinear ? GM_NEEDS_SEMILINEAR : 0);
 }
 
@@ -44,6 +50,12 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_AXES, "the bracket of angular momenta and an energy that is a sum over the axes",
      "rotating bodies whose energy is a sum over the axes, free or as a top"},
     {GM_NEEDS_ROTATIONS, "the bracket of angular momenta", "systems with the bracket of angular momenta"},
+    {GM_NEEDS_GROUP, "the bracket of angular momenta, or of a top",
+     "systems with the bracket of angular momenta, or of a top"},
+    {GM_NEEDS_PIECES,
+     "a bracket, and an energy that falls into pieces whose flows are exact: of components that commute, and in whose "
+     "flow the others are linear",
+     "Poisson systems whose energy falls into pieces with exact flows"},
     {GM_NEEDS_POISSON, "a bracket", "Poisson systems"},
     {GM_NEEDS_CONSTRAINTS, "constraints", "systems with constraints"},
     {GM_NEEDS_FRICTION, "a friction -c p, of the same c for all momenta and beside which no other force acts",

@@ -36,7 +36,7 @@ struct own {
     double friction;
     struct gm_tape density, slopes; /* of the monitor: Q, and Q with dQ/dy */
     struct gm_monitor monitor;
-    struct gm_tape gradient, bracket; /* of a Poisson system */
+    struct gm_own_bracket bracket;
     struct gm_poisson poisson;
     struct gm_tape *rates; /* of each component alone, where each has an exact flow */
     double *values;        /* of the system's variables */
@@ -127,68 +127,6 @@ static bool open_slopes(struct gm_own_model *model, struct gm_own_system *system
     return true;
 }
 
-/* Whether {y_i, y_j} = sign y_k and {y_i, z_j} = sign z_k for i, j, k = 1, 2, 3 and cyclic, where the
-   components are y, or y and z; the other way round with the other sign, else 0. */
-static bool is_turning(struct gm_own_system *system, bool negative)
-{
-    struct gm_formula *graph = &system->graph;
-    bool same = system->n == 3 || system->n == 6;
-    for (size_t i = 0; i < 3 && same; i++) {
-        for (size_t k = i + 1; k < system->n && same; k++) {
-            const size_t ahead = (k + 3 - i) % 3, third = (k < 3 ? 0 : 3) + (i + 3 - ahead) % 3;
-            const gm_node_id positive = gm_formula_variable(graph, third);
-            const gm_node_id wanted = ahead == 0 ? gm_formula_constant(graph, 0)
-                                      : (ahead == 1) != negative
-                                          ? positive
-                                          : gm_formula_apply(graph, GM_OPERATION_NEGATE, positive, 0);
-            same = system->bracket[system->n * i + k] == wanted;
-        }
-    }
-    for (size_t i = 3; i < system->n; i++) {
-        for (size_t k = i + 1; k < system->n; k++) {
-            same = same && system->bracket[system->n * i + k] == gm_formula_constant(graph, 0);
-        }
-    }
-    return same;
-}
-
-/* Whether the slopes over y hold no component but their own, those over z none of y. False as well where
-   memory is short: graph->failed. */
-static bool is_sum_over_axes(struct gm_own_system *system, const gm_node_id *gradient)
-{
-    bool good = true;
-    for (size_t i = 0; i < system->n && good; i++) {
-        size_t count = 0;
-        gm_node_id *parts = gm_formula_parts(&system->graph, gradient[i], &count);
-        system->graph.failed |= !parts;
-        for (size_t k = 0; parts && k < count; k++) {
-            const struct gm_node *part = &system->graph.nodes[parts[k]];
-            good = good && (part->operation != GM_VARIABLE || part->a >= system->n ||
-                            (i < 3 ? part->a == i : part->a >= 3));
-        }
-        free(parts);
-    }
-    return good;
-}
-
-/* What a bracket makes of a system; false: out of memory. */
-static bool open_bracket(struct gm_own_model *model, struct gm_own_system *system, bool *marked)
-{
-    if (system->kind != GM_POISSON || system->timed) {
-        return true;
-    }
-    model->gradient = malloc((system->variable_count + 1) * sizeof *model->gradient);
-    memset(marked, false, system->variable_count * sizeof *marked);
-    memset(marked, true, system->n * sizeof *marked);
-    if (!model->gradient ||
-        !gm_gradient(&system->graph, system->energy, marked, system->variable_count, model->gradient)) {
-        return false;
-    }
-    model->turning = is_turning(system, true) ? 1 : is_turning(system, false) ? -1 : 0;
-    model->axes = is_sum_over_axes(system, model->gradient);
-    return !system->graph.failed;
-}
-
 bool gm_own_model_open(struct gm_own_model *model, struct gm_own_system *system)
 {
     *model = (struct gm_own_model){.system = system, .components = system->n + system->timed};
@@ -216,7 +154,7 @@ bool gm_own_model_open(struct gm_own_model *model, struct gm_own_system *system)
         gm_sparse_jacobian(&system->graph, model->rates, n, marked, system->variable_count, &model->jacobian);
     }
     if (good) {
-        good = open_slopes(model, system, marked) && open_bracket(model, system, marked);
+        good = open_slopes(model, system, marked) && gm_own_bracket_model_open(&model->bracket, system);
     }
     free(marked);
     const bool has_rates = system->kind != GM_LAGRANGIAN;
@@ -228,10 +166,10 @@ void gm_own_model_close(struct gm_own_model *model)
 {
     gm_own_lagrangian_model_close(&model->lagrangian);
     gm_own_constraints_model_close(&model->constraints);
+    gm_own_bracket_model_close(&model->bracket);
     free(model->rates);
     free(model->jacobian.entries);
     free(model->slopes);
-    free(model->gradient);
     free(model->names);
     *model = (struct gm_own_model){0};
 }
@@ -356,18 +294,23 @@ static void density(const struct gm_problem *problem, const double *y, double *v
 static double energy_of_bracket(const struct gm_problem *problem, const double *y)
 {
     double value;
-    gm_tape_values(&own_of(problem)->energy, y, &value, 1);
+    gm_tape_values(&own_of(problem)->bracket.energy, y, &value, 1);
     return value;
 }
 
 static void gradient(const struct gm_problem *problem, const double *y, double *slope)
 {
-    gm_tape_values(&own_of(problem)->gradient, y, slope, 1);
+    gm_tape_values(&own_of(problem)->bracket.gradient, y, slope, 1);
 }
 
 static void bracket(const struct gm_problem *problem, const double *y, double *matrix)
 {
-    gm_tape_values(&own_of(problem)->bracket, y, matrix, 1);
+    gm_tape_values(&own_of(problem)->bracket.matrix, y, matrix, 1);
+}
+
+static void flow_of_piece(const struct gm_problem *problem, size_t piece, double h, double *y)
+{
+    gm_own_bracket_flow(&own_of(problem)->bracket, piece, h, y);
 }
 
 static double frequency(const struct gm_problem *problem, size_t i)
@@ -501,9 +444,7 @@ static void find_moments(struct own *own, const struct gm_problem *problem)
 /* What schemes for brackets need. False: out of memory. */
 static bool open_poisson(struct own *own, const struct gm_problem *problem, const double *values)
 {
-    const struct gm_own_model *model = own->model;
-    const struct gm_formula *graph = &model->system->graph;
-    const size_t n = model->system->n;
+    const struct gm_own_bracket_model *model = &own->model->bracket;
     if (!model->gradient) {
         return true;
     }
@@ -511,11 +452,12 @@ static bool open_poisson(struct own *own, const struct gm_problem *problem, cons
                                        .gradient = gradient,
                                        .bracket = bracket,
                                        .turning = model->turning,
-                                       .axes = model->axes};
+                                       .spins = model->spins,
+                                       .axes = model->axes,
+                                       .pieces = model->piece_count,
+                                       .flow = flow_of_piece};
     own->ode.poisson = &own->poisson;
-    const bool good = gm_tape_open(&own->energy, graph, &model->system->energy, 1, n, values) &&
-                      gm_tape_open(&own->gradient, graph, model->gradient, n, n, values) &&
-                      gm_tape_open(&own->bracket, graph, model->system->bracket, n * n, n, values);
+    const bool good = gm_own_bracket_open(&own->bracket, model, values);
     if (good) {
         find_moments(own, problem);
     }
@@ -706,8 +648,7 @@ void gm_own_problem_close(struct gm_problem *problem)
         gm_tape_close(&own->potential);
         gm_tape_close(&own->density);
         gm_tape_close(&own->slopes);
-        gm_tape_close(&own->gradient);
-        gm_tape_close(&own->bracket);
+        gm_own_bracket_close(&own->bracket);
         free(own->frequencies);
         free(own->rates);
         free(own->values);

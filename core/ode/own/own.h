@@ -7,6 +7,7 @@
 #include "core/formula/derivative.h"
 #include "core/formula/facts.h"
 #include "core/ode/ode.h"
+#include "core/ode/own/bracket.h"
 #include "core/ode/own/constraints.h"
 #include "core/ode/own/lagrangian.h"
 
@@ -22,9 +23,7 @@ struct gm_own_model {
     struct gm_own_lagrangian_model lagrangian; /* of a Lagrangian, in place of rates and Jacobian */
     struct gm_own_constraints_model constraints;
     gm_node_id monitor, *slopes; /* the density of steps and its gradient over the components; NULL: none */
-    gm_node_id *gradient;        /* dH/dy, of a Poisson system; NULL: it is none, or holds the time */
-    double turning;              /* as in struct gm_poisson */
-    bool axes;
+    struct gm_own_bracket_model bracket;
     char *names; /* of the components, as in struct gm_ode */
 };
 

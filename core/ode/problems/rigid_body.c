@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The free rigid body: Euler's equations y_1' = (1/I_3 - 1/I_2) y_2 y_3 and cyclic, I = (2, 1, 2/3).
    Hairer, Lubich & Wanner (2006), IV.1. */
+#include <math.h>
+
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
@@ -31,6 +33,17 @@ static void bracket(const struct gm_problem *problem, const double *y, double *m
     }
 }
 
+/* That of y_i^2 / (2 I_i) turns about axis i at the rate y_i / I_i. */
+static void flow(const struct gm_problem *problem, size_t piece, double h, double *y)
+{
+    static const double inverse[3] = {0.5, 1, 1.5};
+    const size_t j = (piece + 1) % 3, k = (piece + 2) % 3;
+    const double angle = h * inverse[piece] * y[piece], c = cos(angle), s = sin(angle), before = y[j];
+    (void)problem;
+    y[j] = c * before + s * y[k];
+    y[k] = c * y[k] - s * before;
+}
+
 const struct gm_problem gm_problem_rigid_body = {
     .name = "rigid-body",
     .n = 3,
@@ -46,8 +59,11 @@ const struct gm_problem gm_problem_rigid_body = {
                     .gradient = gradient,
                     .bracket = bracket,
                     .turning = 1,
+                    .spins = 1,
                     .axes = true,
                     .moments = {2, 1, 2. / 3},
+                    .pieces = 3,
+                    .flow = flow,
                 },
             .loops = GM_LOOPS(rigid_body),
         },
