@@ -14,6 +14,7 @@ enum {
     LARGEST_BATCH = 256, /* operations of a group: what they need lies in the fastest cache */
     LEAST_BATCH = 16,
     LEAST_RUN = 12,     /* operands in a row: fewer are gathered with what stands beside them */
+    LEAST_SUM = 8,      /* terms: fewer are added one by one */
     LEAST_ROLLED = 1024 /* values: shorter code stays in the order of the formula */
 };
 
@@ -22,7 +23,14 @@ enum {
 struct value {
     uint32_t operation, number, a, b;
     uint32_t level; /* one more than that of what it is made of: no two of one level need each other */
-    uint32_t a_rank, b_rank; /* of its operands, in the order of the code */
+    uint32_t a_rank, b_rank;    /* of its operands, in the order of the code */
+    uint32_t first_term, terms; /* of a long sum, which has no a and b; 0: it is none */
+};
+
+/* Of a long sum. */
+struct term {
+    uint32_t number; /* of its value */
+    bool subtracted;
 };
 
 /* Registers that are taken and given back together: those of a group. */
@@ -46,10 +54,13 @@ struct writing {
     double *folded;    /* of nodes that depend on no input: what they are */
     bool *dependent;   /* of nodes: on an input */
     uint32_t one;      /* the constant 1, for powers that need it */
+    uint32_t zero;     /* of long code the constants 0 and, behind it, -0 */
     struct value *values;
+    struct term *terms;
     struct group *groups; /* in the order of the code */
-    size_t value_count, group_count, batch_count, list_count;
-    size_t constant_room, value_room, code_room, batch_room, list_room;
+    size_t number_count;  /* of values as they were found: numbers are below it */
+    size_t value_count, group_count, batch_count, sums_count, list_count, term_count;
+    size_t constant_room, value_room, code_room, batch_room, sums_room, list_room, term_room;
     bool rolled;
     /* of values: register, last group that needs it, and, of those that are computed, stretch */
     uint32_t *place, *last, *home;
@@ -142,6 +153,11 @@ static void find_constants(struct writing *writing, const gm_node_id *nodes, siz
         need(writing, nodes[k]);
     }
     writing->one = inverts ? constant(writing, 1) : NONE;
+    writing->zero = NONE;
+    if (writing->part_count >= LEAST_ROLLED) {
+        writing->zero = constant(writing, 0.0);
+        constant(writing, -0.0);
+    }
 }
 
 static uint32_t compute_value(struct writing *writing, uint32_t operation, uint32_t a, uint32_t b)
@@ -197,6 +213,97 @@ static void find_values(struct writing *writing)
                 compute_value(writing, node->operation, numbers[node->a], numbers[second_operand(node)]);
         }
     }
+}
+
+/* ---- long sums ---- */
+
+static bool is_sum(const struct value *value)
+{
+    return value->operation == GM_OPERATION_ADD || value->operation == GM_OPERATION_SUBTRACT;
+}
+
+static void add_term(struct writing *writing, uint32_t number, bool subtracted)
+{
+    writing->terms =
+        grown(writing, writing->terms, sizeof *writing->terms, writing->term_count, &writing->term_room);
+    if (!writing->failed) {
+        writing->terms[writing->term_count++] = (struct term){number, subtracted};
+    }
+}
+
+static void turn_terms(struct term *terms, size_t count)
+{
+    for (size_t i = 0; i < count / 2; i++) {
+        const struct term other = terms[i];
+        terms[i] = terms[count - 1 - i];
+        terms[count - 1 - i] = other;
+    }
+}
+
+/* Makes one value of the sums that only lead to this one, as long as they are many: what it is summed from, in
+   the order of the formula. used: how often each number is. Those that are no longer needed have no level. */
+static void gather_sum(struct writing *writing, struct value *straight, size_t last, const uint32_t *used)
+{
+    const uint32_t fixed = (uint32_t)(writing->tape->inputs + writing->tape->constant_count),
+                   first = (uint32_t)writing->term_count;
+    size_t at = last, length = 1;
+    while (!writing->failed) {
+        const struct value *value = &straight[at];
+        const bool left = value->a >= fixed && used[value->a] == 1 && is_sum(&straight[value->a - fixed]),
+                   right = !left && value->operation == GM_OPERATION_ADD && value->b >= fixed &&
+                           used[value->b] == 1 && is_sum(&straight[value->b - fixed]);
+        add_term(writing, right ? value->a : value->b, value->operation == GM_OPERATION_SUBTRACT);
+        if (!left && !right) {
+            add_term(writing, value->a, false);
+            break;
+        }
+        at = (left ? value->a : value->b) - fixed;
+        length++;
+    }
+    if (length < LEAST_SUM || writing->failed) {
+        writing->term_count = first;
+        return;
+    }
+    turn_terms(writing->terms + first, length + 1);
+    for (size_t k = last; k != at;) {
+        const struct value *value = &straight[k];
+        const uint32_t next = value->a >= fixed && used[value->a] == 1 && is_sum(&straight[value->a - fixed])
+                                  ? value->a
+                                  : value->b;
+        k = next - fixed;
+        straight[k].level = NONE;
+    }
+    straight[last].operation = GM_SUMMED;
+    straight[last].first_term = first;
+    straight[last].terms = (uint32_t)length + 1;
+}
+
+static void find_sums(struct writing *writing, struct value *straight, const gm_node_id *nodes, size_t count,
+                      uint32_t *used)
+{
+    for (size_t i = 0; i < writing->value_count; i++) {
+        used[straight[i].a]++;
+        used[straight[i].b] += straight[i].b != straight[i].a || is_sum(&straight[i]);
+    }
+    for (size_t k = 0; k < count; k++) {
+        used[writing->numbers[nodes[k]]] += 2; /* it has to be there */
+    }
+    for (size_t i = writing->value_count; i-- > 0;) {
+        if (is_sum(&straight[i]) && straight[i].level != NONE) {
+            gather_sum(writing, straight, i, used);
+        }
+    }
+}
+
+/* What a value is made of. */
+static size_t operand_count(const struct value *value)
+{
+    return value->terms > 0 ? value->terms : 2;
+}
+
+static uint32_t operand(const struct writing *writing, const struct value *value, size_t k)
+{
+    return value->terms > 0 ? writing->terms[value->first_term + k].number : k > 0 ? value->b : value->a;
 }
 
 /* ---- from values to code ---- */
@@ -270,7 +377,7 @@ static size_t end_of(const struct writing *writing, size_t begin)
            values[end].level == values[begin].level && values[end].operation == values[begin].operation) {
         end++;
     }
-    return end - begin < LEAST_BATCH ? begin + 1 : end;
+    return end - begin < LEAST_BATCH && values[begin].operation != GM_SUMMED ? begin + 1 : end;
 }
 
 static void find_groups(struct writing *writing)
@@ -286,27 +393,38 @@ static void find_groups(struct writing *writing)
    are made of rows; counts: room for as many numbers as there are values, and one. */
 static void sort(struct writing *writing, struct value *straight, uint32_t *rank, size_t *counts)
 {
-    const size_t fixed = writing->tape->inputs + writing->tape->constant_count, count = writing->value_count;
+    const size_t fixed = writing->tape->inputs + writing->tape->constant_count, all = writing->value_count;
     struct value *values = writing->values;
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t a = straight[i].a < fixed ? 0 : straight[straight[i].a - fixed].level,
-                       b = straight[i].b < fixed ? 0 : straight[straight[i].b - fixed].level;
-        straight[i].level = 1 + (a > b ? a : b);
-        counts[straight[i].level]++;
+    for (size_t i = 0; i < all; i++) {
+        if (straight[i].level == NONE) {
+            continue;
+        }
+        uint32_t level = 0;
+        for (size_t k = 0; k < operand_count(&straight[i]); k++) {
+            const uint32_t number = operand(writing, &straight[i], k),
+                           below = number < fixed ? 0 : straight[number - fixed].level;
+            level = below > level ? below : level;
+        }
+        straight[i].level = level + 1;
+        counts[level + 1]++;
     }
-    for (size_t level = 1; level <= count; level++) {
+    for (size_t level = 1; level <= all; level++) {
         counts[level] += counts[level - 1];
     }
-    for (size_t i = 0; i < count; i++) {
-        values[counts[straight[i].level - 1]++] = straight[i];
+    const size_t count = writing->value_count = counts[all];
+    for (size_t i = 0; i < all; i++) {
+        if (straight[i].level != NONE) {
+            values[counts[straight[i].level - 1]++] = straight[i];
+        }
     }
     for (uint32_t i = 0; i < fixed; i++) {
         rank[i] = i;
     }
     for (size_t begin = 0, end; begin < count; begin = end) {
         for (end = begin; end < count && values[end].level == values[begin].level; end++) {
-            values[end].a_rank = rank[values[end].a];
-            values[end].b_rank = rank[values[end].b];
+            const bool summed = values[end].operation == GM_SUMMED; /* they stay as they stand */
+            values[end].a_rank = summed ? values[end].number : rank[values[end].a];
+            values[end].b_rank = summed ? values[end].number : rank[values[end].b];
         }
         sort_level(values + begin, end - begin);
         for (size_t i = begin; i < end; i++) {
@@ -316,25 +434,31 @@ static void sort(struct writing *writing, struct value *straight, uint32_t *rank
 }
 
 /* Sorts values, if then most of them share a group. */
-static bool roll(struct writing *writing)
+static bool roll(struct writing *writing, const gm_node_id *nodes, size_t node_count)
 {
     const size_t fixed = writing->tape->inputs + writing->tape->constant_count, count = writing->value_count;
-    struct value *straight = malloc(count * sizeof *straight);
-    uint32_t *rank = malloc((fixed + count) * sizeof *rank);
+    struct value *straight = malloc(count * sizeof *straight), *before = malloc(count * sizeof *before);
+    uint32_t *rank = calloc(fixed + count, sizeof *rank);
     size_t *counts = calloc(count + 1, sizeof *counts);
-    writing->failed |= !straight || !rank || !counts;
+    writing->failed |= !straight || !before || !rank || !counts;
     if (!writing->failed) {
         memcpy(straight, writing->values, count * sizeof *straight);
+        memcpy(before, writing->values, count * sizeof *before);
+        find_sums(writing, straight, nodes, node_count, rank);
+    }
+    if (!writing->failed) {
         sort(writing, straight, rank, counts);
         writing->rolled = true;
         find_groups(writing);
     }
     if (!writing->failed && writing->group_count > count / 2) {
-        memcpy(writing->values, straight, count * sizeof *straight);
+        memcpy(writing->values, before, count * sizeof *before);
+        writing->value_count = count;
         writing->rolled = false;
         find_groups(writing);
     }
     free(straight);
+    free(before);
     free(rank);
     free(counts);
     return writing->rolled;
@@ -347,10 +471,10 @@ static void order_by_need(struct writing *writing)
     const size_t fixed = writing->tape->inputs + writing->tape->constant_count, count = writing->group_count;
     struct open_group {
         uint32_t group;
-        size_t operand; /* of its values' operands: the first that is not seen to yet */
+        size_t value, operand; /* the first of its values', that is not seen to yet */
     } *path = malloc(count * sizeof *path);
     struct group *ordered = malloc(count * sizeof *ordered);
-    uint32_t *group_of = malloc(writing->value_count * sizeof *group_of);
+    uint32_t *group_of = malloc(writing->number_count * sizeof *group_of);
     bool *met = calloc(count, sizeof *met);
     writing->failed |= !path || !ordered || !group_of || !met;
     for (uint32_t k = 0; !writing->failed && k < count; k++) {
@@ -363,22 +487,26 @@ static void order_by_need(struct writing *writing)
         size_t depth = 0;
         if (!met[root]) {
             met[root] = true;
-            path[depth++] = (struct open_group){(uint32_t)root, 0};
+            path[depth++] = (struct open_group){.group = (uint32_t)root};
         }
         while (depth > 0) {
             struct open_group *last = &path[depth - 1];
             const struct group *group = &writing->groups[last->group];
-            const struct value *value = &writing->values[group->begin + last->operand / 2];
-            if (group->begin + last->operand / 2 == group->end) {
+            const struct value *value = &writing->values[group->begin + last->value];
+            if (group->begin + last->value == group->end) {
                 ordered[done++] = *group;
                 depth--;
                 continue;
             }
-            const uint32_t operand = last->operand++ % 2 ? value->b : value->a;
-            if (operand >= fixed && !met[group_of[operand - fixed]]) {
-                const uint32_t needed = group_of[operand - fixed];
+            const uint32_t number = operand(writing, value, last->operand++);
+            if (last->operand == operand_count(value)) {
+                last->value++;
+                last->operand = 0;
+            }
+            if (number >= fixed && !met[group_of[number - fixed]]) {
+                const uint32_t needed = group_of[number - fixed];
                 met[needed] = true;
-                path[depth++] = (struct open_group){needed, 0};
+                path[depth++] = (struct open_group){.group = needed};
             }
         }
     }
@@ -426,8 +554,8 @@ static void put(struct writing *writing, uint32_t operation, uint32_t to, uint32
     tape->code = grown(writing, tape->code, sizeof *tape->code, tape->length, &writing->code_room);
     if (!writing->failed) {
         const struct gm_instruction *before =
-            tape->length > 0 && operation != GM_REPEATED ? &tape->code[tape->length - 1] : NULL;
-        const bool near = before && before->operation != GM_REPEATED;
+            tape->length > 0 && operation < GM_REPEATED ? &tape->code[tape->length - 1] : NULL;
+        const bool near = before && before->operation < GM_REPEATED;
         const uint32_t way =
             4 * operation + (near && a == before->to ? 1 : 0) + (near && b == before->to ? 2 : 0);
         tape->code[tape->length++] = (struct gm_instruction){(uint16_t)operation, (uint16_t)way, to, a, b};
@@ -439,10 +567,18 @@ static uint32_t register_of(const struct writing *writing, const struct value *v
     return writing->place[second ? value->b : value->a];
 }
 
+static void put_in_list(struct writing *writing, uint32_t entry)
+{
+    struct gm_tape *tape = writing->tape;
+    tape->lists = grown(writing, tape->lists, sizeof *tape->lists, writing->list_count, &writing->list_room);
+    if (!writing->failed) {
+        tape->lists[writing->list_count++] = entry;
+    }
+}
+
 static struct gm_operands operands_of(struct writing *writing, const struct value *values, size_t count,
                                       bool second, bool may_be_one)
 {
-    struct gm_tape *tape = writing->tape;
     const uint32_t first = register_of(writing, values, second), list = (uint32_t)writing->list_count;
     bool row = true, one = may_be_one;
     for (size_t i = 0; i < count; i++) {
@@ -450,33 +586,34 @@ static struct gm_operands operands_of(struct writing *writing, const struct valu
         one = one && register_of(writing, &values[i], second) == first;
     }
     for (size_t i = 0; i < count && !row && !one; i++) {
-        tape->lists =
-            grown(writing, tape->lists, sizeof *tape->lists, writing->list_count, &writing->list_room);
-        if (!writing->failed) {
-            tape->lists[writing->list_count++] = register_of(writing, &values[i], second);
-        }
+        put_in_list(writing, register_of(writing, &values[i], second));
     }
     return row   ? (struct gm_operands){GM_IN_A_ROW, first}
            : one ? (struct gm_operands){GM_THE_SAME, first}
                  : (struct gm_operands){GM_LISTED, list};
 }
 
-static void put_batch(struct writing *writing, const struct value *values, size_t count, uint32_t to)
+static void put_repeated(struct writing *writing, const struct gm_repeated *batch)
 {
     struct gm_tape *tape = writing->tape;
+    tape->batches =
+        grown(writing, tape->batches, sizeof *tape->batches, writing->batch_count, &writing->batch_room);
+    if (!writing->failed) {
+        /* registers 0: they are read before anybody looks at the operation */
+        put(writing, GM_REPEATED, (uint32_t)writing->batch_count, 0, 0);
+        tape->batches[writing->batch_count++] = *batch;
+    }
+}
+
+static void put_batch(struct writing *writing, const struct value *values, size_t count, uint32_t to)
+{
     struct gm_repeated batch = {.operation = values[0].operation, .count = (uint32_t)count, .to = to};
     batch.a = operands_of(writing, values, count, false, true);
     batch.b = batch.a;
     if (gm_operation_rows[batch.operation].arity == 2) {
         batch.b = operands_of(writing, values, count, true, batch.a.lie != GM_THE_SAME);
     }
-    tape->batches =
-        grown(writing, tape->batches, sizeof *tape->batches, writing->batch_count, &writing->batch_room);
-    if (!writing->failed) {
-        /* registers 0: they are read before anybody looks at the operation */
-        put(writing, GM_REPEATED, (uint32_t)writing->batch_count, 0, 0);
-        tape->batches[writing->batch_count++] = batch;
-    }
+    put_repeated(writing, &batch);
 }
 
 /* How many values there are from this one on whose operands lie in a row, or are all the same. */
@@ -509,20 +646,68 @@ static void put_group(struct writing *writing, const struct value *values, size_
     }
 }
 
+/* Sums beside each other: row after row the sum with the most terms left says which operation it is. */
+static void put_sums(struct writing *writing, const struct value *values, size_t count, uint32_t to)
+{
+    struct gm_tape *tape = writing->tape;
+    struct gm_sums sums = {.to = to, .count = (uint32_t)count, .at = (uint32_t)writing->list_count};
+    uint32_t done[GM_ABREAST] = {0};
+    const uint32_t zero = writing->place[writing->zero];
+    for (bool more = true; more && !writing->failed; sums.rows++) {
+        uint32_t most = 0;
+        bool subtracted = false;
+        for (size_t k = 0; k < count; k++) {
+            const uint32_t left = values[k].terms - done[k];
+            if (left > most) {
+                most = left;
+                subtracted = writing->terms[values[k].first_term + done[k]].subtracted;
+            }
+        }
+        if (most == 0) {
+            break;
+        }
+        put_in_list(writing, sums.rows == 0 ? GM_VARIABLE
+                             : subtracted   ? GM_OPERATION_SUBTRACT
+                                            : GM_OPERATION_ADD);
+        for (size_t k = 0; k < GM_ABREAST; k++) {
+            const struct term *term = k < count && done[k] < values[k].terms
+                                          ? &writing->terms[values[k].first_term + done[k]]
+                                          : NULL;
+            const bool takes = term && term->subtracted == subtracted;
+            put_in_list(writing, takes ? writing->place[term->number] : subtracted ? zero : zero + 1);
+            done[takes ? k : 0] += takes;
+        }
+    }
+    tape->sums = grown(writing, tape->sums, sizeof *tape->sums, writing->sums_count, &writing->sums_room);
+    if (!writing->failed) {
+        put(writing, GM_SUMMED, (uint32_t)writing->sums_count, 0, 0);
+        tape->sums[writing->sums_count++] = sums;
+    }
+}
+
+static void put_all_sums(struct writing *writing, const struct value *values, size_t count, uint32_t to)
+{
+    for (size_t begin = 0; begin < count; begin += GM_ABREAST) {
+        const size_t left = count - begin;
+        put_sums(writing, values + begin, left < GM_ABREAST ? left : GM_ABREAST, to + (uint32_t)begin);
+    }
+}
+
 /* Where values live, and until when. */
 static void prepare(struct writing *writing, const gm_node_id *nodes, size_t count)
 {
     struct gm_tape *tape = writing->tape;
     const uint32_t fixed = (uint32_t)(tape->inputs + tape->constant_count);
-    for (uint32_t i = 0; i < fixed + writing->value_count; i++) {
+    for (uint32_t i = 0; i < fixed + writing->number_count; i++) {
         writing->place[i] = i < fixed ? i : NONE;
         writing->last[i] = NONE;
     }
     for (uint32_t k = 0; k < writing->group_count; k++) {
         for (size_t i = writing->groups[k].begin; i < writing->groups[k].end; i++) {
-            const struct value *value = &writing->values[i];
-            writing->last[value->a] = value->a < fixed ? NONE : k;
-            writing->last[value->b] = value->b < fixed ? NONE : k;
+            for (size_t j = 0; j < operand_count(&writing->values[i]); j++) {
+                const uint32_t number = operand(writing, &writing->values[i], j);
+                writing->last[number] = number < fixed ? NONE : k;
+            }
         }
     }
     /* the first output that is this value */
@@ -536,10 +721,29 @@ static void prepare(struct writing *writing, const gm_node_id *nodes, size_t cou
     tape->registers = fixed + count;
 }
 
+/* Outputs that were made elsewhere; many in a row at once. */
+static void put_copies(struct writing *writing, const gm_node_id *nodes, size_t count)
+{
+    const uint32_t first = (uint32_t)(writing->tape->inputs + writing->tape->constant_count);
+    for (size_t begin = 0, end; begin < count && !writing->failed; begin = end) {
+        const uint32_t to = first + (uint32_t)begin, from = writing->place[writing->numbers[nodes[begin]]];
+        end = begin + 1;
+        while (writing->rolled && from != to && end < count &&
+               writing->place[writing->numbers[nodes[end]]] == from + (end - begin)) {
+            end++;
+        }
+        if (end - begin >= LEAST_RUN) {
+            const struct gm_operands row = {GM_IN_A_ROW, from};
+            put_repeated(writing, &(struct gm_repeated){GM_VARIABLE, (uint32_t)(end - begin), to, row, row});
+        } else if (from != to) {
+            put(writing, GM_VARIABLE, to, from, from);
+            end = begin + 1;
+        }
+    }
+}
+
 static void write_code(struct writing *writing, const gm_node_id *nodes, size_t count)
 {
-    struct gm_tape *tape = writing->tape;
-    const uint32_t first_output = (uint32_t)(tape->inputs + tape->constant_count);
     prepare(writing, nodes, count);
     for (uint32_t group = 0; group < writing->group_count && !writing->failed; group++) {
         const size_t begin = writing->groups[group].begin, end = writing->groups[group].end;
@@ -547,7 +751,9 @@ static void write_code(struct writing *writing, const gm_node_id *nodes, size_t 
         const bool is_output = end - begin == 1 && writing->place[first->number] != NONE;
         const uint32_t home = is_output ? NONE : take(writing, end - begin),
                        to = is_output ? writing->place[first->number] : writing->stretches[home].first;
-        if (end - begin > 1) {
+        if (first->operation == GM_SUMMED) {
+            put_all_sums(writing, first, end - begin, to);
+        } else if (end - begin > 1) {
             put_group(writing, first, end - begin, to);
         } else {
             put(writing, first->operation, to, writing->place[first->a], writing->place[first->b]);
@@ -556,16 +762,12 @@ static void write_code(struct writing *writing, const gm_node_id *nodes, size_t 
             const struct value *value = &writing->values[i];
             writing->place[value->number] = to + (uint32_t)(i - begin);
             writing->home[value->number] = home;
-            release(writing, value->a, group);
-            release(writing, value->b, group);
+            for (size_t j = 0; j < operand_count(value); j++) {
+                release(writing, operand(writing, value, j), group);
+            }
         }
     }
-    for (size_t k = 0; k < count && !writing->failed; k++) {
-        const uint32_t to = first_output + (uint32_t)k, from = writing->place[writing->numbers[nodes[k]]];
-        if (from != to) {
-            put(writing, GM_VARIABLE, to, from, from);
-        }
-    }
+    put_copies(writing, nodes, count);
 }
 
 bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm_node_id *nodes, size_t count,
@@ -585,14 +787,15 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
         find_constants(&writing, nodes, count);
         find_values(&writing);
     }
+    writing.number_count = writing.value_count;
     writing.groups = malloc((writing.value_count + 1) * sizeof *writing.groups);
     writing.failed |= !writing.groups;
     if (!writing.failed && writing.value_count < LEAST_ROLLED) {
         find_groups(&writing);
-    } else if (!writing.failed && roll(&writing)) {
+    } else if (!writing.failed && roll(&writing, nodes, count)) {
         order_by_need(&writing);
     }
-    const size_t all = inputs + tape->constant_count + writing.value_count + 1;
+    const size_t all = inputs + tape->constant_count + writing.number_count + 1;
     writing.place = malloc(all * sizeof *writing.place);
     writing.last = malloc(all * sizeof *writing.last);
     writing.home = malloc(all * sizeof *writing.home);
@@ -609,6 +812,7 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
     free(writing.folded);
     free(writing.dependent);
     free(writing.values);
+    free(writing.terms);
     free(writing.groups);
     free(writing.place);
     free(writing.last);
@@ -623,6 +827,7 @@ void gm_tape_close(struct gm_tape *tape)
 {
     free(tape->code);
     free(tape->batches);
+    free(tape->sums);
     free(tape->lists);
     free(tape->constants);
     *tape = (struct gm_tape){0};
@@ -630,7 +835,7 @@ void gm_tape_close(struct gm_tape *tape)
 
 /* ---- code to numbers ---- */
 
-struct gm_instruction gm_tape_member(const struct gm_tape *tape, const struct gm_repeated *batch, uint32_t i)
+static struct gm_instruction member(const struct gm_tape *tape, const struct gm_repeated *batch, uint32_t i)
 {
     const struct gm_operands *const operands[] = {&batch->a, &batch->b};
     uint32_t at[2];
@@ -641,6 +846,41 @@ struct gm_instruction gm_tape_member(const struct gm_tape *tape, const struct gm
     }
     return (struct gm_instruction){
         .operation = (uint16_t)batch->operation, .to = batch->to + i, .a = at[0], .b = at[1]};
+}
+
+static struct gm_instruction term(const struct gm_tape *tape, const struct gm_sums *sums, uint32_t sum,
+                                  uint32_t row)
+{
+    const uint32_t *list = tape->lists + sums->at + row * (1 + GM_ABREAST);
+    const uint32_t to = sums->to + sum, next = list[1 + sum];
+    return (struct gm_instruction){
+        .operation = (uint16_t)list[0], .to = to, .a = row > 0 ? to : next, .b = next};
+}
+
+bool gm_tape_next(const struct gm_tape *tape, struct gm_tape_place *at, struct gm_instruction *now)
+{
+    if (at->instruction == tape->length) {
+        return false;
+    }
+    *now = tape->code[at->instruction];
+    uint32_t rows = 1, members = 1;
+    if (now->operation == GM_REPEATED) {
+        const struct gm_repeated *batch = &tape->batches[now->to];
+        members = batch->count;
+        *now = member(tape, batch, at->member);
+    } else if (now->operation == GM_SUMMED) {
+        const struct gm_sums *sums = &tape->sums[now->to];
+        members = sums->count;
+        rows = sums->rows;
+        *now = term(tape, sums, at->member, at->row);
+    }
+    at->row = at->row + 1 < rows ? at->row + 1 : 0;
+    at->member += at->row == 0;
+    if (at->member == members) {
+        at->member = 0;
+        at->instruction++;
+    }
+    return true;
 }
 
 /* An operation for rows of `count` numbers; of an operand that is the same for all, `one`, there is one
@@ -704,6 +944,32 @@ __attribute__((noinline)) static void compute_batch(const struct gm_tape *tape,
                 batch->b.lie == GM_THE_SAME, batch->count);
 }
 
+/* Sums for one state: as many chains of additions as a processor has under way at once. */
+__attribute__((noinline)) static void compute_sums(const struct gm_tape *tape, const struct gm_sums *sums,
+                                                   double *r)
+{
+    const uint32_t *list = tape->lists + sums->at;
+    double sum[GM_ABREAST];
+    for (size_t k = 0; k < GM_ABREAST; k++) {
+        sum[k] = r[list[1 + k]];
+    }
+    for (uint32_t row = 1; row < sums->rows; row++) {
+        list += 1 + GM_ABREAST;
+        if (list[0] == GM_OPERATION_ADD) {
+            for (size_t k = 0; k < GM_ABREAST; k++) {
+                sum[k] += r[list[1 + k]];
+            }
+        } else {
+            for (size_t k = 0; k < GM_ABREAST; k++) {
+                sum[k] -= r[list[1 + k]];
+            }
+        }
+    }
+    for (uint32_t k = 0; k < sums->count; k++) {
+        r[sums->to + k] = sum[k];
+    }
+}
+
 /* One state: r holds all registers. What the instruction before has made is not read back from there: in a chain
    of operations a store and a load take longer than most of them. */
 static void compute(const struct gm_tape *tape, double *r)
@@ -734,6 +1000,9 @@ static void compute(const struct gm_tape *tape, double *r)
         case 4 * GM_REPEATED:
             compute_batch(tape, &tape->batches[at->to], r);
             continue;
+        case 4 * GM_SUMMED:
+            compute_sums(tape, &tape->sums[at->to], r);
+            continue;
         default: /* it need not be asked */
             __builtin_unreachable();
         }
@@ -741,16 +1010,27 @@ static void compute(const struct gm_tape *tape, double *r)
     }
 }
 
+/* A term for a row of sums. */
+GM_CLONES __attribute__((noinline)) static void add_row(double *restrict to, const double *restrict term,
+                                                        bool one, bool subtracted, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        to[i] += subtracted ? -term[one ? 0 : i] : term[one ? 0 : i];
+    }
+}
+
 /* A block of members: at[register] is its row, or of a constant its one number. */
 static void compute_rows(const struct gm_tape *tape, double *const *at, size_t count)
 {
-    for (size_t k = 0; k < tape->length; k++) {
-        struct gm_instruction now = tape->code[k];
-        const struct gm_repeated *batch = now.operation == GM_REPEATED ? &tape->batches[now.to] : NULL;
-        for (uint32_t i = 0; i < (batch ? batch->count : 1); i++) {
-            now = batch ? gm_tape_member(tape, batch, i) : now;
-            compute_row(now.operation, at[now.to], at[now.a], now.a - tape->inputs < tape->constant_count,
-                        at[now.b], now.b - tape->inputs < tape->constant_count, count);
+    struct gm_tape_place place = {0};
+    struct gm_instruction now;
+    while (gm_tape_next(tape, &place, &now)) {
+        const bool one_a = now.a - tape->inputs < tape->constant_count,
+                   one_b = now.b - tape->inputs < tape->constant_count;
+        if (now.a == now.to) {
+            add_row(at[now.to], at[now.b], one_b, now.operation == GM_OPERATION_SUBTRACT, count);
+        } else {
+            compute_row(now.operation, at[now.to], at[now.a], one_a, at[now.b], one_b, count);
         }
     }
 }
@@ -758,9 +1038,14 @@ static void compute_rows(const struct gm_tape *tape, double *const *at, size_t c
 /* Registers that lie on the stack; of longer code they are allocated. */
 enum { ON_STACK = 2048, LARGEST_BLOCK = 128, IN_CACHE = 4096 };
 
-/* One by one: a wide load of numbers that were just stored one by one would have to wait for all of them. */
+/* A few one by one: a wide load of numbers that were just stored one by one would have to wait for all of them. */
 static inline void copy_each(double *to, const double *from, size_t count)
 {
+    enum { FEW = 64 };
+    if (count > FEW) {
+        memcpy(to, from, count * sizeof *to);
+        return;
+    }
     for (size_t i = 0; i < count; i++) {
         to[i] = from[i];
         __asm__ volatile("");

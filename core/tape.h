@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Nodes of a graph as straight code, to be computed many times: for one state, or for many at once. What a
    sum over a list has written out becomes a loop again: the same operation on many operands is one
-   instruction. */
+   instruction, and so are the sums of many terms. */
 #ifndef GM_CORE_TAPE_H
 #define GM_CORE_TAPE_H
 
 #include "core/formula/graph.h"
 
-/* One operation on registers. GM_VARIABLE is a copy of a; GM_REPEATED is batch number `to`. */
+/* One operation on registers. GM_VARIABLE is a copy of a; GM_REPEATED is batch number `to`, GM_SUMMED sums number
+   `to`. */
 struct gm_instruction {
     uint16_t operation;
     uint16_t way; /* four times the operation, + 1 if a, + 2 if b is what the instruction before has made */
     uint32_t to, a, b;
 };
-enum { GM_REPEATED = GM_OPERATIONS };
+enum { GM_REPEATED = GM_OPERATIONS, GM_SUMMED };
 
 /* The same operation `count` times, for registers to, to + 1 ..: the operands lie in as many registers from
    `at` on, are all register `at`, or those of lists[at], lists[at + 1] .. */
@@ -25,12 +26,21 @@ struct gm_repeated {
     } a, b;
 };
 
+/* Up to GM_ABREAST long sums beside each other, for registers to, to + 1 ..: lists[at] begins with a row of what
+   they begin with; in each of the rows that follow stands the operation, GM_OPERATION_ADD or _SUBTRACT, and then the
+   registers of the next terms. A sum that has no such term now adds -0 or subtracts 0, which changes no bit. */
+enum { GM_ABREAST = 8 };
+struct gm_sums {
+    uint32_t to, count, rows, at;
+};
+
 /* The registers: inputs, constants, outputs, and what lies between. It does not change while it is computed,
    so threads may share it. */
 struct gm_tape {
     struct gm_instruction *code;
     size_t length;
     struct gm_repeated *batches;
+    struct gm_sums *sums;
     uint32_t *lists;
     double *constants;
     size_t inputs, constant_count, outputs, registers;
@@ -45,8 +55,13 @@ bool gm_tape_open(struct gm_tape *tape, const struct gm_formula *graph, const gm
                   size_t inputs, const double *values);
 void gm_tape_close(struct gm_tape *tape);
 
-/* Operation number i of one that is repeated. */
-struct gm_instruction gm_tape_member(const struct gm_tape *tape, const struct gm_repeated *batch, uint32_t i);
+/* Goes through the operations one by one, those that are repeated and the terms of sums as well: false at the
+   end. `at` is {0} at first. */
+struct gm_tape_place {
+    size_t instruction;
+    uint32_t member, row;
+};
+bool gm_tape_next(const struct gm_tape *tape, struct gm_tape_place *at, struct gm_instruction *now);
 
 /* The nodes' values for m members: inputs (inputs * m) and outputs (count * m) lie [number * m + member], and
    do not overlap. Where memory is short, which is noted (core/memory.h), they are NaN. A member's bits do not

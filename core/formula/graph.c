@@ -551,29 +551,85 @@ static void mark_harsh(const struct gm_formula *graph, const gm_node_id *parts, 
     }
 }
 
+/* The part that was met and is this one with the other sign, c / x of -c / x; GM_NO_NODE: there is none. */
+static gm_node_id twin_of(const struct gm_formula *graph, gm_node_id i, const bool *met)
+{
+    const struct gm_node *node = &graph->nodes[i];
+    if ((node->operation != GM_OPERATION_MULTIPLY && node->operation != GM_OPERATION_DIVIDE) ||
+        !is_operation(graph, node->a, GM_CONSTANT)) {
+        return GM_NO_NODE;
+    }
+    const struct gm_node other = {.operation = GM_CONSTANT, .value = -graph->nodes[node->a].value};
+    const gm_node_id constant = *entry_of(graph, &other);
+    const struct gm_node twin = {.operation = node->operation, .a = constant - 1, .b = node->b};
+    const gm_node_id number = constant > 0 ? *entry_of(graph, &twin) : 0;
+    return number > 0 && met[number - 1] ? number - 1 : GM_NO_NODE;
+}
+
+/* A node, or what this node is with the other sign. */
+struct signed_node {
+    gm_node_id node;
+    bool negative;
+};
+
+static gm_node_id with_sign(struct gm_formula *graph, struct signed_node x)
+{
+    return x.negative ? negative(graph, x.node) : x.node;
+}
+
+/* An operation that leaves signs to what is made of it, as long as no bit changes, not even of 0. */
+static struct signed_node apply_signed(struct gm_formula *graph, bool quick, enum gm_operation operation,
+                                       struct signed_node a, struct signed_node b)
+{
+    const bool sum = operation == GM_OPERATION_ADD, difference = operation == GM_OPERATION_SUBTRACT;
+    bool negative = false;
+    if (operation == GM_OPERATION_MULTIPLY || operation == GM_OPERATION_DIVIDE) {
+        negative = a.negative != b.negative;
+        a.negative = b.negative = false;
+    } else if (operation == GM_OPERATION_NEGATE && a.negative) {
+        return (struct signed_node){.node = a.node};
+    } else if (sum && a.negative && !b.negative) {
+        return (struct signed_node){.node = gm_formula_apply(graph, GM_OPERATION_SUBTRACT, b.node, a.node)};
+    } else if ((sum || difference) && b.negative) {
+        operation = sum ? GM_OPERATION_SUBTRACT : GM_OPERATION_ADD;
+        b.negative = false;
+    }
+    const gm_node_id first = with_sign(graph, a), second = with_sign(graph, b);
+    return (struct signed_node){.node = (quick ? quicker : gm_formula_apply)(graph, operation, first, second),
+                                .negative = negative};
+}
+
 bool gm_formula_quicken(struct gm_formula *graph, gm_node_id *nodes, size_t count)
 {
+    enum { MANY = 4096 }; /* parts, of which some can always be computed while others wait */
     size_t size = 0;
     gm_node_id *parts = gm_formula_parts_of(graph, nodes, count, &size);
-    gm_node_id *others = malloc((graph->count + (size_t)1) * sizeof *others);
-    bool *harsh = calloc(graph->count + (size_t)1, sizeof *harsh);
-    graph->failed |= !parts || !others || !harsh;
+    struct signed_node *others = malloc((graph->count + (size_t)1) * sizeof *others);
+    bool *harsh = calloc(graph->count + (size_t)1, sizeof *harsh),
+         *met = calloc(graph->count + (size_t)1, sizeof *met);
+    graph->failed |= !parts || !others || !harsh || !met;
     if (!graph->failed) {
         mark_harsh(graph, parts, size, harsh);
     }
     for (size_t k = 0; k < size && !graph->failed; k++) {
-        const struct gm_node node = graph->nodes[parts[k]];
-        others[parts[k]] = parts[k];
-        if (node.operation > GM_VARIABLE) {
-            const gm_node_id a = others[node.a],
-                             b = others[gm_operation_rows[node.operation].arity == 1 ? node.a : node.b];
-            others[parts[k]] = (harsh[parts[k]] ? gm_formula_apply : quicker)(graph, node.operation, a, b);
+        const gm_node_id i = parts[k], twin = twin_of(graph, i, met);
+        const struct gm_node node = graph->nodes[i];
+        met[i] = true;
+        if (twin != GM_NO_NODE) {
+            others[i] = (struct signed_node){others[twin].node, !others[twin].negative};
+        } else if (node.operation > GM_VARIABLE) {
+            const bool single = gm_operation_rows[node.operation].arity == 1;
+            others[i] = apply_signed(graph, size < MANY && !harsh[i], node.operation, others[node.a],
+                                     others[single ? node.a : node.b]);
+        } else {
+            others[i] = (struct signed_node){.node = i};
         }
     }
-    free(harsh);
     for (size_t k = 0; k < count && !graph->failed; k++) {
-        nodes[k] = others[nodes[k]];
+        nodes[k] = with_sign(graph, others[nodes[k]]);
     }
+    free(harsh);
+    free(met);
     free(parts);
     free(others);
     return !graph->failed;

@@ -79,10 +79,11 @@ gm_node_id gm_formula_apply(struct gm_formula *graph, enum gm_operation operatio
    Simplified like a derivative. False where memory was refused. */
 bool gm_formula_substitute(struct gm_formula *graph, gm_node_id *nodes, size_t count,
                            const gm_node_id *replacement, size_t variables);
-/* Nodes that are those, in place, as quickly as they can be had: x / (y sqrt(y)) as x (1/y)^2 sqrt(y), where
-   the quotient does not wait for the root, where only sums and products are made of it. The bits are others;
-   what is not finite is not, but between y = 1e-154 and 1e-205 the square is infinite where the quotient was
-   not. False: out of memory. */
+/* Nodes that are those, in place, as quickly as they can be had. What occurs with both signs, c / x and -c / x, is
+   computed once: no bit changes by that. Where there are few nodes, x / (y sqrt(y)) becomes
+   x (1/y)^2 sqrt(y), where the quotient does not wait for the root and only sums and products are made of it. The
+   bits are others; what is not finite is not, but between y = 1e-154 and 1e-205 the square is infinite where the
+   quotient was not. False: out of memory. */
 bool gm_formula_quicken(struct gm_formula *graph, gm_node_id *nodes, size_t count);
 
 /* A node of another graph made again in this one, with the constant values[i] in place of every variable i >=

@@ -239,6 +239,9 @@ static void sums_are_loops_with_the_bits_of_the_graph(void **unused)
         "sum(i = 0 .. 39, j = 0 .. 39, cos(x[i])*x[j]^3/(i + 1)) - x[3]*x[7]",
         "sum(i = 0 .. 39, x[i]^-2 + x[i]^3 + x[i]^-5 + x[i]^16 + x[i]^7) + sum(i = 0 .. 38, (x[i] - x[i+1])^4)",
         "sum(i = 0 .. 39, j = i+1 .. 39, min(x[i], x[j])*exp(-abs(x[i] - x[mod(7*j, 40)])))",
+        /* terms of either sign, and of sums that end one after the other */
+        "sum(i = 0 .. 39, j = i+1 .. 39, cos(3*i + 5*j^2)*x[i]*x[j])",
+        "sum(i = 0 .. 39, j = 0 .. 39 - i, x[i]*x[j]^3) - sum(i = 1 .. 30, j = i .. 39, x[j]*x[j-i])",
         "prod(i = 0 .. 19, 1 + x[i]/9) + sum(i = 0 .. 39, j = i+1 .. 39, (x[i] - 2)*(x[j] - 2)^2*x[5])",
     };
     static double states[BODIES * STATES], block[(BODIES + 1) * STATES], alone[BODIES + 1], state[BODIES];
@@ -259,7 +262,12 @@ static void sums_are_loops_with_the_bits_of_the_graph(void **unused)
             fail_msg("%s: %zu instructions for %u nodes", sums[k], tape.length, graph.count);
         }
         for (size_t i = 0; i < BODIES * STATES; i++) {
-            states[i] = i == 11 ? 0 : i == 17 ? INFINITY : 4. * rand() / RAND_MAX - 2;
+            const size_t member = i % STATES; /* two are all zeros, of either sign */
+            states[i] = i == 11       ? 0
+                        : i == 17     ? INFINITY
+                        : member == 6 ? 0
+                        : member == 7 ? -0.0
+                                      : 4. * rand() / RAND_MAX - 2;
         }
         gm_tape_values(&tape, states, block, STATES);
         double *values = malloc(graph.count * sizeof *values);
@@ -284,9 +292,60 @@ static void sums_are_loops_with_the_bits_of_the_graph(void **unused)
     }
 }
 
+/* The force on either body of a pair has the other one's with the other sign: one quotient, and the same bits. */
+static void a_quotient_of_both_signs_is_computed_once(void **unused)
+{
+    (void)unused;
+    static const char text[] = "sum(i = 0 .. 39, j = i+1 .. 39, 3/sqrt((x[i] - x[j])^2 + 0.01))";
+    enum { PAIRS = BODIES * (BODIES - 1) / 2 };
+    struct gm_formula graph;
+    struct gm_fault fault;
+    gm_node_id before[BODIES], after[BODIES], energy;
+    double state[BODIES];
+    bool marked[BODIES];
+    memset(marked, true, sizeof marked);
+    gm_formula_open(&graph);
+    const struct gm_scope scope = {.find = find_body, .data = &graph};
+    assert_true(gm_formula_read(&graph, text, 0, strlen(text), &scope, &energy, &fault));
+    assert_true(gm_gradient(&graph, energy, marked, BODIES, before));
+    memcpy(after, before, sizeof after);
+    assert_true(gm_formula_quicken(&graph, after, BODIES));
+    const struct {
+        const gm_node_id *nodes;
+        size_t quotients;
+    } counts[] = {{before, (size_t)2 * PAIRS}, {after, PAIRS}};
+    for (size_t k = 0; k < GM_COUNT(counts); k++) {
+        size_t size = 0, quotients = 0;
+        gm_node_id *parts = gm_formula_parts_of(&graph, counts[k].nodes, BODIES, &size);
+        assert_non_null(parts);
+        for (size_t i = 0; i < size; i++) {
+            quotients += graph.nodes[parts[i]].operation == GM_OPERATION_DIVIDE;
+        }
+        assert_int_equal(quotients, counts[k].quotients);
+        free(parts);
+    }
+    double *values = malloc(graph.count * sizeof *values);
+    assert_non_null(values);
+    srand(4);
+    for (int round = 0; round < 20; round++) {
+        for (size_t i = 0; i < BODIES; i++) {
+            state[i] = round == 0 ? 0 : 4. * rand() / RAND_MAX - 2;
+        }
+        gm_formula_evaluate(&graph, graph.count, state, values);
+        for (size_t i = 0; i < BODIES; i++) {
+            if (!same(values[before[i]], values[after[i]])) {
+                fail_msg("force %zu: %.17g, quickened %.17g", i, values[before[i]], values[after[i]]);
+            }
+        }
+    }
+    free(values);
+    gm_formula_close(&graph);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(bits_are_those_of_the_text),
+                                       cmocka_unit_test(a_quotient_of_both_signs_is_computed_once),
                                        cmocka_unit_test(sums_are_loops_with_the_bits_of_the_graph)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -127,25 +127,22 @@ static bool put_statement(struct writing *writing, uint32_t operation, uint32_t 
 /* Operations that are repeated stand one by one. */
 static bool put_code(struct writing *writing)
 {
-    const struct gm_tape *tape = writing->tape;
+    struct gm_tape_place at = {0};
+    struct gm_instruction now;
     bool good = true;
-    for (size_t k = 0; good && k < tape->length; k++) {
-        struct gm_instruction now = tape->code[k];
-        const struct gm_repeated *repeated = now.operation == GM_REPEATED ? &tape->batches[now.to] : NULL;
-        for (uint32_t i = 0; good && i < (repeated ? repeated->count : 1); i++) {
-            now = repeated ? gm_tape_member(tape, repeated, i) : now;
-            good = put_statement(writing, now.operation, now.to, now.a, now.b);
-        }
+    while (good && gm_tape_next(writing->tape, &at, &now)) {
+        good = put_statement(writing, now.operation, now.to, now.a, now.b);
     }
     return good;
 }
 
 static size_t statements_of(const struct gm_tape *tape)
 {
+    struct gm_tape_place at = {0};
+    struct gm_instruction now;
     size_t count = 0;
-    for (size_t k = 0; k < tape->length; k++) {
-        const struct gm_instruction *now = &tape->code[k];
-        count += now->operation == GM_REPEATED ? tape->batches[now->to].count : 1;
+    while (gm_tape_next(tape, &at, &now)) {
+        count++;
     }
     return count;
 }
@@ -228,14 +225,11 @@ static void put_layout(FILE *out)
 /* Whether code reads one of the inputs [first, last). */
 static bool reads(const struct gm_tape *tape, size_t first, size_t last)
 {
+    struct gm_tape_place at = {0};
+    struct gm_instruction now;
     bool found = false;
-    for (size_t k = 0; k < tape->length; k++) {
-        struct gm_instruction now = tape->code[k];
-        const struct gm_repeated *repeated = now.operation == GM_REPEATED ? &tape->batches[now.to] : NULL;
-        for (uint32_t i = 0; i < (repeated ? repeated->count : 1); i++) {
-            now = repeated ? gm_tape_member(tape, repeated, i) : now;
-            found = found || (now.a >= first && now.a < last) || (now.b >= first && now.b < last);
-        }
+    while (gm_tape_next(tape, &at, &now)) {
+        found = found || (now.a >= first && now.a < last) || (now.b >= first && now.b < last);
     }
     return found;
 }
