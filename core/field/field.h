@@ -27,7 +27,23 @@ struct gm_form {
     size_t dimension;    /* of s */
     const double *m, *k; /* dimension * dimension, row by row */
     void (*gradient)(const void *parameters, const double *s, double *gradient); /* at one point */
+    /* Of an equation whose state is s itself, at all nodes, [component * points + node]: S at one point, its
+       gradient and its second derivatives at `count` of them, [component * count + point] and [(row * dimension
+       + column) * count + point], and s(x + the ring) - s(x); NULL where the state is what elimination leaves. */
+    double (*function)(const void *parameters, const double *s);
+    void (*gradients)(const void *parameters, const double *s, double *gradient, size_t count);
+    void (*hessians)(const void *parameters, const double *s, double *hessian, size_t count);
+    const double *jump;       /* NULL: 0 */
+    const char *const *names; /* of the components */
+    /* Components that S does not hold and whose slope an equation without M tells, k s_x = dS of that row: what they
+       are follows from the others, but for a constant, as phi_x = u of Korteweg-de Vries. */
+    const struct gm_form_potential {
+        size_t component, row;
+    } * potentials;
+    size_t potential_count;
 };
+
+enum { GM_MOST_OF_FORM = 8 }; /* components of a state that is s itself */
 
 /* u_tt - u_xx + V'(u) = 0. All arrays have `count` entries, and may be the same. */
 struct gm_wave {
@@ -85,6 +101,7 @@ enum gm_field_facet {
     GM_NEEDS_KDV = 1u << 3,     /* u_t + eta u u_x + mu u_xxx = 0 */
     GM_NEEDS_NLS = 1u << 4,     /* i psi_t + psi_xx + |psi|^2 psi = 0 */
     GM_NEEDS_HEAT = 1u << 5,    /* u_t = nu u_xx in moving frames, u > 0 */
+    GM_NEEDS_ALL = 1u << 6,     /* the multisymplectic form, and all of its components as the state */
 };
 struct gm_field {
     const struct gm_form *form; /* NULL: it has none, and so on */

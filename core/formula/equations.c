@@ -91,6 +91,8 @@ static bool derive(struct gm_own_system *system)
         derive_lagrangian(system, gradient);
     } else if (system->kind == GM_POISSON && !system->graph.failed) {
         derive_poisson(system, gradient);
+    } else if (system->kind == GM_MATRICES && !system->graph.failed) {
+        memcpy(system->rates, gradient, system->n * sizeof *gradient);
     } else if (system->kind == GM_FIELD && !system->graph.failed) {
         system->rates[0] = gm_formula_variable(&system->graph, 1);
         system->rates[1] = apply(system, GM_OPERATION_NEGATE, gradient[0], 0);
@@ -888,7 +890,7 @@ static bool holds_only(struct gm_own_system *system, gm_node_id node, const size
     return good;
 }
 
-static bool is_smooth(struct gm_own_system *system, struct gm_fault *fault)
+static bool is_smooth(struct gm_own_system *system, const char *what, struct gm_fault *fault)
 {
     size_t count = 0;
     bool good = true;
@@ -897,7 +899,7 @@ static bool is_smooth(struct gm_own_system *system, struct gm_fault *fault)
         const struct gm_operation_row *row = &gm_operation_rows[system->graph.nodes[parts[i]].operation];
         if (row->name && !row->smooth) {
             good = gm_fail(fault, system->graph.places[parts[i]],
-                           "V has to be smooth, and %s is not: its force would jump", row->name);
+                           "%s has to be smooth, and %s is not: its force would jump", what, row->name);
         }
     }
     system->graph.failed |= !parts;
@@ -1011,13 +1013,130 @@ static bool check_field(struct gm_own_system *system, struct gm_fault *fault)
 {
     enum { U, U_T };
     const size_t in_v[] = {U};
-    if (!is_smooth(system, fault) || !holds_only(system, system->energy, in_v, 1, "V", fault)) {
+    if (!is_smooth(system, "V", fault) || !holds_only(system, system->energy, in_v, 1, "V", fault)) {
         return false;
     }
     if (system->variables[U_T].exact != GM_NO_NODE) {
         return gm_fail(fault, 0, "exact: is of %.60s alone", system->variables[U].name);
     }
     return check_line(system, 2, fault);
+}
+
+/* K = -K', entry by entry. */
+static bool is_skew(struct gm_own_system *system, size_t which, struct gm_fault *fault)
+{
+    const size_t n = system->n;
+    const gm_node_id *entries = system->matrices + which * n * n;
+    const size_t *places = system->matrix_places + which * n * n;
+    static const char *const names[] = {"K", "L"};
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = 0; j <= i; j++) {
+            if (!holds_only(system, entries[i * n + j], NULL, 0, "an entry of a matrix", fault) ||
+                !holds_only(system, entries[j * n + i], NULL, 0, "an entry of a matrix", fault)) {
+                return false;
+            }
+            const gm_node_id sum = apply(system, GM_OPERATION_ADD, entries[i * n + j], entries[j * n + i]);
+            if (system->graph.failed) {
+                return false;
+            }
+            if (gm_equations_vanishes(system, sum) != GM_NOT_ZERO) {
+                continue;
+            }
+            return i == j ? gm_fail(fault, places[i * n + j], "%s has to be skew: entry %zu, %zu is not 0",
+                                    names[which], i + 1, i + 1)
+                          : gm_fail(fault, places[i * n + j],
+                                    "%s has to be skew: entry %zu, %zu is not minus entry %zu, %zu",
+                                    names[which], i + 1, j + 1, j + 1, i + 1);
+        }
+    }
+    return true;
+}
+
+/* The number of a component that a singular matrix, which is overwritten, leaves free; n: it is regular. */
+static size_t free_component(double *matrix, size_t n)
+{
+    double largest = 0;
+    bool used[GM_MOST_OF_MATRICES] = {false};
+    for (size_t i = 0; i < n * n; i++) {
+        largest = fmax(largest, fabs(matrix[i]));
+    }
+    for (size_t column = 0; column < n; column++) {
+        size_t pivot = n;
+        for (size_t i = 0; i < n; i++) {
+            if (!used[i] && (pivot == n || fabs(matrix[i * n + column]) > fabs(matrix[pivot * n + column]))) {
+                pivot = i;
+            }
+        }
+        if (!(fabs(matrix[pivot * n + column]) > 1e-10 * largest)) {
+            return column;
+        }
+        used[pivot] = true;
+        for (size_t i = 0; i < n; i++) {
+            const double factor = used[i] ? 0 : matrix[i * n + column] / matrix[pivot * n + column];
+            for (size_t j = column; j < n && factor != 0; j++) {
+                matrix[i * n + j] -= factor * matrix[pivot * n + j];
+            }
+        }
+    }
+    return n;
+}
+
+/* Whether a K + b L - S'' is regular for some a and b somewhere: else a component has no equation of its own. */
+static bool is_determined(struct gm_own_system *system, struct gm_fault *fault)
+{
+    enum { TRIALS = 4 };
+    const size_t n = system->n;
+    struct gm_sparse hessian = {0};
+    bool *marked = calloc(system->variable_count, sizeof *marked);
+    double *values = gm_equations_start(system, NULL), *all = NULL;
+    for (size_t i = 0; marked && i < n; i++) {
+        marked[i] = true;
+    }
+    bool good =
+        marked && values &&
+        gm_sparse_jacobian(&system->graph, system->rates, n, marked, system->variable_count, &hessian);
+    all = good ? malloc((system->graph.count + (size_t)1) * sizeof *all) : NULL;
+    size_t free_one = 0;
+    for (int trial = 0; all && trial < TRIALS && free_one < n; trial++) {
+        double matrix[GM_MOST_OF_MATRICES * GM_MOST_OF_MATRICES];
+        for (size_t i = 0; i < n; i++) {
+            values[i] = 0.3 + 0.37 * sin(1 + 2.3 * (double)i + 5.1 * trial);
+        }
+        gm_formula_evaluate(&system->graph, system->graph.count, values, all);
+        for (size_t i = 0; i < n * n; i++) {
+            matrix[i] = (1.31 + 0.4 * trial) * all[system->matrices[i]] +
+                        (0.73 - 0.3 * trial) * all[system->matrices[n * n + i]];
+        }
+        for (size_t i = 0; i < hessian.count; i++) {
+            matrix[hessian.entries[i].row * n + hessian.entries[i].column] -= all[hessian.entries[i].node];
+        }
+        free_one = free_component(matrix, n);
+    }
+    good =
+        all && (free_one == n ||
+                gm_fail(fault, gm_formula_origin(&system->graph, system->energy),
+                        "the equations do not determine %.60s: a K + b L - S'' is singular for all a and b",
+                        system->variables[free_one].name));
+    free(hessian.entries);
+    free(marked);
+    free(values);
+    free(all);
+    return good;
+}
+
+static bool check_matrices(struct gm_own_system *system, struct gm_fault *fault)
+{
+    size_t in_s[GM_MOST_OF_MATRICES];
+    for (size_t i = 0; i < system->n; i++) {
+        in_s[i] = i;
+        const gm_node_id jump = system->variables[i].jump;
+        if (jump != GM_NO_NODE && !holds_only(system, jump, NULL, 0, "a jump", fault)) {
+            return false;
+        }
+    }
+    return is_skew(system, 0, fault) && is_skew(system, 1, fault) && is_smooth(system, "S", fault) &&
+           holds_only(system, system->energy, in_s, system->n, "S", fault) && is_determined(system, fault) &&
+           check_line(system, 1, fault);
 }
 
 bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
@@ -1027,7 +1146,9 @@ bool gm_equations_open(struct gm_own_system *system, const char *text, size_t le
         return false;
     }
     if (gm_system_is_field(system)) {
-        return system->kind == GM_FIELD ? check_field(system, fault) : check_evolution(system, fault);
+        return system->kind == GM_FIELD      ? check_field(system, fault)
+               : system->kind == GM_MATRICES ? check_matrices(system, fault)
+                                             : check_evolution(system, fault);
     }
     return (system->kind != GM_POISSON || check_jacobi(system, fault)) && check_start(system, fault) &&
            check_items(system, fault) && !system->graph.failed;

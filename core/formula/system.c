@@ -21,7 +21,8 @@ enum {
     POISSON = 1 << GM_POISSON,
     FIELD = 1 << GM_FIELD,
     EVOLUTION = 1 << GM_EVOLUTION,
-    LINE = FIELD | EVOLUTION,
+    MATRICES = 1 << GM_MATRICES,
+    LINE = FIELD | EVOLUTION | MATRICES,
     MOTION = CANONICAL | LAGRANGIAN | RATES | POISSON,
     ANY = MOTION | LINE
 };
@@ -627,8 +628,13 @@ static struct gm_system_variable *add_variable(struct reading *reading, const st
         return NULL;
     }
     struct gm_system_variable *variable = &system->variables[system->variable_count];
-    *variable = (struct gm_system_variable){
-        .value = NAN, .low = NAN, .high = NAN, .start = GM_NO_NODE, .force = GM_NO_NODE, .exact = GM_NO_NODE};
+    *variable = (struct gm_system_variable){.value = NAN,
+                                            .low = NAN,
+                                            .high = NAN,
+                                            .start = GM_NO_NODE,
+                                            .force = GM_NO_NODE,
+                                            .exact = GM_NO_NODE,
+                                            .jump = GM_NO_NODE};
     const int made =
         entry->indexed ? asprintf(&variable->name, "%.*s[%ld]", (int)entry->length, entry->name, entry->index)
                        : asprintf(&variable->name, "%.*s", (int)entry->length, entry->name);
@@ -832,21 +838,27 @@ static bool find_kind(struct reading *reading)
                       *rate = line_with(reading, GM_WORD_RATE),
                       *bracket = line_with(reading, GM_WORD_BRACKET),
                       *field = line_with(reading, GM_WORD_FIELD),
-                      *potential = line_with(reading, GM_WORD_POTENTIAL);
-    enum gm_system_kind kind = field && rate && !potential ? GM_EVOLUTION
-                               : field                     ? GM_FIELD
-                               : lagrange                  ? GM_LAGRANGIAN
-                               : rate                      ? GM_RATES
-                               : bracket                   ? GM_POISSON
-                                                           : GM_CANONICAL;
+                      *potential = line_with(reading, GM_WORD_POTENTIAL),
+                      *matrix = line_with(reading, GM_WORD_K_MATRIX);
+    enum gm_system_kind kind = matrix                        ? GM_MATRICES
+                               : field && rate && !potential ? GM_EVOLUTION
+                               : field                       ? GM_FIELD
+                               : lagrange                    ? GM_LAGRANGIAN
+                               : rate                        ? GM_RATES
+                               : bracket                     ? GM_POISSON
+                                                             : GM_CANONICAL;
     static const char *const called[] = {"with H",         "with L",       "with rates",
-                                         "with a bracket", "with a field", "with a field and its rate"};
-    if (!energy && !lagrange && !rate && !bracket && !field && !potential) {
-        return fail(reading, 0,
-                    "the file has no equation: H, L, rate, bracket and H, or field and V or "
-                    "rate");
+                                         "with a bracket", "with a field", "with a field and its rate",
+                                         "with K-matrix"};
+    if (!matrix && (line_with(reading, GM_WORD_L_MATRIX) || line_with(reading, GM_WORD_S_FUNCTION))) {
+        return fail(reading, 0, "K z_t + L z_x = grad S(z) needs lines \"K-matrix\", \"L-matrix\" and \"S\"");
     }
-    if (!field != !potential && kind != GM_EVOLUTION) {
+    if (!matrix && !energy && !lagrange && !rate && !bracket && !field && !potential) {
+        return fail(reading, 0,
+                    "the file has no equation: H, L, rate, bracket and H, field and V or rate, "
+                    "or K-matrix, L-matrix and S");
+    }
+    if (!field != !potential && kind != GM_EVOLUTION && kind != GM_MATRICES) {
         return field ? fail(reading, field->place,
                             "a field needs V, as in u_tt = u_xx - V'(u), or its rate, as in rate: u = -u_x")
                      : fail(reading, potential->place, "V is of a field, which a line \"field\" names");
@@ -859,6 +871,13 @@ static bool find_kind(struct reading *reading)
         if (!(words[line->word].kinds & 1u << kind)) {
             return fail(reading, line->place, "a system %s has no line \"%s\"", called[kind],
                         words[line->word].word);
+        }
+    }
+    static const enum gm_system_word needed[] = {GM_WORD_COMPONENTS, GM_WORD_L_MATRIX, GM_WORD_S_FUNCTION};
+    for (size_t i = 0; i < sizeof needed / sizeof *needed && kind == GM_MATRICES; i++) {
+        if (!line_with(reading, needed[i])) {
+            return fail(reading, matrix->place, "a system with K-matrix needs a line \"%s\"",
+                        words[needed[i]].word);
         }
     }
     if (kind <= GM_LAGRANGIAN && !line_with(reading, GM_WORD_COORDINATES)) {
@@ -922,7 +941,8 @@ static bool arrange(struct reading *reading)
                                          .high = NAN,
                                          .start = GM_NO_NODE,
                                          .force = GM_NO_NODE,
-                                         .exact = GM_NO_NODE};
+                                         .exact = GM_NO_NODE,
+                                         .jump = GM_NO_NODE};
     /* a text that declares nothing has met nothing, and its sentence comes later */
     if (met) {
         memcpy(all, met + p, n * sizeof *all);
@@ -974,6 +994,26 @@ static bool add_fields(struct reading *reading, const struct line *field)
     return true;
 }
 
+/* The components of a system of matrices, and x */
+static bool add_components(struct reading *reading, const struct line *components)
+{
+    char x[] = "x";
+    const struct entry place = {.name = x,
+                                .length = 1,
+                                .place = components->place,
+                                .role = VELOCITY,
+                                .number = reading->velocity_count++};
+    if (!add_all_names(reading, components->value, COMPONENT, &reading->component_count)) {
+        return false;
+    }
+    const size_t n = reading->component_count;
+    if (n < 2 || n > GM_MOST_OF_MATRICES) {
+        return fail(reading, components->value.begin, "there are 2 to %d components, as in components: u v w",
+                    GM_MOST_OF_MATRICES);
+    }
+    return add_entry(reading, place) && add_variable(reading, &place);
+}
+
 /* u and u_t, and what densities may hold beside them: x and u_x */
 static bool add_field(struct reading *reading, const struct line *field)
 {
@@ -1021,6 +1061,8 @@ static bool add_state(struct reading *reading)
         add_field(reading, line_with(reading, GM_WORD_FIELD));
     } else if (system->kind == GM_EVOLUTION) {
         add_fields(reading, line_with(reading, GM_WORD_FIELD));
+    } else if (system->kind == GM_MATRICES) {
+        add_components(reading, components);
     } else if (components) {
         add_all_names(reading, components->value, COMPONENT, &reading->component_count);
     } else {
@@ -1129,6 +1171,7 @@ static bool assign(struct reading *reading, struct entry *entry, const struct ta
     gm_node_id *place = word == GM_WORD_START   ? &variable->start
                         : word == GM_WORD_FORCE ? &variable->force
                         : word == GM_WORD_EXACT ? &variable->exact
+                        : word == GM_WORD_JUMP  ? &variable->jump
                                                 : &system->rates[entry->number];
     if (word == GM_WORD_FORCE && entry->number >= system->n / 2) {
         return fail(reading, target->name.begin, "a force acts on a coordinate, not on %s", variable->name);
@@ -1507,6 +1550,34 @@ static bool read_ring(struct reading *reading, const struct line *line)
     return item && add_formula(reading, item, line->value);
 }
 
+/* Rows with | between them, and commas between their entries. */
+static bool read_matrix(struct reading *reading, const struct line *line)
+{
+    struct gm_own_system *system = reading->system;
+    const char *word = words[line->word].word;
+    const size_t n = system->n, first = line->word == GM_WORD_K_MATRIX ? 0 : n * n;
+    struct gm_span rest = line->value, row, entry;
+    size_t rows = 0;
+    for (; gm_span_take(reading->text, &rest, "|", &row); rows++) {
+        size_t columns = 0;
+        const size_t begin = row.begin;
+        for (; gm_span_take(reading->text, &row, ",", &entry); columns++) {
+            const size_t at = first + rows * n + columns;
+            if (rows < n && columns < n) {
+                system->matrix_places[at] = entry.begin;
+                if (!read_formula(reading, entry, &system->matrices[at])) {
+                    return false;
+                }
+            }
+        }
+        if (columns != n) {
+            return fail(reading, begin, "row %zu of %s has %zu entries for %zu components", rows + 1, word,
+                        columns, n);
+        }
+    }
+    return rows == n || fail(reading, line->value.begin, "%s has %zu rows for %zu components", word, rows, n);
+}
+
 static bool read_space(struct reading *reading, const struct line *line)
 {
     char *text = reading->system->texts[GM_WORD_SPACE] = text_of(reading, line->value);
@@ -1549,11 +1620,16 @@ static bool read_what_is_said(struct reading *reading, const struct line *line)
         return read_space(reading, line);
     case GM_WORD_HALF_LENGTH:
     case GM_WORD_POINTS:
-    case GM_WORD_JUMP:
         return read_ring(reading, line);
+    case GM_WORD_JUMP:
+        return system->kind == GM_MATRICES ? read_assignments(reading, line) : read_ring(reading, line);
+    case GM_WORD_K_MATRIX:
+    case GM_WORD_L_MATRIX:
+        return read_matrix(reading, line);
     case GM_WORD_HAMILTONIAN:
     case GM_WORD_LAGRANGE:
     case GM_WORD_POTENTIAL:
+    case GM_WORD_S_FUNCTION:
         return read_formula(reading, line->value, &system->energy);
     case GM_WORD_RATE:
     case GM_WORD_START:
@@ -1706,6 +1782,12 @@ static bool read_system(struct reading *reading)
                           : !all_nodes(reading, &system->bracket, system->n * system->n))) {
         return false;
     }
+    if (system->kind == GM_MATRICES) {
+        system->matrix_places = calloc(2 * system->n * system->n, sizeof *system->matrix_places);
+        if (!system->matrix_places || !all_nodes(reading, &system->matrices, 2 * system->n * system->n)) {
+            return no_memory(reading);
+        }
+    }
     if (!add_lets(reading)) {
         return false;
     }
@@ -1766,6 +1848,8 @@ void gm_system_close(struct gm_own_system *system)
     free(system->momenta);
     free(system->mass.entries);
     free(system->bracket);
+    free(system->matrices);
+    free(system->matrix_places);
     free(system->facets);
     free(system->parts);
     gm_formula_close(&system->graph);

@@ -16,6 +16,7 @@ enum gm_system_kind {
     GM_POISSON,    /* components, a bracket, H */
     GM_FIELD,      /* u of x and t, and u_t: u_tt = u_xx - V'(u) */
     GM_EVOLUTION,  /* fields u, v .. of x and t, whose rates, or those of their masses, are told */
+    GM_MATRICES,   /* components z of x and t: K z_t + L z_x = grad S(z), K and L skew */
     GM_SYSTEM_KINDS
 };
 
@@ -30,9 +31,11 @@ enum { GM_LARGEST_SYSTEM = 100000000, GM_MOST_COMPONENTS = 100000 };
 
 /* Of an evolution: the most fields, and the highest derivative over x that their rates may hold. */
 enum { GM_MOST_FIELDS = 4, GM_MOST_DERIVATIVES = 4 };
+/* Of a system of matrices: the most components. */
+enum { GM_MOST_OF_MATRICES = 8 };
 
 /* A variable of the graph. Their numbers: the n components, t, the parameters, of a Lagrangian the n / 2
-   velocities, of a field x and u_x, of an evolution x, all u_x, all u_xx .. u_xxxx, and the n components at the
+   velocities, of a field x and u_x, of matrices x, of an evolution x, all u_x, all u_xx .. u_xxxx, and the n components at the
    start, of which `exact` speaks. */
 struct gm_system_variable {
     char *name;           /* "q", "m[2]" */
@@ -45,6 +48,7 @@ struct gm_system_variable {
        was given. Else GM_NO_NODE. */
     gm_node_id start;
     gm_node_id force, exact;
+    gm_node_id jump; /* of a component of matrices */
 };
 
 /* What a line with formulas says. */
@@ -74,13 +78,15 @@ struct gm_own_system {
     struct gm_system_variable *variables;
     size_t variable_count, parameters, velocities,
         initial;       /* where these begin; parameters end at velocities */
-    gm_node_id energy; /* H, L or V */
+    gm_node_id energy; /* H, L, V or S */
     /* Of the n components; of a Lagrangian those of the coordinates are missing, of a field the second is
-       without u_xx. */
+       without u_xx, of matrices they are the derivatives of S. */
     gm_node_id *rates;
     gm_node_id *momenta;     /* of a Lagrangian: dL/dv */
     struct gm_sparse mass;   /* and d2L/dv2, of dL/dv number `row` over velocity number `column` */
     gm_node_id *bracket;     /* of a Poisson system, n * n */
+    gm_node_id *matrices;    /* K, then L, n * n each, and */
+    size_t *matrix_places;   /* where their entries stand in the text */
     enum gm_identity jacobi; /* of the bracket */
     size_t bracket_place;    /* of the bracket's last line in the text */
     struct gm_system_item *items;
@@ -104,7 +110,7 @@ void gm_system_close(struct gm_own_system *system);
 /* Whether it is a field on a line. */
 static inline bool gm_system_is_field(const struct gm_own_system *system)
 {
-    return system->kind == GM_FIELD || system->kind == GM_EVOLUTION;
+    return system->kind == GM_FIELD || system->kind == GM_EVOLUTION || system->kind == GM_MATRICES;
 }
 
 /* The names of variables and of lets. It holds as long as the system. */

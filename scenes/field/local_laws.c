@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "core/field/families/collocation_laws.h"
 #include "core/field/families/dispersive_form.h"
 #include "core/field/families/families.h"
 #include "core/field/families/wave_laws.h"
@@ -13,6 +14,9 @@ static bool residuals(const struct gm_view *view, enum gm_local_law law, double 
 {
     if (gm_field_of(view->problem)->wave) {
         return gm_wave_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
+    }
+    if (gm_field_of(view->problem)->form->hessians) {
+        return gm_form_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
     }
     return view->scheme->family == &gm_family_box &&
            gm_dispersive_laws(view->problem, view->scheme, view->dt, view->state, law, residual);

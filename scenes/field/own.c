@@ -3,6 +3,8 @@
        u_tt = u_xx - V'(u),   H = integral of u_t^2/2 + u_x^2/2 + V(u),
    or an evolution of one field or several
        (M u)_t = R(u, u_x, ..),
+   or the components of a multisymplectic form,
+       K z_t + L z_x = grad S(z),
    as a scene: the parameters of its file are keys, with the ring and its grid; what it keeps or observes are
    integrals of densities. The scene is made while the program runs, and does not change afterwards. */
 #include "scenes/field/own.h"
@@ -12,6 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/field/families/collocation_laws.h"
+#include "core/field/own/form.h"
 #include "core/field/own/potential.h"
 #include "core/formula/equations.h"
 #include "core/ode/own/evolution.h"
@@ -19,15 +23,24 @@
 #include "scenes/field/wave_observables.h"
 #include "scenes/frame/written.h"
 
-enum { DT, UNTIL, HALF_LENGTH, POINTS, SPACE /* of an evolution alone */, MOST_ROWS };
+enum {
+    DT,
+    UNTIL,
+    HALF_LENGTH,
+    POINTS,
+    SPACE /* of an evolution */,
+    SHOW = SPACE /* of others */,
+    COMMON_ROWS
+};
 enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, COMMON = 7, MOST_GRAPHS = 3 };
 
 struct own_field {
     struct gm_scene scene; /* first: a scene is found to be this */
     struct gm_own_system system;
-    struct gm_own_wave wave;           /* one of the two */
+    struct gm_own_wave wave;           /* one of the three */
     struct gm_own_evolution evolution; /* where `evolves` */
-    bool evolves, solved;              /* solved: an exact solution is told */
+    struct gm_own_form form;           /* where `is_form` */
+    bool evolves, is_form, solved;     /* solved: an exact solution is told */
     struct gm_parameter *rows;
     size_t row_count, values; /* the first row of the file's own */
     struct lane *initial;
@@ -50,6 +63,7 @@ struct lane {
     double half_length;
     long points;
     int space; /* enum gm_derivatives */
+    int show;  /* what the surfaces hold: scenes/field/local_laws.h */
     double values[];
 };
 
@@ -106,8 +120,10 @@ static void close_problem(struct gm_problem *problem)
 {
     if (problem->kind == &gm_kind_ode) {
         gm_own_evolution_shut(problem);
-    } else {
+    } else if (!gm_field_of(problem) || gm_field_of(problem)->wave) {
         gm_own_wave_close(problem);
+    } else {
+        gm_own_form_close(problem);
     }
 }
 
@@ -119,6 +135,9 @@ static bool open_problem(const struct lane *lane, struct gm_problem *problem, co
     if (own->evolves) {
         return gm_own_evolution_open(problem, &own->evolution, values, &line,
                                      (enum gm_derivatives)lane->space);
+    }
+    if (own->is_form) {
+        return gm_own_form_open(problem, &own->form, values, &line);
     }
     if (!gm_own_wave_open(problem, &own->wave, values)) {
         return false;
@@ -133,8 +152,9 @@ static bool open_problem(const struct lane *lane, struct gm_problem *problem, co
 
 static bool closes(const struct own_field *own, const struct gm_problem *problem, char *sentence)
 {
-    return own->evolves ? gm_own_evolution_closes(problem, sentence, GM_MESSAGE)
-                        : gm_own_wave_closes(problem, own->system.variables[0].name, sentence, GM_MESSAGE);
+    return own->evolves   ? gm_own_evolution_closes(problem, sentence, GM_MESSAGE)
+           : own->is_form ? gm_own_form_closes(problem, sentence, GM_MESSAGE)
+                          : gm_own_wave_closes(problem, own->system.variables[0].name, sentence, GM_MESSAGE);
 }
 
 static bool setup(const void *parameters, struct gm_problem *problem, char *sentence)
@@ -157,6 +177,8 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
 {
     if (problem->kind == &gm_kind_ode) {
         gm_own_evolution_start(problem, y);
+    } else if (gm_field_of(problem)->form->hessians) {
+        gm_own_form_start(problem, y);
     } else {
         gm_own_wave_levels(problem, ((const struct gm_timing *)parameters)->dt, y);
     }
@@ -164,23 +186,41 @@ static void start(const void *parameters, const struct gm_problem *problem, doub
 
 /* ---- what is observed ---- */
 
+/* Of a component, which of a wave is the first. */
+static double exact_component(const struct gm_view *view, size_t component, double x)
+{
+    const struct own_field *own = field_of(view);
+    return own->evolves   ? gm_own_evolution_exact(view->problem, component, x, view->t)
+           : own->is_form ? gm_own_form_exact(view->problem, component, x, view->t)
+                          : gm_own_wave_exact(view->problem, x, view->t);
+}
+
 static double exact(const struct gm_view *view, double x)
 {
-    return field_of(view)->evolves ? gm_own_evolution_exact(view->problem, 0, x, view->t)
-                                   : gm_own_wave_exact(view->problem, x, view->t);
+    return exact_component(view, 0, x);
 }
 
 static double solution_error(const struct gm_view *view)
 {
+    const struct own_field *own = field_of(view);
     const struct gm_line *line = &view->problem->line;
     double largest = gm_field_error(view, exact);
-    for (size_t i = line->points; field_of(view)->evolves && i < view->problem->n; i++) {
+    for (size_t i = line->points; (own->evolves || own->is_form) && i < view->problem->n; i++) {
         const double x = gm_line_node(line, i % line->points),
-                     error = fabs(view->state[i] -
-                                  gm_own_evolution_exact(view->problem, i / line->points, x, view->t));
+                     error = fabs(view->state[i] - exact_component(view, i / line->points, x));
         largest = error > largest || isnan(error) ? error : largest;
     }
     return largest;
+}
+
+static double form_energy(const struct gm_view *view)
+{
+    return gm_form_energy(view->problem, view->state);
+}
+
+static double form_momentum(const struct gm_view *view)
+{
+    return gm_form_momentum(view->problem, view->state);
 }
 
 /* Where the first field is highest: of the parabola through the highest node and both beside it. */
@@ -198,7 +238,27 @@ static double crest(const struct gm_view *view)
     return gm_line_node(line, top) + (bend < 0 ? line->dx * (left - right) / (2 * bend) : 0);
 }
 
-/* The integral of a density, in the middle between the two levels of the state. */
+/* The integral of a density of components, of their means in the cells. */
+static double integral_of_cells(const struct gm_view *view, const struct gm_tape *density)
+{
+    const struct gm_own_system *system = &field_of(view)->system;
+    const struct gm_line *line = &view->problem->line;
+    const double *jump = gm_field_of(view->problem)->form->jump;
+    double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, value;
+    for (size_t i = 0; values && i < line->points; i++) {
+        for (size_t c = 0; c < system->n; c++) {
+            const double *u = view->state + c * line->points;
+            values[c] = (u[i] + (i + 1 < line->points ? u[i + 1] : u[0] + jump[c])) / 2;
+        }
+        values[system->velocities] = gm_line_node(line, i) + line->dx / 2;
+        gm_tape_values(density, values, &value, 1);
+        sum += value;
+    }
+    free(values);
+    return sum * line->dx;
+}
+
+/* The integral of a density, of a wave in the middle between the two levels of the state. */
 static double integral(const struct gm_view *view)
 {
     const struct own_field *own = field_of(view);
@@ -207,6 +267,9 @@ static double integral(const struct gm_view *view)
     const struct gm_line *line = &view->problem->line;
     if (own->evolves) {
         return gm_own_evolution_integral(view->problem, number, view->state);
+    }
+    if (own->is_form) {
+        return integral_of_cells(view, &own->densities[number]);
     }
     const double *u = view->state, *other = u + line->points, gap = other[line->points];
     double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, density;
@@ -237,8 +300,10 @@ static size_t graphs_of(const struct own_field *own, struct gm_graph *graphs)
         graphs[count++].calm_high = 1;
     }
     if (!own->evolves) {
-        static const char *const energies[] = {"energy_error", "own_energy_error"};
-        for (size_t i = own->solved ? 1 : 0; i < GM_COUNT(energies); i++) {
+        static const char *const of_wave[] = {"energy_error", "own_energy_error"},
+                                 *const of_form[] = {"energy_error", "multisymplectic_residual"};
+        const char *const *energies = own->is_form ? of_form : of_wave;
+        for (size_t i = own->solved && !own->is_form ? 1 : 0; i < GM_COUNT(of_wave); i++) {
             graphs[count] = kept;
             graphs[count++].observable = energies[i];
         }
@@ -256,6 +321,11 @@ static size_t graphs_of(const struct own_field *own, struct gm_graph *graphs)
     return count;
 }
 
+static void record_shown(const struct gm_view *view, double *entry)
+{
+    gm_surface_record_shown(view, ((const struct lane *)view->parameters)->show, gm_field_u, entry);
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct lane *lane = lanes[0]->parameters;
@@ -269,6 +339,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .low = crosses ? -most - margin : own->low - margin,
         .high = crosses ? most + margin : own->high + margin,
         .map = crosses ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
+        .show = lane->show,
     };
     picture->title = own->scene.title;
     picture->subtitle = gm_picture_text(picture, "%ld points,  Δx = %g%s", lane->points,
@@ -336,7 +407,7 @@ static bool make_rows(struct own_field *own)
 {
     const struct gm_own_system *system = &own->system;
     const size_t parameters = system->velocities - system->parameters;
-    own->values = own->evolves ? MOST_ROWS : SPACE;
+    own->values = COMMON_ROWS;
     own->row_count = own->values + parameters;
     own->rows = calloc(own->row_count, sizeof *own->rows);
     own->initial = calloc(1, sizeof *own->initial + parameters * (sizeof(double) + 1));
@@ -354,15 +425,20 @@ static bool make_rows(struct own_field *own)
                  until = number_of(own, values, GM_WORD_UNTIL, steps * dt);
     static const char *const spaces[] = {"differences", "fourier", NULL};
     const char *space = system->texts[GM_WORD_SPACE];
-    const struct gm_parameter common[MOST_ROWS] = {
+    static const char *const shown[] = {"field", "energy-law", "momentum-law", NULL};
+    struct gm_parameter common[COMMON_ROWS] = {
         [DT] = GM_DT(number_text(own, dt), 1e-9, 1e6),
         [UNTIL] = GM_UNTIL(number_text(own, until)),
         [HALF_LENGTH] = GM_HALF_LENGTH(struct lane, half_length, number_text(own, half_length),
                                        "the ring is −half_length ≤ x < half_length"),
         [POINTS] = GM_POINTS(struct lane, points, number_text(own, points), least, "of the grid"),
-        [SPACE] = GM_CHOICE_ROW(struct lane, space, "space", space ? space : spaces[0], spaces,
-                                "derivatives: central differences of order 2, or of waves through the nodes"),
+        [SHOW] = GM_LAW_ROW(struct lane, show, shown),
     };
+    if (own->evolves) {
+        common[SPACE] = (struct gm_parameter)GM_CHOICE_ROW(
+            struct lane, space, "space", space ? space : spaces[0], spaces,
+            "derivatives: central differences of order 2, or of waves through the nodes");
+    }
     memcpy(own->rows, common, own->values * sizeof *common);
     bool good = true;
     for (size_t i = 0; i < parameters; i++) {
@@ -400,12 +476,24 @@ static bool make_observables(struct own_field *own, char *sentence)
         GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),
         GM_OBSERVABLE("crest", crest, "x where u is highest"),
     };
+    static const struct gm_observable of_form[] = {
+        GM_KEPT_OBSERVABLE("energy_error", form_energy, "H", "energy error"),
+        GM_KEPT_OBSERVABLE("momentum_error", form_momentum, "P", "momentum error", .scale = gm_unit_momentum,
+                           .scale_text = "1"),
+        GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),
+        GM_OBSERVABLE("crest", crest, "x where u is highest"),
+        GM_LOCAL_LAWS,
+        GM_FORM_RESIDUAL,
+    };
     static const struct gm_observable error =
         GM_LOG_OBSERVABLE("solution_error", solution_error, "distance from the exact solution");
     const struct gm_own_system *system = &own->system;
-    memcpy(own->observables, own->evolves ? evolving : common,
-           own->evolves ? sizeof evolving : sizeof common);
-    own->observable_count = own->evolves ? GM_COUNT(evolving) : COMMON;
+    own->observable_count = own->evolves ? GM_COUNT(evolving) : own->is_form ? GM_COUNT(of_form) : COMMON;
+    memcpy(own->observables,
+           own->evolves   ? evolving
+           : own->is_form ? of_form
+                          : common,
+           own->observable_count * sizeof *common);
     if (own->solved) {
         own->observables[own->observable_count++] = error;
     }
@@ -449,7 +537,11 @@ static bool make_schemes(struct own_field *own, const struct gm_problem *problem
         return false;
     }
     static const char *const evolving[] = {"etdrk4", "midpoint", NULL};
-    own->scene.schemes = count > 0 ? own->schemes : own->evolves ? evolving : gm_wave_schemes;
+    static const char *const boxes[] = {"box", "gauss-box3", "gauss-box4", NULL};
+    own->scene.schemes = count > 0      ? own->schemes
+                         : own->evolves ? evolving
+                         : own->is_form ? boxes
+                                        : gm_wave_schemes;
     return true;
 }
 
@@ -482,7 +574,7 @@ static const char *title_of(struct own_field *own)
     if (system->texts[GM_WORD_TITLE]) {
         return system->texts[GM_WORD_TITLE];
     }
-    if (own->evolves) {
+    if (own->evolves || own->is_form) {
         return "A field of one’s own";
     }
     char *formula = gm_formula_text(&system->graph, system->energy, &naming), *text = NULL;
@@ -500,20 +592,24 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
     struct gm_own_system *system = &own->system;
     gm_refuse(sentence, "not enough memory");
     own->evolves = system->kind == GM_EVOLUTION;
-    if (!(own->evolves ? gm_own_evolution_derive(&own->evolution, system)
-                       : gm_own_wave_derive(&own->wave, system)) ||
+    own->is_form = system->kind == GM_MATRICES;
+    if (!(own->evolves   ? gm_own_evolution_derive(&own->evolution, system)
+          : own->is_form ? gm_own_form_derive(&own->form, system)
+                         : gm_own_wave_derive(&own->wave, system)) ||
         !make_rows(own)) {
         return false;
     }
-    own->solved = (own->evolves ? own->evolution.exact[0] : own->wave.exact) != GM_NO_NODE;
+    own->solved = (own->evolves   ? own->evolution.exact[0]
+                   : own->is_form ? own->form.exact[0]
+                                  : own->wave.exact) != GM_NO_NODE;
     const struct gm_system_item *jump = item_of(system, GM_WORD_JUMP);
-    own->track = (struct gm_track)GM_SURFACE_TRACK(gm_surface_record_u);
+    own->track = (struct gm_track)GM_SURFACE_TRACK(record_shown);
     own->scene = (struct gm_scene){
         .name = name,
         .title = title_of(own),
         .blurb = system->texts[GM_WORD_ABOUT] ? system->texts[GM_WORD_ABOUT] : "A field of one’s own.",
         .watch = system->texts[GM_WORD_WATCH] ? system->texts[GM_WORD_WATCH] : "",
-        .time = own->evolves ? "that of the equation" : "what light needs for a length of 1",
+        .time = own->evolves || own->is_form ? "that of the equation" : "what light needs for a length of 1",
         .size = sizeof *own->initial + parameter_count(own) * (sizeof(double) + 1),
         .initial = own->initial,
         .words = words,

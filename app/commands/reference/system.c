@@ -13,6 +13,7 @@
 #include "app/output/wrapped.h"
 #include "app/request/system.h"
 #include "core/count.h"
+#include "core/field/own/form.h"
 #include "core/field/own/potential.h"
 #include "core/formula/derivative.h"
 #include "core/formula/equations.h"
@@ -24,12 +25,16 @@
 #include "core/schemes.h"
 #include "render/message.h"
 
-static const char *const kinds[GM_SYSTEM_KINDS] = {"canonical", "lagrangian", "ode",
-                                                   "poisson",   "field",      "evolution"};
-static const char *const titles[GM_SYSTEM_KINDS] = {
-    "A canonical system", "A Lagrangian system", "An ordinary differential equation",
-    "A Poisson system",   "A wave equation",     "An evolution equation on a line"};
-static const char *const energies[GM_SYSTEM_KINDS] = {"H", "L", "", "H", "V", ""};
+static const char *const kinds[GM_SYSTEM_KINDS] = {"canonical", "lagrangian",     "ode", "poisson", "field",
+                                                   "evolution", "multisymplectic"};
+static const char *const titles[GM_SYSTEM_KINDS] = {"A canonical system",
+                                                    "A Lagrangian system",
+                                                    "An ordinary differential equation",
+                                                    "A Poisson system",
+                                                    "A wave equation",
+                                                    "An evolution equation on a line",
+                                                    "A multisymplectic equation on a line"};
+static const char *const energies[GM_SYSTEM_KINDS] = {"H", "L", "", "H", "V", "", "S"};
 
 enum { MOST_EQUATIONS = 40 }; /* that are printed; --json has them all */
 
@@ -37,6 +42,7 @@ struct report {
     struct gm_own_system system;
     struct gm_own_model model;
     struct gm_own_evolution evolution;
+    struct gm_own_form form;
     struct gm_problem problem; /* for the file's values; not opened where no scheme can advance it */
 };
 
@@ -80,6 +86,33 @@ static void name_rate(const struct report *report, size_t i, char *left, size_t 
     }
 }
 
+/* A row of K z_t + L z_x, as its entries are written: "-v_t + w_x" */
+static void name_row(const struct report *report, size_t row, char *left, size_t size)
+{
+    const struct gm_own_system *system = &report->system;
+    const size_t n = system->n;
+    size_t used = 0;
+    left[0] = '\0';
+    for (size_t which = 0; which < 2; which++) {
+        for (size_t c = 0; c < n && used < size; c++) {
+            const gm_node_id node = system->matrices[(which * n + row) * n + c];
+            char *entry = formula_of(report, node, false);
+            const bool one = gm_is_constant(&system->graph, node, 1),
+                       minus = gm_is_constant(&system->graph, node, -1);
+            const char *sign = minus ? (used ? " - " : "-") : used ? " + " : "";
+            if (entry && !gm_is_constant(&system->graph, node, 0)) {
+                used += (size_t)snprintf(left + used, size - used,
+                                         one || minus ? "%s%.0s%.40s%s" : "%s(%.60s) %.40s%s", sign, entry,
+                                         system->variables[c].name, which ? "_x" : "_t");
+            }
+            free(entry);
+        }
+    }
+    if (used == 0) {
+        snprintf(left, size, "0");
+    }
+}
+
 /* What the rate of component number i is called, and its node; GM_NO_NODE: it has none. */
 static gm_node_id equation_of(const struct report *report, size_t i, char *left, size_t size)
 {
@@ -93,7 +126,9 @@ static gm_node_id equation_of(const struct report *report, size_t i, char *left,
         snprintf(left, size, "%.60s_tt - %.60s_xx", system->variables[0].name, system->variables[0].name);
         return system->rates[i];
     }
-    if (system->kind == GM_EVOLUTION) {
+    if (system->kind == GM_MATRICES) {
+        name_row(report, i, left, size);
+    } else if (system->kind == GM_EVOLUTION) {
         name_rate(report, i, left, size);
     } else {
         snprintf(left, size, "%.60s'", system->variables[i].name);
@@ -255,6 +290,7 @@ static const char *const field_facts[][2] = {
     {"multisymplectic", "s = (u, u_t, u_x) solves M s_t + K s_x = grad S(s), S = V(u) + u_t^2/2 - u_x^2/2"},
 };
 enum { FIELD_FACTS = GM_COUNT(field_facts) };
+static const char form_fact[] = "K z_t + L z_x = grad S(z), K and L are skew, and S is smooth";
 
 /* The linear part of the rate of a field, in words; malloc'ed. */
 static char *linear_fact(const struct report *report, size_t i)
@@ -277,6 +313,9 @@ static void print_facts(const struct report *report)
         char *text = linear_fact(report, i);
         gm_print_wrapped(text ? text : "", printf("  %-16s yes ", "linear part"), 23);
         free(text);
+    }
+    if (report->system.kind == GM_MATRICES) {
+        gm_print_wrapped(form_fact, printf("  %-16s yes ", "multisymplectic"), 23);
     }
     for (size_t i = 0; i < FIELD_FACTS && report->system.kind == GM_FIELD; i++) {
         gm_print_wrapped(field_facts[i][1], printf("  %-16s yes ", field_facts[i][0]), 23);
@@ -399,6 +438,9 @@ static void print_structure_json(const struct report *report)
     const struct gm_own_system *system = &report->system;
     bool first = true;
     printf(",\"structure\":{");
+    if (system->kind == GM_MATRICES) {
+        print_fact_json(&first, "multisymplectic", "", true, form_fact);
+    }
     for (size_t i = 0; i < FIELD_FACTS && system->kind == GM_FIELD; i++) {
         print_fact_json(&first, field_facts[i][0], "", true, field_facts[i][1]);
     }
@@ -493,6 +535,8 @@ static void print_latex(struct report *report)
         if (field) {
             printf("  \\partial_t^2 %s - \\partial_x^2 %s &= %s", name ? name : "", name ? name : "",
                    text ? text : "");
+        } else if (system->kind == GM_MATRICES) {
+            printf("%s  %s &= %s", i > 0 ? " \\\\\n" : "", left, text ? text : "");
         } else {
             printf(momentum ? "%s  %s &= %s" : "%s  \\dot{%s} &= %s",
                    i > first_equation(system) ? " \\\\\n" : "", name ? name : "", text ? text : "");
@@ -554,11 +598,15 @@ static bool open_problem(struct report *report)
         const struct gm_line any = {.points = 5, .dx = 1}; /* its facets are those of every ring */
         const bool waves = report->system.kind == GM_FIELD;
         start = gm_equations_start(&report->system, NULL);
-        const bool opened = start && (waves ? gm_own_wave_derive(&wave, &report->system) &&
-                                                  gm_own_wave_open(&report->problem, &wave, start)
-                                            : gm_own_evolution_derive(&report->evolution, &report->system) &&
-                                                  gm_own_evolution_open(&report->problem, &report->evolution,
-                                                                        start, &any, GM_SPACE_DIFFERENCES));
+        const bool form = report->system.kind == GM_MATRICES;
+        const bool opened =
+            start && (form ? gm_own_form_derive(&report->form, &report->system) &&
+                                 gm_own_form_open(&report->problem, &report->form, start, &any)
+                      : waves ? gm_own_wave_derive(&wave, &report->system) &&
+                                    gm_own_wave_open(&report->problem, &wave, start)
+                              : gm_own_evolution_derive(&report->evolution, &report->system) &&
+                                    gm_own_evolution_open(&report->problem, &report->evolution, start, &any,
+                                                          GM_SPACE_DIFFERENCES));
         free(start);
         return opened;
     }
@@ -616,6 +664,8 @@ int gm_list_system(const struct gm_arguments *arguments, const char *path, enum 
     }
     if (report.system.kind == GM_FIELD) {
         gm_own_wave_close(&report.problem);
+    } else if (report.system.kind == GM_MATRICES) {
+        gm_own_form_close(&report.problem);
     } else if (report.system.kind == GM_EVOLUTION) {
         gm_own_evolution_shut(&report.problem);
         gm_own_evolution_close(&report.evolution);

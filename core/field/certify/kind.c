@@ -14,6 +14,7 @@
 #include "core/field/families/heat.h"
 #include "core/field/families/wave_laws.h"
 #include "core/field/multisymplectic.h"
+#include "core/field/problems/dirac.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
@@ -22,7 +23,8 @@
 static unsigned facets(const struct gm_problem *problem)
 {
     const struct gm_field *field = gm_field_of(problem);
-    return (field->form ? GM_NEEDS_FORM : 0) | (field->wave ? GM_NEEDS_WAVE : 0) | field->equation;
+    const unsigned form = !field->form ? 0 : field->form->hessians ? GM_NEEDS_ALL : GM_NEEDS_FORM;
+    return form | (field->wave ? GM_NEEDS_WAVE : 0) | field->equation;
 }
 
 static const struct gm_facet_words words[] = {
@@ -31,6 +33,7 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_KDV, "the Korteweg-de Vries equation", "the Korteweg-de Vries equation"},
     {GM_NEEDS_NLS, "the nonlinear Schrödinger equation", "the nonlinear Schrödinger equation"},
     {GM_NEEDS_WAVE, "a wave equation", "wave equations"},
+    {GM_NEEDS_ALL, "a multisymplectic form as its state", "multisymplectic equations of all components"},
     {GM_NEEDS_FORM, "a multisymplectic form", "multisymplectic equations"},
     {0},
 };
@@ -300,6 +303,52 @@ static void certify_nls(struct gm_certificate *certificate, double *farthest)
     note_order(certificate, farthest, log2(error[0] / error[1]), problem->name);
 }
 
+static const struct gm_dirac standing = {.mass = 1, .coupling = 0.5, .frequency = 0.75};
+
+static double exact_dirac(const struct gm_problem *problem, size_t i, double t)
+{
+    double s[4];
+    gm_dirac_exact(&standing, gm_line_node(&problem->line, i), t, s);
+    return s[0];
+}
+
+static void certify_dirac(struct gm_certificate *certificate, double *farthest)
+{
+    struct subject subject = {.problem = gm_problem_dirac, .scheme = certificate->scheme};
+    struct gm_problem *problem = &subject.problem;
+    problem->parameters = &standing;
+    if (!gm_scheme_fits(certificate->scheme, problem)) {
+        return;
+    }
+    double error[2] = {NAN, NAN};
+    for (size_t k = 0; k < 2; k++) {
+        const size_t points = 361u << k;
+        problem->line = (struct gm_line){.points = points, .dx = 60 / (double)points, .first = -30};
+        problem->n = 4 * points;
+        subject.dt = 0.05 / (double)(1u << k);
+        double *y = malloc(problem->n * sizeof *y);
+        if (!y) {
+            return;
+        }
+        for (size_t i = 0; i < points; i++) {
+            double s[4];
+            gm_dirac_exact(&standing, gm_line_node(&problem->line, i), 0, s);
+            for (size_t c = 0; c < 4; c++) {
+                y[c * points + i] = s[c];
+            }
+        }
+        if (k == 0) {
+            note_form(certificate, &subject, y);
+            gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(&subject, y), problem->name);
+        }
+        if (open_run(&subject, 0, y)) {
+            error[k] = error_at(&subject, 4, exact_dirac);
+        }
+        free(y);
+    }
+    note_order(certificate, farthest, log2(error[0] / error[1]), problem->name);
+}
+
 enum { FRONT = 81 };
 
 /* The field after a time on a resolved front, nu = 0.1, dx = 0.05; false for a failure. */
@@ -417,6 +466,7 @@ static void certify(const struct gm_scheme *scheme, struct gm_certificate *certi
     certify_wave(certificate, &farthest);
     certify_kdv(certificate, &farthest);
     certify_nls(certificate, &farthest);
+    certify_dirac(certificate, &farthest);
     certify_burgers(certificate, &farthest);
     certify_heat(certificate, &farthest);
     certificate->order_holds = farthest >= 0 && farthest < 0.15;

@@ -234,7 +234,7 @@ bool gm_own_wave_open(struct gm_problem *problem, const struct gm_own_wave *wave
     if (!own) {
         return false;
     }
-    own->form = (struct gm_form){3, gm_wave_m, gm_wave_k, gradient};
+    own->form = (struct gm_form){.dimension = 3, .m = gm_wave_m, .k = gm_wave_k, .gradient = gradient};
     own->facets = (struct gm_field){.form = &own->form, .wave = &formulas};
     problem->facets = &own->facets;
     problem->parameters = own;

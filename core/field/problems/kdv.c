@@ -258,7 +258,7 @@ double gm_kdv_energy(const struct gm_problem *problem, const double *y)
     return problem->line.dx * sum;
 }
 
-static const struct gm_form form = {4, m, k, gradient};
+static const struct gm_form form = {.dimension = 4, .m = m, .k = k, .gradient = gradient};
 static const struct gm_dispersive dispersive = {.power = 3,
                                                 .factor = {1, 0},
                                                 .dispersion = dispersion,

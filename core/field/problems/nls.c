@@ -190,7 +190,7 @@ double gm_nls_node_charge(const struct gm_problem *problem, const double *y)
     return problem->line.dx * sum;
 }
 
-static const struct gm_form form = {4, m, k, gradient};
+static const struct gm_form form = {.dimension = 4, .m = m, .k = k, .gradient = gradient};
 static const struct gm_dispersive dispersive = {.power = 2,
                                                 .factor = {0, 1},
                                                 .dispersion = dispersion,

@@ -106,7 +106,8 @@ static const struct gm_wave sine_gordon = {
     .quotient = quotient,
     .quotient_slope = quotient_slope,
 };
-static const struct gm_form sine_gordon_form = {3, gm_wave_m, gm_wave_k, gradient_sine_gordon};
+static const struct gm_form sine_gordon_form = {
+    .dimension = 3, .m = gm_wave_m, .k = gm_wave_k, .gradient = gradient_sine_gordon};
 
 static const struct gm_wave linear = {
     .potential = none,
@@ -116,7 +117,8 @@ static const struct gm_wave linear = {
     .quotient = none_between,
     .quotient_slope = none_between,
 };
-static const struct gm_form linear_form = {3, gm_wave_m, gm_wave_k, gradient_linear};
+static const struct gm_form linear_form = {
+    .dimension = 3, .m = gm_wave_m, .k = gm_wave_k, .gradient = gradient_linear};
 
 const struct gm_problem gm_problem_sine_gordon = {
     .name = "sine-Gordon",

@@ -1,0 +1,320 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A multisymplectic form that somebody wrote: S, its gradient and its second derivatives are formulas. A component
+   that S does not hold and whose slope an equation without K tells is a potential: it is integrated from the others,
+   and what it gains around the ring is its jump. */
+#include "core/field/own/form.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/tape.h"
+
+struct own {
+    struct gm_field facets;
+    struct gm_form form;
+    const struct gm_own_form *source;
+    double k[GM_MOST_OF_FORM * GM_MOST_OF_FORM], l[GM_MOST_OF_FORM * GM_MOST_OF_FORM];
+    double jump[GM_MOST_OF_FORM];
+    const char *names[GM_MOST_OF_FORM];
+    struct gm_form_potential potentials[GM_MOST_OF_FORM];
+    struct gm_tape function, gradient, hessian, starts, exact;
+    bool has_exact;
+};
+
+static const struct own *own_of(const struct gm_problem *problem)
+{
+    return problem->parameters;
+}
+
+static double function(const void *parameters, const double *s)
+{
+    const struct own *own = parameters;
+    double value;
+    gm_tape_values(&own->function, s, &value, 1);
+    return value;
+}
+
+static void gradient(const void *parameters, const double *s, double *to)
+{
+    gm_tape_values(&((const struct own *)parameters)->gradient, s, to, 1);
+}
+
+static void gradients(const void *parameters, const double *s, double *to, size_t count)
+{
+    gm_tape_values(&((const struct own *)parameters)->gradient, s, to, count);
+}
+
+static void hessians(const void *parameters, const double *s, double *to, size_t count)
+{
+    gm_tape_values(&((const struct own *)parameters)->hessian, s, to, count);
+}
+
+/* ---- what is derived ---- */
+
+/* x, then t, as the first variables. */
+static bool place(struct gm_own_system *system, gm_node_id *nodes, size_t count)
+{
+    const size_t variables = system->velocities + 1;
+    gm_node_id *others = malloc(variables * sizeof *others);
+    for (size_t i = 0; others && i < variables; i++) {
+        others[i] = GM_NO_NODE;
+    }
+    if (others) {
+        others[system->velocities] = gm_formula_variable(&system->graph, 0);
+        others[system->n] = gm_formula_variable(&system->graph, 1);
+    }
+    const bool good = others && gm_formula_substitute(&system->graph, nodes, count, others, variables);
+    free(others);
+    return good;
+}
+
+bool gm_own_form_derive(struct gm_own_form *form, struct gm_own_system *system)
+{
+    const size_t n = system->n;
+    struct gm_sparse hessian = {0};
+    bool *marked = calloc(system->variable_count, sizeof *marked), told = true;
+    *form = (struct gm_own_form){.system = system};
+    const gm_node_id zero = gm_formula_constant(&system->graph, 0);
+    for (size_t i = 0; i < n; i++) {
+        form->starts[i] = system->variables[i].start;
+        form->exact[i] = system->variables[i].exact;
+        told &= form->exact[i] != GM_NO_NODE;
+    }
+    for (size_t i = 0; marked && i < n; i++) {
+        marked[i] = true;
+    }
+    const bool good = marked && gm_sparse_jacobian(&system->graph, system->rates, n, marked,
+                                                   system->variable_count, &hessian);
+    for (size_t i = 0; i < n * n; i++) {
+        form->hessian[i] = zero;
+    }
+    for (size_t i = 0; i < hessian.count; i++) {
+        form->hessian[hessian.entries[i].row * n + hessian.entries[i].column] = hessian.entries[i].node;
+    }
+    free(hessian.entries);
+    free(marked);
+    form->exact[0] = told ? form->exact[0] : GM_NO_NODE;
+    return good && place(system, form->starts, n) && (!told || place(system, form->exact, n)) &&
+           !system->graph.failed;
+}
+
+/* The potentials, and their jumps. */
+static void find_potentials(struct gm_problem *problem, struct own *own)
+{
+    const struct gm_own_system *system = own->source->system;
+    const size_t n = system->n, points = problem->line.points;
+    own->form.potentials = own->potentials;
+    for (size_t c = 0; c < n; c++) {
+        for (size_t row = 0; row < n && gm_is_constant(&system->graph, system->rates[c], 0); row++) {
+            bool alone = own->l[row * n + c] != 0;
+            for (size_t e = 0; e < n; e++) {
+                alone = alone && own->k[row * n + e] == 0 && (e == c || own->l[row * n + e] == 0);
+            }
+            if (alone) {
+                own->potentials[own->form.potential_count++] = (struct gm_form_potential){c, row};
+                break;
+            }
+        }
+    }
+    double *y = own->form.potential_count > 0 ? malloc(2 * n * points * sizeof *y) : NULL;
+    if (y) {
+        gm_own_form_start(problem, y);
+        for (size_t i = 0; i < points; i++) {
+            double s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+            const size_t right = i + 1 < points ? i + 1 : 0;
+            for (size_t c = 0; c < n; c++) {
+                s[c] = (y[c * points + i] + y[c * points + right] + (right == 0 ? own->jump[c] : 0)) / 2;
+            }
+            gradient(own, s, slope);
+            for (size_t p = 0; p < own->form.potential_count; p++) {
+                const struct gm_form_potential *potential = &own->potentials[p];
+                own->jump[potential->component] += (i == 0 ? -own->jump[potential->component] : 0) +
+                                                   problem->line.dx * slope[potential->row] /
+                                                       own->l[potential->row * n + potential->component];
+            }
+        }
+    }
+    free(y);
+}
+
+bool gm_own_form_open(struct gm_problem *problem, const struct gm_own_form *form, const double *values,
+                      const struct gm_line *line)
+{
+    const struct gm_own_system *system = form->system;
+    const size_t n = system->n;
+    struct own *own = calloc(1, sizeof *own);
+    *problem = (struct gm_problem){.name = "multisymplectic equation",
+                                   .kind = &gm_kind_field,
+                                   .m = 1,
+                                   .n = n * line->points,
+                                   .line = *line};
+    if (!own) {
+        return false;
+    }
+    double *all = malloc((system->graph.count + (size_t)1) * sizeof *all);
+    problem->parameters = own;
+    problem->facets = &own->facets;
+    own->source = form;
+    own->has_exact = form->exact[0] != GM_NO_NODE;
+    own->form = (struct gm_form){.dimension = n,
+                                 .m = own->k,
+                                 .k = own->l,
+                                 .gradient = gradient,
+                                 .function = function,
+                                 .gradients = gradients,
+                                 .hessians = hessians,
+                                 .jump = own->jump,
+                                 .names = own->names};
+    for (size_t c = 0; c < n; c++) {
+        own->names[c] = system->variables[c].name;
+    }
+    own->facets.form = &own->form;
+    bool good = all && gm_tape_open(&own->function, &system->graph, &system->energy, 1, n, values) &&
+                gm_tape_open(&own->gradient, &system->graph, system->rates, n, n, values) &&
+                gm_tape_open(&own->hessian, &system->graph, form->hessian, n * n, n, values) &&
+                gm_tape_open(&own->starts, &system->graph, form->starts, n, 1, values) &&
+                (!own->has_exact || gm_tape_open(&own->exact, &system->graph, form->exact, n, 2, values));
+    if (good) {
+        gm_formula_evaluate(&system->graph, system->graph.count, values, all);
+        for (size_t i = 0; i < n * n; i++) {
+            own->k[i] = all[system->matrices[i]];
+            own->l[i] = all[system->matrices[n * n + i]];
+        }
+        for (size_t i = 0; i < n; i++) {
+            own->jump[i] = system->variables[i].jump == GM_NO_NODE ? 0 : all[system->variables[i].jump];
+        }
+        find_potentials(problem, own);
+    }
+    free(all);
+    return good;
+}
+
+void gm_own_form_close(struct gm_problem *problem)
+{
+    struct own *own = (struct own *)problem->parameters;
+    if (own) {
+        struct gm_tape *const tapes[] = {&own->function, &own->gradient, &own->hessian, &own->starts,
+                                         &own->exact};
+        for (size_t i = 0; i < GM_COUNT(tapes); i++) {
+            gm_tape_close(tapes[i]);
+        }
+    }
+    free(own);
+    problem->parameters = problem->facets = NULL;
+}
+
+/* ---- the start ---- */
+
+void gm_own_form_start(const struct gm_problem *problem, double *y)
+{
+    const struct own *own = own_of(problem);
+    const size_t n = own->form.dimension, points = problem->line.points;
+    double s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+    for (size_t i = 0; i < points; i++) {
+        const double x = gm_line_node(&problem->line, i);
+        gm_tape_values(&own->starts, &x, s, 1);
+        for (size_t c = 0; c < n; c++) {
+            y[c * points + i] = s[c];
+        }
+    }
+    for (size_t i = 0; i + 1 < points && own->form.potential_count > 0; i++) {
+        for (size_t c = 0; c < n; c++) {
+            s[c] = (y[c * points + i] + y[c * points + i + 1]) / 2;
+        }
+        gradient(own, s, slope);
+        for (size_t p = 0; p < own->form.potential_count; p++) {
+            const struct gm_form_potential *potential = &own->potentials[p];
+            double *at = y + potential->component * points + i;
+            at[1] = at[0] + problem->line.dx * slope[potential->row] /
+                                own->l[potential->row * n + potential->component];
+        }
+    }
+}
+
+double gm_own_form_exact(const struct gm_problem *problem, size_t component, double x, double t)
+{
+    const struct own *own = own_of(problem);
+    const double at[] = {x, t};
+    double s[GM_MOST_OF_FORM];
+    if (!own->has_exact) {
+        return NAN;
+    }
+    gm_tape_values(&own->exact, at, s, 1);
+    return s[component];
+}
+
+static bool is_potential(const struct own *own, size_t component)
+{
+    for (size_t p = 0; p < own->form.potential_count; p++) {
+        if (own->potentials[p].component == component) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool component_closes(const struct gm_problem *problem, size_t c, char *sentence, size_t size)
+{
+    const struct own *own = own_of(problem);
+    const struct gm_line *line = &problem->line;
+    const char *name = own->source->system->variables[c].name;
+    double low = INFINITY, high = -INFINITY, s[GM_MOST_OF_FORM], other[GM_MOST_OF_FORM];
+    for (size_t i = 0; i < line->points; i++) {
+        const double x = gm_line_node(line, i);
+        gm_tape_values(&own->starts, &x, s, 1);
+        if (!isfinite(s[c])) {
+            snprintf(sentence, size, "%.60s at the start is not finite where x = %.6g", name, x);
+            return false;
+        }
+        low = fmin(low, s[c]);
+        high = fmax(high, s[c]);
+    }
+    const double end = -line->first;
+    gm_tape_values(&own->starts, &line->first, s, 1);
+    gm_tape_values(&own->starts, &end, other, 1);
+    const double least = 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high)));
+    if (!is_potential(own, c) && !(fabs(other[c] - s[c] - own->jump[c]) <= least)) {
+        snprintf(
+            sentence, size,
+            "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other (jump: "
+            "tells by how much they differ)",
+            name, s[c], other[c]);
+        return false;
+    }
+    return true;
+}
+
+bool gm_own_form_closes(const struct gm_problem *problem, char *sentence, size_t size)
+{
+    const struct own *own = own_of(problem);
+    const size_t n = own->form.dimension;
+    for (size_t c = 0; c < n; c++) {
+        if (!component_closes(problem, c, sentence, size)) {
+            return false;
+        }
+    }
+    for (size_t i = 0; i < problem->line.points; i++) {
+        double s[GM_MOST_OF_FORM], here[GM_MOST_OF_FORM], further[GM_MOST_OF_FORM];
+        const double x = gm_line_node(&problem->line, i);
+        gm_tape_values(&own->starts, &x, s, 1);
+        gradient(own, s, here);
+        for (size_t c = 0; c < n; c++) {
+            s[c] += is_potential(own, c) ? 0 : own->jump[c];
+        }
+        gradient(own, s, further);
+        for (size_t c = 0; c < n; c++) {
+            if (!isfinite(here[c])) {
+                snprintf(sentence, size, "the gradient of S is not finite at the start where x = %.6g", x);
+                return false;
+            }
+            if (!(fabs(further[c] - here[c]) <= 1e-9 * fmax(1, fabs(here[c])))) {
+                snprintf(sentence, size, "the derivative of S over %.60s does not repeat after the jumps",
+                         own->source->system->variables[c].name);
+                return false;
+            }
+        }
+    }
+    return true;
+}
