@@ -191,7 +191,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_field(picture, lanes, count, &look, cosine ? graphs + 1 : graphs, cosine ? 1 : 2);
 }
 
-static const char *const schemes[] = {"box", "zabusky-kruskal", "euler-box", "midpoint-box", NULL};
+static const char *const schemes[] = {"box",       "zabusky-kruskal", "fourier-rk4",
+                                      "euler-box", "midpoint-box",    NULL};
 
 /* The error of the mesh hides that of the step, and the other way round: both are refined. */
 static const double mesh_points[] = {101, 201, 401, 801};
@@ -238,7 +239,8 @@ const struct gm_scene gm_scene_kdv = {
         "Δx³/4μ and Δx³/μ.",
     .watch =
         "Watch what a step costs: at Δx = 0.2 leapfrog blows up beyond Δt = 0.003, the box runs with 0.05; at "
-        "equal Δt and Δx its error is the larger one, by a factor of 1.5, so the box gains its step and nothing else.",
+        "equal Δt and Δx its error is the larger one, by a factor of 1.5, so the box gains its step and nothing else. The "
+        "Fourier method has a hundredth of its error with Δt = 0.025, and blows up with 0.05, where the box goes on.",
     .time = "that in which the equation has η and μ as given",
     .size = sizeof(struct scene),
     .parameters = parameters,

@@ -126,6 +126,7 @@ static void properties_that_are_false(void **unused)
         {"variational-midpoint", GM_KEEPS_ENERGY},
         {"tao2", GM_KEEPS_QUADRATIC},
         {"energy-conserving", GM_MULTISYMPLECTIC},
+        {"heat-ftcs", GM_EQUIVARIANT},
         {"leapfrog", GM_KEEPS_ENERGY},
         {"box", GM_KEEPS_ENERGY},
         {"gauss-box2", GM_KEEPS_ENERGY},

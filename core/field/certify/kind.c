@@ -186,6 +186,30 @@ static double exact_kdv(const struct gm_problem *problem, size_t i, double t)
     return gm_kdv_exact(&soliton, &problem->line, gm_line_node(&problem->line, i), t);
 }
 
+/* Of a scheme that follows dx^2, or has no error in space to speak of: on one grid, the differences between
+   runs with dt, dt/2 and dt/4. */
+static double order_in_time(struct subject *subject, const double *y)
+{
+    const size_t points = subject->problem.line.points;
+    double *end = calloc(3 * points, sizeof *end), apart[2] = {0};
+    bool good = end != NULL;
+    for (size_t k = 0; good && k < 3; k++) {
+        struct subject part = {subject->problem, subject->scheme, ldexp(subject->dt, -(int)k), NULL};
+        good = open_run(&part, 0, y);
+        if (good) {
+            good = gm_run_until(part.run, 1) == GM_OK;
+            memcpy(end + k * points, gm_run_state(part.run), points * sizeof *end);
+            gm_run_close(part.run);
+        }
+    }
+    for (size_t i = 0; good && i < points; i++) {
+        apart[0] = fmax(apart[0], fabs(end[i] - end[points + i]));
+        apart[1] = fmax(apart[1], fabs(end[points + i] - end[2 * points + i]));
+    }
+    free(end);
+    return good ? log2(apart[0] / apart[1]) : NAN;
+}
+
 static void certify_kdv(struct gm_certificate *certificate, double *farthest)
 {
     struct subject subject = {.problem = gm_problem_kdv, .scheme = certificate->scheme};
@@ -201,8 +225,10 @@ static void certify_kdv(struct gm_certificate *certificate, double *farthest)
         problem->line = (struct gm_line){.points = points, .dx = 40.0 / (double)points, .first = -20};
         problem->n = gm_wave_size(points);
         /* an explicit scheme follows dx^3, by less than a quarter */
-        subject.dt = certificate->scheme->needs & GM_NEEDS_KDV ? 0.0016 / (double)(1u << 3 * k)
-                                                               : 0.04 / (double)(1u << k);
+        const struct gm_scheme *scheme = certificate->scheme;
+        subject.dt = scheme->family == &gm_family_pseudospectral ? 0.005
+                     : scheme->needs & GM_NEEDS_KDV              ? 0.0016 / (double)(1u << 3 * k)
+                                                                 : 0.04 / (double)(1u << k);
         double *y = malloc(problem->n * sizeof *y);
         if (!y) {
             return;
@@ -212,6 +238,11 @@ static void certify_kdv(struct gm_certificate *certificate, double *farthest)
             gm_certificate_note(certificate, GM_KEEPS_LINEAR, drift(&subject, y, gm_kdv_mass), problem->name);
             note_form(certificate, &subject, y);
             gm_certificate_note(certificate, GM_SYMMETRIC, return_defect(&subject, y), problem->name);
+        }
+        if (scheme->family == &gm_family_pseudospectral) {
+            note_order(certificate, farthest, order_in_time(&subject, y), problem->name);
+            free(y);
+            return;
         }
         if (open_run(&subject, 0, y)) {
             error[k] = error_at(&subject, 1, exact_kdv);
@@ -239,29 +270,6 @@ static double *nls_state(const struct gm_problem *problem)
         gm_nls_exact(&bright, &problem->line, gm_line_node(&problem->line, i), 0, &y[i], &y[points + i]);
     }
     return y;
-}
-
-/* Of a scheme that follows dx^2: on one grid, the differences between runs with dt, dt/2 and dt/4. */
-static double order_in_time(struct subject *subject, const double *y)
-{
-    const size_t points = subject->problem.line.points;
-    double *end = calloc(3 * points, sizeof *end), apart[2] = {0};
-    bool good = end != NULL;
-    for (size_t k = 0; good && k < 3; k++) {
-        struct subject part = {subject->problem, subject->scheme, ldexp(subject->dt, -(int)k), NULL};
-        good = open_run(&part, 0, y);
-        if (good) {
-            good = gm_run_until(part.run, 1) == GM_OK;
-            memcpy(end + k * points, gm_run_state(part.run), points * sizeof *end);
-            gm_run_close(part.run);
-        }
-    }
-    for (size_t i = 0; good && i < points; i++) {
-        apart[0] = fmax(apart[0], fabs(end[i] - end[points + i]));
-        apart[1] = fmax(apart[1], fabs(end[points + i] - end[2 * points + i]));
-    }
-    free(end);
-    return good ? log2(apart[0] / apart[1]) : NAN;
 }
 
 static void certify_nls(struct gm_certificate *certificate, double *farthest)
