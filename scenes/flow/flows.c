@@ -237,6 +237,8 @@ bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
         return gm_refuse(sentence, "no more enters by the profile of an inlet than leaves by it");
     case GM_BOUNDARY_BACKWARDS:
         return gm_refuse(sentence, "the outlets with a given flow take more than enters");
+    case GM_BOUNDARY_OVERFLOW:
+        return gm_refuse(sentence, "what enters or leaves is too much for a number");
     }
     return false;
 }
