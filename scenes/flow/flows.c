@@ -89,7 +89,9 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
         snprintf(sentence, GM_MESSAGE, "%.100s: at node %ld the mesh hangs together by a point", what, n[0]);
         return;
     case GM_TRIANGULATION_PIECES:
-        snprintf(sentence, GM_MESSAGE, "%.100s is in several pieces", what);
+        snprintf(sentence, GM_MESSAGE,
+                 "%.100s%s is in several pieces: triangle %ld (nodes %ld %ld %ld) is not joined to triangle 1",
+                 what, where, fault->triangle, n[0], n[1], n[2]);
         return;
     case GM_TRIANGULATION_NOT_DELAUNAY:
         snprintf(

@@ -189,5 +189,9 @@ status 0 run ./even.room steps=1
 refused 3 'missing.room could not be read' run ./missing.room
 sed 's/hole.msh/missing.msh/' wrong.room >lost.room
 refused 3 'missing.msh could not be read' run ./lost.room
+printf '%s\n' '$MeshFormat' '4.1 0 8' '$EndMeshFormat' '$Nodes' '1 6 1 16' '2 1 0 6' 1 2 3 14 15 16 '0 0 0' '1 0 0' \
+    '.5 1 0' '5 0 0' '6 0 0' '5.5 1 0' '$EndNodes' '$Elements' '1 2 1 2' '2 1 2 2' '1 1 2 3' '2 14 15 16' \
+    '$EndElements' >missing.msh
+refused 3 'several pieces: triangle 2 (nodes 14 15 16) is not joined to triangle 1' run ./lost.room
 
 [ "$failures" = 0 ]
