@@ -20,6 +20,15 @@ static bool is_open(const struct gm_side *side)
     return side->kind == GM_EDGE_INLET || side->kind == GM_EDGE_OUTLET;
 }
 
+/* What a side gives at a point of its part s. */
+static double given(const struct gm_side *side, enum gm_given what, double s, const double at[2])
+{
+    const double same[] = {[GM_GIVEN_THETA] = side->theta,
+                           [GM_GIVEN_TEMPERATURE] = side->temperature,
+                           [GM_GIVEN_TANGENTIAL] = side->speed};
+    return side->varying ? side->varying(side->data, what, s, at) : same[what];
+}
+
 static double length_of(const struct gm_complex *complex, const struct gm_opening *opening)
 {
     double length = 0;
@@ -171,6 +180,9 @@ static enum gm_boundary_fault share_flow(const struct maker *maker)
         }
         *(opening->inlet ? &in : &out) += opening->flow;
     }
+    if (!isfinite(in) || !isfinite(out)) {
+        return GM_BOUNDARY_OVERFLOW;
+    }
     if (open_length == 0 && fabs(in - out) > 1e-9 * fmax(fabs(in), fabs(out))) {
         return GM_BOUNDARY_UNBALANCED;
     }
@@ -202,19 +214,40 @@ static const struct gm_side *winner(const struct gm_side *before, const struct g
     return holds;
 }
 
-static void hold(struct gm_flow *flow, int v, const struct gm_side *side)
+/* Vertex v, at the part s of the side, is held at what it gives; NULL: it is not held. */
+static void hold(struct gm_flow *flow, int v, const struct gm_side *side, double s)
 {
     flow->theta_fixed[v] = side != NULL;
-    flow->theta[v] = side ? side->theta : 0;
+    flow->theta[v] = side ? given(side, GM_GIVEN_THETA, s, flow->complex->point + 2 * v) : 0;
 }
 
-static void hold_temperature(const struct maker *maker, int v, const struct gm_side *side)
+static void hold_temperature(const struct maker *maker, int v, const struct gm_side *side, double s)
 {
     struct gm_flow *flow = maker->flow;
     if (flow->heat) {
         flow->temperature_fixed[v] = side != NULL;
-        flow->temperature[v] = side ? side->temperature : flow->reference_temperature;
+        flow->temperature[v] = side ? given(side, GM_GIVEN_TEMPERATURE, s, flow->complex->point + 2 * v)
+                                    : flow->reference_temperature;
         flow->temperature_holder[v] = (unsigned char)(side ? 1 + (side - maker->sides) : 0);
+    }
+}
+
+/* What an inlet lets in at the part s: within it at every vertex, at its ends where no wall and no inlet
+   before it holds that. An outlet holds nothing. */
+static void hold_opening(const struct maker *maker, const struct gm_side *side, size_t e, bool inside,
+                         double s)
+{
+    const struct gm_complex *complex = maker->flow->complex;
+    const int v = complex->boundary_vertex[e];
+    const struct gm_side *before = &maker->sides[maker->side_of[gm_complex_previous(complex, e)]],
+                         *behind = &maker->sides[maker->side_of[e]];
+    const bool inlet = side->kind == GM_EDGE_INLET;
+    if (inside || (inlet && winner(before, behind, !before->theta_free, !behind->theta_free) == side)) {
+        hold(maker->flow, v, inlet && !side->theta_free ? side : NULL, s);
+    }
+    if (inside ||
+        (inlet && winner(before, behind, !before->temperature_free, !behind->temperature_free) == side)) {
+        hold_temperature(maker, v, inlet && !side->temperature_free ? side : NULL, s);
     }
 }
 
@@ -229,17 +262,19 @@ static double open_piece(const struct maker *maker, const struct gm_opening *ope
                  rise = opening->inlet ? -opening->flow : opening->flow, all = opening->profile;
     double passed = 0, sum = 0;
     size_t e = opening->first;
-    for (size_t i = 0; i < opening->count; i++, e = gm_complex_next(complex, e)) {
+    for (size_t i = 0; i <= opening->count; i++, e = gm_complex_next(complex, e)) {
         const int v = complex->boundary_vertex[e];
         const double s = passed / length;
-        if (i > 0) {
+        const bool inside = i > 0 && i < opening->count;
+        hold_opening(maker, side, e, inside, (opening->before + passed) / whole);
+        if (i == opening->count) {
+            break;
+        }
+        if (inside) {
             flow->kind[v] = (unsigned char)kind;
             flow->psi[v] = kind == GM_VERTEX_OPEN ? 0
                            : side->profile        ? level + rise * (all != 0 ? sum / all : s)
                                                   : level + rise * s * s * (3 - 2 * s);
-            const struct gm_side *holds = opening->inlet ? side : NULL;
-            hold(flow, v, holds && !side->theta_free ? holds : NULL);
-            hold_temperature(maker, v, holds && !side->temperature_free ? holds : NULL);
             flow->open[v] = opening->inlet ? GM_OPEN_INLET : GM_OPEN_OUTLET;
         }
         sum += side->profile
@@ -302,6 +337,23 @@ static void number_holes(struct gm_flow *flow)
     }
 }
 
+/* A wall that moves adds to the circulation of both cells at its edge, to each by what the middle of its half
+   does. */
+static void push(struct gm_flow *flow, const struct gm_side *side, size_t e)
+{
+    const struct gm_complex *complex = flow->complex;
+    const int vertex[2] = {complex->boundary_vertex[e],
+                           complex->boundary_vertex[gm_complex_next(complex, e)]};
+    const double half = complex->length[complex->boundary_edge[e]] / 2;
+    for (int k = 0; k < 2; k++) {
+        const double *near = complex->point + 2 * vertex[k], *far = complex->point + 2 * vertex[1 - k],
+                     middle[2] = {near[0] + (far[0] - near[0]) / 4, near[1] + (far[1] - near[1]) / 4},
+                     speed = given(side, GM_GIVEN_TANGENTIAL, 0, middle);
+        flow->sheet[vertex[k]] -= speed * half;
+        flow->speed = fmax(flow->speed, fabs(speed));
+    }
+}
+
 static void set_walls(const struct maker *maker)
 {
     struct gm_flow *flow = maker->flow;
@@ -309,18 +361,18 @@ static void set_walls(const struct maker *maker)
     for (size_t e = 0; e < complex->boundary; e++) {
         const struct gm_side *side = &maker->sides[maker->side_of[e]],
                              *before = &maker->sides[maker->side_of[gm_complex_previous(complex, e)]];
-        const int v = complex->boundary_vertex[e],
-                  end = complex->boundary_vertex[gm_complex_next(complex, e)];
+        const int v = complex->boundary_vertex[e];
         const bool slip = side->kind == GM_EDGE_SLIP && before->kind == GM_EDGE_SLIP;
         flow->kind[v] = slip ? GM_VERTEX_SLIP : GM_VERTEX_FIXED;
-        hold(flow, v, winner(before, side, !before->theta_free, !side->theta_free));
-        hold_temperature(maker, v, winner(before, side, !before->temperature_free, !side->temperature_free));
+        const struct gm_side *scalar = winner(before, side, !before->theta_free, !side->theta_free),
+                             *warm = winner(before, side, !before->temperature_free, !side->temperature_free);
+        /* what inlets let in depends on s, which their openings know */
+        hold(flow, v, scalar && !is_open(scalar) ? scalar : NULL, 0);
+        hold_temperature(maker, v, warm && !is_open(warm) ? warm : NULL, 0);
         if (side->kind == GM_EDGE_LID) {
-            const double half = complex->length[complex->boundary_edge[e]] / 2;
-            flow->sheet[v] -= side->speed * half;
-            flow->sheet[end] -= side->speed * half;
+            push(flow, side, e);
         }
-        if (side->kind == GM_EDGE_LID || side->kind == GM_EDGE_INLET) {
+        if (side->kind == GM_EDGE_INLET) {
             flow->speed = fmax(flow->speed, fabs(side->speed));
         }
     }

@@ -8,6 +8,9 @@
 /* What a boundary edge is. */
 enum gm_edge_kind { GM_EDGE_WALL, GM_EDGE_INLET, GM_EDGE_OUTLET, GM_EDGE_LID, GM_EDGE_SLIP };
 
+/* What a side may give that is another number at each of its places. */
+enum gm_given { GM_GIVEN_THETA, GM_GIVEN_TEMPERATURE, GM_GIVEN_TANGENTIAL };
+
 /* What edges of one name give. Each piece of an inlet or outlet is one opening; pieces follow each other
    counter-clockwise, from the lowest of the wall's leftmost points on. */
 struct gm_side {
@@ -22,7 +25,10 @@ struct gm_side {
     /* The normal speed at the part s, 0 to 1, of all pieces together, instead of a parabola; scaled where a
        flow is given, too. NULL: none. */
     double (*profile)(const void *data, double s, const double at[2]);
-    const void *data;
+    /* Where it varies along the side: instead of theta, of temperature, and of speed of a lid; s is 0 but of
+       inlets. NULL: it does not. */
+    double (*varying)(const void *data, enum gm_given what, double s, const double at[2]);
+    const void *data;      /* of both */
     bool theta_free;       /* no flux; of outlets always */
     double theta;          /* else it is held at this */
     bool temperature_free; /* the same of temperature, of flows that carry heat */
@@ -40,10 +46,12 @@ enum gm_boundary_fault {
     GM_BOUNDARY_UNBALANCED, /* all flows are given, and what enters does not leave */
     GM_BOUNDARY_PROFILE,    /* no more enters by an inlet's profile than leaves by it */
     GM_BOUNDARY_BACKWARDS,  /* an outlet would have to let air in */
+    GM_BOUNDARY_OVERFLOW,   /* what enters or leaves is too much for a number */
 };
 
-/* The boundary of a room, in place of one that was made before: side_of[b] is the side of edge complex->boundary_edge[b]. A vertex belongs to an
-   inlet (outlet) if both its boundary edges are of the same piece. Outlet vertices are of the kind `outlet`.
+/* The boundary of a room, in place of one that was made before: side_of[b] is the side of edge
+   complex->boundary_edge[b]. A vertex belongs to an inlet (outlet) if both its boundary edges are of the same
+   piece. Outlet vertices are of the kind `outlet`.
    psi is 0 on the wall from which the first outlet begins, counter-clockwise; on the walls of holes it is
    unknown. */
 enum gm_boundary_fault gm_flow_set_sides(struct gm_flow *flow, const unsigned char *side_of,

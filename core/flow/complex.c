@@ -296,7 +296,8 @@ static bool make_boundary(struct gm_complex *complex, const long *tags, struct g
     return good;
 }
 
-static bool in_one_piece(const struct gm_complex *complex, struct gm_triangulation_fault *fault)
+static bool in_one_piece(const struct gm_complex *complex, const long *tags,
+                         struct gm_triangulation_fault *fault)
 {
     int *queue = malloc(complex->triangles * sizeof *queue);
     bool *met = calloc(complex->triangles, sizeof *met);
@@ -319,11 +320,16 @@ static bool in_one_piece(const struct gm_complex *complex, struct gm_triangulati
             }
         }
     }
+    if (good && count != complex->triangles) {
+        size_t apart = 0;
+        while (met[apart]) {
+            apart++;
+        }
+        good = fail(fault, GM_TRIANGULATION_PIECES);
+        name_triangle(complex, apart, tags, fault);
+    }
     free(queue);
     free(met);
-    if (good && count != complex->triangles) {
-        good = fail(fault, GM_TRIANGULATION_PIECES);
-    }
     return good;
 }
 
@@ -527,7 +533,7 @@ struct gm_complex *gm_complex_open(const double *points, size_t vertices, const 
         good = sides || fail(fault, GM_TRIANGULATION_MEMORY);
     }
     good = good && make_edges(complex, sides, tags, fault) && make_boundary(complex, tags, fault) &&
-           in_one_piece(complex, fault);
+           in_one_piece(complex, tags, fault);
     if (good) {
         make_rings(complex);
         measure(complex);

@@ -25,7 +25,7 @@ enum gm_triangulation_fault_kind {
     GM_TRIANGULATION_OVERLAP,       /* triangle, nodes: two triangles on the same side of an edge */
     GM_TRIANGULATION_EDGE_OF_THREE, /* nodes: an edge of three or more triangles */
     GM_TRIANGULATION_PINCHED,       /* nodes[0]: two pieces that meet in one vertex only */
-    GM_TRIANGULATION_PIECES,        /* more than one piece */
+    GM_TRIANGULATION_PIECES,        /* triangle, nodes: not of the first one's piece */
     /* triangle, nodes, value: its largest angle, opposite to a dual edge that is not positive */
     GM_TRIANGULATION_NOT_DELAUNAY,
     GM_TRIANGULATION_DUAL_CELL, /* nodes[0]: a dual cell whose area is not positive */

@@ -31,11 +31,20 @@ enum { WORDS = GM_COUNT(words) };
 enum { PART, X, Y, TIME, VARIABLES };
 static const char *const variables[VARIABLES] = {"s", "x", "y", "t"};
 
-/* A formula that is read, and whether it may change in time. */
+/* A formula that is read, and the variables that it may hold. */
 struct reading {
     struct gm_room *room;
-    bool timeless;
+    unsigned may;
 };
+
+/* A flow is that of a whole side, a place is one; s runs along inlets, and what the boundary gives may change in
+   time. */
+static unsigned may_hold(enum gm_room_word word, enum gm_room_key key)
+{
+    const bool varies = key != GM_ROOM_FLOW && key != GM_ROOM_X && key != GM_ROOM_Y;
+    return (varies ? 1u << X | 1u << Y : 0) | (varies && word == GM_ROOM_INLET ? 1u << PART : 0) |
+           (word <= GM_ROOM_WALL ? 1u << TIME : 0);
+}
 
 static const char *known(size_t i, const void *data)
 {
@@ -49,9 +58,14 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
         if (name->length != 1 || name->text[0] != variables[i][0] || name->indexed || name->initial) {
             continue;
         }
-        if (i == TIME && reading->timeless) {
-            snprintf(sentence, GM_FAULT_SENTENCE,
-                     "what a room's boundary gives may change in time: no start, no source and no place");
+        if (!(reading->may >> i & 1)) {
+            snprintf(sentence, GM_FAULT_SENTENCE, "%s",
+                     i == TIME
+                         ? "what a room's boundary gives may change in time: no start, no source and no place"
+                     : i == PART
+                         ? "s runs along an inlet, and stands in what that gives at a place"
+                         : "a flow is that of a whole side, and a place is two numbers: neither holds "
+                           "x and y");
             return GM_REFUSED;
         }
         reading->room->timed = reading->room->timed || i == TIME;
@@ -61,10 +75,10 @@ static enum gm_meaning find(void *data, const struct gm_name *name, gm_node_id *
     return GM_UNKNOWN;
 }
 
-static bool read_formula(struct gm_room *room, struct gm_span span, bool timeless,
+static bool read_formula(struct gm_room *room, struct gm_span span, unsigned may,
                          struct gm_room_formula *value, struct gm_fault *fault)
 {
-    struct reading reading = {room, timeless};
+    struct reading reading = {room, may};
     const struct gm_scope scope = {.find = find, .known = known, .data = &reading, .lines = true};
     gm_node_id node = 0;
     if (!gm_formula_read(&room->graph, room->text, span.begin, span.end, &scope, &node, fault)) {
@@ -144,7 +158,8 @@ static bool read_pairs(struct gm_room *room, struct gm_room_line *line, struct g
             return gm_fail(fault, rest.begin, "%s = is given twice", keys[key]);
         }
         const struct gm_span formula = gm_span_trimmed(room->text, (struct gm_span){equals, end});
-        if (!read_formula(room, formula, line->word > GM_ROOM_WALL, &line->value[key], fault)) {
+        if (!read_formula(room, formula, may_hold(line->word, (enum gm_room_key)key), &line->value[key],
+                          fault)) {
             return false;
         }
         given |= 1u << key;
@@ -370,31 +385,44 @@ void gm_room_close(struct gm_room *room)
     *room = (struct gm_room){0};
 }
 
-/* The profile of an inlet; where it is no number, the place is kept. */
+/* What a side gives at its places; where that is no number, the first such place is kept. */
 struct profile {
     const struct gm_room *room;
     const struct gm_room_line *line;
     struct bad *bad;
-    double t;
+    double t, reference; /* the temperature where none is given */
     double *scratch;
 };
 
-/* The inlet, and where its profile is no number; NULL: there is none. */
 struct bad {
-    const struct gm_room_line *line;
+    const struct gm_room_line *line; /* NULL: all are numbers */
+    enum gm_room_key key;
     double at[2];
 };
 
+static double value_at(const struct profile *profile, enum gm_room_key key, double standard, double s,
+                       const double at[2])
+{
+    const double place[VARIABLES] = {s, at[0], at[1], profile->t},
+                 value = gm_room_value(profile->room, profile->line, key, place, standard, profile->scratch);
+    if (!isfinite(value) && !profile->bad->line) {
+        *profile->bad = (struct bad){profile->line, key, {at[0], at[1]}};
+    }
+    return value;
+}
+
 static double speed_at(const void *data, double s, const double at[2])
 {
+    return value_at(data, GM_ROOM_SPEED, 0, s, at);
+}
+
+static double varying_at(const void *data, enum gm_given what, double s, const double at[2])
+{
+    static const enum gm_room_key key[] = {[GM_GIVEN_THETA] = GM_ROOM_SCALAR,
+                                           [GM_GIVEN_TEMPERATURE] = GM_ROOM_TEMPERATURE,
+                                           [GM_GIVEN_TANGENTIAL] = GM_ROOM_TANGENTIAL};
     const struct profile *profile = data;
-    const double place[VARIABLES] = {s, at[0], at[1], profile->t},
-                 speed =
-                     gm_room_value(profile->room, profile->line, GM_ROOM_SPEED, place, 0, profile->scratch);
-    if (!isfinite(speed)) {
-        *profile->bad = (struct bad){profile->line, {at[0], at[1]}};
-    }
-    return speed;
+    return value_at(profile, key[what], what == GM_GIVEN_TEMPERATURE ? profile->reference : 0, s, at);
 }
 
 /* The triangle that a point is in, with its barycentric coordinates; false outside. */
@@ -552,32 +580,23 @@ static double fall(const struct gm_flow *flow)
 }
 
 /* What the room's lines say of a side at a time. */
-static bool make_side(const struct gm_room *room, const struct gm_room_line *line, struct profile *profile,
-                      double reference, struct gm_side *side, struct gm_fault *fault)
+static bool make_side(struct profile *profile, struct gm_side *side, struct gm_fault *fault)
 {
+    const struct gm_room_line *line = profile->line;
     const double at[VARIABLES] = {[TIME] = profile->t};
-    double *scratch = profile->scratch;
     const bool inlet = line->word == GM_ROOM_INLET;
-    const double tangential = gm_room_value(room, line, GM_ROOM_TANGENTIAL, at, 0, scratch);
-    side->kind = inlet                          ? GM_EDGE_INLET
-                 : line->word == GM_ROOM_OUTLET ? GM_EDGE_OUTLET
-                 : tangential != 0              ? GM_EDGE_LID
-                                                : GM_EDGE_WALL;
-    side->flow = gm_room_value(room, line, GM_ROOM_FLOW, at, NAN, scratch);
-    side->speed = tangential;
+    side->kind = inlet                                        ? GM_EDGE_INLET
+                 : line->word == GM_ROOM_OUTLET               ? GM_EDGE_OUTLET
+                 : line->value[GM_ROOM_TANGENTIAL].place != 0 ? GM_EDGE_LID
+                                                              : GM_EDGE_WALL;
+    side->flow = gm_room_value(profile->room, line, GM_ROOM_FLOW, at, NAN, profile->scratch);
     side->theta_free = !inlet && line->value[GM_ROOM_SCALAR].place == 0;
-    side->theta = gm_room_value(room, line, GM_ROOM_SCALAR, at, 0, scratch);
     side->temperature_free = !inlet && line->value[GM_ROOM_TEMPERATURE].place == 0;
-    side->temperature = gm_room_value(room, line, GM_ROOM_TEMPERATURE, at, reference, scratch);
-    if (line->value[GM_ROOM_SPEED].place != 0) {
-        side->profile = speed_at;
-        side->data = profile;
-    }
-    if (line->value[GM_ROOM_FLOW].place != 0 && !(side->flow >= 0 && isfinite(side->flow))) {
-        return gm_fail(fault, line->value[GM_ROOM_FLOW].place, "a flow is a number that is not negative");
-    }
-    return (isfinite(side->theta) && isfinite(side->temperature) && isfinite(tangential)) ||
-           gm_fail(fault, line->place, "what %.63s gives is not finite", line->name);
+    side->profile = line->value[GM_ROOM_SPEED].place != 0 ? speed_at : NULL;
+    side->varying = varying_at;
+    side->data = profile;
+    return line->value[GM_ROOM_FLOW].place == 0 || (side->flow >= 0 && isfinite(side->flow)) ||
+           gm_fail(fault, line->value[GM_ROOM_FLOW].place, "a flow is a number that is not negative");
 }
 
 /* Has the flow's boundary give what the room says at a time. */
@@ -592,16 +611,17 @@ static bool set_sides(const struct gm_room *room, const unsigned char *side_of, 
     for (size_t i = 0; good && i <= room->count; i++) {
         const struct gm_room_line *line = i > 0 ? &room->lines[i - 1] : NULL;
         sides[i] = (struct gm_side){.flow = NAN, .theta_free = true, .temperature_free = true};
-        profiles[i] = (struct profile){room, line, &bad, t, scratch};
-        good = !line || line->word > GM_ROOM_WALL ||
-               make_side(room, line, &profiles[i], flow->reference_temperature, &sides[i], fault);
+        profiles[i] = (struct profile){room, line, &bad, t, flow->reference_temperature, scratch};
+        good = !line || line->word > GM_ROOM_WALL || make_side(&profiles[i], &sides[i], fault);
     }
     if (good) {
         *boundary = gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT);
         good = *boundary == GM_BOUNDARY_OK;
         if (bad.line) {
-            good = gm_fail(fault, bad.line->value[GM_ROOM_SPEED].place,
-                           "the speed is not finite at (%.4g, %.4g)", bad.at[0], bad.at[1]);
+            good = gm_fail(fault, bad.line->value[bad.key].place,
+                           bad.key == GM_ROOM_TANGENTIAL ? "the %s speed is not finite at (%.4g, %.4g)"
+                                                         : "the %s is not finite at (%.4g, %.4g)",
+                           keys[bad.key], bad.at[0], bad.at[1]);
         }
     }
     free(scratch);

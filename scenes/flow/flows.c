@@ -89,7 +89,9 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
         snprintf(sentence, GM_MESSAGE, "%.100s: at node %ld the mesh hangs together by a point", what, n[0]);
         return;
     case GM_TRIANGULATION_PIECES:
-        snprintf(sentence, GM_MESSAGE, "%.100s is in several pieces", what);
+        snprintf(sentence, GM_MESSAGE,
+                 "%.100s%s is in several pieces: triangle %ld (nodes %ld %ld %ld) is not joined to triangle 1",
+                 what, where, fault->triangle, n[0], n[1], n[2]);
         return;
     case GM_TRIANGULATION_NOT_DELAUNAY:
         snprintf(
@@ -237,6 +239,8 @@ bool gm_flows_boundary(enum gm_boundary_fault fault, char *sentence)
         return gm_refuse(sentence, "no more enters by the profile of an inlet than leaves by it");
     case GM_BOUNDARY_BACKWARDS:
         return gm_refuse(sentence, "the outlets with a given flow take more than enters");
+    case GM_BOUNDARY_OVERFLOW:
+        return gm_refuse(sentence, "what enters or leaves is too much for a number");
     }
     return false;
 }

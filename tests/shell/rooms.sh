@@ -102,6 +102,11 @@ grep -q 'after t = 2 led to no number: no more enters by the profile' out || fai
 "$geomint" run ./rising.room scheme=steady >out 2>err
 grep -q 'changes in time, and so there is no steady state' out || fail "a steady state of what changes"
 
+# what walls hold and inlets let in may vary along them
+{ sed '/^wall/d; s/scalar = 1/scalar = 2*y/' "$rooms/office.room"; echo 'wall: desk  scalar = x + y'; } >varied.room
+status 0 run ./varied.room until=1 --json
+grep -q '"desk_drag"' out || fail "the desk has no name"
+
 # the age of air: in a steady state as much of it leaves as there is air in the room
 status 0 run "$rooms/age.room" scheme=steady --json
 within budget_defect 0 1e-13
@@ -145,7 +150,15 @@ wrong 'wrong.room:5:28: a temperature needs a line buoyancy:' 'wall: pillar temp
 wrong 'buoyancy: needs a temperature =' 'buoyancy: 0.03'
 wrong 'buoyancy: is a finite number' 'wall: pillar temperature = 1\nbuoyancy: inf'
 wrong 'reference-temperature: needs a temperature =' 'reference-temperature: 290'
-wrong 'what pillar gives is not finite' 'wall: pillar temperature = 1/0\nbuoyancy: 1'
+wrong 'wrong.room:5:28: the temperature is not finite at (1.7, 1.1' 'wall: pillar temperature = 1/0\nbuoyancy: 1'
+wrong 'wrong.room:5:23: the scalar is not finite at (1.7, 1.1' 'wall: pillar scalar = 1/(y - 1.1)'
+wrong 'wrong.room:5:27: the tangential speed is not finite at (' 'wall: pillar tangential = log(x - 2)'
+wrong 'wrong.room:5:32: the scalar is not finite at (0, 0.8' 'inlet: vent flow = 1  scalar = 1/s'
+wrong 'wrong.room:5:23: s runs along an inlet' 'wall: pillar scalar = s'
+wrong 'wrong.room:5:17: s runs along an inlet' 'start: scalar = s'
+wrong 'wrong.room:5:20: a flow is that of a whole side' 'inlet: vent flow = x'
+wrong 'wrong.room:5:14: .* a place is two numbers' 'probe: q x = y y = 1'
+wrong 'too much for a number' 'inlet: vent flow = 1e308\ninlet: 4 flow = 1e308'
 wrong 'the temperature is not finite at' 'start: temperature = 1/(x-x)\nbuoyancy: 1'
 wrong 'start: needs scalar = or temperature =' 'start:'
 wrong 'start: takes scalar =, temperature =' 'start: rate = 1'
@@ -176,5 +189,9 @@ status 0 run ./even.room steps=1
 refused 3 'missing.room could not be read' run ./missing.room
 sed 's/hole.msh/missing.msh/' wrong.room >lost.room
 refused 3 'missing.msh could not be read' run ./lost.room
+printf '%s\n' '$MeshFormat' '4.1 0 8' '$EndMeshFormat' '$Nodes' '1 6 1 16' '2 1 0 6' 1 2 3 14 15 16 '0 0 0' '1 0 0' \
+    '.5 1 0' '5 0 0' '6 0 0' '5.5 1 0' '$EndNodes' '$Elements' '1 2 1 2' '2 1 2 2' '1 1 2 3' '2 14 15 16' \
+    '$EndElements' >missing.msh
+refused 3 'several pieces: triangle 2 (nodes 14 15 16) is not joined to triangle 1' run ./lost.room
 
 [ "$failures" = 0 ]

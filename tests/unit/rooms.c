@@ -390,13 +390,71 @@ static void smoke_comes_in(void **unused)
     gm_flow_close(flow);
 }
 
+static double slanted(const void *data, enum gm_given what, double s, const double at[2])
+{
+    (void)data, (void)s;
+    return what == GM_GIVEN_TANGENTIAL ? at[0] : 1 + 2 * at[0] - 3 * at[1];
+}
+
+/* What a wall holds may vary along it: between walls that hold a linear function still air comes to that, on any
+   triangles; a wall that moves with the speed x adds the integral of that to the circulation. */
+static void walls_vary(void **unused)
+{
+    (void)unused;
+    for (int lid = 0; lid < 2; lid++) {
+        struct gm_flow *flow = open_mesh(8, false, GM_STAR_AUTO);
+        const struct gm_complex *complex = flow->complex;
+        const size_t n = complex->vertices;
+        unsigned char *side_of = calloc(complex->boundary, 1);
+        assert_non_null(side_of);
+        for (size_t b = 0; lid && b < complex->boundary; b++) {
+            const double *p = complex->point + 2 * complex->boundary_vertex[b],
+                         *q = complex->point + 2 * complex->boundary_vertex[gm_complex_next(complex, b)];
+            side_of[b] = p[1] == 1 && q[1] == 1;
+        }
+        const struct gm_side sides[2] = {
+            {.varying = lid ? NULL : slanted},
+            {.kind = GM_EDGE_LID, .varying = slanted},
+        };
+        assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
+        free(side_of);
+        double circulation = 0;
+        for (size_t v = 0; v < n; v++) {
+            circulation += flow->sheet[v];
+        }
+        assert_true(fabs(circulation + (lid ? 1.5 * 1.5 / 2 : 0)) < 1e-13);
+        if (!lid) {
+            flow->viscosity = flow->diffusivity = flow->time_unit = 1;
+            flow->scalar = true;
+            struct gm_problem problem;
+            double *start = malloc(gm_flow_size(flow) * sizeof *start);
+            assert_true(start && gm_flow_start_irrotational(flow, start));
+            struct gm_run *run = open_run(flow, &problem, "steady", 1, start);
+            assert_int_equal(gm_run_advance(run, 1), GM_OK);
+            const double *theta = gm_flow_block(flow, gm_run_state(run), GM_FLOW_THETA);
+            for (size_t v = 0; v < n; v++) {
+                const double *p = complex->point + 2 * v;
+                assert_true(fabs(theta[v] - slanted(NULL, GM_GIVEN_THETA, 0, p)) < 1e-12);
+            }
+            gm_run_close(run);
+            free(start);
+        }
+        gm_flow_close(flow);
+    }
+}
+
 static double rises(const void *data, double s, const double at[2])
 {
     return (void)data, (void)at, s;
 }
 
+static double comes_in(const void *data, enum gm_given what, double s, const double at[2])
+{
+    return (void)data, (void)at, what == GM_GIVEN_THETA ? s : 0;
+}
+
 /* s runs on from one piece of a side to the next: an inlet in two quarters of the left wall, of which the
-   upper one is first, has the speed s, and a flow that is given is parted as that is. */
+   upper one is first, has the speed s and lets s of the scalar in, and a flow that is given is parted as that is. */
 static void pieces_follow_each_other(void **unused)
 {
     (void)unused;
@@ -415,7 +473,7 @@ static void pieces_follow_each_other(void **unused)
         }
         const struct gm_side sides[3] = {
             {.kind = GM_EDGE_WALL},
-            {.kind = GM_EDGE_INLET, .flow = scaled ? 1 : NAN, .profile = rises},
+            {.kind = GM_EDGE_INLET, .flow = scaled ? 1 : NAN, .profile = rises, .varying = comes_in},
             {.kind = GM_EDGE_OUTLET, .flow = NAN},
         };
         assert_int_equal(gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT), GM_BOUNDARY_OK);
@@ -426,6 +484,13 @@ static void pieces_follow_each_other(void **unused)
             const bool upper = complex->point[2 * complex->boundary_vertex[opening->first] + 1] > 0.5;
             const double speed = upper ? 0.25 : 0.75;
             assert_true(!opening->inlet || fabs(opening->flow - (scaled ? speed : 0.25 * speed)) < 1e-14);
+            size_t e = gm_complex_next(complex, opening->first);
+            for (size_t k = 1; opening->inlet && k < opening->count; k++, e = gm_complex_next(complex, e)) {
+                const int v = complex->boundary_vertex[e];
+                const double down = (upper ? 0.75 : 0.25) - complex->point[2 * v + 1];
+                assert_true(flow->theta_fixed[v]);
+                assert_true(fabs(flow->theta[v] - (upper ? 2 * down : 0.5 + 2 * down)) < 1e-13);
+            }
         }
         gm_flow_close(flow);
     }
@@ -654,6 +719,7 @@ int main(int count, char *words[])
         cmocka_unit_test(smoke_comes_in),
         cmocka_unit_test(layers_rest),
         cmocka_unit_test(pieces_follow_each_other),
+        cmocka_unit_test(walls_vary),
     };
     return count > 1 && strcmp(words[1], "numbers") == 0 ? cmocka_run_group_tests(published, NULL, NULL)
                                                          : cmocka_run_group_tests(tests, NULL, NULL);
