@@ -4,8 +4,12 @@
 #include <locale.h>
 #include <malloc.h>
 #include <signal.h>
+#include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 
 #include "app/commands/commands.h"
 #include "app/commands/reference/version.h"
@@ -81,11 +85,23 @@ static bool is_interrupted(void)
 }
 
 /* A movie asks for the same buffers frame after frame. What is given back stays with the process, up to a few
-   frames' worth: fetching it anew from the system, page by page, is a seventh of a frame's time. */
+   frames' worth: fetching it anew from the system, page by page, is a seventh of a frame's time. The first of it
+   comes in huge pages, where the system has some: pages of 4 KB are a sixth of the time of one picture. */
 static void keep_buffers(void)
 {
+    static const size_t huge = (size_t)2 << 20, room = (size_t)31 << 20;
     mallopt(M_MMAP_THRESHOLD, 32 << 20);
     mallopt(M_TRIM_THRESHOLD, 64 << 20);
+    struct rlimit space; /* where it is limited, what is not needed is left to others */
+    const bool wide = getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur == RLIM_INFINITY;
+    void *block = wide ? malloc(room) : NULL; /* the end of the heap, to which it is given back */
+    if (block) {
+        const uintptr_t first = ((uintptr_t)block + huge - 1) / huge * huge;
+        madvise((void *)first, ((uintptr_t)block + room - first) / huge * huge, MADV_HUGEPAGE);
+        free(block);
+    } else {
+        gm_memory_forget(); /* it was asked for to be quick */
+    }
 }
 
 static int run(int argc, char *argv[])

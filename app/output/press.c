@@ -3,6 +3,7 @@
 #include "app/output/press.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +11,7 @@
 
 #include "app/output/say.h"
 #include "core/memory.h"
+#include "render/files/thread.h"
 #include "render/gl/canvas.h"
 #include "render/message.h"
 #include "render/vector/pdf.h"
@@ -48,6 +50,20 @@ bool gm_format_of(const char *path, enum gm_format *format)
 static bool no_memory(const struct gm_appearance *look, char *message)
 {
     return gm_refuse(message, "not enough memory for a picture of %dx%d", look->width, look->height);
+}
+
+static void *load(void *nothing)
+{
+    gm_canvas_load();
+    return nothing;
+}
+
+void gm_press_expect(enum gm_format format)
+{
+    pthread_t loader;
+    if (format == GM_FORMAT_PNG && gm_thread_start(&loader, load, NULL) == 0) {
+        pthread_detach(loader);
+    }
 }
 
 struct gm_press *gm_press_open(const struct gm_print *print, char *message)

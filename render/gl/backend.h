@@ -9,6 +9,7 @@
 struct gm_backend {
     const char *key;                           /* in GEOMINT_GL */
     const char *name;                          /* for people */
+    const char *const *libraries;              /* the first that is there will do; ends with NULL */
     void *(*open)(char *message, size_t size); /* current on return; NULL with the reason on failure */
     void (*close)(void *self);
     bool (*use)(void *self);

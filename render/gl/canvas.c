@@ -265,6 +265,13 @@ static void end_turn(void)
     pthread_mutex_unlock(&turn);
 }
 
+void gm_canvas_load(void)
+{
+    take_turn();
+    gm_context_load();
+    end_turn();
+}
+
 enum { TAKEN = 512 << 20 /* bytes of the address space, by Mesa and what it loads */ };
 
 struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message)

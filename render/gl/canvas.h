@@ -12,6 +12,9 @@
 
 struct gm_canvas;
 
+/* Loads the libraries that the first canvas needs: beside other work, in a thread of its own, that canvas opens
+   in half the time. */
+void gm_canvas_load(void);
 /* NULL on failure, with one sentence in message (GM_MESSAGE bytes). */
 struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message);
 void gm_canvas_close(struct gm_canvas *canvas);

@@ -54,13 +54,30 @@ static void unknown_backend(const char *wanted, char *message, size_t size)
              known[0] != '\0' ? known : "none");
 }
 
+/* Whether the environment variable GEOMINT_GL lets this one be tried. */
+static bool is_wanted(const struct gm_backend *backend)
+{
+    const char *wanted = getenv("GEOMINT_GL");
+    return !wanted || wanted[0] == '\0' || strcmp(wanted, backend->key) == 0;
+}
+
+void gm_context_load(void)
+{
+    for (size_t i = 0; backends[i]; i++) {
+        char reason[192];
+        if (is_wanted(backends[i]) && gm_library_open(backends[i]->libraries, reason, sizeof reason)) {
+            return;
+        }
+    }
+}
+
 struct gm_context *gm_context_open(char *message, size_t size)
 {
     const char *wanted = getenv("GEOMINT_GL");
     char reasons[2][192] = {"", ""};
     size_t tried = 0;
     for (size_t i = 0; backends[i]; i++) {
-        if (wanted && wanted[0] != '\0' && strcmp(wanted, backends[i]->key) != 0) {
+        if (!is_wanted(backends[i])) {
             continue;
         }
         struct gm_context *context = open_with(backends[i], reasons[tried], sizeof reasons[tried]);

@@ -102,10 +102,11 @@ static const char *context_create(struct egl *egl)
     return NULL;
 }
 
+static const char *const libraries[] = {"libEGL.so.1", NULL};
+
 static void *egl_open(char *message, size_t size)
 {
-    static const char *const names[] = {"libEGL.so.1", NULL};
-    void *library = gm_library_open(names, message, size);
+    void *library = gm_library_open(libraries, message, size);
     if (!library) {
         return NULL;
     }
@@ -132,6 +133,7 @@ static gm_library_function egl_find(void *self, const char *name)
 const struct gm_backend gm_backend_egl = {
     .key = "egl",
     .name = "EGL",
+    .libraries = libraries,
     .open = egl_open,
     .close = egl_close,
     .use = egl_use,

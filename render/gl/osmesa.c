@@ -36,10 +36,11 @@ static void osmesa_close(void *self)
     free(osmesa);
 }
 
+static const char *const libraries[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL};
+
 static void *osmesa_open(char *message, size_t size)
 {
-    static const char *const names[] = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL};
-    void *library = gm_library_open(names, message, size);
+    void *library = gm_library_open(libraries, message, size);
     if (!library) {
         return NULL;
     }
@@ -86,6 +87,7 @@ static gm_library_function osmesa_find(void *self, const char *name)
 const struct gm_backend gm_backend_osmesa = {
     .key = "osmesa",
     .name = "OSMesa",
+    .libraries = libraries,
     .open = osmesa_open,
     .close = osmesa_close,
     .use = osmesa_use,
