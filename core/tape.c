@@ -1019,24 +1019,36 @@ GM_CLONES __attribute__((noinline)) static void add_row(double *restrict to, con
     }
 }
 
-/* A block of members: at[register] is its row, or of a constant its one number. */
+/* An operation for a block of members: at[register] is its row, or of a constant its one number. */
+static inline void compute_rows_of(const struct gm_tape *tape, const struct gm_instruction *now,
+                                   double *const *at, size_t count)
+{
+    const bool one_a = now->a - tape->inputs < tape->constant_count,
+               one_b = now->b - tape->inputs < tape->constant_count;
+    if (now->a == now->to) {
+        add_row(at[now->to], at[now->b], one_b, now->operation == GM_OPERATION_SUBTRACT, count);
+    } else {
+        compute_row(now->operation, at[now->to], at[now->a], one_a, at[now->b], one_b, count);
+    }
+}
+
 static void compute_rows(const struct gm_tape *tape, double *const *at, size_t count)
 {
-    struct gm_tape_place place = {0};
-    struct gm_instruction now;
-    while (gm_tape_next(tape, &place, &now)) {
-        const bool one_a = now.a - tape->inputs < tape->constant_count,
-                   one_b = now.b - tape->inputs < tape->constant_count;
-        if (now.a == now.to) {
-            add_row(at[now.to], at[now.b], one_b, now.operation == GM_OPERATION_SUBTRACT, count);
-        } else {
-            compute_row(now.operation, at[now.to], at[now.a], one_a, at[now.b], one_b, count);
+    for (size_t k = 0; k < tape->length; k++) {
+        if (tape->code[k].operation < GM_REPEATED) {
+            compute_rows_of(tape, &tape->code[k], at, count);
+            continue;
+        }
+        struct gm_tape_place place = {.instruction = k};
+        struct gm_instruction now;
+        while (place.instruction == k && gm_tape_next(tape, &place, &now)) {
+            compute_rows_of(tape, &now, at, count);
         }
     }
 }
 
 /* Registers that lie on the stack; of longer code they are allocated. */
-enum { ON_STACK = 2048, LARGEST_BLOCK = 128, IN_CACHE = 4096 };
+enum { ON_STACK = 2048, LARGEST_BLOCK = 192, IN_CACHE = 4096 };
 
 /* A few one by one: a wide load of numbers that were just stored one by one would have to wait for all of them. */
 static inline void copy_each(double *to, const double *from, size_t count)

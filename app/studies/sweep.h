@@ -40,7 +40,8 @@ char *gm_sweep_front(const struct gm_sweep *sweep, size_t run);
 char *gm_sweep_words(const struct gm_sweep *sweep, size_t run);
 
 /* Makes a run: its row, malloc'ed; NULL where it was interrupted or memory is short. A run that cannot be
-   asked for has the status `refused`, and a sentence (GM_MESSAGE bytes, else ""). In any thread. */
+   asked for has the status `refused`, and a sentence on that (GM_MESSAGE bytes); that of one that is ok is its
+   warning; else "". In any thread. */
 char *gm_sweep_make(const struct gm_sweep *sweep, size_t run, char *sentence);
 
 /* What all runs of the share will take of a processor, in seconds, judged by the first steps of some of
@@ -65,6 +66,9 @@ struct gm_sweep_sum {
     size_t made, failed;      /* rows now, and those of them whose status is not ok */
     bool unheard;             /* standard output is a pipe that nobody reads */
     char refusal[GM_MESSAGE]; /* of the first run that was refused; "" */
+    size_t warned;            /* rows now that are ok, with a warning */
+    size_t first_warned;      /* the run that is the first of them, and its warning */
+    char warning[GM_MESSAGE];
 };
 
 /* Makes the runs that the table has no row of, `jobs` at once (0: one a core), and appends their rows. False

@@ -157,6 +157,25 @@ def test_refusals(folder, one):
     check(bare(table) == bare(one), "a disk that was full: the same rows")
 
 
+def test_warnings(one):
+    """What is told of rows that are ok is what runs alone say."""
+    warned = []
+    for run, row in enumerate(rows(one)[:28]):
+        alone = subprocess.run([geomint, "run", "kepler", "--json",
+                                *(f"{key}={row[key]}" for key in ("eccentricity", "dt", "scheme"))],
+                               capture_output=True, text=True)
+        warning = json.loads(alone.stdout)["warning"]
+        warned += [(run, warning)] if warning else []
+    done = sweep("kepler", "eccentricity=0..0.9:10", "dt=1e-3..1e-1:log7", "scheme=verlet,rk4")
+    check(warned and f"runs made now are ok, but with a warning; the first, run {warned[0][0]}: {warned[0][1]}\n"
+          in done.stderr, f"the first warning: {warned[:1]}, {done.stderr}")
+    done = sweep("kepler", "dt=0.1,0.3", "until=1.2", "scheme=midpoint")
+    check(done.stderr == "", f"runs without a warning: {done.stderr}")
+    done = sweep("kepler", "dt=0.1,0.5", "until=1.2", "scheme=rk4")
+    check("1 of 2 runs made now is ok, but with a warning; the first, run 1: the run ends at t = 1 " in done.stderr,
+          f"one warning: {done.stderr}")
+
+
 def test_output(one):
     shown = sweep(*SWEEP, "--measure", "energy_error,position_error")
     found = list(csv.DictReader(shown.stdout.splitlines()))
@@ -277,6 +296,7 @@ with tempfile.TemporaryDirectory() as folder:
     test_ranges()
     one = test_sweep(folder)
     test_refusals(folder, one)
+    test_warnings(one)
     test_output(one)
     test_kinds(folder)
     test_shares(folder, one)

@@ -113,6 +113,10 @@ static void tell(const struct gm_sweep *sweep, const struct gm_sweep_sum *sum, c
     if (sum->refusal[0]) {
         gm_complain("a run was refused: %s", sum->refusal);
     }
+    if (sum->warned > 0) {
+        gm_complain("%zu of %zu runs made now %s ok, but with a warning; the first, run %zu: %s", sum->warned,
+                    sum->made, sum->warned == 1 ? "is" : "are", sum->first_warned, sum->warning);
+    }
     if (path) {
         gm_complain("%zu of %zu runs made now, %zu of them not ok", sum->made, gm_sweep_share(sweep),
                     sum->failed);

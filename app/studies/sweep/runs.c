@@ -345,7 +345,7 @@ static bool is_of_the_end(const struct gm_sweep *sweep)
 
 /* Asks for the run as `geomint run` would, and makes it. NULL where it was interrupted. */
 static char *make_row(const struct gm_sweep *sweep, size_t run, const struct gm_request *request,
-                      const char *refusal)
+                      const char *refusal, char *warning)
 {
     char message[GM_MESSAGE];
     const unsigned long refusals = gm_memory_refusals();
@@ -360,6 +360,10 @@ static char *make_row(const struct gm_sweep *sweep, size_t run, const struct gm_
     double *values = interrupted ? NULL : malloc(sweep->chosen.count * sizeof *values);
     for (size_t i = 0; ended && values && i < sweep->chosen.count; i++) {
         values[i] = gm_lane_observe(drive.lane, sweep->chosen.numbers[i]);
+    }
+    warning[0] = '\0';
+    if (ended && values && ended->status == GM_OK) {
+        gm_drive_warning(&drive, warning, GM_MESSAGE);
     }
     char *text = NULL;
     size_t size = 0;
@@ -381,6 +385,7 @@ char *gm_sweep_make(const struct gm_sweep *sweep, size_t run, char *sentence)
     struct gm_arguments arguments;
     struct gm_request request = {0};
     const unsigned long refusals = gm_memory_refusals();
+    char warning[GM_MESSAGE];
     sentence[0] = '\0';
     const bool told = words_of(sweep, run, NULL, NULL, &arguments);
     const bool asked =
@@ -389,9 +394,10 @@ char *gm_sweep_make(const struct gm_sweep *sweep, size_t run, char *sentence)
     char *row = make_row(sweep, run, &request,
                          asked  ? NULL
                          : lost ? gm_status_name(GM_OUT_OF_MEMORY)
-                                : "refused");
+                                : "refused",
+                         warning);
     if (asked || lost) {
-        sentence[0] = '\0';
+        memcpy(sentence, warning, GM_MESSAGE);
     }
     gm_request_close(&request);
     gm_arguments_close(&arguments);

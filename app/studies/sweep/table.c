@@ -290,7 +290,7 @@ struct filling {
     size_t room;
     struct {
         char *row;
-        char refusal[GM_MESSAGE];
+        char sentence[GM_MESSAGE];
     } slots[WINDOW];
 };
 
@@ -301,7 +301,7 @@ static void make(void *self, size_t index, size_t slot)
     const size_t k = filling->first + index;
     if (k >= table->there || is_made_anew(table, k)) {
         filling->slots[slot].row =
-            gm_sweep_make(table->sweep, gm_sweep_run(table->sweep, k), filling->slots[slot].refusal);
+            gm_sweep_make(table->sweep, gm_sweep_run(table->sweep, k), filling->slots[slot].sentence);
     }
 }
 
@@ -329,6 +329,19 @@ static bool keep_old(struct filling *filling)
     return append(table, filling->kept, filling->message);
 }
 
+static void count_row(struct gm_sweep_sum *sum, size_t run, bool is_ok, const char *sentence)
+{
+    sum->made++;
+    sum->failed += !is_ok;
+    if (!is_ok && sentence[0] && !sum->refusal[0]) {
+        snprintf(sum->refusal, sizeof sum->refusal, "%s", sentence);
+    }
+    if (is_ok && sentence[0] && sum->warned++ == 0) {
+        sum->first_warned = run;
+        snprintf(sum->warning, sizeof sum->warning, "%s", sentence);
+    }
+}
+
 static bool take(void *self, size_t index, size_t slot)
 {
     struct filling *filling = self;
@@ -354,11 +367,8 @@ static bool take(void *self, size_t index, size_t slot)
     }
     const bool good = append(table, row, filling->message);
     if (good) {
-        filling->sum->made++;
-        filling->sum->failed += !has_status(table->sweep, gm_sweep_run(table->sweep, k), row, "ok");
-        if (filling->slots[slot].refusal[0] && !filling->sum->refusal[0]) {
-            snprintf(filling->sum->refusal, sizeof filling->sum->refusal, "%s", filling->slots[slot].refusal);
-        }
+        const size_t run = gm_sweep_run(table->sweep, k);
+        count_row(filling->sum, run, has_status(table->sweep, run, row, "ok"), filling->slots[slot].sentence);
     }
     free(row);
     filling->slots[slot].row = NULL;
