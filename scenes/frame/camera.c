@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Room around what is shown, for names. */
-static const double around = 1.12;
+static const double around = 1.1;
 
 bool gm_camera_has(const char *key)
 {

@@ -10,8 +10,8 @@
 /* A line is cut into so many kinds of depth and age. */
 enum { DEPTHS = 6, AGES = 16, PIECES = 32, CIRCLE = 96 };
 
-/* What is left of the strength of a line behind a surface. */
-static const double behind = 0.4;
+/* What is left of the strength of a line behind a surface; and of a body, which has to be found. */
+static const double behind = 0.4, veiled = 0.75;
 
 /* What is farthest has this part of the strength and of the width of what is nearest. */
 static const double palest = 0.45, thinnest = 0.6;
@@ -19,7 +19,7 @@ static const double palest = 0.45, thinnest = 0.6;
 /* A body is as strong as it is, unless it is hidden; that it is far away its size tells. */
 static struct gm_style at_depth(struct gm_style style, double nearness, bool hidden, bool body)
 {
-    style.alpha *= (body ? 1 : palest + (1 - palest) * nearness) * (hidden ? behind : 1);
+    style.alpha *= body ? (hidden ? veiled : 1) : (palest + (1 - palest) * nearness) * (hidden ? behind : 1);
     style.width *= thinnest + (1 - thinnest) * nearness;
     return style;
 }

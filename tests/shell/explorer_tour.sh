@@ -123,8 +123,8 @@ settled | grep -q 'Moving with the flow' && fail "the tour is not over"
 keys l
 wait_for '▸ disc'
 keys End
-wait_for '▸ steps'
-for tour in noether made flat worth; do
+wait_for '▸ turns'
+for tour in steps noether made flat worth; do
     keys Up
     wait_for "▸ $tour"
 done

@@ -342,8 +342,8 @@ static void momentum_maps(void **unused)
         }
     }
     assert_true(lost(kepler_in_space, "rk4", about_z) > 1e-7);
-    /* what a step rounds is 3e-18 of it, and adds up */
-    const double rounded = fmax(1e-13, 5e-18 * (double)many_steps);
+    /* what a step rounds is 1e-18 of it, and adds up */
+    const double rounded = fmax(1e-13, 2e-18 * (double)many_steps);
     assert_true(lost(pendulum_in_space, "rattle2", about_z) < rounded);
     assert_true(lost(pendulum_in_space, "constrained-lobatto6", about_z) < rounded);
 }

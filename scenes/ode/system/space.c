@@ -10,7 +10,7 @@
 /* A path whose mean chord is longer, of what is seen, is drawn as dots: between them it is not known. */
 static const double longest_chord = 0.05;
 /* How far axes come out of a surface, by its size. */
-static const double axes_reach = 1.2;
+static const double axes_reach = 1.18;
 
 static const struct gm_system_lane *own_of(const struct gm_lane *lane)
 {

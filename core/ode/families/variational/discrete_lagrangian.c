@@ -265,6 +265,10 @@ static bool solve(const struct step *step, struct gm_progress *progress)
             return false;
         }
         if (change <= 0x1p-53 * far || gm_is_settled(change, 0x1p-46 * size, &previous)) {
+            /* the last change is below rounding, but of one sign in all steps: left out it would add up */
+            for (size_t i = 0; i < all; i++) {
+                step->solution[i] -= step->change[i];
+            }
             return true;
         }
         double factor = 1, there = NAN;

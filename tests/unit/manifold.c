@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Motion on manifolds against what is known of it: a spherical pendulum by elliptic functions, a double pendulum in its
+   angles, and what a million steps leave of the constraints. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_sf_elljac.h>
+
+#include "core/count.h"
+#include "core/ode/variational/manifold.h"
+#include "core/run.h"
+#include "core/schemes.h"
+#include "tests/common/typed.h"
+
+static const struct {
+    const char *name;
+    int order;
+    bool hidden; /* it keeps dg/dt */
+} schemes[] = {{"rattle2", 2, true},
+               {"shake2", 2, false},
+               {"constrained-lobatto4", 4, true},
+               {"constrained-lobatto6", 6, true},
+               {"projected-gauss4", 4, true},
+               {"projected-gauss6", 6, true}};
+
+static void go(const struct typed *typed, const char *name, double dt, long steps, double *end)
+{
+    static const struct gm_settings settings = {0};
+    const struct gm_scheme *scheme = gm_scheme_find_for(name, &typed->problem);
+    assert_true(scheme && gm_scheme_fits(scheme, &typed->problem));
+    struct gm_run *run = gm_run_open(&typed->problem, scheme, &settings, 0, dt, typed->start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, steps), GM_OK);
+    memcpy(end, gm_run_state(run), typed->problem.n * sizeof *end);
+    gm_run_close(run);
+}
+
+static double apart(const double *a, const double *b, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        largest = fmax(largest, isfinite(a[i]) ? fabs(a[i] - b[i]) : INFINITY);
+    }
+    return largest;
+}
+
+/* Errors of the place by slope, and both constraints. */
+static void expect_orders(const char *text, double dt, double until, const double *place)
+{
+    struct typed typed;
+    type(&typed, text);
+    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
+        double errors[2], end[8];
+        for (int finer = 0; finer < 2; finer++) {
+            const double step = dt / (1 + finer);
+            go(&typed, schemes[i].name, step, lround(until / step), end);
+            errors[finer] = apart(end, place, typed.problem.n / 2);
+            const struct gm_manifold_defects defects = gm_manifold_defects(&typed.problem, end);
+            assert_true(defects.constraint < 1e-13 && (defects.hidden < 1e-13) == schemes[i].hidden);
+        }
+        const double order = log2(errors[0] / errors[1]);
+        if (!(fabs(order - schemes[i].order) < 0.25)) {
+            fail_msg("%s: order %.2f, errors %g %g", schemes[i].name, order, errors[0], errors[1]);
+        }
+    }
+    untype(&typed);
+}
+
+/* ---- the spherical pendulum, of length, mass and gravity 1 ---- */
+
+/* Its height moves as z'^2 = 2 (E - z) (1 - z^2) - L^2 = 2 (z - low) (z - high) (z - beyond), from `low` on
+       z = low + (high - low) sn^2(w t, m),   w^2 = (beyond - low)/2,   m = (high - low)/(beyond - low)
+   E.T. Whittaker, Analytical Dynamics (1937), section 55. */
+struct swing {
+    double low, high, beyond, L;
+};
+
+static double height(double t, const struct swing *swing)
+{
+    double sn, cn, dn;
+    gsl_sf_elljac_e(sqrt((swing->beyond - swing->low) / 2) * t,
+                    (swing->high - swing->low) / (swing->beyond - swing->low), &sn, &cn, &dn);
+    return swing->low + (swing->high - swing->low) * sn * sn;
+}
+
+static double rate(double t, void *data)
+{
+    const double z = height(t, data), L = ((const struct swing *)data)->L;
+    return L / (1 - z * z);
+}
+
+static void by_elliptic_functions(void **unused)
+{
+    (void)unused;
+    const double low = -0.9, x = sqrt(1 - low * low), v = 0.8, until = 8;
+    const double E = v * v / 2 + low, b = low - E, c = b * low - 1, root = sqrt(b * b - 4 * c);
+    struct swing swing = {low, (-b - root) / 2, (-b + root) / 2, x * v};
+    assert_true(swing.low < swing.high && swing.high < 1 && swing.beyond > 1);
+    gsl_integration_workspace *workspace = gsl_integration_workspace_alloc(1000);
+    gsl_function integrand = {rate, &swing};
+    double angle, error;
+    assert_int_equal(gsl_integration_qag(&integrand, 0, until, 1e-13, 1e-13, 1000, GSL_INTEG_GAUSS61,
+                                         workspace, &angle, &error),
+                     0);
+    gsl_integration_workspace_free(workspace);
+    const double z = height(until, &swing), across = sqrt(1 - z * z);
+    const double place[3] = {across * cos(angle), across * sin(angle), z};
+    expect_orders(
+        "coordinates: x y z\nH: (p_x^2 + p_y^2 + p_z^2)/2 + z\nconstraint: (x^2 + y^2 + z^2 - 1)/2\n"
+        "start: x = sqrt(0.19), y = 0, z = -0.9, p_x = 0, p_y = 0.8, p_z = 0\n",
+        0.1, until, place);
+}
+
+/* ---- a double pendulum ---- */
+
+static void in_angles(void **unused)
+{
+    (void)unused;
+    struct typed angles;
+    double end[4];
+    type(&angles, "coordinates: a b\nL: v_a^2 + v_b^2/2 + v_a*v_b*cos(a - b) + 2*cos(a) + cos(b)\n"
+                  "start: a = 0.5, b = 0.8, v_a = 0.3, v_b = -0.2\n");
+    go(&angles, "gauss8", 0.01, 400, end);
+    untype(&angles);
+    const double a = end[0], b = end[1];
+    const double place[4] = {sin(a), sin(a) + sin(b), -cos(a), -cos(a) - cos(b)};
+    expect_orders("coordinates: x[1..2] y[1..2]\nlet: x[0] = 0\nlet: y[0] = 0\n"
+                  "L: sum(i = 1 .. 2, v_x[i]^2 + v_y[i]^2)/2 - y[1] - y[2]\n"
+                  "constraint: i = 1 .. 2; ((x[i] - x[i-1])^2 + (y[i] - y[i-1])^2 - 1)/2\n"
+                  "start: x[1] = sin(0.5), y[1] = -cos(0.5), v_x[1] = 0.3*cos(0.5), v_y[1] = 0.3*sin(0.5)\n"
+                  "start: x[2] = sin(0.5) + sin(0.8), y[2] = -cos(0.5) - cos(0.8)\n"
+                  "start: v_x[2] = 0.3*cos(0.5) - 0.2*cos(0.8), v_y[2] = 0.3*sin(0.5) - 0.2*sin(0.8)\n",
+                  0.1, 4, place);
+}
+
+/* ---- many steps ---- */
+
+static long many_steps = 20000;
+
+static void constraints_stay(void **unused)
+{
+    (void)unused;
+    static const struct gm_settings settings = {0};
+    struct typed typed;
+    type(&typed, "coordinates: x y z\nH: (p_x^2 + p_y^2 + p_z^2)/2 + z\nconstraint: (x^2 + y^2 + z^2 - 1)/2\n"
+                 "start: x = 0.6, y = 0, z = -0.8, p_x = 0.4, p_y = 0.7, p_z = 0.3\n");
+    struct gm_run *run = gm_run_open(&typed.problem, gm_scheme_find_for("rattle2", &typed.problem), &settings,
+                                     0, 0.05, typed.start);
+    assert_non_null(run);
+    for (int i = 0; i < 1000; i++) {
+        assert_int_equal(gm_run_advance(run, many_steps / 1000), GM_OK);
+        const struct gm_manifold_defects defects = gm_manifold_defects(&typed.problem, gm_run_state(run));
+        assert_true(defects.constraint < 1e-13 && defects.hidden < 1e-13);
+    }
+    gm_run_close(run);
+    untype(&typed);
+}
+
+int main(int count, char **words)
+{
+    const bool all = count > 1 && strcmp(words[1], "all") == 0;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(by_elliptic_functions),
+        cmocka_unit_test(in_angles),
+        cmocka_unit_test(constraints_stay),
+    };
+    const struct CMUnitTest long_ones[] = {cmocka_unit_test(constraints_stay)};
+    many_steps = all ? 1000000 : many_steps;
+    return all ? cmocka_run_group_tests(long_ones, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
+}
