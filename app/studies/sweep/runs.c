@@ -361,15 +361,15 @@ static char *make_row(const struct gm_sweep *sweep, size_t run, const struct gm_
     for (size_t i = 0; ended && values && i < sweep->chosen.count; i++) {
         values[i] = gm_lane_observe(drive.lane, sweep->chosen.numbers[i]);
     }
-    warning[0] = '\0';
-    if (ended && values && ended->status == GM_OK) {
-        gm_drive_warning(&drive, warning, GM_MESSAGE);
-    }
     char *text = NULL;
     size_t size = 0;
     FILE *stream = values ? open_memstream(&text, &size) : NULL;
+    const bool lost = gm_memory_refusals() != refusals || (!ended && !refusal);
+    warning[0] = '\0';
+    if (stream && ended && !lost && ended->status == GM_OK) {
+        gm_drive_warning(&drive, warning, GM_MESSAGE);
+    }
     if (stream) {
-        const bool lost = gm_memory_refusals() != refusals || (!ended && !refusal);
         put_front(sweep, run, stream);
         put_end(sweep, &drive, refusal ? refusal : gm_status_name(lost ? GM_OUT_OF_MEMORY : ended->status),
                 values, stream);
