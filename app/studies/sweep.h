@@ -39,10 +39,17 @@ char *gm_sweep_head(const struct gm_sweep *sweep);
 char *gm_sweep_front(const struct gm_sweep *sweep, size_t run);
 char *gm_sweep_words(const struct gm_sweep *sweep, size_t run);
 
-/* Makes a run: its row, malloc'ed; NULL where it was interrupted or memory is short. A run that cannot be
-   asked for has the status `refused`, and a sentence on that (GM_MESSAGE bytes); that of one that is ok is its
-   warning; else "". In any thread. */
-char *gm_sweep_make(const struct gm_sweep *sweep, size_t run, char *sentence);
+/* A run's row, malloc'ed; NULL where it was interrupted or memory is short. */
+struct gm_sweep_row {
+    char *text;
+    bool ok; /* its status is `ok` */
+    char sentence
+        [GM_MESSAGE]; /* the warning of one that is ok, why one with the status `refused` cannot be asked
+                                  for, else "" */
+};
+
+/* Makes a run. In any thread. */
+void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row *row);
 
 /* What all runs of the share will take of a processor, in seconds, judged by the first steps of some of
    them. */

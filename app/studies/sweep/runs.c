@@ -343,14 +343,14 @@ static bool is_of_the_end(const struct gm_sweep *sweep)
     return end;
 }
 
-/* Asks for the run as `geomint run` would, and makes it. NULL where it was interrupted. */
-static char *make_row(const struct gm_sweep *sweep, size_t run, const struct gm_request *request,
-                      const char *refusal, char *warning)
+/* Asks for the run as `geomint run` would, and makes it, unless a status says why it cannot be. */
+static void make_row(const struct gm_sweep *sweep, size_t run, const struct gm_request *request,
+                     const char *status, struct gm_sweep_row *row)
 {
     char message[GM_MESSAGE];
     const unsigned long refusals = gm_memory_refusals();
     struct gm_drive drive = {.request = request};
-    drive.lane = refusal ? NULL : gm_request_open_lane(request, 0, message);
+    drive.lane = status ? NULL : gm_request_open_lane(request, 0, message);
     if (drive.lane) {
         drive.lane->unfollowed = is_of_the_end(sweep);
         gm_drive_to(&drive, request->lanes[0].steps, false, message);
@@ -361,47 +361,44 @@ static char *make_row(const struct gm_sweep *sweep, size_t run, const struct gm_
     for (size_t i = 0; ended && values && i < sweep->chosen.count; i++) {
         values[i] = gm_lane_observe(drive.lane, sweep->chosen.numbers[i]);
     }
-    char *text = NULL;
     size_t size = 0;
-    FILE *stream = values ? open_memstream(&text, &size) : NULL;
-    const bool lost = gm_memory_refusals() != refusals || (!ended && !refusal);
-    warning[0] = '\0';
-    if (stream && ended && !lost && ended->status == GM_OK) {
-        gm_drive_warning(&drive, warning, GM_MESSAGE);
+    FILE *stream = values ? open_memstream(&row->text, &size) : NULL;
+    if (!status) {
+        const bool lost = gm_memory_refusals() != refusals || !ended;
+        status = gm_status_name(lost ? GM_OUT_OF_MEMORY : ended->status);
+        row->ok = !lost && ended->status == GM_OK;
+    }
+    if (row->ok) {
+        gm_drive_warning(&drive, row->sentence, GM_MESSAGE);
     }
     if (stream) {
         put_front(sweep, run, stream);
-        put_end(sweep, &drive, refusal ? refusal : gm_status_name(lost ? GM_OUT_OF_MEMORY : ended->status),
-                values, stream);
-        text = fclose(stream) == 0 ? text : NULL;
+        put_end(sweep, &drive, status, values, stream);
+        if (fclose(stream) != 0) {
+            free(row->text);
+            row->text = NULL;
+        }
     }
     free(values);
     gm_lane_close(drive.lane);
-    return text;
 }
 
-char *gm_sweep_make(const struct gm_sweep *sweep, size_t run, char *sentence)
+void gm_sweep_make(const struct gm_sweep *sweep, size_t run, struct gm_sweep_row *row)
 {
     struct gm_arguments arguments;
     struct gm_request request = {0};
     const unsigned long refusals = gm_memory_refusals();
-    char warning[GM_MESSAGE];
-    sentence[0] = '\0';
+    *row = (struct gm_sweep_row){0};
     const bool told = words_of(sweep, run, NULL, NULL, &arguments);
-    const bool asked =
-        told && gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words, 1, sentence);
+    const bool asked = told && gm_request_parse_for(&request, sweep->scene, arguments.count, arguments.words,
+                                                    1, row->sentence);
     const bool lost = gm_memory_refusals() != refusals;
-    char *row = make_row(sweep, run, &request,
-                         asked  ? NULL
-                         : lost ? gm_status_name(GM_OUT_OF_MEMORY)
-                                : "refused",
-                         warning);
     if (asked || lost) {
-        memcpy(sentence, warning, GM_MESSAGE);
+        row->sentence[0] = '\0';
     }
+    make_row(sweep, run, &request, asked ? NULL : lost ? gm_status_name(GM_OUT_OF_MEMORY) : "refused", row);
     gm_request_close(&request);
     gm_arguments_close(&arguments);
-    return row;
 }
 
 /* ---- how long it takes ---- */

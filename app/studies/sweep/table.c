@@ -288,10 +288,7 @@ struct filling {
     double told;
     char *kept; /* the line of the row that is kept */
     size_t room;
-    struct {
-        char *row;
-        char sentence[GM_MESSAGE];
-    } slots[WINDOW];
+    struct gm_sweep_row slots[WINDOW];
 };
 
 static void make(void *self, size_t index, size_t slot)
@@ -300,8 +297,7 @@ static void make(void *self, size_t index, size_t slot)
     const struct gm_sweep_table *table = filling->table;
     const size_t k = filling->first + index;
     if (k >= table->there || is_made_anew(table, k)) {
-        filling->slots[slot].row =
-            gm_sweep_make(table->sweep, gm_sweep_run(table->sweep, k), filling->slots[slot].sentence);
+        gm_sweep_make(table->sweep, gm_sweep_run(table->sweep, k), &filling->slots[slot]);
     }
 }
 
@@ -329,16 +325,16 @@ static bool keep_old(struct filling *filling)
     return append(table, filling->kept, filling->message);
 }
 
-static void count_row(struct gm_sweep_sum *sum, size_t run, bool is_ok, const char *sentence)
+static void count_row(struct gm_sweep_sum *sum, size_t run, const struct gm_sweep_row *row)
 {
     sum->made++;
-    sum->failed += !is_ok;
-    if (!is_ok && sentence[0] && !sum->refusal[0]) {
-        snprintf(sum->refusal, sizeof sum->refusal, "%s", sentence);
+    sum->failed += !row->ok;
+    if (!row->ok && row->sentence[0] && !sum->refusal[0]) {
+        memcpy(sum->refusal, row->sentence, sizeof sum->refusal);
     }
-    if (is_ok && sentence[0] && sum->warned++ == 0) {
+    if (row->ok && row->sentence[0] && sum->warned++ == 0) {
         sum->first_warned = run;
-        snprintf(sum->warning, sizeof sum->warning, "%s", sentence);
+        memcpy(sum->warning, row->sentence, sizeof sum->warning);
     }
 }
 
@@ -353,8 +349,8 @@ static bool take(void *self, size_t index, size_t slot)
         filling->failed = !keep_old(filling);
         return !filling->failed;
     }
-    char *row = filling->slots[slot].row;
-    if (!row) {
+    struct gm_sweep_row *row = &filling->slots[slot];
+    if (!row->text) {
         if (!gm_interrupted) {
             filling->failed = true;
             gm_refuse(filling->message, "a row could not be made: not enough memory");
@@ -365,13 +361,12 @@ static bool take(void *self, size_t index, size_t slot)
         filling->failed = true;
         return gm_refuse(filling->message, "%.360s could not be read again", table->path);
     }
-    const bool good = append(table, row, filling->message);
+    const bool good = append(table, row->text, filling->message);
     if (good) {
-        const size_t run = gm_sweep_run(table->sweep, k);
-        count_row(filling->sum, run, has_status(table->sweep, run, row, "ok"), filling->slots[slot].sentence);
+        count_row(filling->sum, gm_sweep_run(table->sweep, k), row);
     }
-    free(row);
-    filling->slots[slot].row = NULL;
+    free(row->text);
+    row->text = NULL;
     filling->failed = !good;
     return good;
 }
@@ -410,7 +405,7 @@ bool gm_sweep_table_fill(struct gm_sweep_table *table, size_t jobs, const struct
     sum->unheard = table->unheard;
     const bool good = !filling->failed;
     for (size_t i = 0; i < WINDOW; i++) {
-        free(filling->slots[i].row);
+        free(filling->slots[i].text);
     }
     free(filling->kept);
     free(filling);
