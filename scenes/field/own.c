@@ -32,7 +32,7 @@ enum {
     SHOW = SPACE /* of others */,
     COMMON_ROWS
 };
-enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, COMMON = 7, MOST_GRAPHS = 3 };
+enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, COMMON = 8, MOST_GRAPHS = 3 };
 
 struct own_field {
     struct gm_scene scene; /* first: a scene is found to be this */
@@ -223,6 +223,13 @@ static double form_momentum(const struct gm_view *view)
     return gm_form_momentum(view->problem, view->state);
 }
 
+/* What linear theory says about the state, before a step beyond it blows up. */
+static double longest_step(const struct gm_view *view)
+{
+    const struct gm_step_limit *limit = view->scheme->limit;
+    return limit ? limit->longest(view->problem, view->state) : NAN;
+}
+
 /* Where the first field is highest: of the parabola through the highest node and both beside it. */
 static double crest(const struct gm_view *view)
 {
@@ -288,7 +295,8 @@ static double integral(const struct gm_view *view)
     return sum * line->dx;
 }
 
-/* The error, where it is known, and what is kept: of a wave its energies, of an evolution what its file names. */
+/* The error, where it is known, and what is kept: of a wave its energies, of an evolution what its file names, of a form
+   its energy and that. */
 static size_t graphs_of(const struct own_field *own, struct gm_graph *graphs)
 {
     const struct gm_graph kept = {.highest = true, .scale = GM_LOG, .calm_low = 1e-16, .calm_high = 1e-2};
@@ -299,11 +307,12 @@ static size_t graphs_of(const struct own_field *own, struct gm_graph *graphs)
         graphs[count].calm_low = 1e-3;
         graphs[count++].calm_high = 1;
     }
-    if (!own->evolves) {
-        static const char *const of_wave[] = {"energy_error", "own_energy_error"},
-                                 *const of_form[] = {"energy_error", "multisymplectic_residual"};
-        const char *const *energies = own->is_form ? of_form : of_wave;
-        for (size_t i = own->solved && !own->is_form ? 1 : 0; i < GM_COUNT(of_wave); i++) {
+    if (own->is_form) {
+        graphs[count] = kept;
+        graphs[count++].observable = "energy_error";
+    } else if (!own->evolves) {
+        static const char *const energies[] = {"energy_error", "own_energy_error"};
+        for (size_t i = own->solved ? 1 : 0; i < GM_COUNT(energies); i++) {
             graphs[count] = kept;
             graphs[count++].observable = energies[i];
         }
@@ -330,7 +339,8 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 {
     const struct lane *lane = lanes[0]->parameters;
     const struct own_field *own = lane->own;
-    const bool crosses = own->low < -0.2 * own->high;
+    /* components of a form swing to both sides, though the start may show one of them */
+    const bool crosses = own->is_form || own->low < -0.2 * own->high;
     const double most = fmax(fabs(own->low), fabs(own->high)), margin = 0.1 * (own->high - own->low);
     const struct gm_field_look look = {
         .value = gm_field_u,
@@ -341,9 +351,19 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .map = crosses ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
         .show = lane->show,
     };
+    const char *beyond = "";
+    for (size_t i = 0; i < count; i++) {
+        const struct gm_view view = gm_lane_view(lanes[i]);
+        const double longest = longest_step(&view);
+        if (fabs(view.dt) > longest) {
+            beyond = gm_picture_text(picture, ",  %s is unstable beyond Δt = %.3g", lanes[i]->scheme->title,
+                                     longest);
+        }
+    }
     picture->title = own->scene.title;
-    picture->subtitle = gm_picture_text(picture, "%ld points,  Δx = %g%s", lane->points,
-                                        lanes[0]->problem.line.dx, gm_shared_step(picture, lanes, count));
+    picture->subtitle =
+        gm_picture_text(picture, "%ld points,  Δx = %g%s%s", lane->points, lanes[0]->problem.line.dx,
+                        gm_shared_step(picture, lanes, count), beyond);
     struct gm_graph graphs[MOST_GRAPHS];
     gm_draw_field(picture, lanes, count, &look, graphs, graphs_of(own, graphs));
 }
@@ -471,7 +491,10 @@ static bool make_rows(struct own_field *own)
 
 static bool make_observables(struct own_field *own, char *sentence)
 {
-    static const struct gm_observable common[COMMON] = {GM_WAVE_INVARIANTS, GM_WAVE_LAWS};
+    static const struct gm_observable common[COMMON] = {
+        GM_WAVE_INVARIANTS, GM_WAVE_LAWS,
+        GM_OBSERVABLE("longest_step", longest_step, "longest stable step of linear theory",
+                      .missing = "linear theory sets this scheme no limit")};
     static const struct gm_observable evolving[] = {
         GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),
         GM_OBSERVABLE("crest", crest, "x where u is highest"),

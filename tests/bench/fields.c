@@ -4,13 +4,16 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "core/count.h"
 #include "core/field/families/burgers.h"
+#include "core/field/own/form.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
 #include "core/field/problems/wave.h"
+#include "core/formula/equations.h"
 #include "core/ode/problems/problems.h"
 #include "core/run.h"
 #include "core/schemes.h"
@@ -190,6 +193,62 @@ static void burgers(size_t points, long steps, double sine)
     free(y);
 }
 
+/* The box of all components, typed by its matrices, beside the box in which all but the field is eliminated. */
+static void typed(size_t points)
+{
+    static const struct {
+        const char *text;
+        double dt;
+    } rows[] = {
+        {"components: u v w\nK-matrix: 0, -1, 0 | 1, 0, 0 | 0, 0, 0\nL-matrix: 0, 0, 1 | 0, 0, 0 | -1, 0, 0\n"
+         "S: 1 - cos(u) + v^2/2 - w^2/2\nstart: u = 0, v = 3.4/cosh(0.86*x), w = 0\n",
+         0.05},
+        {"components: u phi v w\nK-matrix: 0, -1/2, 0, 0 | 1/2, 0, 0, 0 | 0, 0, 0, 0 | 0, 0, 0, 0\n"
+         "L-matrix: 0, 0, -1, 0 | 0, 0, 0, 1 | 1, 0, 0, 0 | 0, -1, 0, 0\nS: v^2/2 - u*w + u^3/6\n"
+         "start: u = 3/cosh(x/2)^2, phi = 0, v = 0, w = 0\n",
+         0.05},
+        {"components: p q v w\nK-matrix: 0, 1, 0, 0 | -1, 0, 0, 0 | 0, 0, 0, 0 | 0, 0, 0, 0\n"
+         "L-matrix: 0, 0, -1, 0 | 0, 0, 0, -1 | 1, 0, 0, 0 | 0, 1, 0, 0\nS: (p^2 + q^2)^2/4 + (v^2 + w^2)/2\n"
+         "start: p = sqrt(2)/cosh(x)*cos(x/2), q = sqrt(2)/cosh(x)*sin(x/2), v = 0, w = 0\n",
+         0.02},
+    };
+    static const struct gm_kdv soliton = {.eta = 1, .mu = 1, .velocity = 1};
+    struct gm_problem built_in[] = {gm_problem_sine_gordon, gm_problem_kdv, gm_problem_nls};
+    built_in[1].parameters = &soliton;
+    for (size_t i = 0; i < GM_COUNT(rows); i++) {
+        struct gm_own_system system;
+        struct gm_own_form form;
+        struct gm_problem problem;
+        struct gm_fault fault;
+        const struct gm_line line = {points, 40 / (double)points, -20, 0};
+        if (!gm_equations_open(&system, rows[i].text, strlen(rows[i].text), NULL, 0, &fault) ||
+            !gm_own_form_derive(&form, &system)) {
+            printf("%s\n", fault.sentence);
+            continue;
+        }
+        double *values = gm_equations_start(&system, NULL);
+        gm_own_form_open(&problem, &form, values, &line);
+        double *y = calloc(problem.n + 2 * points + 1, sizeof *y);
+        gm_own_form_start(&problem, y);
+        const double general = time_of(&problem, "box", rows[i].dt, 200, y);
+        built_in[i].line = line;
+        built_in[i].n = i == 2 ? 2 * points : gm_wave_size(points);
+        if (i < 2) { /* a wave from rest in two levels */
+            for (size_t k = 0; k < points; k++) {
+                y[points + k] = y[k] + (i == 0 ? rows[i].dt * y[points + k] : 0);
+            }
+            y[2 * points] = rows[i].dt;
+        }
+        const double special = time_of(&built_in[i], "box", rows[i].dt, 200, y);
+        printf("%s by its matrices, %zu points: %.0f ns a point and step, %.2f times the box of its own\n",
+               built_in[i].name, points, general, general / special);
+        free(y);
+        free(values);
+        gm_own_form_close(&problem);
+        gm_system_close(&system);
+    }
+}
+
 int main(void)
 {
     setvbuf(stdout, NULL, _IOLBF, 0); /* it takes minutes */
@@ -197,6 +256,7 @@ int main(void)
     printf("a bare loop over libm's sin          %.2f ns\n", sine);
     waves(801, 20, 0.05, 4000, sine);
     waves(1000000, 20000, 0.04, 8, sine);
+    typed(401);
     boxes(801, 20, 100);
     boxes(10001, 250, 4);
     burgers(801, 8000, sine);

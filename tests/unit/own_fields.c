@@ -169,6 +169,90 @@ static void phi4_moves_as_written_by_hand(void **unused)
     close_typed(&typed);
 }
 
+#define DOUBLE "field: u\nV: 1 - cos(u) + 0.7*(1 - cos(u/2))\nstart: u = 3*exp(-x^2), u_t = x*exp(-x^2)\n"
+
+/* sin x / x */
+static double sinc(double x)
+{
+    return fabs(x) < 1e-4 ? 1 - x * x / 6 : sin(x) / x;
+}
+
+static double double_force(double u)
+{
+    return sin(u) + 0.35 * sin(u / 2);
+}
+
+/* [V(a) - V(b)] / (a - b), by the formula for differences of cosines */
+static double double_quotient(double a, double b)
+{
+    return sin((a + b) / 2) * sinc((a - b) / 2) + 0.35 * sin((a + b) / 4) * sinc((a - b) / 4);
+}
+
+/* The force of the box at a node: that of the four cells around it. */
+static double force_of_cells(const double *now, const double *other, size_t i)
+{
+    const size_t r = (i + 1) % POINTS, l = (i + POINTS - 1) % POINTS;
+    return double_force((now[i] + now[r] + other[i] + other[r]) / 4) +
+           double_force((now[i] + now[l] + other[i] + other[l]) / 4);
+}
+
+/* The next level by each scheme, as it is written, and iterated; the box by Jacobi's method. */
+static void double_step(const char *name, double dt, const double *past, const double *now, double *next)
+{
+    const double dx = 2 * HALF / POINTS, in_time = 1 / (4 * dt * dt), in_space = 1 / (4 * dx * dx);
+    const bool box = strcmp(name, "box") == 0, conserving = strcmp(name, "energy-conserving") == 0;
+    double made[POINTS];
+    for (size_t i = 0; i < POINTS; i++) {
+        next[i] = 2 * now[i] - past[i];
+    }
+    for (int k = 0; k < (box ? 400 : 60); k++) {
+        for (size_t i = 0; i < POINTS; i++) {
+            const size_t r = (i + 1) % POINTS, l = (i + POINTS - 1) % POINTS;
+            const double bend = (now[r] - 2 * now[i] + now[l]) / (dx * dx);
+            if (!box) {
+                const double force = conserving ? double_quotient(next[i], past[i]) : double_force(now[i]);
+                made[i] = 2 * now[i] - past[i] + dt * dt * (bend - force);
+                continue;
+            }
+            const double of_now = 2 * in_time * (now[r] + 2 * now[i] + now[l]) +
+                                  2 * in_space * (now[r] - 2 * now[i] + now[l]),
+                         of_past = in_space * (past[r] - 2 * past[i] + past[l]) -
+                                   in_time * (past[r] + 2 * past[i] + past[l]),
+                         force = (force_of_cells(now, next, i) + force_of_cells(now, past, i)) / 4;
+            made[i] = (of_now + of_past - force - (in_time - in_space) * (next[r] + next[l])) /
+                      (2 * (in_time + in_space));
+        }
+        memcpy(next, made, sizeof made);
+    }
+}
+
+static void double_sine_gordon_moves_as_written_by_hand(void **unused)
+{
+    (void)unused;
+    static const char *const names[] = {"leapfrog", "energy-conserving", "box"};
+    struct typed typed;
+    open_typed(&typed, DOUBLE);
+    for (size_t s = 0; s < GM_COUNT(names); s++) {
+        double y[SIZE], past[POINTS], now[POINTS], next[POINTS], error = 0;
+        gm_own_wave_levels(&typed.problem, 0.05, y);
+        memcpy(past, y, sizeof past);
+        memcpy(now, y + POINTS, sizeof now);
+        for (int step = 1; step < 60; step++) {
+            double_step(names[s], 0.05, past, now, next);
+            memcpy(past, now, sizeof now);
+            memcpy(now, next, sizeof now);
+        }
+        advance(&typed.problem, names[s], 0.05, 60, y, NULL);
+        for (size_t i = 0; i < POINTS; i++) {
+            error = fmax(error, fabs(y[i] - now[i]));
+        }
+        if (!(error < 1e-12)) {
+            fail_msg("%s: %.2e", names[s], error);
+        }
+    }
+    close_typed(&typed);
+}
+
 /* Every scheme that claims the law keeps it; the one that does not is the control. */
 static void the_multisymplectic_law_holds(void **unused)
 {
@@ -270,6 +354,54 @@ static void a_linear_wave_turns_as_by_hand(void **unused)
     }
 }
 
+/* Where the highest wave is after a time: of the parabola through the highest node and its neighbours. */
+static double crest_of(const struct gm_line *line, const double *u)
+{
+    const size_t n = line->points;
+    size_t top = 0;
+    for (size_t i = 1; i < n; i++) {
+        top = u[i] > u[top] ? i : top;
+    }
+    const double left = u[(top + n - 1) % n], right = u[(top + 1) % n];
+    return gm_line_node(line, top) + line->dx * (left - right) / (2 * (left - 2 * u[top] + right));
+}
+
+/* A peakon of height c moves with c: the error of its velocity falls nearly by half with every halved distance of
+   nodes, since it has a corner. */
+static void a_peakon_moves_as_fast_as_it_is_high(void **unused)
+{
+    (void)unused;
+    static const char text[] = "field: u\nmass: u - u_xx\nrate: u = -3*u*u_x + 2*u_x*u_xx + u*u_xxx\n"
+                               "start: u = cosh(10 - mod(x + 5, 20))/cosh(10)\n";
+    double error[2];
+    for (size_t k = 0; k < GM_COUNT(error); k++) {
+        const size_t points = 500u << k;
+        const struct gm_line line = {.points = points, .dx = 20 / (double)points, .first = -10};
+        struct gm_own_system system;
+        struct gm_own_evolution evolution;
+        struct gm_problem problem;
+        struct gm_fault fault;
+        assert_true(gm_equations_open(&system, text, strlen(text), NULL, 0, &fault));
+        assert_true(gm_own_evolution_derive(&evolution, &system));
+        double *values = gm_equations_start(&system, NULL), *y = malloc(points * sizeof *y);
+        assert_true(gm_own_evolution_open(&problem, &evolution, values, &line, GM_SPACE_DIFFERENCES));
+        gm_own_evolution_start(&problem, y);
+        struct gm_run *run =
+            gm_run_open(&problem, gm_scheme_find_for("rk4", &problem), &no_settings, 0, 0.01, y);
+        assert_int_equal(gm_run_until(run, 4), GM_OK);
+        error[k] = fabs((crest_of(&line, gm_run_state(run)) + 5) / 4 - 1);
+        gm_run_close(run);
+        free(y);
+        free(values);
+        gm_own_evolution_shut(&problem);
+        gm_own_evolution_close(&evolution);
+        gm_system_close(&system);
+    }
+    if (!(error[1] < 0.02 && error[0] > 1.7 * error[1] && error[0] < 2.3 * error[1])) {
+        fail_msg("the velocity errs by %.4f, and by %.4f on the finer grid", error[0], error[1]);
+    }
+}
+
 #define FIELD "field: u\nstart: u = cos(pi*x/20), u_t = 0\n"
 static const struct {
     const char *text, *sentence;
@@ -353,10 +485,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(typed_again_it_is_the_built_in_equation),
         cmocka_unit_test(phi4_moves_as_written_by_hand),
+        cmocka_unit_test(double_sine_gordon_moves_as_written_by_hand),
         cmocka_unit_test(the_multisymplectic_law_holds),
         cmocka_unit_test(the_quotient_does_not_cancel),
         cmocka_unit_test(the_quotient_holds_at_rest),
         cmocka_unit_test(a_linear_wave_turns_as_by_hand),
+        cmocka_unit_test(a_peakon_moves_as_fast_as_it_is_high),
         cmocka_unit_test(what_is_wrong_is_said),
         cmocka_unit_test(a_field_closes_on_its_ring),
     };

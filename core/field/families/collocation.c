@@ -197,6 +197,7 @@ void *gm_collocation_open(const struct gm_problem *problem, const struct gm_sche
         {&work->past_y[1], work->sides},
         {&work->past_y[2], work->sides},
         {&work->first_y, work->sides},
+        {&work->scratch, work->sides + 2},
     };
     size_t numbers = 0;
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
@@ -419,6 +420,24 @@ static bool eliminate(const struct gm_collocation *work, double *matrix, size_t 
     return true;
 }
 
+/* The blocks of the sides as recursions; false where they are better solved as a band. */
+static bool make_blocks(const struct gm_collocation *work, struct gm_collocation_factors *factors)
+{
+    const size_t sides = work->sides, columns = work->stages + 2 * sides;
+    double left[GM_RING_BLOCKS_MOST * GM_RING_BLOCKS_MOST], right[GM_RING_BLOCKS_MOST * GM_RING_BLOCKS_MOST];
+    if (sides > GM_RING_BLOCKS_MOST) {
+        return false;
+    }
+    for (size_t a = 0; a < sides; a++) {
+        const double *row = factors->cells + (work->stages + a) * columns + work->stages;
+        for (size_t b = 0; b < sides; b++) {
+            left[a * sides + b] = factors->scales[a] * row[b];
+            right[a * sides + b] = factors->scales[a] * row[sides + b];
+        }
+    }
+    return gm_ring_blocks_make(&factors->blocks, work->points, sides, left, right);
+}
+
 /* S'' at all stages is in work->hessian; of `shared` ones at one point. */
 static bool factor(struct gm_collocation *work, struct gm_collocation_factors *factors, bool shared,
                    double dt)
@@ -452,7 +471,8 @@ static bool factor(struct gm_collocation *work, struct gm_collocation_factors *f
             }
         }
     }
-    factors->good = factors->good && gm_ring_band_factor(&factors->sides);
+    factors->recursive = shared && factors->good && make_blocks(work, factors);
+    factors->good = factors->good && (factors->recursive || gm_ring_band_factor(&factors->sides));
     return factors->good;
 }
 
@@ -486,7 +506,11 @@ static void solve_shared(struct gm_collocation *work, struct gm_collocation_fact
             y[a * points + i] *= factors->scales[a];
         }
     }
-    gm_ring_band_solve(&factors->sides, y);
+    if (factors->recursive) {
+        gm_ring_blocks_solve(&factors->blocks, y, work->scratch);
+    } else {
+        gm_ring_band_solve(&factors->sides, y);
+    }
     for (size_t p = stages; p-- > 0;) {
         const double *row = factors->cells + p * columns, over = 1 / row[p];
         double *to = right + p * points;
@@ -633,7 +657,8 @@ static enum gm_status solve(struct gm_collocation *work, double dt, bool newton,
     enum { MOST = 60 };
     const size_t count = work->stages * work->points;
     const double least = 1e-3, dx = work->problem->line.dx;
-    double last = INFINITY, size = fmax(largest(work->z, count), least), left = 0;
+    const double size = fmax(largest(work->z, count), least);
+    double last = INFINITY, left = 0;
     bool anew = true;
     for (int k = 0; k < MOST; k++) {
         const bool near = last <= 1e-7 * size;
@@ -652,7 +677,6 @@ static enum gm_status solve(struct gm_collocation *work, double dt, bool newton,
         }
         anew = change > last / 16;
         last = change;
-        size = fmax(largest(work->z, count), least);
     }
     return GM_NO_CONVERGENCE;
 }

@@ -6,6 +6,7 @@
 #include "core/field/field.h"
 #include "core/linear/fourier.h"
 #include "core/linear/ring.h"
+#include "core/linear/ring_blocks.h"
 
 enum { GM_COLLOCATION_STAGES = 3, GM_COLLOCATION_PAST = 3 };
 
@@ -24,6 +25,8 @@ struct gm_collocation_factors {
         scales; /* [cell][row]: what the equations of sides are multiplied by, so that their entries are at most 1 */
     struct gm_ring_band sides;
     bool opened, shared, good; /* shared: there is one cell's for all */
+    bool recursive;            /* and its sides are solved by recursions, */
+    struct gm_ring_blocks blocks;
 };
 
 /* Arrays lie as they are said to: every `points` numbers are of one thing in all cells. */
@@ -51,6 +54,7 @@ struct gm_collocation {
     struct gm_collocation_factors constant, newton; /* S'' at s = 0; at z */
     double constant_dt;                             /* 0: `constant` is not made */
     bool needs_newton; /* `constant` did not serve a step; for steps of their own memory */
+    double *scratch;   /* [side], and two more */
     double *memory;
 };
 

@@ -149,28 +149,21 @@ static void extrapolate(double *const *past, size_t steps, double *to, size_t co
     }
 }
 
-/* Nothing determines the constant of a potential: its mean at every stage of the guess is that of the level. */
+/* Nothing determines the constant of a potential: on the first side it stays what it was. */
 static void anchor(struct gm_collocation *work)
 {
     const struct gm_form *form = gm_field_of(work->problem)->form;
     const size_t points = work->points, r = work->r;
-    for (size_t p = 0; p < form->potential_count; p++) {
-        const size_t c = form->potentials[p].component;
-        double mean = 0;
-        for (size_t i = 0; i < r * points; i++) {
-            mean += work->low[c * r * points + i] / (double)(r * points);
+    for (size_t at = 0; at < form->potential_count * work->sides; at++) {
+        const size_t c = form->potentials[at / work->sides].component, side = at % work->sides;
+        const double part = work->basis[c][side % work->rank];
+        double *y = work->y + side * points, *z = work->z + (c * r + side / work->rank) * r * points;
+        const double by = part != 0 ? work->past_y[0][side * points] - y[0] : 0;
+        for (size_t i = 0; i < points && by != 0; i++) {
+            y[i] += by;
         }
-        for (size_t j = 0; j < r; j++) {
-            double *z = work->z + (c * r + j) * r * points, by = mean;
-            for (size_t i = 0; i < r * points; i++) {
-                by -= z[i] / (double)(r * points);
-            }
-            for (size_t i = 0; i < r * points; i++) {
-                z[i] += by;
-            }
-            for (size_t at = 0; at < work->rank * points; at++) {
-                work->y[j * work->rank * points + at] += by * work->basis[c][at / points];
-            }
+        for (size_t i = 0; i < r * points && by != 0; i++) {
+            z[i] += by * part;
         }
     }
 }
