@@ -131,6 +131,7 @@ static void single_steps(size_t m)
     const struct line line = {"", "verlet", &gm_problem_oscillator, .start = {0, 1}, .h = M_PI / 60, .m = m};
     struct gm_problem problem = gm_problem_oscillator;
     problem.m = m;
+    gm_bench_ensemble(&problem);
     double *y = malloc(problem.n * m * sizeof *y);
     struct gm_run *run = y ? open_run(&problem, &line, y) : NULL;
     if (!run) {
@@ -344,8 +345,16 @@ static void kepler_to_eight_digits(double eccentricity)
     }
 }
 
-int main(void)
+/* With the word "single": single steps of ensembles alone. */
+int main(int argc, char *argv[])
 {
+    printf("instruction set: %s\n", gm_isa_name(gm_isa_best()));
+    for (size_t m = 1000; m <= 1000000; m *= 10) {
+        single_steps(m);
+    }
+    if (argc > 1 && strcmp(argv[1], "single") == 0) {
+        return 0;
+    }
     static const double strength = GM_HAND_STRENGTH;
 #define KEPLER .problem = &gm_problem_kepler, .start = {0.5, 0, 0, 1.7320508075688772}, .h = 2 * M_PI / 100
 #define SQUARE                                                                                               \
@@ -375,7 +384,6 @@ int main(void)
          .ensemble = gm_hand_ensemble_kepler_verlet, .wanted = 2.2},
         {"ensemble, Kepler, RK4", "rk4", KEPLER, .m = MEMBERS, .steps = 50},
     };
-    printf("instruction set: %s\n", gm_isa_name(gm_isa_best()));
     double midpoint = NAN;
     for (size_t i = 0; i < GM_COUNT(lines); i++) {
         const double ours = measure(&lines[i]);
@@ -384,9 +392,6 @@ int main(void)
                        : midpoint;
     }
     gsl_midpoint((const double[]){0.5, 0, 0, 1.7320508075688772}, 2 * M_PI / 100, midpoint);
-    for (size_t m = 1000; m <= 1000000; m *= 10) {
-        single_steps(m);
-    }
     pair_sum();
     kepler_to_eight_digits(0.5);
     kepler_to_eight_digits(0.9);

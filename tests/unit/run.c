@@ -330,6 +330,56 @@ static void blow_up_is_found_to_the_step(void **unused)
     gm_run_close(near);
 }
 
+/* One of many members, in the middle of registers, grows until it leaves the bound; the others are at rest. All
+   stop at the last step that it makes, whether steps are made one by one, a few at a time or many at once, and
+   explicit Euler's is known, as above. */
+static void one_of_many_blows_up(void **unused)
+{
+    (void)unused;
+    enum { MEMBERS = 67, GROWING = 37 };
+    static const char *const names[] = {"explicit-euler", "symplectic-euler", "verlet", "rk4", "midpoint"};
+    struct gm_problem problem = gm_problem_oscillator_tangent;
+    problem.m = MEMBERS;
+    const size_t count = problem.n * problem.m, q = GROWING, p = problem.n / 2 * MEMBERS + GROWING;
+    double *start = calloc(count, sizeof *start);
+    assert_non_null(start);
+    for (size_t k = 0; k < GM_COUNT(names); k++) {
+        const struct gm_scheme *scheme = gm_scheme_find(names[k]);
+        const bool grows = strcmp(names[k], "midpoint") != 0; /* which is bounded whatever the step */
+        start[q] = 1;
+        struct gm_run *runs[3];
+        for (int i = 0; i < 3; i++) {
+            runs[i] = gm_run_open(&problem, scheme, &settings_of[0], 0, 3, start);
+            while (runs[i]->steps < 1000 && runs[i]->status == GM_OK) {
+                gm_run_advance(runs[i], i == 0 ? 1000 : i == 1 ? 8 : 1);
+            }
+            if (runs[i]->status != (grows ? GM_BLOW_UP : GM_OK)) {
+                fail_msg("%s: %s", names[k], gm_status_name(runs[i]->status));
+            }
+            expect_same_state(runs[i], runs[0]);
+            assert_true(!grows || runs[i]->steps == runs[0]->steps);
+            assert_true(!grows || runs[i]->evaluations == runs[0]->evaluations);
+        }
+        if (k == 0) {
+            double at[2] = {1, 0};
+            long steps = 0;
+            for (;; steps++) {
+                const double next[2] = {at[0] + 3 * at[1], at[1] - 3 * at[0]};
+                if (!(fabs(next[0]) <= 1e10 && fabs(next[1]) <= 1e10)) {
+                    break;
+                }
+                memcpy(at, next, sizeof at);
+            }
+            assert_int_equal(runs[2]->steps, steps);
+            assert_true(gm_run_state(runs[2])[q] == at[0] && gm_run_state(runs[2])[p] == at[1]);
+        }
+        for (int i = 0; i < 3; i++) {
+            gm_run_close(runs[i]);
+        }
+    }
+    free(start);
+}
+
 /* Implicit Euler with so large a step that p' = -q (1 + p^2), q' = p (1 + q^2) leaves Newton without a
    root. */
 static void failed_solves_are_told(void **unused)
@@ -478,6 +528,7 @@ int main(void)
         cmocka_unit_test(snapshots_resume_bit_for_bit),
         cmocka_unit_test(refused_memory_is_no_step),
         cmocka_unit_test(blow_up_is_found_to_the_step),
+        cmocka_unit_test(one_of_many_blows_up),
         cmocka_unit_test(runs_end_where_they_are_to),
         cmocka_unit_test(failed_solves_are_told),
         cmocka_unit_test(newton_takes_over_at_large_steps),

@@ -37,6 +37,7 @@ GM_INLINE mask K(explicit_step)(const struct gm_explicit_tableau *tableau, struc
 #define GM_ROW struct gm_explicit_tableau
 #define GM_STEP K(explicit_step)
 #define GM_ABREAST K(ABREAST)
+#define GM_QUICK
 #include "core/ode/kernel/drive.h"
 
 /* A tableau that is known at run time alone, without its zeros, multiplied by h: stage i adds entries

@@ -20,6 +20,11 @@ struct gm_splitting {
     } pieces[GM_SPLITTING_PIECES];
 };
 
+/* Kick, drift, kick: fractions of h. */
+struct gm_three {
+    double first, drift, last;
+};
+
 /* A row of the family: pieces, or a composition of Verlet's method (kick, drift, kick), where kicks that meet
    are one. */
 struct gm_splitting_row {

@@ -22,17 +22,21 @@ struct K(counts) {
     unsigned long evaluations, solves, iterations;
 };
 
-/* Members from `first` on; a block that sticks out repeats the last member, which changes nothing. */
-GM_INLINE void K(block_load)(struct K(block) * block, const struct gm_task *task, size_t first)
+/* Members from `first` on; a block that sticks out repeats the last member, which changes nothing. `whole` says
+   of a group of blocks that none does: asked once, what moves them is a row of instructions without a branch. */
+GM_INLINE void K(block_load)(struct K(block) * block, const struct gm_task *task, size_t first,
+                             bool compensated, bool whole)
 {
     size_t m = task->problem->m;
     block->force_known = false;
     for (int c = 0; c < GM_COMPONENTS; c++) {
-        block->carry[c] = K(constant)(0);
         block->force[c] = K(constant)(0);
-        if (first + GM_LANES <= m) {
+        if (compensated) {
+            block->carry[c] = K(constant)(0);
+        }
+        if (whole || first + GM_LANES <= m) {
             block->y[c] = K(load)(task->y + (size_t)c * m + first);
-            if (task->carry) {
+            if (compensated) {
                 block->carry[c] = K(load)(task->carry + (size_t)c * m + first);
             }
             continue;
@@ -40,23 +44,24 @@ GM_INLINE void K(block_load)(struct K(block) * block, const struct gm_task *task
         for (int l = 0; l < GM_LANES; l++) {
             size_t member = first + (size_t)l < m ? first + (size_t)l : m - 1;
             K(set_lane)(&block->y[c], l, task->y[(size_t)c * m + member]);
-            if (task->carry) {
+            if (compensated) {
                 K(set_lane)(&block->carry[c], l, task->carry[(size_t)c * m + member]);
             }
         }
     }
 }
 
-GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_task *task, size_t first)
+GM_INLINE void K(block_store)(const struct K(block) * block, const struct gm_task *task, size_t first,
+                              bool compensated, bool whole)
 {
     size_t m = task->problem->m;
-    if (first >= m) {
+    if (!whole && first >= m) {
         return;
     }
     for (int c = 0; c < GM_COMPONENTS; c++) {
         double *out = task->out + (size_t)c * m + first;
-        double *carry = task->carry ? task->carry_out + (size_t)c * m + first : NULL;
-        if (first + GM_LANES <= m) {
+        double *carry = compensated ? task->carry_out + (size_t)c * m + first : NULL;
+        if (whole || first + GM_LANES <= m) {
             K(store)(out, block->y[c]);
             if (carry) {
                 K(store)(carry, block->carry[c]);

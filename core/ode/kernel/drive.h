@@ -7,9 +7,15 @@
                                   bool compensated, bool stiff, struct counts *)
        GM_ABREAST   so many blocks make their steps side by side: their chains of operations do not wait for
                     each other
+       GM_PRIME     where there is one, what a block is told before its first step:
+                        void prime(struct block *, const void *parameters, struct counts *)
+       GM_QUICK     defined where a step is short: few steps of an ensemble have a way of their own
    Each block makes all steps in registers. Whether it failed is asked every GM_BURST steps only; then the
    burst is made again step by step, so the step that failed is found exactly, whoever called how often. */
 
+#ifndef GM_PRIME
+#define GM_PRIME(block, parameters, counts)
+#endif
 #define GM_DRIVE_NAME(part) GM_DRIVE_NAME_(GM_DRIVE, part)
 #define GM_DRIVE_NAME_(drive, part) GM_DRIVE_NAME__(drive, part)
 #define GM_DRIVE_NAME__(drive, part) drive##_##part
@@ -22,6 +28,7 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
     const void *parameters = task->problem->parameters;
     const bool stiff = gm_ode_of(task->problem)->stiff;
     const double h = task->dt;
+    const bool whole = first + (size_t)(GM_LANES * GM_ABREAST) <= task->problem->m;
     struct K(counts) counts[GM_ABREAST];
     struct K(block) block[GM_ABREAST];
 #pragma GCC unroll 8
@@ -31,7 +38,8 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
                                                 : rest < GM_LANES ? (int)rest
                                                                   : GM_LANES,
                                        .continued = task->steps_before > 0};
-        K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES));
+        K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, whole);
+        GM_PRIME(&block[b], parameters, &counts[b]);
     }
     /* after a failure the burst is one step, until it is found */
     long done = 0, most = GM_BURST;
@@ -76,7 +84,8 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
             if (done > 0) {
                 block[b] = before[b];
             } else {
-                K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES));
+                K(block_load)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, whole);
+                GM_PRIME(&block[b], parameters, &counts[b]);
             }
             counts[b] = counts_before[b];
         }
@@ -84,16 +93,62 @@ GM_INLINE void GM_DRIVE_NAME(group)(const struct gm_task *task, const GM_ROW *ro
     }
 #pragma GCC unroll 8
     for (int b = 0; b < GM_ABREAST; b++) {
-        K(block_store)(&block[b], task, first + (size_t)(b * GM_LANES));
+        K(block_store)(&block[b], task, first + (size_t)(b * GM_LANES), compensated, whole);
         progress->evaluations += counts[b].evaluations;
         progress->solves += counts[b].solves;
         progress->iterations += counts[b].iterations;
     }
 }
 
+#if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
+/* All groups in which no block sticks out, for no more steps than a burst: what is kept for a second try takes
+   several times as long as a step. The members that are done; 0: one of them failed, and all are made again, of
+   y, which is therefore not where they are stored. */
+GM_INLINE size_t GM_DRIVE_NAME(quickly)(const struct gm_task *task, const GM_ROW *row, bool compensated,
+                                        struct gm_progress *progress)
+{
+    const struct gm_task own = *task; /* a copy, which no store to the state can change */
+    const size_t size = (size_t)(GM_LANES * GM_ABREAST), whole = own.problem->m / size * size;
+    const void *parameters = own.problem->parameters;
+    const bool stiff = gm_ode_of(own.problem)->stiff;
+    struct K(counts) counts = {.lanes = GM_LANES, .continued = own.steps_before > 0};
+    mask good = K(all)();
+    for (size_t first = 0; first < whole; first += size) {
+        struct K(block) block[GM_ABREAST];
+#pragma GCC unroll 8
+        for (int b = 0; b < GM_ABREAST; b++) {
+            K(block_load)(&block[b], &own, first + (size_t)(b * GM_LANES), compensated, true);
+            GM_PRIME(&block[b], parameters, &counts);
+        }
+        for (long i = 0; i < own.steps; i++) {
+#pragma GCC unroll 8
+            for (int b = 0; b < GM_ABREAST; b++) {
+                good &= GM_STEP(row, &block[b], own.dt, parameters, compensated, stiff, &counts);
+                good &= K(within)(&block[b], own.limit);
+            }
+        }
+#pragma GCC unroll 8
+        for (int b = 0; b < GM_ABREAST; b++) {
+            K(block_store)(&block[b], &own, first + (size_t)(b * GM_LANES), compensated, true);
+        }
+    }
+    if (!K(everywhere)(good)) {
+        return 0;
+    }
+    progress->evaluations = counts.evaluations;
+    return whole;
+}
+#endif
+
 GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *row, bool compensated) {
     struct gm_progress progress = {.done = task->steps, .status = GM_OK};
-    for (size_t first = 0; first < task->problem->m; first += (size_t)(GM_LANES * GM_ABREAST)) {
+    size_t first = 0;
+#if defined(GM_QUICK) && !defined(GM_PASS_SCALAR)
+    if (task->steps <= GM_BURST && task->y != task->out) {
+        first = GM_DRIVE_NAME(quickly)(task, row, compensated, &progress);
+    }
+#endif
+    for (; first < task->problem->m; first += (size_t)(GM_LANES * GM_ABREAST)) {
         GM_DRIVE_NAME(group)(task, row, compensated, first, &progress);
     }
     return progress;
@@ -106,3 +161,5 @@ GM_INLINE struct gm_progress GM_DRIVE(const struct gm_task *task, const GM_ROW *
 #undef GM_ROW
 #undef GM_STEP
 #undef GM_ABREAST
+#undef GM_PRIME
+#undef GM_QUICK
