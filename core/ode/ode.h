@@ -78,6 +78,7 @@ struct gm_kepler_split {
 struct gm_monitor {
     /* of one member; gradient: dQ/dy (n), or NULL */
     void (*density)(const struct gm_problem *problem, const double *y, double *density, double *gradient);
+    bool of_places; /* Q holds the first n / 2 components alone */
 };
 
 /* y' = B(y) dH/dy, B skew: the bracket {y_i, y_j} = B_ij */

@@ -162,12 +162,20 @@ static void a_typed_monitor(void **unused)
     (void)unused;
     static const char *const schemes[] = {"controlled-verlet2", "controlled-kahan-li8", "controlled-gauss4",
                                           "poincare-gauss6"};
+    /* of places, where q' = p; with masses; and one that could hold momenta */
+    static const char *const texts[] = {
+        "coordinates: x y\nH: (p_x^2 + p_y^2)/2 - 1/r\nlet: r = sqrt(x^2 + y^2)\nmonitor: 1/r^1.5\n"
+        "start: x = 0.5, y = 0, p_x = 0, p_y = sqrt(3)\n",
+        "coordinates: x y\nparameter: m = 1\nH: (p_x^2 + p_y^2)/(2*m) - 1/r\nlet: r = sqrt(x^2 + y^2)\n"
+        "monitor: 1/r^1.5\nstart: x = 0.5, y = 0, p_x = 0, p_y = sqrt(3)\n",
+        "coordinates: x y\nparameter: k = 0\nH: (p_x^2 + p_y^2)/2 - 1/r\nlet: r = sqrt(x^2 + y^2)\n"
+        "monitor: 1/r^1.5 + k*p_x^2\nstart: x = 0.5, y = 0, p_x = 0, p_y = sqrt(3)\n"};
     struct typed typed;
-    type(&typed, "coordinates: x y\nH: (p_x^2 + p_y^2)/2 - 1/r\nlet: r = sqrt(x^2 + y^2)\n"
-                 "monitor: 1/r^1.5\nstart: x = 0.5, y = 0, p_x = 0, p_y = sqrt(3)\n");
-    for (size_t i = 0; i < GM_COUNT(schemes); i++) {
-        struct gm_run *own = open_run(&typed.problem, schemes[i], 0.05, typed.start);
-        struct gm_run *built_in = open_run(&gm_problem_kepler, schemes[i], 0.05, typed.start);
+    for (size_t i = 0; i < GM_COUNT(schemes) * GM_COUNT(texts); i++) {
+        const char *name = schemes[i % GM_COUNT(schemes)];
+        type(&typed, texts[i / GM_COUNT(schemes)]);
+        struct gm_run *own = open_run(&typed.problem, name, 0.05, typed.start);
+        struct gm_run *built_in = open_run(&gm_problem_kepler, name, 0.05, typed.start);
         assert_int_equal(gm_run_advance(own, 1000), GM_OK);
         assert_int_equal(gm_run_advance(built_in, 1000), GM_OK);
         assert_float_equal(own->t, built_in->t, 1e-11);
@@ -176,8 +184,8 @@ static void a_typed_monitor(void **unused)
         }
         gm_run_close(own);
         gm_run_close(built_in);
+        untype(&typed);
     }
-    untype(&typed);
     type(&typed, "coordinates: x\nH: p_x^2/2 + x^4/4\nstart: x = 1, p_x = 0\n");
     const struct gm_scheme *scheme = gm_scheme_find_for("controlled-verlet2", &typed.problem);
     assert_false(gm_scheme_fits(scheme, &typed.problem));

@@ -472,7 +472,10 @@ static bool open_monitor(struct own *own, const double *values)
     if (!model->slopes) {
         return true;
     }
-    own->monitor = (struct gm_monitor){.density = density};
+    own->monitor = (struct gm_monitor){.density = density, .of_places = true};
+    for (size_t i = model->system->n / 2; i < model->components; i++) {
+        own->monitor.of_places = own->monitor.of_places && gm_is_constant(graph, model->slopes[i], 0);
+    }
     own->ode.monitor = &own->monitor;
     return gm_tape_open(&own->density, graph, &model->monitor, 1, model->components, values) &&
            gm_tape_open(&own->slopes, graph, model->slopes, model->components, model->components, values);

@@ -115,11 +115,12 @@ static void solution(const struct gm_problem *problem, double t, const double *y
 #define KEPLER(its_loops)                                                                                    \
     .kind = &gm_kind_ode, .n = 4, .m = 1, .facets = &(const struct gm_ode)                                   \
     {                                                                                                        \
-        .components = "q1 q2 p1 p2", .split = &(const struct gm_split){.nystrom = true},                     \
+        .components = "q1 q2 p1 p2", .split = &(const struct gm_split){.nystrom = true, .unit_mass = true},  \
         .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},                 \
         .kepler_split =                                                                                      \
             &(const struct gm_kepler_split){.potential = potential, .perturbing_force = perturbing_force},   \
-        .monitor = &(const struct gm_monitor){.density = density}, .loops = GM_LOOPS(its_loops)              \
+        .monitor = &(const struct gm_monitor){.density = density, .of_places = true},                        \
+        .loops = GM_LOOPS(its_loops)                                                                         \
     }
 
 const struct gm_problem gm_problem_kepler = {

@@ -25,6 +25,7 @@
 #include "core/count.h"
 #include "core/kind.h"
 #include "core/ode/families/families.h"
+#include "core/ode/families/splitting.h"
 #include "core/ode/kernel/loops.h"
 #include "core/schemes.h"
 
@@ -36,10 +37,11 @@ struct row {
 enum { CONTROL, SLOPE, TIME_CARRY, REMEMBERED }; /* the memory; CONTROL is rho / Q, or h */
 
 struct workspace {
-    const struct gm_scheme *base;
-    void *base_workspace;     /* NULL: its loop needs none */
-    double *state, *carry;    /* 2 n each: before and after a step */
-    double *field, *gradient; /* n */
+    struct gm_scheme base;          /* Phi; */
+    struct gm_splitting_row pieces; /* where it is a composition, its pieces, made once */
+    void *base_workspace;           /* NULL: its loop needs none */
+    double *state, *carry;          /* 2 n each: before and after a step */
+    double *field, *gradient;       /* n */
     double room[];
 };
 
@@ -47,7 +49,7 @@ static void workspace_close(void *data)
 {
     struct workspace *workspace = data;
     if (workspace && workspace->base_workspace) {
-        workspace->base->family->workspace_close(workspace->base_workspace);
+        workspace->base.family->workspace_close(workspace->base_workspace);
     }
     free(workspace);
 }
@@ -61,7 +63,12 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
     if (!workspace) {
         return NULL;
     }
-    workspace->base = base;
+    workspace->base = *base;
+    if (base->family == &gm_family_splitting) {
+        struct gm_splitting made;
+        workspace->pieces.splitting = *gm_splitting_of(base->coefficients, &made);
+        workspace->base.coefficients = &workspace->pieces;
+    }
     workspace->state = workspace->room;
     workspace->carry = workspace->state + 2 * n;
     workspace->field = workspace->carry + 2 * n;
@@ -76,20 +83,27 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 static void workspace_reset(void *data)
 {
     struct workspace *workspace = data;
-    if (workspace->base_workspace && workspace->base->family->workspace_reset) {
-        workspace->base->family->workspace_reset(workspace->base_workspace);
+    if (workspace->base_workspace && workspace->base.family->workspace_reset) {
+        workspace->base.family->workspace_reset(workspace->base_workspace);
     }
 }
 
-/* Q and G at y; false where Q is no density. */
+/* Q and G at y; false where Q is no density. Where Q is of places alone and q' = p no force is asked for. */
 static bool look(const struct gm_problem *problem, const struct workspace *workspace, const double *y,
-                 double *density, double *slope)
+                 double *density, double *slope, struct gm_progress *progress)
 {
-    gm_ode_of(problem)->monitor->density(problem, y, density, workspace->gradient);
-    gm_field(problem, y, workspace->field, 1);
+    const struct gm_ode *ode = gm_ode_of(problem);
+    const bool moves_by_momenta = ode->monitor->of_places && ode->split && ode->split->unit_mass;
+    const size_t count = moves_by_momenta ? problem->n / 2 : problem->n;
+    const double *rates = moves_by_momenta ? y + count : workspace->field;
+    ode->monitor->density(problem, y, density, workspace->gradient);
+    if (!moves_by_momenta) {
+        gm_field(problem, y, workspace->field, 1);
+        progress->evaluations++;
+    }
     *slope = 0;
-    for (size_t c = 0; c < problem->n; c++) {
-        *slope += workspace->gradient[c] * workspace->field[c];
+    for (size_t c = 0; c < count; c++) {
+        *slope += workspace->gradient[c] * rates[c];
     }
     *slope /= *density;
     return *density > 0 && isfinite(*density) && isfinite(*slope);
@@ -132,12 +146,12 @@ static struct course begin(const struct gm_task *task)
     struct course course = {
         .task = task,
         .workspace = workspace,
-        .advance = gm_scheme_loop(workspace->base, task->problem),
+        .advance = gm_scheme_loop(&workspace->base, task->problem),
         .step = *task,
         .memory = task->memory_out,
         .progress = {.status = GM_OK, .t = task->t},
     };
-    course.step.scheme = workspace->base;
+    course.step.scheme = &workspace->base;
     course.step.workspace = workspace->base_workspace;
     course.step.steps = 1;
     course.step.steps_before = 0; /* each is a run of its own */
@@ -194,8 +208,8 @@ static enum gm_status monitored_step(struct course *course, double *h)
     if (status != GM_OK) {
         return status;
     }
-    course->progress.evaluations++;
-    if (!look(problem, course->workspace, course->step.out, &course->density, &memory[SLOPE])) {
+    if (!look(problem, course->workspace, course->step.out, &course->density, &memory[SLOPE],
+              &course->progress)) {
         return GM_STEP_COLLAPSE;
     }
     memory[CONTROL] = (middle + half * memory[SLOPE]) / course->density;
@@ -265,7 +279,8 @@ static enum gm_status start(const struct gm_task *task)
         return error_controlled_step(&course, &h);
     }
     double density;
-    const bool good = look(task->problem, task->workspace, task->y, &density, &memory[SLOPE]);
+    struct gm_progress none = {0};
+    const bool good = look(task->problem, task->workspace, task->y, &density, &memory[SLOPE], &none);
     memory[CONTROL] = memory[CONTROL] > 0 ? memory[CONTROL] : 1;
     return good ? GM_OK : GM_STEP_COLLAPSE;
 }
