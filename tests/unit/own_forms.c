@@ -354,6 +354,42 @@ static void what_is_wrong_is_said(void **unused)
     }
 }
 
+static void a_start_that_does_not_close_is_refused(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text, *sentence;
+    } starts[] = {
+        {SINE_GORDON "start: u = 4*atan(exp(x)), v = 0, w = 0\n",
+         "u at the start does not close on the ring"},
+        {SINE_GORDON "start: u = 4*atan(exp(x)), v = 0, w = 0\njump: u = 6\n",
+         "u at the start does not close"},
+        {SINE_GORDON "start: u = x/10, v = 0, w = 0.1\njump: u = 4\n", "does not repeat after the jumps"},
+        {SINE_GORDON "start: u = 1/x, v = 0, w = 0\n", "u at the start is not finite where x = 0"},
+        {"components: u v\nK-matrix: 0, -1 | 1, 0\nL-matrix: 0, 0 | 0, 0\nS: u^2 + v^2\nstart: u = 0, v = 0\n",
+         "L is 0 with these values, and nothing changes in space"},
+    };
+    for (size_t i = 0; i < GM_COUNT(starts); i++) {
+        struct gm_own_system system;
+        struct gm_own_form form;
+        struct gm_problem problem;
+        struct gm_fault fault;
+        const struct gm_line line = {100, 0.4, -20, 0};
+        char sentence[400] = "";
+        assert_true(gm_equations_open(&system, starts[i].text, strlen(starts[i].text), NULL, 0, &fault));
+        assert_true(gm_own_form_derive(&form, &system));
+        double *values = gm_equations_start(&system, NULL);
+        assert_true(gm_own_form_open(&problem, &form, values, &line));
+        if (gm_own_form_closes(&problem, sentence, sizeof sentence) ||
+            !strstr(sentence, starts[i].sentence)) {
+            fail_msg("%s: %s", starts[i].text, sentence);
+        }
+        free(values);
+        gm_own_form_close(&problem);
+        gm_system_close(&system);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -364,6 +400,7 @@ int main(void)
         cmocka_unit_test(the_constant_of_a_potential_stays),
         cmocka_unit_test(what_alternates_is_left_out),
         cmocka_unit_test(what_is_wrong_is_said),
+        cmocka_unit_test(a_start_that_does_not_close_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -286,10 +286,24 @@ static bool component_closes(const struct gm_problem *problem, size_t c, char *s
     return true;
 }
 
+static bool is_zero(const double *matrix, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        sum += fabs(matrix[i]);
+    }
+    return sum == 0;
+}
+
 bool gm_own_form_closes(const struct gm_problem *problem, char *sentence, size_t size)
 {
     const struct own *own = own_of(problem);
     const size_t n = own->form.dimension;
+    if (is_zero(own->k, n * n) || is_zero(own->l, n * n)) {
+        snprintf(sentence, size, "%s is 0 with these values, and nothing changes in %s",
+                 is_zero(own->k, n * n) ? "K" : "L", is_zero(own->k, n * n) ? "time" : "space");
+        return false;
+    }
     for (size_t c = 0; c < n; c++) {
         if (!component_closes(problem, c, sentence, size)) {
             return false;

@@ -26,7 +26,7 @@ void gm_own_form_close(struct gm_problem *problem);
 /* The state at t = 0; potentials (gm_form) as their slopes say, from their value at the left end on. */
 void gm_own_form_start(const struct gm_problem *problem, double *y);
 
-/* Whether the start is finite and closes on the ring but for its jumps and a thousandth of its range, and whether the
+/* Whether neither matrix is 0, the start is finite and closes on the ring but for its jumps and a thousandth of its range, and whether the
    gradient of S is the same further by the jumps. A sentence if not. */
 bool gm_own_form_closes(const struct gm_problem *problem, char *sentence, size_t size);
 
