@@ -85,6 +85,7 @@ enum gm_field_facet {
     GM_NEEDS_KDV = 1u << 3,     /* u_t + eta u u_x + mu u_xxx = 0 */
     GM_NEEDS_NLS = 1u << 4,     /* i psi_t + psi_xx + |psi|^2 psi = 0 */
     GM_NEEDS_HEAT = 1u << 5,    /* u_t = nu u_xx in moving frames, u > 0 */
+    GM_NEEDS_PAIRS = 1u << 6,   /* an even number of points */
 };
 struct gm_field {
     const struct gm_form *form; /* NULL: it has none, and so on */
