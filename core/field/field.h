@@ -102,6 +102,7 @@ enum gm_field_facet {
     GM_NEEDS_NLS = 1u << 4,     /* i psi_t + psi_xx + |psi|^2 psi = 0 */
     GM_NEEDS_HEAT = 1u << 5,    /* u_t = nu u_xx in moving frames, u > 0 */
     GM_NEEDS_ALL = 1u << 6,     /* the multisymplectic form, and all of its components as the state */
+    GM_NEEDS_PAIRS = 1u << 7,   /* an even number of points */
 };
 struct gm_field {
     const struct gm_form *form; /* NULL: it has none, and so on */

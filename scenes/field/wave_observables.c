@@ -37,4 +37,5 @@ double gm_unit_momentum(const void *parameters)
 }
 
 const char *const gm_wave_schemes[] = {"leapfrog",     "energy-conserving", "box",        "euler-box",
-                                       "midpoint-box", "gauss-box2",        "gauss-box3", NULL};
+                                       "midpoint-box", "gauss-box2",        "gauss-box3", "lobatto-box2",
+                                       "lobatto-box4", "lobatto-nystrom4",  NULL};

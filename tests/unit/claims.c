@@ -11,6 +11,7 @@
 #include "core/certify.h"
 #include "core/count.h"
 #include "core/field/families/families.h"
+#include "core/field/families/lobatto.h"
 #include "core/field/families/two_step.h"
 #include "core/field/problems/burgers.h"
 #include "core/flow/families/families.h"
@@ -229,6 +230,20 @@ static void a_wrong_digit_of_gauss4(void **unused)
     struct gm_scheme wrong = changed("gauss4");
     wrong.coefficients = &digit;
     assert_false(gm_certify(&wrong).holds);
+}
+
+/* Three stages of Lobatto in time with other weights are not multisymplectic. */
+static void wrong_weights_of_lobatto_in_time(void **unused)
+{
+    (void)unused;
+    struct gm_lobatto_row row = *(const struct gm_lobatto_row *)gm_scheme_find("lobatto-box4")->coefficients;
+    row.kick[0] = row.kick[2] = 0.25;
+    row.kick[1] = 0.5;
+    struct gm_scheme wrong = changed("lobatto-box4");
+    wrong.coefficients = &row;
+    const struct gm_certificate certificate = gm_certify(&wrong);
+    assert_false(certificate.holds);
+    assert_true(certificate.claims[7].measured && certificate.claims[7].defect > 1e-6);
 }
 
 /* What is claimed of constraints, of friction and of what does not separate, by schemes that know nothing of it. */
@@ -628,6 +643,7 @@ int main(void)
         cmocka_unit_test(what_cannot_be_measured),
         cmocka_unit_test(the_misprint_of_rk4sym),
         cmocka_unit_test(a_wrong_digit_of_gauss4),
+        cmocka_unit_test(wrong_weights_of_lobatto_in_time),
         cmocka_unit_test(structure_that_is_not_asked_for),
         cmocka_unit_test(moser_and_veselov_with_other_steps),
         cmocka_unit_test(newmark_with_other_weights),

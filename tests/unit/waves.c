@@ -171,13 +171,15 @@ static void the_step_may_change(void **unused)
 static void bits_do_not_depend_on_bursts(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"leapfrog",     "energy-conserving", "box",       "euler-box",
-                                        "midpoint-box", "gauss-box2",        "gauss-box3"};
+    static const char *const names[] = {"leapfrog",     "energy-conserving", "box",        "euler-box",
+                                        "midpoint-box", "gauss-box2",        "gauss-box3", "lobatto-box2",
+                                        "lobatto-box4", "lobatto-nystrom4"};
     for (size_t s = 0; s < GM_COUNT(names); s++) {
         struct gm_problem problem[3];
-        struct gm_run *one = breather_run(&problem[0], names[s], 97, 0.1);
-        struct gm_run *all = breather_run(&problem[1], names[s], 97, 0.1);
-        struct gm_run *other = breather_run(&problem[2], names[s], 97, 0.1);
+        const size_t points = strncmp(names[s], "lobatto", 7) == 0 ? 98 : 97;
+        struct gm_run *one = breather_run(&problem[0], names[s], points, 0.1);
+        struct gm_run *all = breather_run(&problem[1], names[s], points, 0.1);
+        struct gm_run *other = breather_run(&problem[2], names[s], points, 0.1);
         assert_int_equal(gm_run_advance(all, 30), GM_OK);
         for (int k = 0; k < 30; k++) {
             if (k == 11) {

@@ -24,7 +24,8 @@ static unsigned facets(const struct gm_problem *problem)
 {
     const struct gm_field *field = gm_field_of(problem);
     const unsigned form = !field->form ? 0 : field->form->hessians ? GM_NEEDS_ALL : GM_NEEDS_FORM;
-    return form | (field->wave ? GM_NEEDS_WAVE : 0) | field->equation;
+    return form | (field->wave ? GM_NEEDS_WAVE : 0) | (problem->line.points % 2 == 0 ? GM_NEEDS_PAIRS : 0) |
+           field->equation;
 }
 
 static const struct gm_facet_words words[] = {
@@ -34,6 +35,7 @@ static const struct gm_facet_words words[] = {
     {GM_NEEDS_NLS, "the nonlinear Schrödinger equation", "the nonlinear Schrödinger equation"},
     {GM_NEEDS_WAVE, "a wave equation", "wave equations"},
     {GM_NEEDS_ALL, "a multisymplectic form as its state", "multisymplectic equations of all components"},
+    {GM_NEEDS_PAIRS, "an even number of points", "grids of an even number of points"},
     {GM_NEEDS_FORM, "a multisymplectic form", "multisymplectic equations"},
     {0},
 };
@@ -155,7 +157,7 @@ static void certify_wave(struct gm_certificate *certificate, double *farthest)
         /* two-step schemes and boxes alike are good for dt < dx; a higher order is seen on finer grids, on a
            ring that the breather's ends do not reach around */
         const bool fine = certificate->scheme->order > 2;
-        const size_t points = (fine ? 1200u : 301u) << k;
+        const size_t points = (fine ? 1200u : certificate->scheme->needs & GM_NEEDS_PAIRS ? 302u : 301u) << k;
         const double length = fine ? 60 : 30;
         problem->line =
             (struct gm_line){.points = points, .dx = length / (double)points, .first = -length / 2};
