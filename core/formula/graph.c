@@ -407,6 +407,15 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Whether a node's bit is not set yet; then it is. */
+static inline bool is_new(uint8_t *seen, gm_node_id node)
+{
+    const uint8_t bit = (uint8_t)(1u << node % 8);
+    const bool answer = !(seen[node / 8] & bit);
+    seen[node / 8] |= bit;
+    return answer;
+}
+
 gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id *roots, size_t root_count,
                                 size_t *count)
 {
@@ -415,13 +424,13 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
     for (size_t k = 0; k < root_count; k++) {
         root = roots[k] > root ? roots[k] : root;
     }
-    bool *seen = calloc(root + (size_t)1, sizeof *seen);
+    uint8_t *seen =
+        calloc(root / 8 + (size_t)1, 1); /* a bit a node: the graph may be much larger than its parts */
     size_t capacity = root_count + 64, found = 0;
     gm_node_id *parts = malloc(capacity * sizeof *parts);
     for (size_t k = 0; k < root_count && seen && parts; k++) {
-        if (!seen[roots[k]]) {
+        if (is_new(seen, roots[k])) {
             parts[found++] = roots[k];
-            seen[roots[k]] = true;
         }
     }
     for (size_t i = 0; i < found; i++) {
@@ -438,8 +447,7 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
         }
         for (size_t k = 0; k < arity; k++) {
             const gm_node_id operand = k == 0 ? node->a : node->b;
-            if (!seen[operand]) {
-                seen[operand] = true;
+            if (is_new(seen, operand)) {
                 parts[found++] = operand;
             }
         }
@@ -452,7 +460,7 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
     } else {
         size_t filled = 0;
         for (gm_node_id i = 0; i <= root; i++) {
-            if (seen[i]) {
+            if (seen[i / 8] >> i % 8 & 1) {
                 parts[filled++] = i;
             }
         }

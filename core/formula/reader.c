@@ -12,7 +12,7 @@
 
 enum {
     DEEPEST = 200,           /* parentheses in parentheses */
-    MOST_OPERANDS = 1 << 22, /* that are read, each as often as a loop comes by */
+    MOST_OPERANDS = 1 << 23, /* that are read, each as often as a loop comes by */
     UNARY = 12               /* the priority of minus before an operand */
 };
 

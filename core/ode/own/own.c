@@ -3,6 +3,7 @@
 #include "core/ode/own/own.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +16,12 @@
 #include "core/tape.h"
 
 /* What a problem's `parameters` and `facets` point to. */
+/* The rates of components one by one. Few schemes ask for them, and of a large system they take longer than all
+   else: they are made when they are first asked for, by whichever thread. */
+struct pieces {
+    _Atomic(struct gm_tape *) rates; /* n of them; NULL: not yet */
+};
+
 struct own {
     const double *constants[GM_KERNEL_FUNCTIONS]; /* where compiled kernels look for them */
     struct gm_ode ode;
@@ -38,7 +45,7 @@ struct own {
     struct gm_monitor monitor;
     struct gm_own_bracket bracket;
     struct gm_poisson poisson;
-    struct gm_tape *rates; /* of each component alone, where each has an exact flow */
+    struct pieces *pieces; /* where each component alone has an exact flow */
     double *values;        /* of the system's variables */
     const struct gm_own_model *model;
 };
@@ -266,16 +273,47 @@ static double friction(const struct gm_problem *problem)
     return own_of(problem)->friction;
 }
 
+static void close_rates(struct gm_tape *rates, size_t n)
+{
+    for (size_t i = 0; rates && i < n; i++) {
+        gm_tape_close(&rates[i]);
+    }
+    free(rates);
+}
+
+/* NULL: out of memory. */
+static const struct gm_tape *rates_of(const struct own *own)
+{
+    struct gm_tape *rates = atomic_load(&own->pieces->rates), *others = NULL;
+    if (rates) {
+        return rates;
+    }
+    const size_t n = own->model->components;
+    rates = calloc(n, sizeof *rates);
+    bool good = rates != NULL;
+    for (size_t i = 0; good && i < n; i++) {
+        good = gm_tape_open(&rates[i], &own->model->system->graph, &own->model->rates[i], 1, n, own->values);
+    }
+    if (!good || !atomic_compare_exchange_strong(&own->pieces->rates, &others, rates)) {
+        close_rates(rates, n);
+        rates = others;
+    }
+    return rates;
+}
+
 /* x_piece := x_piece + h rate(the others) */
 static void flow(const struct gm_problem *problem, size_t piece, double h, double *y, size_t m)
 {
     enum { BLOCK = 128 };
     double rate[BLOCK];
+    const struct gm_tape *rates = rates_of(own_of(problem));
     for (size_t first = 0; first < m; first += BLOCK) {
         const size_t count = m - first < BLOCK ? m - first : BLOCK;
-        gm_tape_block(&own_of(problem)->rates[piece], y + first, m, rate, BLOCK, count);
+        if (rates) {
+            gm_tape_block(&rates[piece], y + first, m, rate, BLOCK, count);
+        }
         for (size_t l = 0; l < count; l++) {
-            y[piece * m + first + l] += h * rate[l];
+            y[piece * m + first + l] = rates ? y[piece * m + first + l] + h * rate[l] : NAN;
         }
     }
 }
@@ -518,11 +556,8 @@ static bool open_tapes(struct own *own, const double *values)
         free(nodes);
     }
     if (own->ode.volume) {
-        own->rates = calloc(n, sizeof *own->rates);
-        for (size_t i = 0; own->rates && i < n; i++) {
-            good = good && gm_tape_open(&own->rates[i], graph, &model->rates[i], 1, n, values);
-        }
-        good = good && own->rates;
+        own->pieces = calloc(1, sizeof *own->pieces);
+        good = good && own->pieces;
     }
     return good;
 }
@@ -635,8 +670,8 @@ void gm_own_problem_close(struct gm_problem *problem)
 {
     struct own *own = (struct own *)problem->parameters;
     if (own) {
-        for (size_t i = 0; own->rates && i < problem->n; i++) {
-            gm_tape_close(&own->rates[i]);
+        if (own->pieces) {
+            close_rates(atomic_load(&own->pieces->rates), problem->n);
         }
         gm_tape_close(&own->field);
         gm_tape_close(&own->velocity);
@@ -653,7 +688,7 @@ void gm_own_problem_close(struct gm_problem *problem)
         gm_tape_close(&own->slopes);
         gm_own_bracket_close(&own->bracket);
         free(own->frequencies);
-        free(own->rates);
+        free(own->pieces);
         free(own->values);
         free(own);
     }
