@@ -506,7 +506,6 @@ static bool make_observables(struct own_field *own, char *sentence)
         GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),
         GM_OBSERVABLE("crest", crest, "x where u is highest"),
         GM_LOCAL_LAWS,
-        GM_FORM_RESIDUAL,
     };
     static const struct gm_observable error =
         GM_LOG_OBSERVABLE("solution_error", solution_error, "distance from the exact solution");
@@ -673,6 +672,10 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
     free(y);
     close_problem(&problem);
     make_work(own);
+    static const struct gm_observable law[] = {
+        GM_FORM_RESIDUAL}; /* a look at it takes as long as two steps */
+    own->scene.asked = law;
+    own->scene.asked_count = own->is_form ? GM_COUNT(law) : 0;
     own->scene.observables = own->observables;
     own->scene.observable_count = own->observable_count;
     return good;
