@@ -42,6 +42,8 @@ struct gm_work_table {
     const struct gm_scheme
         *trusted; /* of a run that is the reference, and its step; NULL: the solution is exact */
     double reference_step;
+    struct gm_lane
+        *finer;    /* the run that errors are distances from, where the scene measures these; else NULL */
     double *steps; /* the ladder, falling: steps, or values of `ratio` */
     size_t step_count;
     const struct gm_parameter *resolution; /* what varies beside the step; NULL: nothing does */

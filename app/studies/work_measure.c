@@ -144,9 +144,40 @@ static double *reference_state(struct gm_work_table *table, char *message)
     return state;
 }
 
+/* The run that errors are distances from, of a scene that measures these: at twice the finest resolution, with half the
+   shortest step. False with a sentence. */
+static bool run_finer(struct gm_work_table *table, char *message)
+{
+    const struct gm_work *work = table->request.scene->work;
+    const struct gm_parameter *row = gm_scene_parameter(table->request.scene, work->resolution);
+    const struct gm_scheme *trusted = gm_scheme_find(work->reference);
+    void *own = timing_of(table);
+    const double usual = gm_parameter_get(row, own),
+                 finest = table->resolution ? table->resolutions[table->resolution_count - 1] : usual,
+                 finer = table->smaller_is_finer ? finest / 2 : 2 * finest,
+                 dt = table->steps[table->step_count - 1] / 2;
+    snprintf(table->reference, sizeof table->reference, "a run of %s with a step of %.3g and %s=%.3g",
+             trusted->name, dt, row->key, finer);
+    table->trusted = trusted;
+    table->reference_step = dt;
+    gm_parameter_put(row, own, finer);
+    table->finer = open_lane(table, trusted, dt, message);
+    gm_parameter_put(row, own, usual);
+    if (!table->finer) {
+        return false;
+    }
+    run_reference(table, table->finer);
+    return (table->finer->run->status == GM_OK && !stopped(table)) ||
+           gm_refuse(message, "the reference, %s, failed: %s", table->reference,
+                     gm_status_name(table->finer->run->status));
+}
+
 static double error_of(const struct gm_work_table *table, const struct gm_lane *lane, const double *reference)
 {
     const struct gm_scene *scene = lane->scene;
+    if (table->finer) {
+        return scene->work->distance(lane, table->finer);
+    }
     if (reference) {
         const double *state = gm_run_state(lane->run);
         double error = 0;
@@ -398,7 +429,12 @@ bool gm_work_measure(struct gm_work_table *table, const struct gm_listener *list
 {
     double *reference = NULL;
     table->listener = listener;
-    if (!table->observed) {
+    const struct gm_work *work = table->request.scene->work;
+    if (!table->observed && work && work->distance) {
+        if (!run_finer(table, message)) {
+            return false;
+        }
+    } else if (!table->observed) {
         reference = reference_state(table, message);
         if (!reference) {
             return false;

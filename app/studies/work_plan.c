@@ -217,7 +217,7 @@ static bool choose_steps(struct gm_work_table *table, bool given, char *message)
         qsort(table->steps, table->step_count, sizeof *table->steps, falling);
         return true;
     }
-    const double coarsest = work ? work->coarsest : 4 * timing->dt;
+    const double coarsest = work && work->coarsest > 0 ? work->coarsest : 4 * timing->dt;
     const int halvings = work ? work->halvings : 7;
     double steps = fmax(1, ceil(whole / coarsest - 1e-9));
     for (int i = 0; i <= halvings; i++, steps *= 2) {
@@ -265,7 +265,9 @@ static bool choose_measure(struct gm_work_table *table, const struct gm_lane *la
     table->measure = asked                                 ? asked
                      : scene->work && scene->work->measure ? scene->work->measure
                                                            : solution_error;
-    table->measure_title = "largest difference from the true solution";
+    const struct gm_work *work = scene->work;
+    table->measure_title =
+        work && work->distance ? work->distance_title : "largest difference from the true solution";
     table->observed =
         strcmp(table->measure, solution_error) != 0 ||
         (scene->work && scene->work->measure && strcmp(scene->work->measure, solution_error) == 0) ||
@@ -363,6 +365,7 @@ void gm_work_close(struct gm_work_table *table)
             free(table->lines[i].best[cost]);
         }
     }
+    gm_lane_close(table->finer);
     free(table->lines);
     free(table->schemes);
     free(table->steps);

@@ -21,6 +21,10 @@ struct gm_triangulation {
    nothing uses are dropped. False with a fault, and nothing to close, if the text is no such mesh. */
 bool gm_triangulation_read(const char *text, size_t size, enum gm_star star, struct gm_triangulation *mesh,
                            struct gm_triangulation_fault *fault);
+/* Cuts every triangle into four by the middles of its sides; vertices keep their numbers and groups their edges.
+   False with a fault, the mesh as it was, where memory is short or the star is not positive any more. */
+bool gm_triangulation_halve(struct gm_triangulation *mesh, enum gm_star star,
+                            struct gm_triangulation_fault *fault);
 void gm_triangulation_close(struct gm_triangulation *mesh);
 
 /* The physical tag of a group of lines, by its name or its tag; 0 if there is none. */

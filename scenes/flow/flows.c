@@ -89,9 +89,10 @@ static void explain(const char *what, const struct gm_triangulation_fault *fault
         snprintf(sentence, GM_MESSAGE, "%.100s: at node %ld the mesh hangs together by a point", what, n[0]);
         return;
     case GM_TRIANGULATION_PIECES:
-        snprintf(sentence, GM_MESSAGE,
-                 "%.100s%s is in several pieces: triangle %ld (nodes %ld %ld %ld) is not joined to triangle 1",
-                 what, where, fault->triangle, n[0], n[1], n[2]);
+        snprintf(
+            sentence, GM_MESSAGE,
+            "%.100s%s is in several pieces: triangle %ld (nodes %ld %ld %ld) is not joined to triangle 1",
+            what, where, fault->triangle, n[0], n[1], n[2]);
         return;
     case GM_TRIANGULATION_NOT_DELAUNAY:
         snprintf(
@@ -150,6 +151,30 @@ bool gm_flows_file(const char *path, enum gm_star star, struct gm_triangulation 
     free(text);
     if (!good) {
         explain(path, &fault, sentence);
+    }
+    return good;
+}
+
+bool gm_flows_refine(const char *path, enum gm_star star, long parts, struct gm_triangulation *mesh,
+                     char *sentence)
+{
+    enum { MOST_TRIANGLES = 5000000 };
+    struct gm_triangulation_fault fault;
+    bool good = true;
+    if ((parts & (parts - 1)) != 0) {
+        good = gm_refuse(sentence, "refine=%ld: edges are halved, and halved again: 1, 2, 4 ...", parts);
+    } else if ((double)mesh->complex->triangles * (double)parts * (double)parts > MOST_TRIANGLES) {
+        good = gm_refuse(sentence, "refine=%ld makes more than %d triangles of the %zu of %.100s", parts,
+                         MOST_TRIANGLES, mesh->complex->triangles, path);
+    }
+    for (; good && parts > 1; parts /= 2) {
+        good = gm_triangulation_halve(mesh, star, &fault);
+        if (!good) {
+            explain(path, &fault, sentence);
+        }
+    }
+    if (!good) {
+        gm_triangulation_close(mesh);
     }
     return good;
 }

@@ -33,7 +33,7 @@ enum { GM_DOMAIN_TORUS, GM_DOMAIN_BOX };
 struct gm_flows {
     struct gm_timing timing;
     double reynolds, schmidt, viscosity, irregular, inlet_scalar, speed;
-    long rows, columns, tracers;
+    long rows, columns, tracers, refine;
     char mesh[GM_TEXT_SIZE], inlet[GM_TEXT_SIZE], outlet[GM_TEXT_SIZE], lid[GM_TEXT_SIZE];
     int show, streamlines, arrows, grid, domain, star, smoke;
     const struct gm_own_room *room; /* of a file's (scenes/flow/own_room.h) */
@@ -65,6 +65,10 @@ extern const char *const gm_flows_shows[], *const gm_flows_warm_shows[], *const 
 
 /* A flow on the mesh of a rectangle; `strips` 0: the best number. NULL with a sentence. */
 struct gm_flow *gm_flows_rectangle(struct gm_rectangle *rectangle, char *sentence);
+
+/* Cuts each edge of the mesh of a file into `parts`, a power of two. False with a sentence, and the mesh closed. */
+bool gm_flows_refine(const char *path, enum gm_star star, long parts, struct gm_triangulation *mesh,
+                     char *sentence);
 
 /* The mesh of a file. False with a sentence that names the line or triangle. */
 bool gm_flows_file(const char *path, enum gm_star star, struct gm_triangulation *mesh, char *sentence);

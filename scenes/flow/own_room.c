@@ -17,7 +17,7 @@ struct subject {
     double at[2];  /* of a probe */
 };
 
-enum { ROWS = 13, MOST_OBSERVED = GM_MOST_OBSERVABLES };
+enum { ROWS = 14, MOST_OBSERVED = GM_MOST_OBSERVABLES };
 
 struct gm_own_room {
     struct gm_scene scene; /* first: a scene is found to be this */
@@ -174,7 +174,8 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     if (own->doubled) {
         return gm_refuse(sentence, "two of the room's names lead to the observable %s", own->doubled);
     }
-    if (!read_mesh(own, chosen, &mesh, sentence)) {
+    if (!read_mesh(own, chosen, &mesh, sentence) ||
+        !gm_flows_refine(own->mesh, (enum gm_star)chosen->star, chosen->refine, &mesh, sentence)) {
         return false;
     }
     struct gm_flow *flow = gm_room_flow(&own->room, &mesh, &fault, &boundary);
@@ -215,6 +216,39 @@ static void tell_failure(const struct gm_view *view, char *text, size_t size)
         }
     }
     snprintf(text, size, "%s", sentence);
+}
+
+/* Over what a mesh and its halves share, the vertices of the coarser one: the distance in the mean square, relative
+   to what is furthest from its own mean there. */
+static double apart(const struct gm_complex *complex, const double *value, const double *finer)
+{
+    double mean = 0, square = 0, size = 0;
+    for (size_t v = 0; v < complex->vertices; v++) {
+        mean += complex->star0[v] * finer[v] / complex->total_area;
+    }
+    for (size_t v = 0; v < complex->vertices; v++) {
+        square += complex->star0[v] * pow(value[v] - finer[v], 2);
+        size += complex->star0[v] * pow(finer[v] - mean, 2);
+    }
+    return square > 0 ? sqrt(square / size) : 0;
+}
+
+/* The largest of those of the stream function, the scalar and the temperature. */
+static double distance(const struct gm_lane *lane, const struct gm_lane *finer)
+{
+    const struct gm_flow *flow = gm_flow_of(&lane->problem), *reference = gm_flow_of(&finer->problem);
+    const double *y = gm_run_state(lane->run), *z = gm_run_state(finer->run);
+    const enum gm_flow_block blocks[] = {GM_FLOW_PSI, GM_FLOW_THETA, GM_FLOW_TEMPERATURE};
+    double largest = 0;
+    for (size_t i = 0; i < GM_COUNT(blocks); i++) {
+        if (blocks[i] == GM_FLOW_TEMPERATURE && !flow->heat) {
+            continue;
+        }
+        const double part =
+            apart(flow->complex, gm_flow_block(flow, y, blocks[i]), gm_flow_block(reference, z, blocks[i]));
+        largest = part <= largest ? largest : part; /* keeps a NaN */
+    }
+    return largest;
 }
 
 static bool readable(const void *parameters, char *sentence)
@@ -417,6 +451,8 @@ static void make_rows(struct gm_own_room *own)
         GM_REAL_ROW(struct gm_flows, schmidt, "schmidt", own->numbers[3], 1e-6, 1e6,
                     "Schmidt number, viscosity / diffusivity", .logarithmic = true),
         GM_FLOWS_STAR,
+        GM_INTEGER_ROW(struct gm_flows, refine, "refine", "1", 1, 64,
+                       "parts that each edge of the mesh is cut into: 1, 2, 4 ...", .logarithmic = true),
         GM_FLOWS_TRACERS("350"),
         GM_FLOWS_SMOKE,
         GM_FLOWS_LOOKS("scalar", "yes"),
@@ -454,7 +490,22 @@ static bool copy_words(struct gm_own_room *own, const char *name, const char *wo
 const struct gm_scene *gm_own_room_open(struct gm_room *room, const char *name, const char *word,
                                         const char *path, char *sentence)
 {
-    static const char *const schemes[] = {"semi-implicit", NULL};
+    static const char *const schemes[] = {"semi-implicit", NULL}, *const compared[] = {"semi-implicit",
+                                                                                       "crank-nicolson",
+                                                                                       NULL};
+    static const double parts[] = {1, 2}, accuracies[] = {1e-1, 3e-2, 1e-2};
+    static const struct gm_work work = {
+        .arguments = "tracers=0",
+        .halvings = 3,
+        .schemes = compared,
+        .reference = "crank-nicolson",
+        .resolution = "refine",
+        .resolutions = parts,
+        .resolution_count = GM_COUNT(parts),
+        .errors = accuracies,
+        .distance = distance,
+        .distance_title = "largest relative distance of stream function, scalar and temperature",
+    };
     struct gm_own_room *own = calloc(1, sizeof *own);
     struct gm_triangulation mesh;
     if (!own) {
@@ -495,6 +546,7 @@ const struct gm_scene *gm_own_room_open(struct gm_room *room, const char *name, 
         .start = gm_flows_start,
         .draw = draw,
         .failure = tell_failure,
+        .work = &work,
     };
     make_rows(own);
     for (size_t i = 0; i < own->room.count && i + 1 < GM_ROOM_SIDES; i++) {

@@ -97,7 +97,7 @@ struct gm_work {
     const char *arguments; /* key=value that differ from the defaults, separated by blanks; "" */
     const char *measure;   /* key of the observable that is the error, at the end; NULL: the distance of the
                               state from the exact one, or from that of a reference run */
-    double coarsest;       /* the largest step of the ladder, */
+    double coarsest;       /* the largest step of the ladder (0: four times the usual one), */
     int halvings;          /* halved so many times */
     const char *const *schemes; /* the entrants, NULL-terminated; NULL: every scheme that fits */
     const char *reference;  /* the scheme of the reference run, where the problem has no exact solution; NULL:
@@ -110,6 +110,10 @@ struct gm_work {
     size_t resolution_count;
     const char *ratio; /* key of a parameter with which the step follows the resolution (settle); typed, its
                           values take the place of the ladder; NULL: none */
+    /* How far the state of a lane is from that of one whose resolution is twice as fine as the finest, and whose
+       step is half the shortest: the error instead of `measure`. NULL: the states of all lanes have one size */
+    double (*distance)(const struct gm_lane *lane, const struct gm_lane *finer);
+    const char *distance_title;
     const double *errors; /* three, falling, at which prices are compared; NULL: 1e-3, 1e-6, 1e-9 */
 };
 

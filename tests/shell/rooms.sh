@@ -116,6 +116,26 @@ within seat_scalar 49 51
 status 0 run "$rooms/office.room" smoke=yes steps=2 --json
 status 0 render "$rooms/age.room" until=1 smoke=yes --size 320x200 --out pictures
 
+# finer meshes of the same room, and what an accuracy costs: by more than half less where edges are halved
+status 0 run "$rooms/office.room" refine=2 until=0.2 --json
+within triangles 12932 12932
+within budget_defect 0 1e-12
+within door_flow 0.11999 0.12001
+refused 1 'refine=3: edges are halved' run "$rooms/office.room" refine=3 steps=1
+refused 1 'refine=64 makes more than 5000000 triangles' run "$rooms/office.room" refine=64 steps=1
+cp "$meshes/hole.msh" .
+printf '%s\n' 'mesh: hole.msh' 'viscosity: 0.05' 'inlet: door  flow = 0.3  scalar = 1' 'outlet: window' >small.room
+status 0 work-precision ./small.room until=8 dt=0.1,0.05 refine=1,2,4 --json -o small.svg
+python3 - out <<'END' || fail "work-precision of a room"
+import json, sys
+lines = [json.loads(line) for line in open(sys.argv[1])]
+assert [line["scheme"] for line in lines] == ["semi-implicit", "crank-nicolson"]
+for line in lines:
+    assert line["against"] == "a run of crank-nicolson with a step of 0.025 and refine=8", line["against"]
+    errors = [min(p["error"] for p in line["points"] if p["refine"] == refine) for refine in (1, 2, 4)]
+    assert errors[0] < 0.5 and errors[1] < 0.55 * errors[0] and errors[2] < 0.55 * errors[1], errors
+END
+
 # a mesh with two inlets and two outlets by the short form; the lists are groups, and not lanes
 status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 steps=2 --json
 [ "$(wc -l <out)" -eq 1 ] || fail "groups became lanes"

@@ -207,6 +207,48 @@ static void cut_anywhere(void **unused)
     }
 }
 
+/* The length of the boundary that carries a group. */
+static double length_of(const struct gm_triangulation *mesh, long group)
+{
+    double length = 0;
+    for (size_t b = 0; b < mesh->complex->boundary; b++) {
+        const int e = mesh->complex->boundary_edge[b];
+        length += mesh->edge_group[e] == group ? mesh->complex->length[e] : 0;
+    }
+    return length;
+}
+
+/* Halved, a mesh is the same polygon with the same angles, names and vertices. */
+static void halves(void **unused)
+{
+    (void)unused;
+    struct gm_triangulation mesh = mesh_of("hole.msh"), fine = mesh_of("hole.msh");
+    struct gm_triangulation_fault fault;
+    assert_false(gm_triangulation_halve(&fine, GM_STAR_CIRCUMCENTRIC, &fault)); /* it has obtuse triangles */
+    assert_int_equal(fault.kind, GM_TRIANGULATION_NOT_DELAUNAY);
+    assert_int_equal(fine.complex->triangles, mesh.complex->triangles);
+    assert_true(gm_triangulation_halve(&fine, GM_STAR_AUTO, &fault));
+    const struct gm_complex *a = mesh.complex, *b = fine.complex;
+    assert_int_equal(b->vertices, a->vertices + a->edges);
+    assert_int_equal(b->triangles, 4 * a->triangles);
+    assert_int_equal(b->boundary, 2 * a->boundary);
+    assert_int_equal(b->loops, a->loops);
+    assert_memory_equal(b->point, a->point, 2 * a->vertices * sizeof *a->point);
+    assert_true(fabs(b->total_area - a->total_area) < 1e-13);
+    assert_true(fabs(b->largest_angle - a->largest_angle) < 1e-9);
+    assert_int_equal(b->obtuse, 4 * a->obtuse);
+    for (size_t i = 0; i < mesh.groups; i++) {
+        const long tag = mesh.group[i].tag;
+        assert_true(length_of(&mesh, tag) > 0);
+        assert_true(fabs(length_of(&fine, tag) - length_of(&mesh, tag)) < 1e-13);
+    }
+    for (size_t v = 1; v < b->vertices; v++) {
+        assert_true(fine.tags[v] > fine.tags[v - 1]);
+    }
+    gm_triangulation_close(&mesh);
+    gm_triangulation_close(&fine);
+}
+
 /* Boundaries that make no room. */
 static void boundaries(void **unused)
 {
@@ -242,7 +284,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(good_files),   cmocka_unit_test(broken_files), cmocka_unit_test(sentences),
         cmocka_unit_test(cut_anywhere), cmocka_unit_test(boundaries),   cmocka_unit_test(formats),
-        cmocka_unit_test(stars),
+        cmocka_unit_test(stars),        cmocka_unit_test(halves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
