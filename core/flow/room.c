@@ -341,6 +341,12 @@ bool gm_room_read(struct gm_room *room, const char *text, size_t length, struct 
         const char *word = room->text + line.word.begin;
         const size_t letters = line.word.end - line.word.begin;
         bool met = letters == strlen("geomint") && strncmp(word, "geomint", letters) == 0;
+        if (met && !(line.value.end == line.value.begin + 1 && room->text[line.value.begin] == '1')) {
+            return gm_fail(
+                fault, line.value.begin, "this program reads files of format 1, not %.*s",
+                (int)(line.value.end - line.value.begin < 40 ? line.value.end - line.value.begin : 40),
+                room->text + line.value.begin);
+        }
         if (!met && !read_single(room, line, &met, fault)) {
             return false;
         }

@@ -1867,6 +1867,17 @@ static const char *part_name(gm_node_id node, const void *data)
     return node < system->part_count ? system->parts[node] : NULL;
 }
 
+const struct gm_system_item *gm_system_item_of(const struct gm_own_system *system, enum gm_system_word word,
+                                               size_t number)
+{
+    for (size_t i = 0; i < system->item_count; i++) {
+        if (system->items[i].word == word && number-- == 0) {
+            return &system->items[i];
+        }
+    }
+    return NULL;
+}
+
 struct gm_naming gm_system_naming(const struct gm_own_system *system)
 {
     return (struct gm_naming){.variable = variable_name, .part = part_name, .data = system};

@@ -113,6 +113,10 @@ static inline bool gm_system_is_field(const struct gm_own_system *system)
     return system->kind == GM_FIELD || system->kind == GM_EVOLUTION || system->kind == GM_MATRICES;
 }
 
+/* Item number `number` of those that a word made; NULL: there are fewer. */
+const struct gm_system_item *gm_system_item_of(const struct gm_own_system *system, enum gm_system_word word,
+                                               size_t number);
+
 /* The names of variables and of lets. It holds as long as the system. */
 struct gm_naming gm_system_naming(const struct gm_own_system *system);
 

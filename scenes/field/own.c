@@ -388,21 +388,11 @@ static const char *number_text(struct own_field *own, double value)
     return gm_kept_texts_add(&own->texts, strdup(gm_number_format(value, text, sizeof text)));
 }
 
-static const struct gm_system_item *item_of(const struct gm_own_system *system, enum gm_system_word word)
-{
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == word) {
-            return &system->items[i];
-        }
-    }
-    return NULL;
-}
-
 /* What a line of one number says with the file's own values; `usual` where there is none. */
 static double number_of(const struct own_field *own, const double *values, enum gm_system_word word,
                         double usual)
 {
-    const struct gm_system_item *item = item_of(&own->system, word);
+    const struct gm_system_item *item = gm_system_item_of(&own->system, word, 0);
     const struct gm_formula *graph = &own->system.graph;
     double *all = item ? malloc((graph->count + (size_t)1) * sizeof *all) : NULL;
     if (all) {
@@ -624,7 +614,7 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
     own->solved = (own->evolves   ? own->evolution.exact[0]
                    : own->is_form ? own->form.exact[0]
                                   : own->wave.exact) != GM_NO_NODE;
-    const struct gm_system_item *jump = item_of(system, GM_WORD_JUMP);
+    const struct gm_system_item *jump = gm_system_item_of(system, GM_WORD_JUMP, 0);
     own->track = (struct gm_track)GM_SURFACE_TRACK(record_shown);
     own->scene = (struct gm_scene){
         .name = name,

@@ -9,17 +9,6 @@
 
 #include "core/formula/equations.h"
 
-const struct gm_system_item *gm_system_item_of(const struct gm_own_system *system, enum gm_system_word word,
-                                               size_t number)
-{
-    for (size_t i = 0; i < system->item_count; i++) {
-        if (system->items[i].word == word && number-- == 0) {
-            return &system->items[i];
-        }
-    }
-    return NULL;
-}
-
 size_t gm_system_count_items(const struct gm_own_system *system, enum gm_system_word word)
 {
     size_t count = 0;

@@ -6,9 +6,7 @@
 
 #include "scenes/ode/system/look.h"
 
-/* Item number `number` of those that a word made; NULL: there are fewer. */
-const struct gm_system_item *gm_system_item_of(const struct gm_own_system *system, enum gm_system_word word,
-                                               size_t number);
+/* How many items a word made. */
 size_t gm_system_count_items(const struct gm_own_system *system, enum gm_system_word word);
 
 /* Values of all variables at the start, of those rows that are `given`, or of all rows: NULL. malloc'ed; NULL:
