@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 
 #include "app/commands/commands.h"
 #include "app/commands/reference/version.h"
@@ -18,6 +17,7 @@
 #include "app/request/share.h"
 #include "core/formula/nearest.h"
 #include "core/memory.h"
+#include "render/address_space.h"
 #include "render/gl/context.h"
 
 /* What may stand first: a command or a scene. */
@@ -92,9 +92,8 @@ static void keep_buffers(void)
     static const size_t huge = (size_t)2 << 20, room = (size_t)31 << 20;
     mallopt(M_MMAP_THRESHOLD, 32 << 20);
     mallopt(M_TRIM_THRESHOLD, 64 << 20);
-    struct rlimit space; /* where it is limited, what is not needed is left to others */
-    const bool wide = getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur == RLIM_INFINITY;
-    void *block = wide ? malloc(room) : NULL; /* the end of the heap, to which it is given back */
+    /* the end of the heap, to which it is given back */
+    void *block = gm_address_space_is_limited() ? NULL : malloc(room);
     if (block) {
         const uintptr_t first = ((uintptr_t)block + huge - 1) / huge * huge;
         madvise((void *)first, ((uintptr_t)block + room - first) / huge * huge, MADV_HUGEPAGE);

@@ -4,6 +4,14 @@
 
 #include <stdbool.h>
 #include <stdlib.h>
+#include <sys/resource.h>
+
+/* Whether it has a limit: what is only quicker is then left alone. */
+static inline bool gm_address_space_is_limited(void)
+{
+    struct rlimit space;
+    return getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur != RLIM_INFINITY;
+}
 
 /* Whether the system gives so many bytes. Libraries that are refused memory seldom say that it was memory:
    asked for as much, the program's own malloc finds out, and notes it. */

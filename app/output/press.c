@@ -11,6 +11,7 @@
 
 #include "app/output/say.h"
 #include "core/memory.h"
+#include "render/address_space.h"
 #include "render/files/thread.h"
 #include "render/gl/canvas.h"
 #include "render/message.h"
@@ -61,7 +62,10 @@ static void *load(void *nothing)
 void gm_press_expect(enum gm_format format)
 {
     pthread_t loader;
-    if (format == GM_FORMAT_PNG && gm_thread_start(&loader, load, NULL) == 0) {
+    /* a thread's stack and its share of the heap would be taken from Mesa, which waits for ever for a thread
+       of its own that it is refused */
+    if (format == GM_FORMAT_PNG && !gm_address_space_is_limited() &&
+        gm_thread_start(&loader, load, NULL) == 0) {
         pthread_detach(loader);
     }
 }
