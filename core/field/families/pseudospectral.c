@@ -78,7 +78,7 @@ static void find_rate(struct work *work, double half_eta, const double complex *
     gm_fourier_forward(work->fourier, rate);
     for (size_t k = 0; k < points; k++) {
         const double factor = half_eta * work->number[k];
-        rate[k] = CMPLX(factor * cimag(rate[k]), -factor * creal(rate[k]));
+        rate[k] = factor * cimag(rate[k]) - I * (factor * creal(rate[k]));
     }
 }
 
@@ -90,8 +90,8 @@ static void prepare(struct work *work, const struct gm_problem *problem, double 
         const double number = k <= points / 2 ? (double)k : (double)k - (double)points;
         work->number[k] = 2 * k == points ? 0 : 2 * M_PI / period * number;
         const double angle = mu * work->number[k] * work->number[k] * work->number[k] * dt / 2;
-        work->turn[k] = CMPLX(cos(angle), sin(angle));
-        work->square[k] = CMPLX(cos(2 * angle), sin(2 * angle));
+        work->turn[k] = cos(angle) + I * sin(angle);
+        work->square[k] = cos(2 * angle) + I * sin(2 * angle);
     }
 }
 
