@@ -266,8 +266,9 @@ static bool choose_measure(struct gm_work_table *table, const struct gm_lane *la
                      : scene->work && scene->work->measure ? scene->work->measure
                                                            : solution_error;
     const struct gm_work *work = scene->work;
-    table->measure_title =
-        work && work->distance ? work->distance_title : "largest difference from the true solution";
+    table->measure_title = work && work->distance ? work->distance_title
+                           : lane->problem.exact  ? "largest difference from the true solution"
+                                                  : "largest difference from a run of short steps";
     table->observed =
         strcmp(table->measure, solution_error) != 0 ||
         (scene->work && scene->work->measure && strcmp(scene->work->measure, solution_error) == 0) ||

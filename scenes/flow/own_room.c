@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/larger.h"
 #include "scenes/flow/flows.h"
 
 /* What an observable of a room looks at. */
@@ -246,7 +247,7 @@ static double distance(const struct gm_lane *lane, const struct gm_lane *finer)
         }
         const double part =
             apart(flow->complex, gm_flow_block(flow, y, blocks[i]), gm_flow_block(reference, z, blocks[i]));
-        largest = part <= largest ? largest : part; /* keeps a NaN */
+        largest = gm_larger(largest, part);
     }
     return largest;
 }

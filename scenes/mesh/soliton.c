@@ -17,6 +17,8 @@
 
 #include <math.h>
 
+#include "core/larger.h"
+
 enum { PATHS = 255 /* most nodes whose paths are recorded */, RECORDS = 400 };
 
 static const char *const fields[] = {"sine-gordon", "phi4", NULL};
@@ -102,7 +104,7 @@ static double solution_error(const struct gm_view *view)
     for (size_t k = 0; k < points; k++) {
         const double difference =
             fabs(view->state[k] - gm_soliton_exact(&soliton->own, view->state[points + k], view->t));
-        largest = difference <= largest ? largest : difference;
+        largest = gm_larger(largest, difference);
     }
     return largest;
 }

@@ -23,6 +23,7 @@
 
 #include "core/count.h"
 #include "core/field/families/families.h"
+#include "core/larger.h"
 
 /* One step of length k on nodes h apart, each displaced by sigma. u and v have `points` entries; the first
    and the last of v hold the boundary values of the new level already. */
@@ -125,7 +126,7 @@ double gm_heat_defect(const struct gm_problem *problem, const struct gm_scheme *
         step.v = w;
         row->make(&step);
         const double defect = fabs(w[1] / arrival.u - 1);
-        largest = defect <= largest ? largest : defect;
+        largest = gm_larger(largest, defect);
     }
     return largest;
 }

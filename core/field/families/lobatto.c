@@ -27,6 +27,7 @@
 #include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/multisymplectic.h"
+#include "core/larger.h"
 #include "core/linear/differences.h"
 
 enum { STAGES = 3 };
@@ -129,7 +130,7 @@ static enum gm_status middle_stage(struct work *work, const struct gm_problem *p
         for (size_t i = 0; i < points; i++) {
             const double next =
                 work->u[i] + dt / 2 * work->v[i] + dt * dt * (first[i] / 12 + work->force[i] / 24);
-            change = fabs(next - half[i]) <= change ? change : fabs(next - half[i]);
+            change = gm_larger(change, fabs(next - half[i]));
             largest = fmax(largest, fabs(next));
             half[i] = next;
         }
@@ -198,13 +199,14 @@ static size_t memory(const struct gm_problem *problem, const struct gm_scheme *s
 
 static enum gm_status start(const struct gm_task *task)
 {
-    enum { TIMES = 12 };
+    enum { USUAL = 12, MOST = 400 }; /* near the limit of stability it converges slowly */
     const struct gm_problem *problem = task->problem;
     struct work *work = task->workspace;
     const size_t points = work->points, size = points * sizeof(double);
     const double gap = task->y[2 * points], *other = task->y + points;
     double *u = task->memory_out, *v = u + points, *filled = v + points;
     struct gm_progress uncounted = {.status = GM_OK};
+    bool near = false;
     if (*filled == 1) {
         return GM_OK;
     }
@@ -212,19 +214,25 @@ static enum gm_status start(const struct gm_task *task)
     for (size_t i = 0; i < points; i++) {
         v[i] = (other[i] - u[i]) / gap;
     }
-    for (int k = 0; k < TIMES; k++) {
+    for (int k = 0; k < USUAL || (k < MOST && !near); k++) {
         memcpy(work->u, u, size);
         memcpy(work->v, v, size);
         work->fresh = false;
-        if (make_step(work, task->scheme->coefficients, problem, gap, NULL, &uncounted) != GM_OK) {
-            break;
-        }
+        const enum gm_status status =
+            make_step(work, task->scheme->coefficients, problem, gap, NULL, &uncounted);
+        double miss = 0, most = 1;
         for (size_t i = 0; i < points; i++) {
+            miss = gm_larger(miss, fabs(other[i] - work->u[i]));
+            most = fmax(most, fabs(other[i]));
             v[i] += (other[i] - work->u[i]) / gap;
         }
+        if (status != GM_OK || !isfinite(miss)) {
+            return status != GM_OK ? status : GM_NO_CONVERGENCE;
+        }
+        near = miss <= 1e-9 * most;
     }
-    *filled = 1;
-    return GM_OK;
+    *filled = near;
+    return near ? GM_OK : GM_NO_CONVERGENCE;
 }
 
 static struct gm_progress advance(const struct gm_task *task)

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/larger.h"
 #include "core/ode/kernel/members.h"
 
 /* ---- angular momenta ---- */
@@ -325,7 +326,7 @@ static double norm_of(const struct gm_sparse *slopes, const double *A, size_t n)
         sums[slopes->entries[i].row] += fabs(A[i]);
     }
     for (size_t i = 0; i < n; i++) {
-        largest = sums[i] <= largest ? largest : sums[i]; /* a NaN stays */
+        largest = gm_larger(largest, sums[i]);
     }
     return largest;
 }
