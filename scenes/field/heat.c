@@ -324,8 +324,8 @@ const struct gm_scene gm_scene_heat = {
         "Heat that spreads, and the same seen from a frame that moves with lambda. The equation does not care; the "
         "ordinary scheme keeps scalings alone, schemes in a moving frame keep boosts and projections too.",
     .watch =
-        "Watch the ordinary scheme lose the profile as lambda grows, where the invariant ones give one and the same "
-        "to round-off; on a kernel the one that keeps projections is exact.",
+        "Watch the error of the ordinary scheme grow with lambda, where the invariant ones have one and the same to "
+        "round-off; on a kernel the one that keeps projections is exact.",
     .time = "length² / diffusivity, in the units of x",
     .size = sizeof(struct scene),
     .parameters = parameters,

@@ -3,7 +3,8 @@
    in space and time (collocation.c),
        r = 1   M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),   A f = (f_i + f_{i+1})/2,   D f = (f_{i+1} - f_i)/dx
    S. Reich, J. Comput. Phys. 157 (2000) 473; T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184. The memory is s
-   at the stages of the cells, and the stages of two steps, of which the next step's are guessed.
+   at the stages of the cells, and the stages of three steps, of which the next step's are guessed. What the form
+   calls M and K are the K and L of a system's file, and of the formulas that users read.
 
    Values at the nodes are found of those at the stages, and the other way round at the start: of one stage they are
    means, so that on an odd number of cells a step is the box's of nodes to the last digits. On an even number no mean
@@ -350,14 +351,14 @@ static double form(const struct gm_problem *problem, const struct gm_scheme *sch
     }
 
 static const struct gm_scheme schemes[] = {
-    BOX("box", "box", "M DₜAₓs + K AₜDₓs = ∇S(AₜAₓs),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
+    BOX("box", "box", "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
         &midpoint, 2),
-    BOX("gauss-box2", "Gauss box, r = s = 1", "M T + K X = ∇S(Z),  the midpoint rule in x and t",
+    BOX("gauss-box2", "Gauss box, r = s = 1", "K T + L X = ∇S(Z),  the midpoint rule in x and t",
         "S. Reich, J. Comput. Phys. 157 (2000) 473: the box", &midpoint, 2),
-    BOX("gauss-box3", "Gauss box, r = s = 2", "M T + K X = ∇S(Z),  two stages of Gauss in x and t",
+    BOX("gauss-box3", "Gauss box, r = s = 2", "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
         "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss4, 3),
-    BOX("gauss-box4", "Gauss box, r = s = 3", "M T + K X = ∇S(Z),  three stages of Gauss in x and t",
+    BOX("gauss-box4", "Gauss box, r = s = 3", "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
         "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss6, 4),
 };
 

@@ -100,8 +100,8 @@ bool gm_own_form_derive(struct gm_own_form *form, struct gm_own_system *system)
            !system->graph.failed;
 }
 
-/* The potentials, and their jumps. */
-static void find_potentials(struct gm_problem *problem, struct own *own)
+/* The potentials, and their jumps; false: out of memory. */
+static bool find_potentials(struct gm_problem *problem, struct own *own)
 {
     const struct gm_own_system *system = own->source->system;
     const size_t n = system->n, points = problem->line.points;
@@ -118,7 +118,7 @@ static void find_potentials(struct gm_problem *problem, struct own *own)
             }
         }
     }
-    double *y = own->form.potential_count > 0 ? malloc(2 * n * points * sizeof *y) : NULL;
+    double *y = own->form.potential_count > 0 ? malloc(n * points * sizeof *y) : NULL;
     if (y) {
         gm_own_form_start(problem, y);
         for (size_t i = 0; i < points; i++) {
@@ -136,7 +136,9 @@ static void find_potentials(struct gm_problem *problem, struct own *own)
             }
         }
     }
+    const bool good = own->form.potential_count == 0 || y;
     free(y);
+    return good;
 }
 
 bool gm_own_form_open(struct gm_problem *problem, const struct gm_own_form *form, const double *values,
@@ -185,7 +187,7 @@ bool gm_own_form_open(struct gm_problem *problem, const struct gm_own_form *form
         for (size_t i = 0; i < n; i++) {
             own->jump[i] = system->variables[i].jump == GM_NO_NODE ? 0 : all[system->variables[i].jump];
         }
-        find_potentials(problem, own);
+        good = find_potentials(problem, own);
     }
     free(all);
     return good;
