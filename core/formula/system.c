@@ -1867,6 +1867,22 @@ static const char *part_name(gm_node_id node, const void *data)
     return node < system->part_count ? system->parts[node] : NULL;
 }
 
+bool gm_system_place(struct gm_own_system *system, gm_node_id *nodes, size_t count)
+{
+    const size_t variables = system->velocities + 1;
+    gm_node_id *others = malloc(variables * sizeof *others);
+    for (size_t i = 0; others && i < variables; i++) {
+        others[i] = GM_NO_NODE;
+    }
+    if (others) {
+        others[system->velocities] = gm_formula_variable(&system->graph, 0);
+        others[system->n] = gm_formula_variable(&system->graph, 1);
+    }
+    const bool good = others && gm_formula_substitute(&system->graph, nodes, count, others, variables);
+    free(others);
+    return good;
+}
+
 const struct gm_system_item *gm_system_item_of(const struct gm_own_system *system, enum gm_system_word word,
                                                size_t number)
 {

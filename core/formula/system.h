@@ -113,6 +113,9 @@ static inline bool gm_system_is_field(const struct gm_own_system *system)
     return system->kind == GM_FIELD || system->kind == GM_EVOLUTION || system->kind == GM_MATRICES;
 }
 
+/* Formulas of a field anew, with x as variable 0 and t as variable 1. False: out of memory. */
+bool gm_system_place(struct gm_own_system *system, gm_node_id *nodes, size_t count);
+
 /* Item number `number` of those that a word made; NULL: there are fewer. */
 const struct gm_system_item *gm_system_item_of(const struct gm_own_system *system, enum gm_system_word word,
                                                size_t number);

@@ -53,23 +53,6 @@ static void hessians(const void *parameters, const double *s, double *to, size_t
 
 /* ---- what is derived ---- */
 
-/* x, then t, as the first variables. */
-static bool place(struct gm_own_system *system, gm_node_id *nodes, size_t count)
-{
-    const size_t variables = system->velocities + 1;
-    gm_node_id *others = malloc(variables * sizeof *others);
-    for (size_t i = 0; others && i < variables; i++) {
-        others[i] = GM_NO_NODE;
-    }
-    if (others) {
-        others[system->velocities] = gm_formula_variable(&system->graph, 0);
-        others[system->n] = gm_formula_variable(&system->graph, 1);
-    }
-    const bool good = others && gm_formula_substitute(&system->graph, nodes, count, others, variables);
-    free(others);
-    return good;
-}
-
 bool gm_own_form_derive(struct gm_own_form *form, struct gm_own_system *system)
 {
     const size_t n = system->n;
@@ -96,8 +79,8 @@ bool gm_own_form_derive(struct gm_own_form *form, struct gm_own_system *system)
     free(hessian.entries);
     free(marked);
     form->exact[0] = told ? form->exact[0] : GM_NO_NODE;
-    return good && place(system, form->starts, n) && (!told || place(system, form->exact, n)) &&
-           !system->graph.failed;
+    return good && gm_system_place(system, form->starts, n) &&
+           (!told || gm_system_place(system, form->exact, n)) && !system->graph.failed;
 }
 
 /* The potentials, and their jumps; false: out of memory. */

@@ -197,23 +197,6 @@ static void derive_start(struct gm_own_wave *wave, struct gm_own_system *system)
     }
 }
 
-/* x, then t, as the first variables. */
-static bool place(struct gm_own_system *system, gm_node_id *nodes, size_t count)
-{
-    const size_t variables = system->velocities + 1;
-    gm_node_id *others = malloc(variables * sizeof *others);
-    for (size_t i = 0; others && i < variables; i++) {
-        others[i] = GM_NO_NODE;
-    }
-    if (others) {
-        others[system->velocities] = gm_formula_variable(&system->graph, 0);
-        others[system->n] = gm_formula_variable(&system->graph, 1);
-    }
-    const bool good = others && gm_formula_substitute(&system->graph, nodes, count, others, variables);
-    free(others);
-    return good;
-}
-
 bool gm_own_wave_derive(struct gm_own_wave *wave, struct gm_own_system *system)
 {
     *wave = (struct gm_own_wave){.system = system, .exact = system->variables[0].exact};
@@ -222,8 +205,8 @@ bool gm_own_wave_derive(struct gm_own_wave *wave, struct gm_own_system *system)
     if (!system->graph.failed) {
         derive_start(wave, system);
     }
-    return !system->graph.failed && place(system, wave->start, GM_OWN_START) &&
-           (wave->exact == GM_NO_NODE || place(system, &wave->exact, 1));
+    return !system->graph.failed && gm_system_place(system, wave->start, GM_OWN_START) &&
+           (wave->exact == GM_NO_NODE || gm_system_place(system, &wave->exact, 1));
 }
 
 bool gm_own_wave_open(struct gm_problem *problem, const struct gm_own_wave *wave, const double *values)
