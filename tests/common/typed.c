@@ -2,6 +2,7 @@
 /* Systems for tests, typed as text. */
 #include "tests/common/typed.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -9,6 +10,8 @@
 #include <string.h>
 
 #include <cmocka.h>
+
+#include "core/schemes.h"
 
 void type(struct typed *typed, const char *text)
 {
@@ -29,4 +32,25 @@ void untype(struct typed *typed)
     gm_own_model_close(&typed->model);
     gm_system_close(&typed->system);
     free(typed->start);
+}
+
+void typed_advance(const struct typed *typed, const struct gm_settings *settings, const char *name, double dt,
+                   long steps, double *end)
+{
+    const struct gm_scheme *scheme = gm_scheme_find_for(name, &typed->problem);
+    assert_true(scheme && gm_scheme_fits(scheme, &typed->problem));
+    struct gm_run *run = gm_run_open(&typed->problem, scheme, settings, 0, dt, typed->start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, steps), GM_OK);
+    memcpy(end, gm_run_state(run), typed->problem.n * sizeof *end);
+    gm_run_close(run);
+}
+
+double typed_apart(const double *a, const double *b, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) {
+        largest = fmax(largest, isfinite(a[i]) ? fabs(a[i] - b[i]) : INFINITY);
+    }
+    return largest;
 }

@@ -20,6 +20,8 @@
 #include "core/schemes.h"
 #include "tests/common/typed.h"
 
+static const struct gm_settings plain = {0};
+
 static const struct {
     const char *name;
     int order;
@@ -31,27 +33,6 @@ static const struct {
                {"projected-gauss4", 4, true},
                {"projected-gauss6", 6, true}};
 
-static void go(const struct typed *typed, const char *name, double dt, long steps, double *end)
-{
-    static const struct gm_settings settings = {0};
-    const struct gm_scheme *scheme = gm_scheme_find_for(name, &typed->problem);
-    assert_true(scheme && gm_scheme_fits(scheme, &typed->problem));
-    struct gm_run *run = gm_run_open(&typed->problem, scheme, &settings, 0, dt, typed->start);
-    assert_non_null(run);
-    assert_int_equal(gm_run_advance(run, steps), GM_OK);
-    memcpy(end, gm_run_state(run), typed->problem.n * sizeof *end);
-    gm_run_close(run);
-}
-
-static double apart(const double *a, const double *b, size_t n)
-{
-    double largest = 0;
-    for (size_t i = 0; i < n; i++) {
-        largest = fmax(largest, isfinite(a[i]) ? fabs(a[i] - b[i]) : INFINITY);
-    }
-    return largest;
-}
-
 /* Errors of the place by slope, and both constraints. */
 static void expect_orders(const char *text, double dt, double until, const double *place)
 {
@@ -61,8 +42,8 @@ static void expect_orders(const char *text, double dt, double until, const doubl
         double errors[2], end[8];
         for (int finer = 0; finer < 2; finer++) {
             const double step = dt / (1 + finer);
-            go(&typed, schemes[i].name, step, lround(until / step), end);
-            errors[finer] = apart(end, place, typed.problem.n / 2);
+            typed_advance(&typed, &plain, schemes[i].name, step, lround(until / step), end);
+            errors[finer] = typed_apart(end, place, typed.problem.n / 2);
             const struct gm_manifold_defects defects = gm_manifold_defects(&typed.problem, end);
             assert_true(defects.constraint < 1e-13 && (defects.hidden < 1e-13) == schemes[i].hidden);
         }
@@ -128,7 +109,7 @@ static void in_angles(void **unused)
     double end[4];
     type(&angles, "coordinates: a b\nL: v_a^2 + v_b^2/2 + v_a*v_b*cos(a - b) + 2*cos(a) + cos(b)\n"
                   "start: a = 0.5, b = 0.8, v_a = 0.3, v_b = -0.2\n");
-    go(&angles, "gauss8", 0.01, 400, end);
+    typed_advance(&angles, &plain, "gauss8", 0.01, 400, end);
     untype(&angles);
     const double a = end[0], b = end[1];
     const double place[4] = {sin(a), sin(a) + sin(b), -cos(a), -cos(a) - cos(b)};

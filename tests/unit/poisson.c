@@ -442,7 +442,7 @@ static double apart(const double *a, const double *b, size_t n)
 {
     double largest = 0;
     for (size_t i = 0; i < n; i++) {
-        largest = fmax(largest, fabs(a[i] - b[i]));
+        largest = fmax(largest, isfinite(a[i]) ? fabs(a[i] - b[i]) : INFINITY);
     }
     return largest;
 }

@@ -63,26 +63,6 @@ static const struct gm_scheme *fitting(const char *name, const struct gm_problem
 
 static const struct gm_settings settings = {.newmark_beta = 0.15};
 
-/* The state after so many steps, of at most 12 components. */
-static void go(const struct typed *typed, const char *name, double dt, long steps, double *end)
-{
-    struct gm_run *run =
-        gm_run_open(&typed->problem, fitting(name, &typed->problem), &settings, 0, dt, typed->start);
-    assert_non_null(run);
-    assert_int_equal(gm_run_advance(run, steps), GM_OK);
-    memcpy(end, gm_run_state(run), typed->problem.n * sizeof *end);
-    gm_run_close(run);
-}
-
-static double apart(const double *a, const double *b, size_t n)
-{
-    double largest = 0;
-    for (size_t i = 0; i < n; i++) {
-        largest = fmax(largest, isfinite(a[i]) ? fabs(a[i] - b[i]) : INFINITY);
-    }
-    return largest;
-}
-
 static double second_momentum(const void *data, const double *y)
 {
     (void)data;
@@ -169,11 +149,11 @@ static void the_same_methods(void **unused)
         struct typed typed;
         double here[12], there[12];
         type(&typed, same[i].text);
-        go(&typed, same[i].variational, 0.05, 100, here);
-        go(&typed, same[i].other, 0.05, 100, there);
-        if (!(apart(here, there, typed.problem.n) < 1e-12)) {
+        typed_advance(&typed, &settings, same[i].variational, 0.05, 100, here);
+        typed_advance(&typed, &settings, same[i].other, 0.05, 100, there);
+        if (!(typed_apart(here, there, typed.problem.n) < 1e-12)) {
             fail_msg("%s and %s: %g apart", same[i].variational, same[i].other,
-                     apart(here, there, typed.problem.n));
+                     typed_apart(here, there, typed.problem.n));
         }
         untype(&typed);
     }
@@ -229,15 +209,15 @@ static void newmarks_method(void **unused)
     }
     memcpy(typed.start, start, sizeof start);
     double found[6];
-    go(&typed, "variational-newmark2", dt, 200, found);
-    assert_true(apart(found, end, 6) < 1e-12);
+    typed_advance(&typed, &settings, "variational-newmark2", dt, 200, found);
+    assert_true(typed_apart(found, end, 6) < 1e-12);
     static const struct gm_settings none = {0};
     struct gm_run *run =
         gm_run_open(&typed.problem, fitting("variational-newmark2", &typed.problem), &none, 0, dt, start);
     assert_non_null(run);
     assert_int_equal(gm_run_advance(run, 200), GM_OK);
-    go(&typed, "verlet", dt, 200, end);
-    assert_true(apart(gm_run_state(run), end, 6) < 1e-12);
+    typed_advance(&typed, &settings, "verlet", dt, 200, end);
+    assert_true(typed_apart(gm_run_state(run), end, 6) < 1e-12);
     gm_run_close(run);
     untype(&typed);
 }
@@ -255,7 +235,7 @@ static void times_of_one_degree(void **unused)
         assert_non_null(runs[k]);
         assert_int_equal(gm_run_advance(runs[k], 100), GM_OK);
     }
-    assert_true(apart(gm_run_state(runs[0]), gm_run_state(runs[1]), 2) < 1e-10);
+    assert_true(typed_apart(gm_run_state(runs[0]), gm_run_state(runs[1]), 2) < 1e-10);
     assert_true(fabs(runs[0]->t - runs[1]->t) < 1e-10);
     gm_run_close(runs[0]);
     gm_run_close(runs[1]);
@@ -367,14 +347,14 @@ static void constraints_are_kept(void **unused)
     double end[6], of_angles[4];
     type(&space, pendulum_in_space);
     type(&angles, pendulum_in_angles);
-    go(&angles, "gauss8", 0.01, 500, of_angles);
+    typed_advance(&angles, &settings, "gauss8", 0.01, 500, of_angles);
     const double a = of_angles[0], b = of_angles[1];
     const double place[3] = {sin(a) * cos(b), sin(a) * sin(b), -cos(a)};
     for (size_t i = 0; i < GM_COUNT(schemes); i++) {
         double errors[2];
         for (int finer = 0; finer < 2; finer++) {
-            go(&space, schemes[i].name, 0.1 / (1 + finer), 50 * (1 + finer), end);
-            errors[finer] = apart(end, place, 3);
+            typed_advance(&space, &settings, schemes[i].name, 0.1 / (1 + finer), 50 * (1 + finer), end);
+            errors[finer] = typed_apart(end, place, 3);
             const struct gm_manifold_defects defects = gm_manifold_defects(&space.problem, end);
             assert_true(defects.constraint < 1e-13);
             assert_true(schemes[i].hidden ? defects.hidden < 1e-13 : defects.hidden > 1e-6);
@@ -384,7 +364,7 @@ static void constraints_are_kept(void **unused)
             fail_msg("%s: order %.2f, errors %g %g", schemes[i].name, order, errors[0], errors[1]);
         }
     }
-    go(&space, "rk4", 0.1, 500, end);
+    typed_advance(&space, &settings, "rk4", 0.1, 500, end);
     assert_true(gm_manifold_defects(&space.problem, end).constraint > 1e-8);
     untype(&space);
     untype(&angles);
@@ -409,15 +389,15 @@ static void a_chain(void **unused)
     struct typed typed;
     double end[12], other[12];
     type(&typed, text);
-    go(&typed, "constrained-lobatto4", 0.02, 100, end);
-    go(&typed, "constrained-lobatto6", 0.02, 100, other);
+    typed_advance(&typed, &settings, "constrained-lobatto4", 0.02, 100, end);
+    typed_advance(&typed, &settings, "constrained-lobatto6", 0.02, 100, other);
     const struct gm_manifold_defects defects = gm_manifold_defects(&typed.problem, end);
     assert_true(defects.constraint < 1e-13 && defects.hidden < 1e-13);
-    assert_true(apart(end, other, 12) < 1e-5);
-    go(&typed, "gauss8", 0.02, 100, end);
-    assert_true(apart(end, other, 12) < 1e-8);
+    assert_true(typed_apart(end, other, 12) < 1e-5);
+    typed_advance(&typed, &settings, "gauss8", 0.02, 100, end);
+    assert_true(typed_apart(end, other, 12) < 1e-8);
     /* all gradients are horizontal at first, and nearly so for a while */
-    go(&typed, "rattle2", 0.01, 400, end);
+    typed_advance(&typed, &settings, "rattle2", 0.01, 400, end);
     assert_true(gm_manifold_defects(&typed.problem, end).hidden < 1e-13);
     untype(&typed);
 }
