@@ -5,12 +5,14 @@
 #include <dirent.h>
 #include <dlfcn.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "core/formula/reader.h"
+#include "render/files/regular_file.h"
 
 /* The program or the library that this is part of. */
 static bool find_self(char self[4096])
@@ -74,4 +76,22 @@ void gm_share_each(const char *folder, const char *ending, void (*each)(const ch
         free(entries[i]);
     }
     free(entries);
+}
+
+void gm_share_title(const char *path, char *title, size_t size)
+{
+    static const char word[] = "title:";
+    char reason[GM_REGULAR_REASON], line[512];
+    size_t length;
+    title[0] = '\0';
+    FILE *file = gm_regular_open(path, SIZE_MAX, &length, reason);
+    while (file && !title[0] && fgets(line, sizeof line, file)) {
+        if (strncmp(line, word, sizeof word - 1) == 0) {
+            const char *text = line + sizeof word - 1 + strspn(line + sizeof word - 1, " \t");
+            snprintf(title, size, "%.*s", (int)strcspn(text, "\r\n"), text);
+        }
+    }
+    if (file) {
+        fclose(file);
+    }
 }

@@ -14,5 +14,7 @@ bool gm_share_find(const char *folder, const char *name, const char *ending, cha
 /* Calls `each` for the name of every file in a folder with an ending; "": nothing. */
 void gm_share_each(const char *folder, const char *ending, void (*each)(const char *name, const void *data),
                    const void *data);
+/* What a file says behind `title:`, as far as it fits; "" where it says nothing. */
+void gm_share_title(const char *path, char *title, size_t size);
 
 #endif
