@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/field/families/collocation_laws.h"
+#include "core/field/families/laws/form.h"
 #include "core/field/own/form.h"
 #include "core/field/own/potential.h"
 #include "core/formula/equations.h"

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "core/field/families/wave_laws.h"
+#include "core/field/families/laws/wave.h"
 
 double gm_view_energy(const struct gm_view *view)
 {

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/field/families/lobatto.h"
+#include "core/field/families/waves/lobatto.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/wave.h"
 #include "core/run.h"

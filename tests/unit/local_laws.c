@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#include "core/field/families/dispersive_form.h"
+#include "core/field/families/dispersive/form.h"
 #include "core/field/problems/dispersive.h"
 #include "core/run.h"
 #include "core/schemes.h"

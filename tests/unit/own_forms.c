@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/field/families/collocation_laws.h"
+#include "core/field/families/laws/form.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/own/form.h"
 #include "core/field/problems/dirac.h"

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/field/families/wave_laws.h"
+#include "core/field/families/laws/wave.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"

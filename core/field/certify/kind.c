@@ -12,7 +12,7 @@
 #include "core/field/families/burgers.h"
 #include "core/field/families/families.h"
 #include "core/field/families/heat.h"
-#include "core/field/families/wave_laws.h"
+#include "core/field/families/laws/wave.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dirac.h"
 #include "core/field/problems/dispersive.h"
@@ -283,7 +283,7 @@ static void certify_nls(struct gm_certificate *certificate, double *farthest)
     if (!gm_scheme_fits(certificate->scheme, problem)) {
         return;
     }
-    const bool explicit = certificate->scheme->family == &gm_family_dispersive_nodes;
+    const bool explicit = certificate->scheme->family == &gm_family_nodes;
     double error[2] = {NAN, NAN};
     for (size_t k = 0; k < 2; k++) {
         const size_t points = 300u << k;

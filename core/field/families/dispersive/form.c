@@ -4,13 +4,13 @@
    (gm_dispersive). Those of energy and momentum (Razafindralandy et al. (2018), eqs. 35 and 36): the product of
    the scheme's equation with D_t A_x s, or D_x A_t s, is a difference in time and one in space but for S, and
    of S but for what is not quadratic in it, V. */
-#include "core/field/families/dispersive_form.h"
+#include "core/field/families/dispersive/form.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/field/families/dispersive_box.h"
+#include "core/field/families/dispersive/box.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 

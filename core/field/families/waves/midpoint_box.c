@@ -15,7 +15,7 @@
 #include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
-#include "core/field/families/wave_form.h"
+#include "core/field/families/waves/form.h"
 
 struct work {
     size_t points;

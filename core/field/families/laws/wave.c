@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Energy and momentum of u_tt - u_xx + V'(u) = 0 on a grid, and by how much a scheme's step fails their local
    laws. */
-#include "core/field/families/wave_laws.h"
+#include "core/field/families/laws/wave.h"
 
 #include <math.h>
 
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
-#include "core/field/families/wave_levels.h"
+#include "core/field/families/waves/levels.h"
 
 /* Node i + by of a level, around the ring. */
 static double at(const struct gm_line *line, const double *level, size_t i, int by)
@@ -77,7 +77,7 @@ static enum gm_wave_law law_of(const struct gm_scheme *scheme)
 {
     const struct gm_two_step_row *row = scheme->coefficients;
     const struct gm_scheme *rows = scheme->family->schemes;
-    const bool has_row = rows == gm_family_wave_nodes.schemes || rows == gm_family_box.schemes ||
+    const bool has_row = rows == gm_family_leapfrog.schemes || rows == gm_family_preissmann.schemes ||
                          rows == gm_family_midpoint_box.schemes;
     return has_row ? row->law : GM_LAW_NONE;
 }

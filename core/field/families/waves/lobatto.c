@@ -18,7 +18,7 @@
 
    The memory is u, v and a number, 1 when they are filled: v so that a step over the gap leads from one level
    of the state to the other. */
-#include "core/field/families/lobatto.h"
+#include "core/field/families/waves/lobatto.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,14 +7,14 @@
                    A_t V = D_t A_x u   in the first row        V = A_x v, at the levels
                    D_t V = D_x W - V'' u   in both rows
    In the box V at the last level is right only if the step was one of the box. */
-#include "core/field/families/wave_form.h"
+#include "core/field/families/waves/form.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/field/families/two_step.h"
-#include "core/field/families/wave_levels.h"
+#include "core/field/families/waves/levels.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 #include "core/linear/ring.h"

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FIELD_FAMILIES_GAUSS_MODES_H
-#define GM_CORE_FIELD_FAMILIES_GAUSS_MODES_H
+#ifndef GM_CORE_FIELD_FAMILIES_BOXES_MODES_H
+#define GM_CORE_FIELD_FAMILIES_BOXES_MODES_H
 
 #include "core/field/field.h"
 #include "core/linear/fourier.h"
 
-/* Gauss-Legendre collocation on a ring by Fourier modes: a step of the scheme (gauss_box.c) and of a
+/* Gauss-Legendre collocation on a ring by Fourier modes: a step of the scheme (gauss.c) and of a
    tangent. Values at the stages are [stage * points + cell]. */
 
 #define GM_ROOT3 1.7320508075688772935

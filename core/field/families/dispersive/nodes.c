@@ -418,7 +418,7 @@ static const struct gm_scheme schemes[] = {
         .title = "Euler box",
         .formula = "(uᵢⁿ⁺¹ − uᵢⁿ + uᵢ₊₁ⁿ − uᵢ₊₁ⁿ⁻¹)/2Δt + Dₓ⁺[μ Dₓ⁺Dₓ⁻u + ηu²/2] = 0,  Δt < Δx³/4μ",
         .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
-        .family = &gm_family_dispersive_nodes,
+        .family = &gm_family_nodes,
         .coefficients = &kdv_rows[0],
         .order = 2,
         .needs = GM_NEEDS_FORM | GM_NEEDS_KDV,
@@ -429,7 +429,7 @@ static const struct gm_scheme schemes[] = {
         .title = "midpoint box",
         .formula = "(uⁿ⁺¹ − uⁿ⁻¹)/2Δt + Dₓ⁰[μ Dₓ⁰Dₓ⁰u + ηu²/2] = 0,  Δt < Δx³/μ",
         .reference = "Razafindralandy et al. (2018), multisymplectic midpoint scheme",
-        .family = &gm_family_dispersive_nodes,
+        .family = &gm_family_nodes,
         .coefficients = &kdv_rows[1],
         .order = 2,
         .needs = GM_NEEDS_FORM | GM_NEEDS_KDV,
@@ -440,14 +440,14 @@ static const struct gm_scheme schemes[] = {
         .title = "Euler box",
         .formula = "Dₜ⁻p + Dₓ⁺Dₓ⁻q + |ψ|²q = 0,  Dₜ⁺q − Dₓ⁺Dₓ⁻p − |ψ|²p = 0,  Δt < Δx²/2",
         .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
-        .family = &gm_family_dispersive_nodes,
+        .family = &gm_family_nodes,
         .order = 1,
         .needs = GM_NEEDS_FORM | GM_NEEDS_NLS,
         .claims = GM_MULTISYMPLECTIC,
     },
 };
 
-const struct gm_family gm_family_dispersive_nodes = {
+const struct gm_family gm_family_nodes = {
     .kind = &gm_kind_field,
     .title = "multisymplectic schemes of nodes",
     .schemes = schemes,

@@ -14,7 +14,7 @@
 #include <string.h>
 
 #include "core/count.h"
-#include "core/field/families/collocation.h"
+#include "core/field/families/boxes/collocation.h"
 #include "core/field/families/families.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
@@ -346,8 +346,8 @@ static double form(const struct gm_problem *problem, const struct gm_scheme *sch
 #define BOX(name_, title_, formula_, reference_, tableau_, order_)                                           \
     {                                                                                                        \
         .name = name_, .title = title_, .formula = formula_, .reference = reference_,                        \
-        .family = &gm_family_collocation_box, .coefficients = tableau_, .order = order_,                     \
-        .needs = GM_NEEDS_ALL, .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC, .in_cells = true,                \
+        .family = &gm_family_any_form, .coefficients = tableau_, .order = order_, .needs = GM_NEEDS_ALL,     \
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC, .in_cells = true,                                       \
     }
 
 static const struct gm_scheme schemes[] = {
@@ -362,7 +362,7 @@ static const struct gm_scheme schemes[] = {
         "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss6, 4),
 };
 
-const struct gm_family gm_family_collocation_box = {
+const struct gm_family gm_family_any_form = {
     .kind = &gm_kind_field,
     .title = "multisymplectic boxes of all components",
     .schemes = schemes,

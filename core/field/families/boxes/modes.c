@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gauss-Legendre collocation on a ring, mode by mode: the frequencies of D (gauss_box.c says which), a step,
+/* Gauss-Legendre collocation on a ring, mode by mode: the frequencies of D (gauss.c says which), a step,
    and the ways between values at the nodes and at the stages. */
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/field/families/gauss_modes.h"
+#include "core/field/families/boxes/modes.h"
 
 void gm_gauss_close(void *workspace)
 {

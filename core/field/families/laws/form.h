@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FIELD_FAMILIES_COLLOCATION_LAWS_H
-#define GM_CORE_FIELD_FAMILIES_COLLOCATION_LAWS_H
+#ifndef GM_CORE_FIELD_FAMILIES_LAWS_FORM_H
+#define GM_CORE_FIELD_FAMILIES_LAWS_FORM_H
 
 #include "core/field/multisymplectic.h"
 

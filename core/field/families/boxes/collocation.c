@@ -12,7 +12,7 @@
    the y of neighbours: a block for the left and one for the right side, folded to a band. Where S'' = S''(0) this is
    the same in every cell, and made once; with it the equations are iterated, and by Newton's method where that is
    slow. */
-#include "core/field/families/collocation.h"
+#include "core/field/families/boxes/collocation.h"
 
 #include <complex.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FIELD_FAMILIES_LOBATTO_H
-#define GM_CORE_FIELD_FAMILIES_LOBATTO_H
+#ifndef GM_CORE_FIELD_FAMILIES_WAVES_LOBATTO_H
+#define GM_CORE_FIELD_FAMILIES_WAVES_LOBATTO_H
 
 #include <stdbool.h>
 #include <stddef.h>

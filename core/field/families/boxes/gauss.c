@@ -24,8 +24,8 @@
 #include <string.h>
 
 #include "core/count.h"
+#include "core/field/families/boxes/modes.h"
 #include "core/field/families/families.h"
-#include "core/field/families/gauss_modes.h"
 #include "core/field/multisymplectic.h"
 #include "core/linear/differences.h"
 
@@ -333,7 +333,7 @@ static const struct gm_scheme schemes[] = {
         .formula =
             "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1 + bᵀA⁻¹1)]/Δx,  midpoint rule in x and t",
         .reference = "S. Reich, J. Comput. Phys. 157 (2000) 473: the box, by Fourier modes",
-        .family = &gm_family_gauss_box,
+        .family = &gm_family_gauss,
         .coefficients = &midpoint,
         .order = 2,
         .needs = GM_NEEDS_WAVE,
@@ -344,7 +344,7 @@ static const struct gm_scheme schemes[] = {
         .title = "Gauss box, r = s = 2",
         .formula = "u″ = D²u − V′(u),  D(z) = [A⁻¹ − A⁻¹1bᵀA⁻¹/(z − 1)]/Δx,  two stages of Gauss in x and t",
         .reference = "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages",
-        .family = &gm_family_gauss_box,
+        .family = &gm_family_gauss,
         .coefficients = &gauss4,
         .order = 3,
         .needs = GM_NEEDS_WAVE,
@@ -352,7 +352,7 @@ static const struct gm_scheme schemes[] = {
     },
 };
 
-const struct gm_family gm_family_gauss_box = {
+const struct gm_family gm_family_gauss = {
     .kind = &gm_kind_field,
     .title = "multisymplectic Gauss collocation",
     .schemes = schemes,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FIELD_FAMILIES_WAVE_LAWS_H
-#define GM_CORE_FIELD_FAMILIES_WAVE_LAWS_H
+#ifndef GM_CORE_FIELD_FAMILIES_LAWS_WAVE_H
+#define GM_CORE_FIELD_FAMILIES_LAWS_WAVE_H
 
 #include "core/field/multisymplectic.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The three levels that the laws of a wave problem speak of, where the state holds two: a step is made
    aside. */
-#include "core/field/families/wave_levels.h"
+#include "core/field/families/waves/levels.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_CORE_FIELD_FAMILIES_WAVE_LEVELS_H
-#define GM_CORE_FIELD_FAMILIES_WAVE_LEVELS_H
+#ifndef GM_CORE_FIELD_FAMILIES_WAVES_LEVELS_H
+#define GM_CORE_FIELD_FAMILIES_WAVES_LEVELS_H
 
 #include "core/field/field.h"
 

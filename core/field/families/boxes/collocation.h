@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A step of Gauss-Legendre collocation in space and time for any M s_t + K s_x = grad S(s) whose state is s. */
-#ifndef GM_CORE_FIELD_FAMILIES_COLLOCATION_H
-#define GM_CORE_FIELD_FAMILIES_COLLOCATION_H
+#ifndef GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
+#define GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
 
 #include "core/field/field.h"
 #include "core/linear/fourier.h"

@@ -18,7 +18,7 @@
 #include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
-#include "core/field/families/wave_form.h"
+#include "core/field/families/waves/form.h"
 
 GM_CLONES static void explicit_step(const double *restrict past, const double *restrict now,
                                     const double *restrict force, double *restrict next, size_t points,
@@ -157,7 +157,7 @@ static const struct gm_scheme schemes[] = {
         .reference =
             "multisymplectic Euler scheme with the triangular splitting: Moore & Reich, Numer. Math. 95 (2003) "
             "625; Razafindralandy et al. (2018) call it not multisymplectic, which it is",
-        .family = &gm_family_wave_nodes,
+        .family = &gm_family_leapfrog,
         .coefficients = &rows[0],
         .order = 2,
         .needs = GM_NEEDS_WAVE,
@@ -169,7 +169,7 @@ static const struct gm_scheme schemes[] = {
         .title = "energy-conserving",
         .formula = "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − [V(uⁿ⁺¹) − V(uⁿ⁻¹)]/(uⁿ⁺¹ − uⁿ⁻¹)",
         .reference = "W. Strauss & L. Vázquez, J. Comput. Phys. 28 (1978) 271",
-        .family = &gm_family_wave_nodes,
+        .family = &gm_family_leapfrog,
         .coefficients = &rows[1],
         .order = 2,
         .needs = GM_NEEDS_WAVE,
@@ -181,7 +181,7 @@ static const struct gm_scheme schemes[] = {
         .formula =
             "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
         .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
-        .family = &gm_family_wave_nodes,
+        .family = &gm_family_leapfrog,
         .coefficients = &rows[2],
         .order = 2,
         .needs = GM_NEEDS_WAVE,
@@ -190,7 +190,7 @@ static const struct gm_scheme schemes[] = {
     },
 };
 
-const struct gm_family gm_family_wave_nodes = {
+const struct gm_family gm_family_leapfrog = {
     .kind = &gm_kind_field,
     .title = "two-step wave schemes",
     .schemes = schemes,

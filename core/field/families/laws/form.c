@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Local laws of the box for any multisymplectic form: Razafindralandy et al. (2018), eqs. 35 and 36; B. Moore & S.
    Reich, Numer. Math. 95 (2003) 625. */
-#include "core/field/families/collocation_laws.h"
+#include "core/field/families/laws/form.h"
 
 #include <stdlib.h>
 
-#include "core/field/families/collocation.h"
+#include "core/field/families/boxes/collocation.h"
 #include "core/field/families/families.h"
 
 /* s at a node of one level, or of both in the middle, further by the jump around the ring. */
@@ -105,7 +105,7 @@ bool gm_form_laws(const struct gm_problem *problem, const struct gm_scheme *sche
 {
     const struct gm_form *form = gm_field_of(problem)->form;
     const size_t d = form->dimension;
-    if (scheme->family != &gm_family_collocation_box || law == GM_LAW_OF_CONTENT ||
+    if (scheme->family != &gm_family_any_form || law == GM_LAW_OF_CONTENT ||
         ((const struct gm_collocation_tableau *)scheme->coefficients)->r != 1) {
         return false;
     }

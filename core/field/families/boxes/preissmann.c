@@ -8,7 +8,7 @@
        + 1/4 sum over the four cells around the node of V'(mean of the four corners) = 0
        a f = (f_{i+1} + 2 f_i + f_{i-1})/4,   d f = f_{i+1} - 2 f_i + f_{i-1}
    T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184. (The form printed in Razafindralandy et al. (2018)
-   lacks the averages.) For equations of first order in time see dispersive_box.c.
+   lacks the averages.) For equations of first order in time see families/dispersive/box.c.
 
    The linear part is circulant; it is inverted by two sweeps and the rest is iterated, which contracts by
    dt^2/4 max |V''|. Where that is slow Newton's method goes on. The matrix of the equations of a step,
@@ -20,11 +20,11 @@
 
 #include "core/clones.h"
 #include "core/count.h"
-#include "core/field/families/dispersive_box.h"
-#include "core/field/families/dispersive_form.h"
+#include "core/field/families/dispersive/box.h"
+#include "core/field/families/dispersive/form.h"
 #include "core/field/families/families.h"
 #include "core/field/families/two_step.h"
-#include "core/field/families/wave_form.h"
+#include "core/field/families/waves/form.h"
 
 GM_CLONES static void cell_means(const double *restrict a, const double *restrict b, double *restrict cells,
                                  size_t count)
@@ -208,7 +208,7 @@ static const struct gm_scheme schemes[] = {
         .formula = "M DₜAₓs + K AₜDₓs = ∇S(AₜAₓs),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
         .reference = "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184; "
                      "Razafindralandy et al. (2018)",
-        .family = &gm_family_box,
+        .family = &gm_family_preissmann,
         .coefficients = &row,
         .order = 2,
         .needs = GM_NEEDS_FORM,
@@ -217,7 +217,7 @@ static const struct gm_scheme schemes[] = {
     },
 };
 
-const struct gm_family gm_family_box = {
+const struct gm_family gm_family_preissmann = {
     .kind = &gm_kind_field,
     .title = "multisymplectic box",
     .schemes = schemes,
