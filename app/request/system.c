@@ -21,6 +21,7 @@
 #include "core/formula/equations.h"
 #include "core/formula/nearest.h"
 #include "core/formula/reader.h"
+#include "core/formula/said.h"
 #include "core/memory.h"
 #include "render/files/regular_file.h"
 #include "render/message.h"

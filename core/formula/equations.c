@@ -10,6 +10,7 @@
 #include "core/formula/derivative.h"
 #include "core/formula/legendre.h"
 #include "core/formula/linear_part.h"
+#include "core/formula/said.h"
 
 static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
 {

@@ -22,6 +22,17 @@ struct gm_fault {
 __attribute__((format(printf, 3, 4))) bool gm_fail(struct gm_fault *fault, size_t offset, const char *format,
                                                    ...);
 
+/* The first thing that is wrong with a text; what follows from it is not told. */
+struct gm_first_fault {
+    struct gm_fault *fault;
+    bool failed, no_memory;
+};
+/* As gm_fail, once. */
+__attribute__((format(printf, 3, 4))) bool gm_fail_first(struct gm_first_fault *first, size_t offset,
+                                                         const char *format, ...);
+/* Memory was refused: a fault without a sentence, unless another one came first. Returns false. */
+bool gm_fail_memory(struct gm_first_fault *first);
+
 /* A name as it is used. */
 struct gm_name {
     const char *text;
