@@ -247,7 +247,7 @@ static bool is_reserved(const char *name, size_t length)
 /* keys of a ring */
 static bool is_of_ring(const struct reading *reading, const struct entry *entry)
 {
-    static const char *const keys[] = {"half_length", "points", "space"};
+    static const char *const keys[] = {"half_length", "points", "space", "boundary"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys && gm_system_is_field(reading->system); i++) {
         if (entry->length == strlen(keys[i]) && memcmp(entry->name, keys[i], entry->length) == 0) {
             return true;
@@ -1578,11 +1578,13 @@ static bool read_matrix(struct reading *reading, const struct line *line)
     return rows == n || fail(reading, line->value.begin, "%s has %zu rows for %zu components", word, rows, n);
 }
 
-static bool read_space(struct reading *reading, const struct line *line)
+/* One of two words. */
+static bool read_choice(struct reading *reading, const struct line *line, const char *one, const char *other)
 {
-    char *text = reading->system->texts[GM_WORD_SPACE] = text_of(reading, line->value);
-    return text && (strcmp(text, "differences") == 0 || strcmp(text, "fourier") == 0 ||
-                    fail(reading, line->value.begin, "space is differences or fourier, not %.60s", text));
+    char *text = reading->system->texts[line->word] = text_of(reading, line->value);
+    return text && (strcmp(text, one) == 0 || strcmp(text, other) == 0 ||
+                    fail(reading, line->value.begin, "%s is %s or %s, not %.60s", words[line->word].word, one,
+                         other, text));
 }
 
 static bool read_what_is_said(struct reading *reading, const struct line *line)
@@ -1617,7 +1619,9 @@ static bool read_what_is_said(struct reading *reading, const struct line *line)
         system->texts[line->word] = text_of(reading, line->value);
         return true;
     case GM_WORD_SPACE:
-        return read_space(reading, line);
+        return read_choice(reading, line, "differences", "fourier");
+    case GM_WORD_BOUNDARY:
+        return read_choice(reading, line, "ring", "walls");
     case GM_WORD_HALF_LENGTH:
     case GM_WORD_POINTS:
         return read_ring(reading, line);

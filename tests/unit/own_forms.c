@@ -68,7 +68,7 @@ static void open_typed(struct typed *typed, const char *text, size_t points, dou
     }
     assert_true(gm_own_form_derive(&typed->form, &typed->system));
     double *values = gm_equations_start(&typed->system, NULL);
-    const struct gm_line line = {points, length / (double)points, -length / 2, 0};
+    const struct gm_line line = {points, length / (double)points, -length / 2, 0, false};
     assert_true(gm_own_form_open(&typed->problem, &typed->form, values, &line));
     if (!gm_own_form_closes(&typed->problem, sentence, sizeof sentence)) {
         fail_msg("%s: %s", text, sentence);
@@ -204,7 +204,7 @@ static void friction_breaks_it(void **unused)
     m[0] += 0.01;
     problem.facets = &facets;
     problem.parameters = &standing;
-    problem.line = (struct gm_line){NODES, 0.4, -20.2, 0};
+    problem.line = (struct gm_line){NODES, 0.4, -20.2, 0, false};
     problem.n = 4 * NODES;
     for (size_t i = 0; i < NODES; i++) {
         double s[4];
@@ -408,7 +408,7 @@ static void a_start_that_does_not_close_is_refused(void **unused)
         struct gm_own_form form;
         struct gm_problem problem;
         struct gm_fault fault;
-        const struct gm_line line = {100, 0.4, -20, 0};
+        const struct gm_line line = {100, 0.4, -20, 0, false};
         char sentence[400] = "";
         assert_true(gm_equations_open(&system, starts[i].text, strlen(starts[i].text), NULL, 0, &fault));
         assert_true(gm_own_form_derive(&form, &system));
