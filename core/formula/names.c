@@ -175,7 +175,7 @@ bool gm_reading_reserves(const char *name, size_t length)
 /* keys of a ring */
 static bool is_of_ring(const struct gm_reading *reading, const struct gm_entry *entry)
 {
-    static const char *const keys[] = {"half_length", "points", "space"};
+    static const char *const keys[] = {"half_length", "points", "space", "boundary"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys && gm_system_is_field(reading->system); i++) {
         if (entry->length == strlen(keys[i]) && memcmp(entry->name, keys[i], entry->length) == 0) {
             return true;

@@ -481,12 +481,14 @@ static bool read_matrix(struct gm_reading *reading, const struct gm_system_line 
                                       "%s has %zu rows for %zu components", word, rows, n);
 }
 
-static bool read_space(struct gm_reading *reading, const struct gm_system_line *line)
+/* One of two words. */
+static bool read_choice(struct gm_reading *reading, const struct gm_system_line *line, const char *one,
+                        const char *other)
 {
-    char *text = reading->system->texts[GM_WORD_SPACE] = gm_reading_text(reading, line->value);
-    return text && (strcmp(text, "differences") == 0 || strcmp(text, "fourier") == 0 ||
-                    gm_fail_first(&reading->fault, line->value.begin,
-                                  "space is differences or fourier, not %.60s", text));
+    char *text = reading->system->texts[line->word] = gm_reading_text(reading, line->value);
+    return text && (strcmp(text, one) == 0 || strcmp(text, other) == 0 ||
+                    gm_fail_first(&reading->fault, line->value.begin, "%s is %s or %s, not %.60s",
+                                  gm_system_words[line->word].word, one, other, text));
 }
 
 static bool read_what_is_said(struct gm_reading *reading, const struct gm_system_line *line)
@@ -522,7 +524,9 @@ static bool read_what_is_said(struct gm_reading *reading, const struct gm_system
         system->texts[line->word] = gm_reading_text(reading, line->value);
         return true;
     case GM_WORD_SPACE:
-        return read_space(reading, line);
+        return read_choice(reading, line, "differences", "fourier");
+    case GM_WORD_BOUNDARY:
+        return read_choice(reading, line, "ring", "walls");
     case GM_WORD_HALF_LENGTH:
     case GM_WORD_POINTS:
         return read_ring(reading, line);

@@ -58,11 +58,11 @@ void gm_surface_record_shown(const struct gm_view *view, int show,
         gm_surface_record(view, value, entry);
         return;
     }
-    const size_t points = view->problem->line.points, columns = gm_surface_width(view);
-    double *residual = malloc(points * sizeof *residual);
+    const size_t seen = gm_line_seen(&view->problem->line), columns = gm_surface_width(view);
+    double *residual = malloc(view->problem->line.points * sizeof *residual);
     const bool known = residual && residuals(view, (enum gm_local_law)(show - 1), residual);
     for (size_t k = 0; k < columns; k++) {
-        entry[k] = known ? residual[k * points / columns] : NAN;
+        entry[k] = known ? residual[k * seen / columns] : NAN;
     }
     free(residual);
 }

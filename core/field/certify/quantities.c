@@ -12,7 +12,7 @@
 static void grid(const struct gm_run *run, double *values)
 {
     const struct gm_line *line = &run->problem->line;
-    for (size_t i = 0; i < line->points; i++) {
+    for (size_t i = 0; i < gm_line_seen(line); i++) {
         values[i] = gm_line_node(line, i);
     }
 }
@@ -41,13 +41,13 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
 {
     const struct gm_problem *problem = run->problem;
     const struct gm_field *field = gm_field_of(problem);
-    const size_t points = problem->line.points;
+    const size_t points = problem->line.points, seen = gm_line_seen(&problem->line);
     const bool burgers = field->equation == GM_NEEDS_BURGERS;
     const bool companion = burgers && gm_burgers_of(problem)->lambda != 0;
     const struct gm_heat *heat = field->equation == GM_NEEDS_HEAT ? gm_heat_of(problem) : NULL;
     const bool moving = (companion && !gm_burgers_fixed(gm_burgers_of(problem), run->scheme)) ||
                         (heat && heat->lambda != 0 && !gm_heat_fixed(heat, run->scheme));
-    struct gm_quantity *end = add(quantities, moving ? "x" : "grid", GM_ON_NODES, points, 0);
+    struct gm_quantity *end = add(quantities, moving ? "x" : "grid", GM_ON_NODES, seen, 0);
     quantities->axis = 1;
     quantities->fixed = !moving;
     quantities->derive = moving ? places : grid;
@@ -59,13 +59,13 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
         end = add(end, "psi_re", GM_ON_NODES, points, 0);
         end = add(end, "psi_im", GM_ON_NODES, points, points);
     } else {
-        end = add(end, "u", GM_ON_NODES, points, 0);
+        end = add(end, "u", GM_ON_NODES, seen, 0);
     }
     if (companion) {
         end = add(end, "u_companion", GM_ON_NODES, points, points);
     }
     if (problem->n == gm_wave_size(points) && !burgers) {
-        end = add(end, "u_other", GM_ON_NODES, points, points);
+        end = add(end, "u_other", GM_ON_NODES, seen, points);
         end = add(end, "other_time", GM_ON_RUN, 1, 2 * points);
     }
     return (size_t)(end - quantities);

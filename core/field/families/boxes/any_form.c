@@ -122,24 +122,6 @@ static void integrate_potentials(struct gm_collocation *work)
     }
 }
 
-/* s at the stages, once; for another dt the steps before are forgotten. */
-static enum gm_status start(const struct gm_task *task)
-{
-    struct gm_collocation *work = task->workspace;
-    if (task->memory_out[KNOWN] > 0) {
-        task->memory_out[KNOWN] = 1;
-        task->memory_out[NEWTON] = 0;
-        return GM_OK;
-    }
-    work->needs_newton = false;
-    gm_collocation_to_stages(work, task->y, work->low);
-    gm_collocation_guess_sides(work, task->y);
-    integrate_potentials(work);
-    memcpy(work->past_y[0], work->y, work->sides * work->points * sizeof(double));
-    remember(work, 1, task->memory_out);
-    return GM_OK;
-}
-
 /* The polynomial through the past values, at the step to come. */
 static void extrapolate(double *const *past, size_t steps, double *to, size_t count)
 {
@@ -180,6 +162,60 @@ static void guess(struct gm_collocation *work, size_t known)
                points * sizeof(double));
     }
     anchor(work);
+}
+
+/* Where a potential ties components without a rate to rates of others, waves of the branches that no smooth field has
+   are too fast for a step: two stages leave them where they are, three turn them around, and such a component is 1/dt
+   of them, which two stages add up step after step. What the start has of them goes here: the stages of a step there
+   and of one back have next to nothing of it, and the polynomial through both, even in time, is s at the start but for
+   dt^(2 r). */
+static void settle(struct gm_collocation *work, double dt)
+{
+    const size_t points = work->points, r = work->r;
+    const double *c = work->tableau->c;
+    double *sum = work->past_z[1]; /* there are no steps before */
+    memset(sum, 0, of_level(work) * sizeof *sum);
+    for (int way = -1; way <= 1; way += 2) {
+        struct gm_progress uncounted = {.status = GM_OK};
+        guess(work, 1);
+        if (gm_collocation_step(work, way * dt, &uncounted) != GM_OK) {
+            return;
+        }
+        for (size_t j = 0; j < r; j++) {
+            double weight = 0.5;
+            for (size_t k = 0; k < r; k++) {
+                weight *= k == j ? 1 : c[k] * c[k] / (c[k] * c[k] - c[j] * c[j]);
+            }
+            for (size_t at = 0; at < work->d * r; at++) {
+                const double *stage = work->z + ((at / r * r + j) * r + at % r) * points;
+                for (size_t i = 0; i < points; i++) {
+                    sum[at * points + i] += weight * stage[i];
+                }
+            }
+        }
+    }
+    memcpy(work->low, sum, of_level(work) * sizeof *sum);
+}
+
+/* s at the stages, once; for another dt the steps before are forgotten. */
+static enum gm_status start(const struct gm_task *task)
+{
+    struct gm_collocation *work = task->workspace;
+    if (task->memory_out[KNOWN] > 0) {
+        task->memory_out[KNOWN] = 1;
+        task->memory_out[NEWTON] = 0;
+        return GM_OK;
+    }
+    work->needs_newton = false;
+    gm_collocation_to_stages(work, task->y, work->low);
+    gm_collocation_guess_sides(work, task->y);
+    integrate_potentials(work);
+    memcpy(work->past_y[0], work->y, work->sides * work->points * sizeof(double));
+    if (work->r > 1 && gm_field_of(work->problem)->form->potential_count > 0) {
+        settle(work, task->dt);
+    }
+    remember(work, 1, task->memory_out);
+    return GM_OK;
 }
 
 /* The solution becomes the first of the past ones. */
