@@ -7,8 +7,8 @@
 
 #include "app/explorer/view/own.h"
 #include "app/explorer/view/pages.h"
-#include "app/request/room.h"
-#include "app/request/system.h"
+#include "app/own/found.h"
+#include "app/own/room.h"
 #include "core/count.h"
 #include "render/cells/text.h"
 
