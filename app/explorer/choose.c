@@ -8,9 +8,9 @@
 
 #include "app/explorer/surface/search.h"
 #include "app/explorer/view/pages.h"
-#include "app/request/room.h"
-#include "app/request/share.h"
-#include "app/request/system.h"
+#include "app/own/found.h"
+#include "app/own/room.h"
+#include "app/own/share.h"
 #include "render/cells/text.h"
 #include "render/clock.h"
 

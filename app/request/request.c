@@ -8,10 +8,11 @@
 #include <string.h>
 
 #include "app/native/engine.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
+#include "app/own/found.h"
+#include "app/own/scheme.h"
+#include "app/own/system.h"
 #include "app/request/fitting.h"
-#include "app/request/scheme.h"
-#include "app/request/system.h"
 #include "app/request/words.h"
 #include "core/formula/nearest.h"
 #include "core/memory.h"

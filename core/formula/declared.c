@@ -43,16 +43,13 @@ static bool add_names(struct gm_reading *reading, const struct gm_target *target
     struct gm_entry entry = gm_reading_entry_for(reading, target, role);
     long low = 0, high = 0;
     entry.indexed = target->index.begin < target->index.end;
-    if (entry.indexed && !gm_reading_bounds(reading, target->index, &low, &high)) {
+    if (entry.indexed && !gm_reading_bounds(reading, target->index, "elements of a list", &low, &high)) {
         return gm_fail_first(&reading->fault, target->index.begin,
                              "the bounds of a list were expected, as in %.*s[1..3]",
                              (int)(entry.length < 60 ? entry.length : 60), entry.name);
     }
-    if (entry.indexed && (high < low || high - low >= GM_MOST_COMPONENTS)) {
-        return gm_fail_first(&reading->fault, target->index.begin,
-                             high < low ? "a list has at least one element"
-                                        : "a list has at most %d elements",
-                             GM_MOST_COMPONENTS);
+    if (high < low) {
+        return gm_fail_first(&reading->fault, target->index.begin, "a list has at least one element");
     }
     for (long i = low; i <= high && !reading->fault.failed; i++) {
         entry.index = i;

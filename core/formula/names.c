@@ -410,18 +410,26 @@ bool gm_reading_number(struct gm_reading *reading, struct gm_span span, double *
     return good;
 }
 
+/* A whole number, on which the graph is built. */
+static bool read_whole(struct gm_reading *reading, struct gm_span span, double *number)
+{
+    reading->structural = true;
+    const bool good = gm_reading_number(reading, span, number);
+    reading->structural = false;
+    return good &&
+           (*number == floor(*number) ||
+            gm_fail_first(&reading->fault, span.begin, "an index has to be a whole number, not %g", *number));
+}
+
 bool gm_reading_whole(struct gm_reading *reading, struct gm_span span, long *value)
 {
     double number;
-    reading->structural = true;
-    const bool good = gm_reading_number(reading, span, &number);
-    reading->structural = false;
-    if (!good) {
+    if (!read_whole(reading, span, &number)) {
         return false;
     }
-    if (number != floor(number) || fabs(number) > 1e9) {
-        return gm_fail_first(&reading->fault, span.begin, "an index has to be a whole number, not %g",
-                             number);
+    if (fabs(number) > GM_LARGEST_INDEX) {
+        return gm_fail_first(&reading->fault, span.begin, "an index lies between -%d and %d, and this is %g",
+                             GM_LARGEST_INDEX, GM_LARGEST_INDEX, number);
     }
     *value = (long)number;
     return true;
@@ -476,12 +484,49 @@ struct gm_entry gm_reading_entry_for(const struct gm_reading *reading, const str
                              .value = target->value};
 }
 
-bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, long *low, long *high)
+bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, const char *what, long *low,
+                       long *high)
 {
     const size_t dots = gm_span_until(reading->text, span, "..");
-    return dots < span.end && gm_reading_whole(reading, (struct gm_span){span.begin, dots}, low) &&
-           gm_reading_whole(reading, gm_span_trimmed(reading->text, (struct gm_span){dots + 2, span.end}),
-                            high);
+    const struct gm_span last = gm_span_trimmed(reading->text, (struct gm_span){dots + 2, span.end});
+    double first, end;
+    if (dots == span.end || !read_whole(reading, (struct gm_span){span.begin, dots}, &first) ||
+        !read_whole(reading, last, &end)) {
+        return false;
+    }
+    if (end - first >= GM_MOST_COMPONENTS) {
+        return gm_fail_first(&reading->fault, span.begin, "%g .. %g are too many: there are at most %d %s",
+                             first, end, GM_MOST_COMPONENTS, what);
+    }
+    if (end < first - 1) {
+        return gm_fail_first(&reading->fault, span.begin,
+                             "%g .. %g runs downwards: the lower end comes first", first, end);
+    }
+    return gm_reading_whole(reading, (struct gm_span){span.begin, dots}, low) &&
+           gm_reading_whole(reading, last, high);
+}
+
+struct gm_entry *gm_reading_sought(struct gm_reading *reading, const struct gm_target *target, long index)
+{
+    const struct gm_name used = {.text = reading->text + target->name.begin,
+                                 .length = target->name.end - target->name.begin,
+                                 .indexed = target->index.begin < target->index.end,
+                                 .index = index};
+    struct gm_entry *entry = gm_reading_entry(reading, used.text, used.length, used.indexed, index);
+    if (entry) {
+        return entry;
+    }
+    gm_node_id node;
+    char sentence[GM_FAULT_SENTENCE] = "", word[64];
+    if (find(reading, &used, &node, sentence) == GM_REFUSED) {
+        gm_fail_first(&reading->fault, target->name.begin, "%s", sentence);
+        return NULL;
+    }
+    snprintf(word, sizeof word, "%.*s", (int)(used.length < 60 ? used.length : 60), used.text);
+    const char *near = gm_nearest(word, reading->entry_count, known, reading);
+    gm_fail_first(&reading->fault, target->name.begin, "there is no name %s%s%s", word,
+                  near ? "; did you mean " : "", near ? near : "");
+    return NULL;
 }
 
 static bool is_same(const struct gm_reading *reading, struct gm_span a, struct gm_span b)
@@ -518,17 +563,8 @@ bool gm_reading_elements(struct gm_reading *reading, const struct gm_target *tar
         if (all && entry && entry->role == GM_ENTRY_NAMED) {
             continue; /* a wall, q[0] = 0 */
         }
-        if (!entry) {
-            const struct gm_name used = {.text = name, .length = length, .indexed = indexed, .index = i};
-            char sentence[GM_FAULT_SENTENCE] = "";
-            if (find(reading, &used, &node, sentence) == GM_REFUSED) {
-                return gm_fail_first(&reading->fault, target->name.begin, "%s", sentence);
-            }
-            char word[64];
-            snprintf(word, sizeof word, "%.*s", brief, name);
-            const char *near = gm_nearest(word, reading->entry_count, known, reading);
-            return gm_fail_first(&reading->fault, target->name.begin, "there is no name %s%s%s", word,
-                                 near ? "; did you mean " : "", near ? near : "");
+        if (!entry && !(entry = gm_reading_sought(reading, target, i))) {
+            return false;
         }
         const size_t number = (size_t)(entry - reading->entries);
         if (gm_reading_bound(reading, target->value, all ? &target->index : NULL, i, &node)) {

@@ -98,8 +98,10 @@ bool gm_reading_bound(struct gm_reading *reading, struct gm_span span, const str
 bool gm_reading_number(struct gm_reading *reading, struct gm_span span, double *value);
 /* A whole one, on which the graph is built. */
 bool gm_reading_whole(struct gm_reading *reading, struct gm_span span, long *value);
-/* low .. high */
-bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, long *low, long *high);
+/* low .. high, of `what` there are at most GM_MOST_COMPONENTS; low - 1 says that there is none. False without a fault:
+   the span has no bounds. */
+bool gm_reading_bounds(struct gm_reading *reading, struct gm_span span, const char *what, long *low,
+                       long *high);
 
 /* NAME, NAME[low .. high], NAME[index] */
 struct gm_target {
@@ -108,6 +110,8 @@ struct gm_target {
 };
 /* Takes a target off the front of `rest`. */
 bool gm_reading_target(struct gm_reading *reading, struct gm_span *rest, struct gm_target *target);
+/* What a target with that index, if it has one, means; NULL: told as a fault. */
+struct gm_entry *gm_reading_sought(struct gm_reading *reading, const struct gm_target *target, long index);
 /* NAME = formula */
 bool gm_reading_assignment(struct gm_reading *reading, struct gm_span span, struct gm_target *target);
 struct gm_entry gm_reading_entry_for(const struct gm_reading *reading, const struct gm_target *target,

@@ -298,8 +298,13 @@ static long read_whole(struct reader *reader, const char *what)
         fail(reader, begin, "%s holds whole numbers, indices of loops and parameters alone", what);
         return 0;
     }
-    if (value != floor(value) || fabs(value) > 1e9) {
+    if (value != floor(value)) {
         fail(reader, begin, "%s has to be a whole number, not %g", what, value);
+        return 0;
+    }
+    if (fabs(value) > GM_LARGEST_INDEX) {
+        fail(reader, begin, "%s lies between -%d and %d, and this is %g", what, GM_LARGEST_INDEX,
+             GM_LARGEST_INDEX, value);
         return 0;
     }
     return (long)value;

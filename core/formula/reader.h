@@ -11,7 +11,7 @@
    index is computed while reading: it may hold whole numbers, the indices of the loops around it, and what
    the scope knows the value of. */
 
-enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8 };
+enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8, GM_LARGEST_INDEX = 1000000000 };
 
 /* What is wrong, and where: bytes from the beginning of the text. */
 struct gm_fault {

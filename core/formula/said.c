@@ -110,9 +110,11 @@ static bool read_bracket(struct gm_reading *reading, struct gm_span piece)
         if (indexed && !gm_reading_whole(reading, target.index, &index)) {
             return false;
         }
-        const struct gm_entry *entry = gm_reading_entry(reading, reading->text + target.name.begin,
-                                                        target.name.end - target.name.begin, indexed, index);
-        if (!entry || entry->role != GM_ENTRY_COMPONENT) {
+        const struct gm_entry *entry = gm_reading_sought(reading, &target, index);
+        if (!entry) {
+            return false;
+        }
+        if (entry->role != GM_ENTRY_COMPONENT) {
             return gm_fail_first(&reading->fault, target.name.begin,
                                  "a bracket is of two components: bracket: x y = z");
         }
@@ -418,9 +420,11 @@ static bool read_angles(struct gm_reading *reading, const struct gm_system_line 
         if (indexed && !gm_reading_whole(reading, target.index, &index)) {
             return false;
         }
-        const struct gm_entry *entry = gm_reading_entry(reading, reading->text + target.name.begin,
-                                                        target.name.end - target.name.begin, indexed, index);
-        if (!entry || entry->role != GM_ENTRY_COMPONENT || entry->number >= system->n / 2) {
+        const struct gm_entry *entry = gm_reading_sought(reading, &target, index);
+        if (!entry) {
+            return false;
+        }
+        if (entry->role != GM_ENTRY_COMPONENT || entry->number >= system->n / 2) {
             return gm_fail_first(&reading->fault, target.name.begin, "an angle is one of the coordinates");
         }
         system->variables[entry->number].angle = true;
@@ -593,13 +597,9 @@ static bool read_counted(struct gm_reading *reading, const struct gm_system_line
                              "%.*s is a name of the system: an index is another one",
                              (int)(name < 60 ? name : 60), reading->text + counter.begin);
     }
-    if (!gm_reading_bounds(reading, bounds, &low, &high)) {
+    if (!gm_reading_bounds(reading, bounds, "values of an index", &low, &high)) {
         return gm_fail_first(&reading->fault, bounds.begin,
                              "the bounds of an index were expected, as in i = 1 .. 3");
-    }
-    if (high - low >= GM_MOST_COMPONENTS) {
-        return gm_fail_first(&reading->fault, bounds.begin, "an index has at most %d values",
-                             GM_MOST_COMPONENTS);
     }
     const struct gm_system_line one = {line->word, line->place, gm_span_trimmed(reading->text, rest)};
     reading->counter = counter;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rooms that somebody wrote: where their files are, and the scenes that are made of them. */
-#ifndef GM_APP_REQUEST_ROOM_H
-#define GM_APP_REQUEST_ROOM_H
+#ifndef GM_APP_OWN_ROOM_H
+#define GM_APP_OWN_ROOM_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rooms of files: the scenes that are made of them, and what is said where one is wrong. */
-#include "app/request/room.h"
+#include "app/own/room.h"
 
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/exit.h"
-#include "app/request/place.h"
-#include "app/request/share.h"
+#include "app/own/exit.h"
+#include "app/own/place.h"
+#include "app/own/share.h"
 #include "core/formula/reader.h"
 #include "core/memory.h"
 #include "render/files/regular_file.h"

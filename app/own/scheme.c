@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schemes that are brought along: read from files and words, and told from each other by what they say. */
-#include "app/request/scheme.h"
+#include "app/own/scheme.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include "app/request/exit.h"
-#include "app/request/place.h"
+#include "app/own/exit.h"
+#include "app/own/place.h"
 #include "core/formula/nearest.h"
 #include "core/formula/reader.h"
 #include "core/memory.h"
