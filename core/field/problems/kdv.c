@@ -189,7 +189,8 @@ static double two_solitons_around(const struct gm_kdv *kdv, const struct gm_line
     return sum;
 }
 
-double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
+/* lambda = 0 */
+static double unboosted(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
 {
     if (kdv->initial == GM_KDV_COSINE) {
         return t == 0 ? cos(M_PI * x) : NAN;
@@ -200,6 +201,11 @@ double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double
     const double c = kdv->velocity, away = around(line, x - kdv->position - c * t);
     const double sech = 1 / cosh(sqrt(c / kdv->mu) / 2 * away);
     return 3 * c / kdv->eta * sech * sech;
+}
+
+double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
+{
+    return unboosted(kdv, line, x - kdv->lambda * t, t) + kdv->lambda / kdv->eta;
 }
 
 bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, double t)
