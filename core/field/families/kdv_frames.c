@@ -27,6 +27,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/clones.h"
 #include "core/count.h"
 #include "core/field/families/families.h"
 #include "core/field/problems/frames.h"
@@ -70,16 +71,23 @@ static double third(const double *u, double h)
     return (u[2] - 2 * u[1] + 2 * u[-1] - u[-2]) / (2 * h * h * h);
 }
 
+GM_CLONES static void add_terms(const double *u, const double *base, double *restrict next, size_t points,
+                                double drift, double convection, double dispersion)
+{
+    for (size_t j = 0; j < points; j++) {
+        const double *here = u + j, right = here[1], left = here[-1];
+        next[j] = base[j] + (drift - convection * (left + here[0] + right)) * (right - left) -
+                  dispersion * (here[2] - 2 * right + 2 * left - here[-2]);
+    }
+}
+
 /* next = base + factor k u_t along the nodes */
 static void add_rate(const struct step *step, size_t points, const double *u, const double *base,
                      double factor, double *next)
 {
-    const double eta = step->kdv->eta, mu = step->kdv->mu, h = step->h, a = step->sigma / step->k;
-    for (size_t j = 0; j < points; j++) {
-        const double *here = u + j, convection = eta / 3 * (here[-1] + here[0] + here[1]) - a;
-        next[j] =
-            base[j] - factor * step->k * (convection * (here[1] - here[-1]) / (2 * h) + mu * third(here, h));
-    }
+    const double h = step->h, centred = factor / (2 * h);
+    add_terms(u, base, next, points, centred * step->sigma, centred * step->k * step->kdv->eta / 3,
+              centred * step->k * step->kdv->mu / (h * h));
     close_ring(next, points);
 }
 

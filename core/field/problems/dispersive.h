@@ -37,7 +37,7 @@ bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, doubl
 /* The levels 0 and dt on nodes at rest in the frame, and dt; for the cosine the second is an Euler step with exact derivatives. */
 void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y);
 
-/* dx sum u;  dx sum (A u)^2;  dx sum [mu (D u)^2 / 2 - eta (A u)^3 / 6] */
+/* Of the original frame:  dx sum u;  dx sum (A u)^2;  dx sum [mu (D u)^2 / 2 - eta (A u)^3 / 6] */
 double gm_kdv_mass(const struct gm_problem *problem, const double *y);
 double gm_kdv_square(const struct gm_problem *problem, const double *y);
 double gm_kdv_energy(const struct gm_problem *problem, const double *y);
