@@ -128,6 +128,8 @@ static void properties_that_are_false(void **unused)
         {"tao2", GM_KEEPS_QUADRATIC},
         {"energy-conserving", GM_MULTISYMPLECTIC},
         {"heat-ftcs", GM_EQUIVARIANT},
+        {"zabusky-kruskal", GM_EQUIVARIANT},
+        {"evolution-projection", GM_KEEPS_LINEAR},
         {"leapfrog", GM_KEEPS_ENERGY},
         {"box", GM_KEEPS_ENERGY},
         {"gauss-box2", GM_KEEPS_ENERGY},

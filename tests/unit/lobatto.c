@@ -200,7 +200,7 @@ static void the_law_holds(void **unused)
 static void steps_are_bound_as_told(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"lobatto-box2", "lobatto-box4"};
+    static const char *const names[] = {"lobatto-box2", "lobatto-box4", "lobatto-nystrom4"};
     for (size_t s = 0; s < GM_COUNT(names); s++) {
         const struct gm_scheme *scheme = gm_scheme_find(names[s]);
         for (int above = 0; above < 2; above++) {

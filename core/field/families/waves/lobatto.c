@@ -406,6 +406,12 @@ static double longest_of_three(const struct gm_problem *problem, const double *y
 {
     return longest(problem, y, 8);
 }
+/* Suzuki's composition: where the trace of its step of u'' = -w^2 u leaves [-2, 2] first. */
+static double longest_of_suzuki(const struct gm_problem *problem, const double *y)
+{
+    return longest(problem, y, 7.403702439);
+}
+static const struct gm_step_limit suzuki_limit = {"7.4037/dt^2 >= 6/dx^2 + V''", longest_of_suzuki};
 static const struct gm_step_limit verlet_limit = {"4/dt^2 >= 6/dx^2 + V''", longest_of_verlet};
 static const struct gm_step_limit three_limit = {"8/dt^2 >= 6/dx^2 + V''", longest_of_three};
 
@@ -446,6 +452,7 @@ static const struct gm_scheme schemes[] = {
             "Lett. A 146 (1990) 319",
         .coefficients = &rows[2],
         .order = 4,
+        .limit = &suzuki_limit,
         LOBATTO,
     },
 };
