@@ -11,11 +11,15 @@
 #include "app/request/interrupt.h"
 #include "render/clock.h"
 
-/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble. */
-static long burst_of(const struct gm_lane *lane)
+/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble; as soon as
+   it is known what a step takes, that says how many. In single steps an ensemble that does not fit in the cache
+   would go to memory and back for each. */
+static long burst_of(const struct gm_drive *drive)
 {
-    const double members = (double)(lane->problem.n * lane->problem.m);
-    const double burst = 2e5 / members;
+    static const double at_once = 0.02; /* seconds */
+    const struct gm_problem *problem = &drive->lane->problem;
+    const double guess = 2e5 / (double)(problem->n * problem->m);
+    const double burst = drive->each > 0 ? fmax(guess, at_once / drive->each) : guess;
     return burst < 1 ? 1 : burst > 1e5 ? 100000 : (long)burst;
 }
 
@@ -117,7 +121,6 @@ static void look_for_engine(struct gm_drive *drive, long step)
 bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
 {
     struct gm_lane *lane = drive->lane;
-    const long burst = record ? 1 : burst_of(lane);
     while (gm_drive_goes_on(drive, LONG_MAX) && !gm_interrupted) {
         if (!make_changes(drive, message)) {
             return false;
@@ -126,7 +129,7 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
         if (left <= 0) {
             break;
         }
-        const long stop = before + (left < burst ? left : burst);
+        const long burst = record ? 1 : burst_of(drive), stop = before + (left < burst ? left : burst);
         advance(drive, stop, record);
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);
