@@ -59,6 +59,7 @@ static bool take_memory(struct gm_flow_solver *solver)
         {&solver->rate, v},
         {&solver->field, v},
         {&solver->velocities, 3 * v},
+        {&solver->carried_rate, solver->flow->scalar ? v : 0},
         {&solver->b, z + solver->warm},
         {&solver->x, z + solver->warm},
         {&solver->small_b, z},
@@ -110,19 +111,16 @@ struct gm_flow_solver *gm_flow_solver_open(const struct gm_flow *flow)
         return NULL;
     }
     solver->flow = flow->give ? solver->now : flow;
+    solver->energy_limit = INFINITY;
     solver->vorticity_form = gm_flow_is_vorticity_form(flow);
     bool good = gm_unknowns_open(&solver->unknowns, flow) && list_unknowns(solver) && take_memory(solver) &&
                 gm_transport_open(&solver->transport, flow->complex) &&
-                (!flow->heat || gm_transport_open(&solver->heat, flow->complex));
-    if (good && solver->unknowns.count > 0) {
-        solver->poisson = gm_unknowns_factor_poisson(&solver->unknowns, flow);
-        good = solver->poisson != NULL;
-    }
+                (!flow->heat || gm_transport_open(&solver->heat, flow->complex)) &&
+                (!flow->scalar || gm_transport_open(&solver->carried, flow->complex));
     if (!good) {
         gm_flow_solver_close(solver);
-        return NULL;
+        solver = NULL;
     }
-    solver->energy_limit = energy_limit(solver);
     return solver;
 }
 
@@ -137,6 +135,7 @@ void gm_flow_solver_close(struct gm_flow_solver *solver)
     gm_cholesky_close(solver->stokes);
     gm_transport_close(&solver->transport);
     gm_transport_close(&solver->heat);
+    gm_transport_close(&solver->carried);
     free(solver->soft_vertex);
     free(solver->warm_vertex);
     free(solver->held);
@@ -149,17 +148,32 @@ bool gm_flow_solver_give(struct gm_flow_solver *solver, double t)
     return !solver->now || solver->now->give(solver->now, t, solver->now);
 }
 
+/* The larger factor first: while it is made there is room for the other one, which memory at its most does not
+   hold then. */
 bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double viscosity)
 {
-    const bool there = solver->stokes && solver->shift == shift && solver->viscosity == viscosity;
-    if (solver->unknowns.count == 0 || there) {
+    const struct gm_unknowns *unknowns = &solver->unknowns;
+    const bool there = solver->poisson &&
+                       (solver->vorticity_form || (solver->shift == shift && solver->viscosity == viscosity));
+    if (unknowns->count == 0 || there) {
         return true;
     }
+    const bool first = !solver->poisson && !solver->stokes;
+    gm_cholesky_close(solver->poisson);
     gm_cholesky_close(solver->stokes);
-    solver->stokes = gm_unknowns_factor_stokes(&solver->unknowns, solver->flow, shift, viscosity);
+    solver->poisson = solver->stokes = NULL;
+    if (!solver->vorticity_form) {
+        solver->stokes = gm_unknowns_factor_stokes(unknowns, solver->flow, shift, viscosity);
+    }
+    if (solver->vorticity_form || solver->stokes) {
+        solver->poisson = gm_unknowns_factor_poisson(unknowns, solver->flow);
+    }
     solver->shift = shift;
     solver->viscosity = viscosity;
-    return solver->stokes != NULL;
+    if (first && solver->poisson) {
+        solver->energy_limit = energy_limit(solver);
+    }
+    return solver->poisson != NULL;
 }
 
 /* y = (R omega(z) without sheet and given psi) on the rows I and O */

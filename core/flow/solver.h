@@ -19,14 +19,16 @@ struct gm_flow_solver {
     int *warm_vertex;
     bool *held; /* vertices whose omega has no equation of its own */
     struct gm_cholesky *poisson;
-    double energy_limit;     /* no flow that these boundaries drive has more */
-    double shift, viscosity; /* that stokes was made for; shift = 0: none yet */
+    double energy_limit;     /* no flow that these boundaries drive has more; set with the factors */
+    double shift, viscosity; /* that stokes was made for */
     struct gm_cholesky *stokes;
     unsigned long factor_solves;         /* systems solved with poisson and stokes in steps, so far */
     struct gm_transport transport, heat; /* the latter of temperature in steady states */
+    struct gm_transport carried;         /* of the scalar, which is carried while the flow moves on */
     double *numbers;                     /* the memory of all that follows */
     double *flux, *centre;               /* edges, triangles */
     double *rate, *field, *velocities;   /* vertices, vertices, 3 * vertices */
+    double *carried_rate;                /* vertices */
     double *b, *x;                       /* unknowns, soft and warm vertices */
     double *small_b;                     /* unknowns, scratch of the preconditioner */
     double *gmres, *bicgstab;
@@ -38,8 +40,8 @@ void gm_flow_solver_close(struct gm_flow_solver *solver);
 /* Has the boundary give what it does at the time t. False where that is none (struct gm_flow, give). */
 bool gm_flow_solver_give(struct gm_flow_solver *solver, double t);
 
-/* Makes the factor of shift K_II + viscosity K_I W K_I (solver.c); nothing to do if it is there. False if it is
-   not positive definite or memory is short. */
+/* Makes the factors of K_II and, where steps are made for psi, of shift K_II + viscosity K_I W K_I (solver.c);
+   nothing to do if they are there. False if one is not positive definite or memory is short. */
 bool gm_flow_solver_factor(struct gm_flow_solver *solver, double shift, double viscosity);
 
 /* The unknowns (psi, then omega of soft vertices) of the correction that takes the residual solver->b to 0,

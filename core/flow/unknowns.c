@@ -110,7 +110,7 @@ struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknown
     struct rows rows;
     struct gm_cholesky *factor = NULL;
     int *place = malloc((unknowns->count + 1) * sizeof *place);
-    if (rows_open(&rows, unknowns->count, unknowns->count + 2 * complex->edges) && place) {
+    if (rows_open(&rows, unknowns->count, unknowns->count + complex->edges) && place) {
         memset(place, -1, unknowns->count * sizeof *place);
         for (size_t i = 0; i < unknowns->count; i++) {
             double sum = 0;
@@ -123,7 +123,7 @@ struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknown
                     const double star = complex->star1[complex->ring_edge[k]];
                     if (j == (int)i) {
                         sum -= star;
-                    } else if (j >= 0) {
+                    } else if (j >= 0 && j < (int)i) {
                         add_entry(&rows, place, (int)i, j, -star);
                     }
                 }
@@ -131,7 +131,7 @@ struct gm_cholesky *gm_unknowns_factor_poisson(const struct gm_unknowns *unknown
             add_entry(&rows, place, (int)i, (int)i, sum);
         }
         rows.start[unknowns->count] = (int)rows.used;
-        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value);
+        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value, GM_CHOLESKY_EXACT);
     }
     rows_close(&rows);
     free(place);
@@ -197,7 +197,7 @@ struct gm_cholesky *gm_unknowns_factor_stokes(const struct gm_unknowns *unknowns
             }
         }
         rows.start[unknowns->count] = (int)rows.used;
-        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value);
+        factor = gm_cholesky_open(unknowns->count, rows.start, rows.column, rows.value, GM_CHOLESKY_ROUGH);
     }
     rows_close(&rows);
     free(place);

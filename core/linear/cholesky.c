@@ -10,10 +10,14 @@
 #include <suitesparse/cholmod.h>
 #include <suitesparse/umfpack.h>
 
+#include "core/linear/supernodes.h"
+
+/* L L' = P A P': L and P are CHOLMOD's, which makes them once; solving with them, again and again, is not. */
 struct gm_cholesky {
     cholmod_common common;
     cholmod_factor *factor;
-    cholmod_dense *b, *x, *y, *e;
+    struct gm_supernodes triangle; /* of the factor's memory */
+    double *permuted, *scratch;
 };
 
 /* The libraries' memory is the program's, where a refusal is noted: CHOLMOD may go on with an ordering that
@@ -37,36 +41,49 @@ static void prepare_libraries(void)
     pthread_once(&once, let_libraries_take);
 }
 
-/* The lower triangle by rows is the upper one by columns. */
-static cholmod_sparse *upper_triangle(size_t n, const int *start, const int *column, const double *value,
-                                      cholmod_common *common)
+static size_t largest_panel(const struct gm_supernodes *triangle)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < n; i++) {
-        for (int k = start[i]; k < start[i + 1]; k++) {
-            count += (size_t)column[k] <= i;
-        }
+    size_t most = 0;
+    for (size_t s = 0; s < triangle->supernodes; s++) {
+        const size_t rows = (size_t)(triangle->row_start[s + 1] - triangle->row_start[s]);
+        most = rows > most ? rows : most;
     }
-    cholmod_sparse *matrix = cholmod_allocate_sparse(n, n, count, 0, 1, 1, CHOLMOD_REAL, common);
-    if (!matrix) {
-        return NULL;
-    }
-    int *p = matrix->p, *row = matrix->i, used = 0;
-    double *x = matrix->x;
-    for (size_t i = 0; i < n; i++) {
-        p[i] = used;
-        for (int k = start[i]; k < start[i + 1]; k++) {
-            if ((size_t)column[k] <= i) {
-                row[used] = column[k];
-                x[used++] = value[k];
-            }
-        }
-    }
-    p[n] = used;
-    return matrix;
+    return most;
 }
 
-struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value)
+/* Half the memory, and half the time, where what is lost does not matter to who wants it rough: of the solution of
+   A x = 1, which has most of what a Laplacian knows worst. False if it would; then the factor is lost. */
+static bool narrow(struct gm_cholesky *cholesky)
+{
+    const double good_enough = 1e-3;
+    struct gm_supernodes *triangle = &cholesky->triangle;
+    cholmod_factor *factor = cholesky->factor;
+    const size_t n = triangle->n;
+    double *x = malloc(2 * n * sizeof *x);
+    if (!x) {
+        return false;
+    }
+    double *rough = x + n, error = 0, size = 0;
+    for (size_t i = 0; i < n; i++) {
+        x[i] = rough[i] = 1;
+    }
+    gm_supernodes_solve(triangle, x, cholesky->scratch);
+    gm_supernodes_narrow(triangle, factor->xsize);
+    float *less = realloc(factor->x, factor->xsize * sizeof *less);
+    if (less) {
+        factor->x = triangle->narrow = less;
+    }
+    gm_supernodes_solve(triangle, rough, cholesky->scratch);
+    for (size_t i = 0; i < n; i++) {
+        error += (rough[i] - x[i]) * (rough[i] - x[i]);
+        size += x[i] * x[i];
+    }
+    free(x);
+    return error <= good_enough * good_enough * size;
+}
+
+struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value,
+                                     enum gm_cholesky_precision precision)
 {
     struct gm_cholesky *cholesky = calloc(1, sizeof *cholesky);
     if (!cholesky) {
@@ -76,26 +93,45 @@ struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *colu
     prepare_libraries();
     cholmod_start(common);
     common->print = 0;
-    /* measured: solving takes two thirds of the time without supernodes at 3000 unknowns, as long at 20000 */
-    common->supernodal = n < 12000 ? CHOLMOD_SIMPLICIAL : CHOLMOD_AUTO;
+    common->supernodal = CHOLMOD_SUPERNODAL;
     common->error_handler = NULL;
     common->quick_return_if_not_posdef = 1;
-    cholmod_sparse *matrix = upper_triangle(n, start, column, value, common);
-    if (matrix) {
-        cholesky->factor = cholmod_analyze(matrix, common);
+    /* the lower triangle by rows is the upper one by columns; CHOLMOD does not write to it */
+    cholmod_sparse matrix = {.nrow = n,
+                             .ncol = n,
+                             .nzmax = (size_t)start[n],
+                             .p = (int *)start,
+                             .i = (int *)column,
+                             .x = (double *)value,
+                             .stype = 1,
+                             .itype = CHOLMOD_INT,
+                             .xtype = CHOLMOD_REAL,
+                             .dtype = CHOLMOD_DOUBLE,
+                             .packed = 1};
+    cholmod_factor *factor = cholesky->factor = cholmod_analyze(&matrix, common);
+    bool good = factor && cholmod_factorize(&matrix, factor, common) && common->status == CHOLMOD_OK &&
+                factor->minor == n;
+    if (good) {
+        struct gm_supernodes *triangle = &cholesky->triangle;
+        *triangle = (struct gm_supernodes){.n = n,
+                                           .supernodes = factor->nsuper,
+                                           .first = factor->super,
+                                           .row_start = factor->pi,
+                                           .row = factor->s,
+                                           .value_start = factor->px,
+                                           .wide = factor->x};
+        gm_supernodes_invert_diagonal(triangle);
+        cholesky->permuted = malloc(n * sizeof *cholesky->permuted);
+        cholesky->scratch = malloc((n + largest_panel(triangle)) * sizeof *cholesky->scratch);
+        good = cholesky->permuted && cholesky->scratch;
     }
-    bool good = cholesky->factor && cholmod_factorize(matrix, cholesky->factor, common) &&
-                common->status == CHOLMOD_OK && cholesky->factor->minor == n;
-    cholmod_free_sparse(&matrix, common);
-    cholesky->b = cholmod_zeros(n, 1, CHOLMOD_REAL, common);
-    if (good && cholesky->b) {
-        /* makes room for the solution and for scratch */
-        good = cholmod_solve2(CHOLMOD_A, cholesky->factor, cholesky->b, NULL, &cholesky->x, NULL,
-                              &cholesky->y, &cholesky->e, common);
-    }
-    if (!good || !cholesky->b) {
+    if (!good) {
         gm_cholesky_close(cholesky);
         return NULL;
+    }
+    if (precision == GM_CHOLESKY_ROUGH && !narrow(cholesky)) {
+        gm_cholesky_close(cholesky);
+        return gm_cholesky_open(n, start, column, value, GM_CHOLESKY_EXACT);
     }
     return cholesky;
 }
@@ -105,23 +141,22 @@ void gm_cholesky_close(struct gm_cholesky *cholesky)
     if (!cholesky) {
         return;
     }
-    cholmod_common *common = &cholesky->common;
-    cholmod_free_factor(&cholesky->factor, common);
-    cholmod_free_dense(&cholesky->b, common);
-    cholmod_free_dense(&cholesky->x, common);
-    cholmod_free_dense(&cholesky->y, common);
-    cholmod_free_dense(&cholesky->e, common);
-    cholmod_finish(common);
+    cholmod_free_factor(&cholesky->factor, &cholesky->common);
+    cholmod_finish(&cholesky->common);
+    free(cholesky->permuted);
+    free(cholesky->scratch);
     free(cholesky);
 }
 
 void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x)
 {
-    const size_t size = cholesky->b->nrow * sizeof(double);
-    memcpy(cholesky->b->x, b, size);
-    if (cholmod_solve2(CHOLMOD_A, cholesky->factor, cholesky->b, NULL, &cholesky->x, NULL, &cholesky->y,
-                       &cholesky->e, &cholesky->common)) {
-        memcpy(x, cholesky->x->x, size);
+    const int *place = cholesky->factor->Perm;
+    for (size_t i = 0; i < cholesky->triangle.n; i++) {
+        cholesky->permuted[i] = b[place[i]];
+    }
+    gm_supernodes_solve(&cholesky->triangle, cholesky->permuted, cholesky->scratch);
+    for (size_t i = 0; i < cholesky->triangle.n; i++) {
+        x[place[i]] = cholesky->permuted[i];
     }
 }
 

@@ -6,12 +6,18 @@
 #include <stddef.h>
 
 /* The Cholesky factor of a sparse symmetric positive definite matrix, by CHOLMOD (Chen, Davis, Hager &
-   Rajamanickam, ACM Trans. Math. Softw. 35 (2008) 22). Solving allocates nothing after the first time. */
+   Rajamanickam, ACM Trans. Math. Softw. 35 (2008) 22). Solving
+   allocates nothing, and its bits do not depend on a BLAS but through the factor's. */
 struct gm_cholesky;
 
-/* Rows start[i] .. start[i + 1] of columns; only columns <= row are read. NULL when memory is short or the
+/* A rough factor stands in single precision, in half the memory, where a solution keeps three digits then; it
+   preconditions. */
+enum gm_cholesky_precision { GM_CHOLESKY_EXACT, GM_CHOLESKY_ROUGH };
+
+/* Rows start[i] .. start[i + 1] of columns, those <= i. NULL when memory is short or the
    matrix is not positive definite. */
-struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value);
+struct gm_cholesky *gm_cholesky_open(size_t n, const int *start, const int *column, const double *value,
+                                     enum gm_cholesky_precision precision);
 void gm_cholesky_close(struct gm_cholesky *cholesky);
 /* b, x: n; may be the same */
 void gm_cholesky_solve(struct gm_cholesky *cholesky, const double *b, double *x);

@@ -14,6 +14,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/beside.h"
 #include "core/count.h"
 #include "core/flow/families/families.h"
 #include "core/flow/solver.h"
@@ -214,8 +215,7 @@ static bool advance_stream(struct gm_flow_solver *solver, const struct row *row,
     }
     gm_flow_vorticity(flow, y, omega);
     const double size = residual(solver, omega);
-    if (!gm_flow_solver_factor(solver, 1 / dt, row->share * flow->viscosity) ||
-        !gm_flow_solver_correct(solver, size, &progress->iterations)) {
+    if (!gm_flow_solver_correct(solver, size, &progress->iterations)) {
         return false;
     }
     correct(solver, y);
@@ -226,39 +226,61 @@ static bool advance_stream(struct gm_flow_solver *solver, const struct row *row,
     return true;
 }
 
-/* The scalar, or temperature, by the fluxes in solver->flux; source: per unit of time, NULL: none. */
-static bool advance_carried(struct gm_flow_solver *solver, double dt, double *theta, const bool *fixed,
-                            const double *source, struct gm_progress *progress)
+/* The scalar, or temperature, by the fluxes in solver->flux; source: per unit of time, NULL: none. transport, rate:
+   scratch. */
+static bool advance_carried(struct gm_flow_solver *solver, struct gm_transport *transport, double *rate,
+                            double dt, double *theta, const bool *fixed, const double *source,
+                            unsigned long *iterations)
 {
     const struct gm_flow *flow = solver->flow;
     const struct gm_complex *complex = flow->complex;
     const double shift = dt > 0 || dt < 0 ? 1 / dt : 0;
-    gm_transport_assemble(&solver->transport, solver->flux, shift, 1, flow->diffusivity, GM_BACKFLOW_OWN);
+    gm_transport_assemble(transport, solver->flux, shift, 1, flow->diffusivity, GM_BACKFLOW_OWN);
     for (size_t v = 0; v < complex->vertices; v++) {
-        solver->rate[v] = shift * complex->star0[v] * theta[v];
+        rate[v] = shift * complex->star0[v] * theta[v];
         if (source) {
-            solver->rate[v] += source[v];
+            rate[v] += source[v];
         }
     }
-    progress->solves++;
-    return shift != 0 ? gm_transport_solve(&solver->transport, fixed, solver->rate, theta, solver->bicgstab,
-                                           &progress->iterations)
-                      : gm_transport_solve_directly(&solver->transport, fixed, solver->rate, theta);
-}
-
-static bool advance_scalar(struct gm_flow_solver *solver, double dt, double *y, struct gm_progress *progress)
-{
-    const struct gm_flow *flow = solver->flow;
-    return !flow->scalar || advance_carried(solver, dt, block(flow, y, GM_FLOW_THETA), flow->theta_fixed,
-                                            flow->source, progress);
+    return shift != 0 ? gm_transport_solve(transport, fixed, rate, theta, solver->bicgstab, iterations)
+                      : gm_transport_solve_directly(transport, fixed, rate, theta);
 }
 
 static bool advance_temperature(struct gm_flow_solver *solver, double dt, double *y,
                                 struct gm_progress *progress)
 {
     const struct gm_flow *flow = solver->flow;
-    return !flow->heat || advance_carried(solver, dt, block(flow, y, GM_FLOW_TEMPERATURE),
-                                          flow->temperature_fixed, NULL, progress);
+    if (!flow->heat) {
+        return true;
+    }
+    progress->solves++;
+    return advance_carried(solver, &solver->transport, solver->rate, dt, block(flow, y, GM_FLOW_TEMPERATURE),
+                           flow->temperature_fixed, NULL, &progress->iterations);
+}
+
+/* The scalar's part of a step, which needs of the flow's nothing but the fluxes before. */
+struct scalar_part {
+    struct gm_flow_solver *solver;
+    double dt, *theta;
+    unsigned long iterations;
+    bool good;
+};
+
+static void advance_scalar(void *data)
+{
+    struct scalar_part *part = data;
+    struct gm_flow_solver *solver = part->solver;
+    const struct gm_flow *flow = solver->flow;
+    part->good =
+        !flow->scalar || advance_carried(solver, &solver->carried, solver->carried_rate, part->dt,
+                                         part->theta, flow->theta_fixed, flow->source, &part->iterations);
+}
+
+static bool take_scalar(const struct scalar_part *part, struct gm_progress *progress)
+{
+    progress->solves += part->solver->flow->scalar;
+    progress->iterations += part->iterations;
+    return part->good;
 }
 
 static void keep_carried(const struct gm_flow *flow, double *y)
@@ -287,6 +309,9 @@ static void take_given(const struct gm_flow_solver *solver, double *y)
     }
 }
 
+/* Vertices from which on the scalar takes longer than to begin a thread. */
+enum { WORTH_A_THREAD = 1500 };
+
 /* From the time t on. */
 static enum gm_status step(struct gm_flow_solver *solver, const struct row *row, double t, double dt,
                            long number, double *y, struct gm_progress *progress)
@@ -299,6 +324,9 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
     if (!gm_flow_solver_give(solver, t + dt / 2)) {
         return GM_BLOW_UP;
     }
+    if (!gm_flow_solver_factor(solver, 1 / dt, row->share * flow->viscosity)) {
+        return GM_NO_CONVERGENCE;
+    }
     half_step(solver, dt, y);
     fluxes(solver, block(flow, y, GM_FLOW_PSI_HALF));
     if (!gm_flow_solver_give(solver, t + dt)) {
@@ -306,10 +334,16 @@ static enum gm_status step(struct gm_flow_solver *solver, const struct row *row,
     }
     keep_carried(flow, y);
     take_given(solver, y);
-    const bool moved = advance_temperature(solver, dt, y, progress) &&
-                       (solver->vorticity_form ? advance_vorticity(solver, row, dt, y, progress)
-                                               : advance_stream(solver, row, dt, y, psi_before, progress));
-    if (!moved || !advance_scalar(solver, dt, y, progress)) {
+    if (!advance_temperature(solver, dt, y, progress)) {
+        return GM_NO_CONVERGENCE;
+    }
+    struct scalar_part scalar = {.solver = solver, .dt = dt, .theta = block(flow, y, GM_FLOW_THETA)};
+    struct gm_beside beside = {.work = advance_scalar, .data = &scalar};
+    gm_beside_begin(&beside, !flow->scalar || solver->vorticity_form || n < WORTH_A_THREAD);
+    const bool moved = solver->vorticity_form ? advance_vorticity(solver, row, dt, y, progress)
+                                              : advance_stream(solver, row, dt, y, psi_before, progress);
+    gm_beside_end(&beside);
+    if (!take_scalar(&scalar, progress) || !moved) {
         return GM_NO_CONVERGENCE;
     }
     if (!(gm_flow_kinetic_energy(flow, y) <= solver->energy_limit)) {
@@ -378,7 +412,9 @@ static enum gm_status step_steady(struct gm_flow_solver *solver, double *carried
     y[gm_flow_block_numbers(flow)] = 0;
     fluxes(solver, y);
     memcpy(block(flow, y, GM_FLOW_THETA_BEFORE), block(flow, y, GM_FLOW_THETA), n * sizeof *y);
-    if (!advance_scalar(solver, 0, y, progress)) {
+    struct scalar_part scalar = {.solver = solver, .theta = block(flow, y, GM_FLOW_THETA)};
+    advance_scalar(&scalar);
+    if (!take_scalar(&scalar, progress)) {
         return GM_NO_CONVERGENCE;
     }
     progress->evaluations++;
