@@ -61,6 +61,12 @@ bool gm_drive_goes_on(const struct gm_drive *drive, long step)
     return gm_run_goes_on(drive->lane->run, step, until_of(drive->lane)) && !gm_lane_stopped(drive->lane);
 }
 
+long gm_drive_end(const struct gm_drive *drive, long step)
+{
+    const long end = gm_run_steps_at(drive->lane->run, until_of(drive->lane));
+    return end < step ? end : step;
+}
+
 /* The system is asked for the time of every step that is long, of short ones after so many seconds of them:
    asking takes longer than a short step. One too short to be measured counts as so long for that. */
 static const double unasked = 20e-6, shortest = 20e-9;
@@ -111,8 +117,7 @@ static void look_for_engine(struct gm_drive *drive, long step)
     const struct gm_run *run = drive->lane->run;
     if (drive->seconds >= drive->looked + often || drive->looked == 0) {
         const bool known = !drive->lane->scheme->family->own_time;
-        const long end = known ? gm_run_steps_at(run, until_of(drive->lane)) : run->steps;
-        const double left = (double)((end < step ? end : step) - run->steps);
+        const double left = known ? (double)(gm_drive_end(drive, step) - run->steps) : 0;
         gm_engine_look(drive->lane, drive->seconds - drive->looked, drive->each * fmax(left, 0));
         drive->looked = drive->seconds;
     }
