@@ -191,6 +191,20 @@ static size_t line_told(const char *text, const char *sentence)
     return (size_t)(value - text);
 }
 
+/* The equations of a system that was read, with the values that these are built on. What was read is emptied. */
+static bool derive(struct gm_own_system *system, struct gm_own_system *first,
+                   const struct gm_system_lines *written, const struct gm_system_value *values, size_t count,
+                   struct gm_fault *fault)
+{
+    if (count > 0) {
+        gm_formula_close(&first->graph); /* the names of the values stay */
+        return gm_equations_open(system, written->text, written->length, values, count, fault);
+    }
+    *system = *first;
+    *first = (struct gm_own_system){0};
+    return gm_equations_derive(system, fault);
+}
+
 /* Makes a scene of the lines, or finds the one that was kept. */
 static bool make(struct gm_made_system *made, const struct gm_system_lines *written, int count,
                  char *const words[], struct gm_system_trial *trial, char *message)
@@ -220,7 +234,7 @@ static bool make(struct gm_made_system *made, const struct gm_system_lines *writ
             trial->scene = known->scene;
         } else if (!made->key || !made->name) {
             gm_refuse(message, "not enough memory");
-        } else if (!gm_equations_open(&system, written->text, written->length, values, value_count, &fault)) {
+        } else if (!derive(&system, &first, written, values, value_count, &fault)) {
             trial->status = gm_system_lines_fault(written, words, &fault, &trial->place, message);
             gm_system_close(&system);
         } else if (gm_arguments_end(&made->words)) {

@@ -1140,10 +1140,10 @@ static bool check_matrices(struct gm_own_system *system, struct gm_fault *fault)
            check_line(system, 1, fault);
 }
 
-bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
-                       const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+bool gm_equations_derive(struct gm_own_system *system, struct gm_fault *fault)
 {
-    if (!gm_system_read(system, text, length, values, count, fault) || !derive(system)) {
+    *fault = (struct gm_fault){0};
+    if (!derive(system)) {
         return false;
     }
     if (gm_system_is_field(system)) {
@@ -1153,4 +1153,10 @@ bool gm_equations_open(struct gm_own_system *system, const char *text, size_t le
     }
     return (system->kind != GM_POISSON || check_jacobi(system, fault)) && check_start(system, fault) &&
            check_items(system, fault) && !system->graph.failed;
+}
+
+bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
+                       const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+{
+    return gm_system_read(system, text, length, values, count, fault) && gm_equations_derive(system, fault);
 }
