@@ -400,7 +400,7 @@ static const struct gm_scheme schemes[] = {
     {
         .name = "evolution-projection",
         .title = "Evolution-projection",
-        .formula = "v + μk/2 D₃v = P[u − μk/2 D₃u](y),  y = xⱼ + σ − ηwk,  w = (P[u](y) + vⱼ)/2\n"
+        .formula = "v + μk/2 D₃v = (P[u − μk/2 D₃u])(y),  y = xⱼ + σ − ηwk,  w = ((P[u])(y) + vⱼ)/2\n"
                    "P: the polynomial through six nodes",
         .reference =
             "after A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose step "
