@@ -379,7 +379,7 @@ static struct gm_word_place place_in(int count, char *const words[], const char 
 /* The key of a word that only a file's equations have; NULL if there is none. */
 static const char *line_of_files(int count, char *const words[], struct gm_word_place *place)
 {
-    static const char *const keys[] = {"bracket", "V"};
+    static const char *const keys[] = {"bracket", "V", "K-matrix", "L-matrix"};
     for (int i = 1; i < count; i++) {
         for (size_t k = 0; k < GM_COUNT(keys); k++) {
             if (value_of(words[i], keys[k], strlen(keys[k]))) {
@@ -577,7 +577,8 @@ static bool write_typed(struct written *written, int count, char *const words[],
 
 /* ---- words that take the place of a file's formulas ---- */
 
-static const char *const replacing_keys[] = {"H", "L", "V", "rate", "bracket", NULL};
+static const char *const replacing_keys[] = {"H", "L",        "V",        "rate", "bracket",
+                                             "S", "K-matrix", "L-matrix", NULL};
 
 /* What a formula is of: "x" of a rate, "x y" of a bracket, nothing of H and L, without blanks. */
 static void subject_of(const char *key, const char *value, size_t length, char *subject, size_t size)
