@@ -8,7 +8,7 @@
 
 #include "app/own/arguments.h"
 
-const char *const gm_replacing_keys[] = {"H", "L", "V", "rate", "bracket", NULL};
+const char *const gm_replacing_keys[] = {"H", "L", "V", "rate", "bracket", "S", "K-matrix", "L-matrix", NULL};
 
 /* What a formula is of: "x" of a rate, "x y" of a bracket, nothing of H and L, without blanks. */
 static void subject_of(const char *key, const char *value, size_t length, char *subject, size_t size)

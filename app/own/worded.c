@@ -144,7 +144,7 @@ static struct gm_word_place place_in(int count, char *const words[], const char 
 /* The key of a word that only a file's equations have; NULL if there is none. */
 static const char *line_of_files(int count, char *const words[], struct gm_word_place *place)
 {
-    static const char *const keys[] = {"bracket", "V"};
+    static const char *const keys[] = {"bracket", "V", "K-matrix", "L-matrix"};
     for (int i = 1; i < count; i++) {
         for (size_t k = 0; k < GM_COUNT(keys); k++) {
             if (gm_word_after(words[i], keys[k], strlen(keys[k]))) {

@@ -203,18 +203,21 @@ static double exact(const struct gm_view *view, double x)
     return exact_component(view, 0, x);
 }
 
+/* Of all components; of potentials but for their constant, which is free. */
 static double solution_error(const struct gm_view *view)
 {
     const struct own_field *own = field_of(view);
     const struct gm_line *line = &view->problem->line;
-    double largest = gm_field_error(view, exact);
-    for (size_t i = line->points; (own->evolves || own->is_form) && i < view->problem->n; i++) {
-        if (i % line->points >= gm_line_seen(line)) {
-            continue;
+    const size_t components = own->evolves || own->is_form ? view->problem->n / line->points : 1;
+    double largest = 0;
+    for (size_t c = 0; c < components; c++) {
+        const double *u = view->state + c * line->points;
+        const bool is_free = own->is_form && gm_own_form_is_potential(view->problem, c);
+        const double constant = is_free ? u[0] - exact_component(view, c, gm_line_node(line, 0)) : 0;
+        for (size_t i = 0; i < gm_line_seen(line); i++) {
+            const double error = fabs(u[i] - constant - exact_component(view, c, gm_line_node(line, i)));
+            largest = error > largest || isnan(error) ? error : largest;
         }
-        const double x = gm_line_node(line, i % line->points),
-                     error = fabs(view->state[i] - exact_component(view, i / line->points, x));
-        largest = error > largest || isnan(error) ? error : largest;
     }
     return largest;
 }

@@ -400,6 +400,8 @@ static void a_start_that_does_not_close_is_refused(void **unused)
          "u at the start does not close"},
         {SINE_GORDON "start: u = x/10, v = 0, w = 0.1\njump: u = 4\n", "does not repeat after the jumps"},
         {SINE_GORDON "start: u = 1/x, v = 0, w = 0\n", "u at the start is not finite where x = 0"},
+        {KDV "jump: phi = 5\n",
+         "phi gains 12 around the ring, which follows from the others at the start, and not 5"},
         {"components: u v\nK-matrix: 0, -1 | 1, 0\nL-matrix: 0, 0 | 0, 0\nS: u^2 + v^2\nstart: u = 0, v = 0\n",
          "L is 0 with these values, and nothing changes in space"},
     };
