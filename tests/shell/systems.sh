@@ -402,6 +402,33 @@ grep -q "$(printf '\033')" out && fail 'an escape of a file reached the terminal
 "$geomint" complete run doub | grep -q '^double-pendulum' || fail 'systems are not completed'
 "$geomint" complete run lorenz rh | grep -q '^rho=' || fail 'keys of systems are not completed'
 
+# a solitary wave of Serre's equations comes around the ring in its exact shape, to order 2; by midpoint the momentum is
+# kept, by averages along the step the energy too; two that meet stand higher than both together
+length='30/sqrt(1.3)'
+for steps in 66 132; do
+    "$geomint" run serre scheme=midpoint N=$((30 * steps / 66)) "dt=$length/$steps" "until=$length" --json >wave$steps.json
+done
+"$geomint" run serre scheme=avf2 N=20 until=10 --json >wave.json
+"$geomint" run serre scheme=midpoint B=0.3 s=7 dt=0.1 until=6.3 --json --state >meeting.json
+python3 -c '
+import json, math
+def observed(name):
+    return json.load(open(name))["observables"]
+coarse, fine, kept = observed("wave66.json"), observed("wave132.json"), observed("wave.json")
+assert 0.011 < fine["shape_error"] < 0.012 and 1.85 < math.log2(coarse["shape_error"] / fine["shape_error"]) < 2.1
+assert fine["momentum_error"] < 1e-14 and 1e-9 < fine["energy_error"] < 1e-6
+assert kept["momentum_error"] < 1e-14 and kept["energy_error"] < 1e-14
+x = json.load(open("meeting.json"))["state"][:60]
+# the water above the depth of two waves A/cosh(kx)^2, A/k tanh(kx) of it from the crest on
+k, D = math.sqrt(0.9 / 1.3) / 2, 0.5
+def above(i):
+    place = -15 + i * D
+    return 0.3 / k * (math.tanh(k * (place + 7)) + math.tanh(k * (place - 7)))
+heights = [(D + above(i + 1) - above(i)) / (x[i + 1] - x[i]) - 1 for i in range(59)]
+assert 0.6 < max(heights) < 0.68, max(heights)
+print(coarse, fine, kept, max(heights))
+' >out 2>&1 || fail "waves of Serre: $(cat out)"
+
 # the camera
 cat >space.system <<'END'
 components: x y z

@@ -14,7 +14,7 @@
    the old level and of v where it arrives on the new one, at a node. There the point rests, and its step is
    that of a linear equation; the old level is known at nodes, and what it is between them, six of them tell
    (P, the polynomial of degree 5):
-       v + (mu k/2) D3 v = P[u - (mu k/2) D3 u](y),   y = x_j + sigma - eta w k,   w = (P[u](y) + v_j)/2
+       v + (mu k/2) D3 v = (P (u - (mu k/2) D3 u))(y),   y = x_j + sigma - eta w k,   w = ((P u)(y) + v_j)/2
    It is iterated to round-off, which it reaches where neighbours that move with the wave do not meet in a
    step, eta |u_x| k < 2; it has no other limit.
 
@@ -400,7 +400,7 @@ static const struct gm_scheme schemes[] = {
     {
         .name = "evolution-projection",
         .title = "Evolution-projection",
-        .formula = "v + μk/2 D₃v = (P[u − μk/2 D₃u])(y),  y = xⱼ + σ − ηwk,  w = ((P[u])(y) + vⱼ)/2\n"
+        .formula = "v + μk/2 D₃v = (P(u − μk/2 D₃u))(y),  y = xⱼ + σ − ηwk,  w = ((Pu)(y) + vⱼ)/2\n"
                    "P: the polynomial through six nodes",
         .reference =
             "after A. Bihlo, X. Coiteux-Roy & P. Winternitz, J. Phys. A 48 (2015) 055201, whose step "
