@@ -266,8 +266,11 @@ static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct 
     const struct scene *scene = lanes[0]->parameters;
     const double h = lanes[0]->problem.line.dx;
     struct gm_moving_frame *made = gm_picture_memory(picture, count * sizeof *made);
+    bool any = false, all = true;
     for (size_t i = 0; made && i < count; i++) {
         made[i] = moving_frame(lanes[i], h);
+        any |= gm_kdv_solves(lanes[i]->scheme);
+        all &= gm_kdv_solves(lanes[i]->scheme);
     }
     picture->title = "The moving frame at a node of the Korteweg-de Vries equation";
     picture->subtitle = gm_picture_text(picture, "the node nearest to x = %g,  h = %.3g,  k = %s,  and ĥ = h",
@@ -276,8 +279,9 @@ static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct 
                                        .k = lanes[0]->run->dt,
                                        .value = "u",
                                        .carried = "û",
-                                       .section = gm_kdv_solves(lanes[0]->scheme)
-                                                      ? "û + v̂ⱼ = 0 where the node arrives"
+                                       .section = all ? "û + v̂ⱼ = 0 where the node arrives"
+                                                  : any
+                                                      ? "ûⱼ₋₁ + ûⱼ + ûⱼ₊₁ = 0, or û + v̂ⱼ = 0 where it arrives"
                                                       : "ûⱼ₋₁ + ûⱼ + ûⱼ₊₁ = 0"};
     gm_draw_clock(picture, lanes, count);
     if (made) {
