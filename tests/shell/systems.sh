@@ -102,6 +102,10 @@ misplaced '4:14: there is no function ln; did you mean log' 'observe: r = ln(x)'
 misplaced '4:10: the monitor is -1 at the start: how dense steps are is a number above 0' 'monitor: x - 2'
 misplaced '4:10: a monitor holds coordinates, momenta and parameters alone' 'monitor: 1 + t'
 refused 1 'does not fit scene system: it needs a monitor, the density of steps; geomint list' run system H='p^2/2 + q^2/2' q=1 p=0 scheme=controlled-verlet2
+refused 1 'it needs a potential V(q) < 0 of a Hamiltonian T(p) + V(q)' run system H='p^2/2 + q^2' q=1 p=0 scheme=logh2
+"$geomint" run system H='p^2/2 - cos(q)' q=0 p=1.9 scheme=logh2 dt=.01 until=10 >out
+[ $? = 2 ] || fail "a potential that is not negative is no failure"
+grep -q 'the potential, which has to be negative, is -0.119' out || fail "no word of the potential: $(cat out)"
 printf 'coordinates: x\nH: p_x^2/2 + x^2/2\nstart: x = 1, p_x = 0\nmonitor: x - 0.5\ndt: 0.001\nuntil: 9\n' >falls.system
 "$geomint" run ./falls.system scheme=controlled-verlet2 >out 2>err
 [ $? = 2 ] || fail "a monitor that falls to 0 is no failure"

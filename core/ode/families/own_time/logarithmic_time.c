@@ -40,7 +40,8 @@ static const double *moving(const struct passing *at)
     return at->y;
 }
 
-static void drift(struct passing *at, double ds)
+/* False: T + B is not positive. */
+static bool drift(struct passing *at, double ds)
 {
     const struct gm_problem *problem = at->problem;
     const size_t half = problem->n / 2;
@@ -55,21 +56,24 @@ static void drift(struct passing *at, double ds)
         velocity = at->rates;
         kinetic = gm_energy(problem, at->y) - gm_energy(problem, at->place);
     }
-    const double d = ds / (kinetic + at->binding);
+    const double whole = kinetic + at->binding, d = ds / whole;
     for (size_t c = 0; c < half; c++) {
         at->place[c] += d * velocity[c];
     }
     at->time += d;
+    return whole > 0;
 }
 
-static void kick(const struct passing *at, double ds)
+/* False: the place is one where V is not negative. */
+static bool kick(const struct passing *at, double ds)
 {
     const size_t half = at->problem->n / 2;
     gm_field(at->problem, at->place, at->rates, 1);
-    const double k = -ds / gm_energy(at->problem, at->place);
+    const double V = gm_energy(at->problem, at->place), k = -ds / V;
     for (size_t c = half; c < 2 * half; c++) {
         at->y[c] += k * at->rates[c];
     }
+    return V < 0;
 }
 
 static enum gm_status step(const struct gm_task *task, struct gm_members *members,
@@ -77,6 +81,7 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
 {
     const struct gm_composition *composition = task->scheme->coefficients;
     double *memory = members->memory, last = 0;
+    bool good = true;
     struct passing at = {.problem = task->problem,
                          .binding = memory[BINDING],
                          .place = members->scratch,
@@ -85,15 +90,15 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     memcpy(at.place, at.y, members->n / 2 * sizeof *at.place);
     for (int i = 0; i < composition->steps; i++) {
         const double ds = gm_composition_fraction(composition, i) * task->dt;
-        drift(&at, (last + ds) / 2);
-        kick(&at, ds);
+        good = drift(&at, (last + ds) / 2) && good;
+        good = kick(&at, ds) && good;
         last = ds;
     }
-    drift(&at, last / 2);
+    good = drift(&at, last / 2) && good;
     moving(&at);
     progress->evaluations += (unsigned long)composition->steps;
     const double before = progress->t, whole = memory[TIME_CARRY] + at.time;
-    if (!isfinite(at.time) || !(at.time * task->dt > 0) || before + whole == before) {
+    if (!good || !isfinite(at.time) || !(at.time * task->dt > 0) || before + whole == before) {
         return GM_STEP_COLLAPSE;
     }
     progress->t += whole;
