@@ -224,12 +224,12 @@ static double solution_error(const struct gm_view *view)
 
 static double form_energy(const struct gm_view *view)
 {
-    return gm_form_energy(view->problem, view->state);
+    return gm_form_energy(view->problem, view->scheme, view->state);
 }
 
 static double form_momentum(const struct gm_view *view)
 {
-    return gm_form_momentum(view->problem, view->state);
+    return gm_form_momentum(view->problem, view->scheme, view->state);
 }
 
 /* What linear theory says about the state, before a step beyond it blows up. */

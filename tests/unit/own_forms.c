@@ -266,18 +266,21 @@ static void local_laws_err_by_the_second_order(void **unused)
     }
 }
 
-/* The energy of Korteweg and de Vries' equation holds its potential, whose constant is free: it may not wander. */
+/* The energy of Korteweg and de Vries' equation holds its potential, whose constant is free: it may not wander. It errs
+   by the order of the scheme, of which boxes of several stages have more than means in cells show. */
 static void the_constant_of_a_potential_stays(void **unused)
 {
     (void)unused;
+    static const double most[] = {3e-3, 3e-3, 3e-4, 3e-5};
     for (size_t s = 0; s < GM_COUNT(boxes); s++) {
         struct typed typed;
         open_typed(&typed, KDV, POINTS, 40);
+        const struct gm_scheme *scheme = gm_scheme_find_for(boxes[s], &typed.problem);
         struct gm_run *run = run_of(&typed.problem, boxes[s], 0.05, typed.y);
-        const double before = gm_form_energy(&typed.problem, typed.y);
+        const double before = gm_form_energy(&typed.problem, scheme, typed.y);
         assert_int_equal(gm_run_advance(run, 200), GM_OK);
-        const double change = fabs(gm_form_energy(&typed.problem, gm_run_state(run)) / before - 1);
-        if (!(change < 3e-3)) {
+        const double change = fabs(gm_form_energy(&typed.problem, scheme, gm_run_state(run)) / before - 1);
+        if (!(change < most[s])) {
             fail_msg("%s: %.2e", boxes[s], change);
         }
         gm_run_close(run);

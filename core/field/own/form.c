@@ -205,16 +205,25 @@ void gm_own_form_start(const struct gm_problem *problem, double *y)
             y[c * points + i] = s[c];
         }
     }
+    /* Gauss's formula of three points in every cell */
+    static const double weights[] = {5.0 / 18, 4.0 / 9, 5.0 / 18};
+    const double apart = sqrt(0.15);
     for (size_t i = 0; i + 1 < points && own->form.potential_count > 0; i++) {
-        for (size_t c = 0; c < n; c++) {
-            s[c] = (y[c * points + i] + y[c * points + i + 1]) / 2;
-        }
-        gradient(own, s, slope);
         for (size_t p = 0; p < own->form.potential_count; p++) {
-            const struct gm_form_potential *potential = &own->potentials[p];
-            double *at = y + potential->component * points + i;
-            at[1] = at[0] + problem->line.dx * slope[potential->row] /
-                                own->l[potential->row * n + potential->component];
+            double *at = y + own->potentials[p].component * points + i;
+            at[1] = at[0];
+        }
+        for (size_t k = 0; k < GM_COUNT(weights); k++) {
+            const double x =
+                gm_line_node(&problem->line, i) + problem->line.dx * (0.5 + apart * ((double)k - 1));
+            gm_tape_values(&own->starts, &x, s, 1);
+            gradient(own, s, slope);
+            for (size_t p = 0; p < own->form.potential_count; p++) {
+                const struct gm_form_potential *potential = &own->potentials[p];
+                y[potential->component * points + i + 1] += weights[k] * problem->line.dx *
+                                                            slope[potential->row] /
+                                                            own->l[potential->row * n + potential->component];
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+#include "core/count.h"
 #include "core/field/families/boxes/collocation.h"
 #include "core/field/families/families.h"
 
@@ -32,6 +33,38 @@ static void in_cell(const struct gm_problem *problem, const double *y, size_t i,
     }
 }
 
+/* At a node, with its slope by differences of order 8. */
+static void at_place(const struct gm_problem *problem, const double *y, size_t i, double *s, double *slope)
+{
+    static const double weights[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+    const struct gm_form *form = gm_field_of(problem)->form;
+    const long points = (long)problem->line.points;
+    for (size_t c = 0; c < form->dimension; c++) {
+        const double *u = y + c * problem->line.points, jump = form->jump ? form->jump[c] : 0;
+        s[c] = u[i];
+        slope[c] = 0;
+        for (long by = 1; by <= (long)GM_COUNT(weights); by++) {
+            const long right = (long)i + by, left = (long)i - by + 4 * points;
+            const double rise =
+                u[right % points] - u[left % points] + jump * (double)(right / points - left / points + 4);
+            slope[c] += weights[by - 1] * rise / problem->line.dx;
+        }
+    }
+}
+
+/* A box knows means in cells, whose integrals are of order 2; boxes of more stages have nodes of a higher one. */
+static void here(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y, size_t i,
+                 double *s, double *slope)
+{
+    const struct gm_collocation_tableau *tableau =
+        scheme->family == &gm_family_any_form ? scheme->coefficients : NULL;
+    if (tableau && tableau->r > 1) {
+        at_place(problem, y, i, s, slope);
+    } else {
+        in_cell(problem, y, i, s, slope);
+    }
+}
+
 static double product(const double *matrix, size_t d, const double *a, const double *b)
 {
     double sum = 0;
@@ -43,24 +76,24 @@ static double product(const double *matrix, size_t d, const double *a, const dou
     return sum;
 }
 
-double gm_form_energy(const struct gm_problem *problem, const double *y)
+double gm_form_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y)
 {
     const struct gm_form *form = gm_field_of(problem)->form;
-    double sum = 0, mean[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
     for (size_t i = 0; i < problem->line.points; i++) {
-        in_cell(problem, y, i, mean, slope);
-        sum += form->function(problem->parameters, mean) - product(form->k, form->dimension, mean, slope) / 2;
+        here(problem, scheme, y, i, s, slope);
+        sum += form->function(problem->parameters, s) - product(form->k, form->dimension, s, slope) / 2;
     }
     return problem->line.dx * sum;
 }
 
-double gm_form_momentum(const struct gm_problem *problem, const double *y)
+double gm_form_momentum(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y)
 {
     const struct gm_form *form = gm_field_of(problem)->form;
-    double sum = 0, mean[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
+    double sum = 0, s[GM_MOST_OF_FORM], slope[GM_MOST_OF_FORM];
     for (size_t i = 0; i < problem->line.points; i++) {
-        in_cell(problem, y, i, mean, slope);
-        sum += product(form->m, form->dimension, mean, slope) / 2;
+        here(problem, scheme, y, i, s, slope);
+        sum += product(form->m, form->dimension, s, slope) / 2;
     }
     return problem->line.dx * sum;
 }
