@@ -337,6 +337,7 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     } groups[] = {{GM_ON_RUN, ""}, {GM_ON_BODIES, ""}, {GM_ON_NODES, ""}, {GM_ON_TRACERS, "-tracers"}};
     char *folder = folder_of(saving), prefix[40] = "";
     bool good = folder != NULL;
+    errno = ENOMEM; /* where no call to a file says otherwise */
     if (saving->count > 1) {
         snprintf(prefix, sizeof prefix, "lane%zu-", lane->index);
     }
@@ -350,6 +351,7 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
             continue;
         }
         if (asprintf(&path, "%s/%s%06" PRIu64 "%s.vtu", folder, prefix, lane->rows, groups[i].ending) < 0) {
+            errno = ENOMEM;
             good = false;
             break;
         }
