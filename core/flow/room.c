@@ -605,6 +605,20 @@ static bool make_side(struct profile *profile, struct gm_side *side, struct gm_f
            gm_fail(fault, line->value[GM_ROOM_FLOW].place, "a flow is a number that is not negative");
 }
 
+/* At the last of the outlets, whose flow is one too many. */
+static void tell_balance(const struct gm_room *room, const struct gm_flow *flow, struct gm_fault *fault)
+{
+    double in = 0, out = 0;
+    size_t place = 0;
+    for (size_t i = 0; i < room->count; i++) {
+        place = room->lines[i].word == GM_ROOM_OUTLET ? room->lines[i].value[GM_ROOM_FLOW].place : place;
+    }
+    for (size_t i = 0; i < flow->openings; i++) {
+        *(flow->opening[i].inlet ? &in : &out) += flow->opening[i].flow;
+    }
+    gm_fail(fault, place, "all flows are given, and what enters does not leave: %.6g in, %.6g out", in, out);
+}
+
 /* Has the flow's boundary give what the room says at a time. */
 static bool set_sides(const struct gm_room *room, const unsigned char *side_of, double t,
                       struct gm_flow *flow, struct gm_fault *fault, enum gm_boundary_fault *boundary)
@@ -623,6 +637,9 @@ static bool set_sides(const struct gm_room *room, const unsigned char *side_of, 
     if (good) {
         *boundary = gm_flow_set_sides(flow, side_of, sides, GM_VERTEX_SOFT);
         good = *boundary == GM_BOUNDARY_OK;
+        if (*boundary == GM_BOUNDARY_UNBALANCED) {
+            tell_balance(room, flow, fault);
+        }
         if (bad.line) {
             good = gm_fail(fault, bad.line->value[bad.key].place,
                            bad.key == GM_ROOM_TANGENTIAL ? "the %s speed is not finite at (%.4g, %.4g)"

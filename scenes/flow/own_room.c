@@ -36,6 +36,8 @@ struct gm_own_room {
     char scalar_titles[4][128];
     char observed[MOST_OBSERVED][2][2 * GM_ROOM_NAME + 32]; /* keys and titles */
     size_t observable_count;
+    const char *forces
+        [2]; /* on the first hole: what a room shows where no scalar is brought; NULL: it is, or no hole */
 };
 
 static const struct gm_own_room *rooms_of(const void *parameters)
@@ -326,9 +328,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .speed_high = 1.2 * speed,
         .sides = own->sides,
         .graphs = {flow->heat         ? "temperature_mean"
+                   : own->forces[0]   ? own->forces[0]
                    : own->room.scalar ? "scalar_mean"
                                       : "scalar_total",
-                   flow->heat ? "kinetic_energy" : "scalar_outflow"},
+                   flow->heat       ? "kinetic_energy"
+                   : own->forces[1] ? own->forces[1]
+                                    : "scalar_outflow"},
     };
     gm_flows_draw(lanes, count, picture, &look);
 }
@@ -425,6 +430,17 @@ static bool make_observables(struct gm_own_room *own, const struct gm_triangulat
         }
     }
     free(scratch);
+    bool brought = false;
+    for (size_t i = 0; i < own->room.count; i++) {
+        const struct gm_room_line *line = &own->room.lines[i];
+        brought |= line->word == GM_ROOM_SOURCE ||
+                   (line->word == GM_ROOM_INLET && line->value[GM_ROOM_SCALAR].place > 0);
+    }
+    const size_t first = own->observable_count;
+    if (!brought && mesh->complex->loops > 1 && first + 1 < MOST_OBSERVED) {
+        own->forces[0] = own->observed[first][0];
+        own->forces[1] = own->observed[first + 1][0];
+    }
     for (size_t hole = 1; hole < mesh->complex->loops; hole++) {
         char name[GM_ROOM_NAME];
         gm_room_hole(mesh, mesh->complex, hole, name, sizeof name);

@@ -136,6 +136,11 @@ for line in lines:
     assert errors[0] < 0.5 and errors[1] < 0.55 * errors[0] and errors[2] < 0.55 * errors[1], errors
 END
 
+# a body that no scalar is brought to: drag and lift are what is shown
+status 0 render "$rooms/cylinder.room" steps=2 -o force.svg
+grep -q 'cylinder force along x' force.svg || fail 'no drag beside a body'
+grep -q 'cylinder force along y' force.svg || fail 'no lift beside a body'
+
 # a mesh with two inlets and two outlets by the short form; the lists are groups, and not lanes
 status 0 run room "mesh=$meshes/hole.msh" inlet=door,vent outlet=window,4 steps=2 --json
 [ "$(wc -l <out)" -eq 1 ] || fail "groups became lanes"
@@ -193,7 +198,7 @@ wrong 'scalar: is given twice' 'scalar: age\nscalar: dust'
 wrong 'viscosity: is a positive number' '' 's/0.01/-1/'
 wrong 'a room needs a line viscosity:' '' '/viscosity/d'
 wrong 'an inlet but no outlet' '' '/outlet/d'
-wrong 'what enters does not leave' '' 's/outlet: window/outlet: window flow = 0.1/'
+wrong 'wrong.room:4:23: all flows are given, and what enters does not leave: 0.2 in, 0.1 out$' '' 's/outlet: window/outlet: window flow = 0.1/'
 wrong 'on the wall of a hole' 'inlet: pillar flow = 1'
 wrong 'wrong.room:5:18: scalar: needs = and a value' 'wall: dor scalar nonsense here = 1'
 wrong 'wrong.room:5:12: x: needs = and a value' 'probe: q x 3'
