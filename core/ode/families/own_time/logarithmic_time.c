@@ -69,9 +69,9 @@ static bool kick(const struct passing *at, double ds)
 {
     const size_t half = at->problem->n / 2;
     gm_field(at->problem, at->place, at->rates, 1);
-    const double V = gm_energy(at->problem, at->place), k = -ds / V;
+    const double V = gm_energy(at->problem, at->place);
     for (size_t c = half; c < 2 * half; c++) {
-        at->y[c] += k * at->rates[c];
+        at->y[c] -= ds * at->rates[c] / V;
     }
     return V < 0;
 }
