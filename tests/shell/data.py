@@ -439,6 +439,32 @@ def full():
     check(not os.path.exists("on.npz") and os.path.isdir("on.npz.part"), "no room, with a checkpoint")
 
 
+def pipes():
+    """Named pipes wait for a reader, as those of other programs do; Ctrl-C ends the waiting."""
+    for words, path in (("run kepler steps=3 --csv", "pipe.csv"), ("render kepler until=1 -o", "pipe.svg")):
+        os.mkfifo(path)
+        process = subprocess.Popen([GEOMINT] + f"{words} {path}".split(), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        with open(path, "rb") as reader:
+            check(len(reader.read()) > 100, f"{words} to a pipe")
+        check(process.wait() == 0, f"{words} to a pipe that is read")
+        process = subprocess.Popen([GEOMINT] + f"{words} {path}".split(), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        for _ in range(100):  # until it waits, where the system tells: earlier the signal stops the run, with 130 too
+            with open(f"/proc/{process.pid}/wchan") as place:
+                if "partner" in place.read():
+                    break
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=60)[1]
+        check(process.returncode == 130, f"{words} to a pipe without a reader: {process.returncode}, {said}")
+        check("Traceback" not in said and len(said.splitlines()) <= 2, f"{words} to a pipe: {said}")
+        os.remove(path)
+    os.mkfifo("pipe.npz")
+    check("no file that can be replaced" in geomint("run kepler steps=3 --save pipe.npz", 3).stderr, "states to a pipe")
+    os.remove("pipe.npz")
+
+
 def refusals():
     done = geomint("run kepler steps=3 --save k.hdf5", 1)
     check(all(ending in done.stderr for ending in (".npz", ".csv", ".pvd")), "the known endings")
@@ -470,7 +496,7 @@ def refusals():
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for part in (rows_equal_states, shapes, flows, vtk, warm, tables, rows, profiles, tracks, memory, continued, killed, interrupted,
-                 full, refusals):
+                 full, pipes, refusals):
         if sys.argv[2:] == ["few"] and part in (memory, killed):  # where a sanitizer watches: they are long
             continue
         if sys.argv[2:] in ([], ["few"]) or part.__name__ in sys.argv[2:]:
