@@ -290,11 +290,9 @@ static bool write_lines(struct gm_system_lines *written, char *path, size_t size
     if (!written->text) {
         return recalled ? gm_refuse(message, "not enough memory") : false;
     }
-    if (written->length > GM_LARGEST_SYSTEM) {
-        return gm_refuse(message, "%.300s is larger than %d bytes", path, GM_LARGEST_SYSTEM);
-    }
-    if (gm_text_valid(written->text, written->length) < written->length) {
-        /* a byte that is no text ends it for what reads strings; the reader says which */
+    if (written->length > GM_LARGEST_SYSTEM ||
+        gm_text_valid(written->text, written->length) < written->length) {
+        /* what is too long was not read, what is no text ends strings early: the reader says so */
         struct gm_own_system system;
         struct gm_fault fault;
         if (!gm_system_read(&system, written->text, written->length, NULL, 0, &fault)) {

@@ -462,7 +462,9 @@ bool gm_declared_state(struct gm_reading *reading)
         add_components_in_order(reading, system->kind == GM_RATES ? GM_WORD_RATE : GM_WORD_BRACKET);
     }
     if (!reading->fault.failed && reading->component_count > GM_MOST_COMPONENTS) {
-        gm_fail_first(&reading->fault, 0, "a system has at most %d components", GM_MOST_COMPONENTS);
+        const struct gm_system_line *list = coordinates ? coordinates : components;
+        gm_fail_first(&reading->fault, list ? list->value.begin : 0, "a system has at most %d components",
+                      GM_MOST_COMPONENTS);
     }
     char t[] = "t";
     const struct gm_entry time = {.name = t, .length = 1, .role = GM_ENTRY_TIME};

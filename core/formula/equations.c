@@ -667,8 +667,9 @@ static bool check_legendre(struct gm_own_system *system, double *start, double *
         length += (size_t)snprintf(where + length, sizeof where - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
                                    system->variables[i].name, start[i]);
     }
+    const size_t place = gm_formula_origin(&system->graph, system->energy);
     return gm_fail(
-        fault, 0,
+        fault, place == SIZE_MAX ? 0 : place,
         "the Legendre transform of L is singular at the start, %s: momenta do not determine velocities",
         where);
 }

@@ -638,6 +638,8 @@ static bool name_parts(struct gm_reading *reading)
     return (system->parts && !reading->fault.failed) || gm_fail_memory(&reading->fault);
 }
 
+enum { MOST_OF_BRACKET = 2000 }; /* a matrix of nodes is made of it */
+
 static bool all_nodes(struct gm_reading *reading, gm_node_id **nodes, size_t count)
 {
     *nodes = malloc((count + 1) * sizeof **nodes);
@@ -652,9 +654,11 @@ static bool is_complete(struct gm_reading *reading)
     struct gm_own_system *system = reading->system;
     const gm_node_id zero = gm_formula_constant(&system->graph, 0);
     const bool rates = system->kind == GM_RATES || system->kind == GM_EVOLUTION;
+    const struct gm_system_line *start = gm_reading_line(reading, GM_WORD_START);
     for (size_t i = 0; i < system->n && rates; i++) {
         if (system->rates[i] == GM_NO_NODE) {
-            return gm_fail_first(&reading->fault, 0, "there is no rate of %s", system->variables[i].name);
+            return gm_fail_first(&reading->fault, gm_reading_line(reading, GM_WORD_RATE)->value.begin,
+                                 "there is no rate of %s", system->variables[i].name);
         }
     }
     for (size_t i = 0; i < system->n * system->n && system->kind == GM_POISSON; i++) {
@@ -665,12 +669,11 @@ static bool is_complete(struct gm_reading *reading)
             system->kind == GM_LAGRANGIAN && i >= system->n / 2 &&
             system->variables[system->velocities + i - system->n / 2].start != GM_NO_NODE;
         if (system->variables[i].start == GM_NO_NODE && !by_velocity) {
-            const struct gm_system_line *start = gm_reading_line(reading, GM_WORD_START);
             return gm_fail_first(&reading->fault, start ? start->value.begin : reading->length,
                                  "%s has no value at the start", system->variables[i].name);
         }
         if (system->variables[i].start != GM_NO_NODE && by_velocity) {
-            return gm_fail_first(&reading->fault, reading->length,
+            return gm_fail_first(&reading->fault, start->value.begin,
                                  "%s and its velocity are both given at the start",
                                  system->variables[i].name);
         }
@@ -693,11 +696,15 @@ static bool read_system(struct gm_reading *reading)
         !all_nodes(reading, &system->rates, system->n)) {
         return false;
     }
-    if (system->kind == GM_POISSON &&
-        (system->n > 2000
-             ? !gm_fail_first(&reading->fault, 0, "a system with a bracket has at most 2000 components")
-             : !all_nodes(reading, &system->bracket, system->n * system->n))) {
-        return false;
+    if (system->kind == GM_POISSON) {
+        const struct gm_system_line *components = gm_reading_line(reading, GM_WORD_COMPONENTS);
+        if (system->n > MOST_OF_BRACKET) {
+            return gm_fail_first(&reading->fault, components ? components->value.begin : 0,
+                                 "a system with a bracket has at most %d components", MOST_OF_BRACKET);
+        }
+        if (!all_nodes(reading, &system->bracket, system->n * system->n)) {
+            return false;
+        }
     }
     if (system->kind == GM_MATRICES) {
         system->matrix_places = calloc(2 * system->n * system->n, sizeof *system->matrix_places);
