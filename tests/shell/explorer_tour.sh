@@ -106,13 +106,13 @@ wait_for 'search: train_'
 wait_for '▸ galilei'
 wait_gone 'kepler'
 keys Enter
-wait_for 'Moving with the flow 1/6'
+wait_for 'Moving with the flow 1/7'
 keys n
-wait_for 'Moving with the flow 2/6'
+wait_for 'Moving with the flow 2/7'
 keys l
 wait_for '▸ galilei'
 keys Enter # as it was left
-wait_for 'Moving with the flow 2/6'
+wait_for 'Moving with the flow 2/7'
 keys l
 wait_for '▸ galilei'
 keys Home
