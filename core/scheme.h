@@ -86,6 +86,9 @@ struct gm_scheme {
 /* Opens what theory knows a scheme by; false: nothing, or memory is short. */
 bool gm_scheme_coefficients_open(const struct gm_scheme *scheme, struct gm_coefficients *coefficients);
 
+/* In a list families.def: a family whose file stands in a folder of its own below families/. */
+#define GM_FAMILY_IN(folder, name) GM_FAMILY(name)
+
 struct gm_family {
     const struct gm_kind *kind; /* of the problems that it advances */
     const char *title;

@@ -34,11 +34,6 @@ void gm_json_put_text(FILE *stream, const char *text)
     fputc('"', stream);
 }
 
-void gm_json_text(const char *text)
-{
-    gm_json_put_text(stdout, text);
-}
-
 void gm_json_put_pair(FILE *stream, const char *key, const char *text)
 {
     gm_json_put_text(stream, key);

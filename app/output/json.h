@@ -7,7 +7,6 @@
 /* JSON on standard output, or on a stream. */
 
 /* A string in quotes, escaped; bytes that are no UTF-8 become U+FFFD. */
-void gm_json_text(const char *text);
 void gm_json_put_text(FILE *stream, const char *text);
 /* "key":"text" */
 void gm_json_pair(const char *key, const char *text);

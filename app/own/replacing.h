@@ -8,7 +8,7 @@
 
 struct gm_arguments;
 
-extern const char *const gm_replacing_keys[]; /* H L V rate bracket, and NULL */
+extern const char *const gm_replacing_keys[]; /* H L V rate bracket S K-matrix L-matrix, and NULL */
 
 /* Whether a word is a formula in place of one of a text's lines. */
 bool gm_replacing_has(const char *text, const char *word);

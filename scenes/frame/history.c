@@ -18,13 +18,6 @@ void gm_history_close(struct gm_history *history)
     *history = (struct gm_history){0};
 }
 
-void gm_history_clear(struct gm_history *history)
-{
-    history->count = history->kept = 0;
-    history->per_bin = 1;
-    history->in_last = history->in_kept = 0;
-}
-
 static void merge_pairs(struct gm_history *history)
 {
     for (size_t pair = 0; pair < GM_HISTORY_BINS / 2; pair++) {

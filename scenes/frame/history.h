@@ -29,7 +29,6 @@ enum { GM_HISTORY_BINS = 1024 };
 
 bool gm_history_open(struct gm_history *history, size_t series);
 void gm_history_close(struct gm_history *history);
-void gm_history_clear(struct gm_history *history);
 /* Adds one value per observable at time t, after `step` steps; what was recorded of later steps is gone. */
 void gm_history_add(struct gm_history *history, double t, long step, const double *values);
 /* Shows what was recorded up to `step`, earlier or later than what is shown now. */

@@ -5,7 +5,7 @@
 #include "core/flow/boundary.h"
 #include "core/flow/gmsh.h"
 
-/* Files of tests/meshes. GM_MESHES, that folder, comes from the build. */
+/* Files of tests/reference/meshes. GM_MESHES, that folder, comes from the build. */
 
 /* The whole text of a file, malloc'ed. */
 char *mesh_text(const char *name, size_t *size);

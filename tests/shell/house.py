@@ -97,13 +97,16 @@ includes = {f: re.findall(r'^\s*#\s*include\s+"([^"]+)"', text[f], re.M) for f i
 # who calls whom, from the objects of the build
 commands = json.load(open(os.path.join(build, "compile_commands.json"), encoding="utf-8"))
 defined, wanted = {}, collections.defaultdict(set)
+compiled, missing = set(), set()
 for command in commands:
     path = os.path.relpath(os.path.realpath(os.path.join(command["directory"], command["file"])), source)
     if not path.startswith(LAYERS):
         continue
     output = os.path.join(command["directory"], command["output"])
     if not os.path.exists(output):
+        missing.add(path)
         continue
+    compiled.add(path)
     for line in subprocess.run(["nm", output], check=True, capture_output=True, text=True).stdout.splitlines():
         kind, name = line.split()[-2:]
         if kind == "U":
@@ -113,6 +116,9 @@ for command in commands:
             own = ("gm_", "geomint_") if path.startswith("library/") else "gm_"
             if not name.startswith(own) and name != "main" and not re.match(r"_|LLVMFuzzer", name):
                 fail(f"{path} exports {name}, which does not begin with gm_")
+
+for path in sorted(missing - compiled):
+    fail(f"{path} is not compiled: nothing is known of its calls")
 
 arrows = collections.defaultdict(set)
 why = {}

@@ -8,6 +8,7 @@ include='^[[:space:]]*#[[:space:]]*include[[:space:]]*'
 
 # forbid FOLDER PATTERN: no file below FOLDER includes what matches
 forbid() {
+    [ -d "$1" ] || { echo "there is no room $1"; status=1; return; }
     found=$(grep -rnE --include='*.[ch]' --include='*.def' "${include}[<\"]$2" "$1")
     if [ -n "$found" ]; then
         printf '%s must not include %s:\n%s\n' "$1" "$2" "$found"
@@ -25,8 +26,25 @@ forbid app '(library|tests)/'
 forbid library '(app/(commands|explorer)|tests)/'
 
 # the floors of app: a room sees none above it, and the words of a command line stay with the commands
+floors="tours
+lanes studies figures data
+output
+request cores
+own native"
+known=" commands explorer completion $(echo $floors) "
+for room in app/*/; do
+    room=$(basename "$room")
+    case $known in
+    *" $room "*) ;;
+    *) echo "app/$room stands on no floor"; status=1 ;;
+    esac
+done
 above='commands|explorer'
-for floor in tours 'lanes studies figures data' output 'request cores' 'own native'; do
+saved_ifs=$IFS
+IFS='
+'
+for floor in $floors; do
+    IFS=$saved_ifs
     for room in $floor; do
         forbid "app/$room" "app/($above)/"
     done

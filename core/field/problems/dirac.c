@@ -75,20 +75,6 @@ void gm_dirac_exact(const struct gm_dirac *dirac, double x, double t, double *s)
     s[D] = second * cos(w * t);
 }
 
-double gm_dirac_charge(const struct gm_problem *problem, const double *y)
-{
-    const size_t points = problem->line.points;
-    double sum = 0;
-    for (size_t c = 0; c < DIMENSION; c++) {
-        const double *s = y + c * points;
-        for (size_t i = 0; i < points; i++) {
-            const double mean = (s[i] + s[i + 1 < points ? i + 1 : 0]) / 2;
-            sum += mean * mean;
-        }
-    }
-    return problem->line.dx * sum;
-}
-
 static const char *const names[] = {"psi1_re", "psi1_im", "psi2_re", "psi2_im"};
 
 static const struct gm_form form = {.names = names,

@@ -13,9 +13,6 @@ struct gm_dirac {
 /* The state, Re and Im of psi_1, then of psi_2, at a node. */
 void gm_dirac_exact(const struct gm_dirac *dirac, double x, double t, double *s);
 
-/* dx sum |A psi|^2, A f = (f_i + f_{i+1})/2 */
-double gm_dirac_charge(const struct gm_problem *problem, const double *y);
-
 /* The caller sets line, n = 4 points and parameters (struct gm_dirac). */
 extern const struct gm_problem gm_problem_dirac;
 
