@@ -13,7 +13,9 @@
 
 enum { NARROWEST = 20, ROOM = 24, LEAST_INDENT = 4 };
 
-int gm_output_columns(void)
+/* The width in columns: COLUMNS, else that of the terminal; 0 where it is none, and lines may be of any
+   length. */
+static int columns_of_output(void)
 {
     const char *told = getenv("COLUMNS");
     const long columns = told ? strtol(told, NULL, 10) : 0;
@@ -55,7 +57,7 @@ void gm_print_wrapped(const char *words, int before, int indent)
     const bool plain = gm_text_is_plain(words);
     char *const tame = plain ? NULL : strdup(words);
     const char *text = plain ? words : tame ? gm_text_tame(tame) : "";
-    const int columns = gm_output_columns();
+    const int columns = columns_of_output();
     const int further = columns > 0 && indent > columns - ROOM ? LEAST_INDENT : indent;
     int at = before, blanks = 0; /* before the next word */
     if (before < indent && (columns == 0 || indent + letters_of(text, strcspn(text, " ")) <= columns)) {

@@ -4,10 +4,6 @@
 
 /* Text on standard output, as wide as that is. */
 
-/* The width in columns: COLUMNS, else that of the terminal; 0 where it is none, and lines may be of any
- * length. */
-int gm_output_columns(void);
-
 /* Prints text and a newline; between its words, and behind commas in words longer than a line, it goes on in
    further lines that are indented by so many columns, fewer where that would leave no room. `before` columns
    of the first line are filled already, the last with a blank; the text stands behind them, or at the indent

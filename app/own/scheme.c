@@ -18,7 +18,9 @@
 
 static const char ending[] = ".scheme";
 
-bool gm_scheme_is_own(const char *name)
+/* Whether what stands for a scheme's name means one's own: a path that ends with .scheme, or a word such as
+   composition(verlet; g, 1 - 2*g, g). */
+static bool is_own(const char *name)
 {
     return gm_word_ends(name, ending) || gm_written_is_word(name, strlen(name));
 }
@@ -173,7 +175,7 @@ char *gm_scheme_polished(const char *name, struct gm_polish *polish, bool *unrea
     char *text = NULL;
     if (!gm_text_is_plain(name)) {
         gm_refuse(reading.message, "the scheme's name holds a character that cannot be shown");
-    } else if (!gm_scheme_is_own(name)) {
+    } else if (!is_own(name)) {
         gm_refuse(reading.message, "--polish takes a file or a word, not a scheme of the program");
     } else if (!reading.path || open_file(&file, name, name, &reading)) {
         struct gm_fault fault;
@@ -220,7 +222,7 @@ const struct gm_scheme *gm_scheme_named(const char *name, bool *unreadable, char
     if (!scheme && gm_word_ends(name, ending)) {
         reading.path = name;
         scheme = read_file(name, name, &reading);
-    } else if (!scheme && gm_scheme_is_own(name)) {
+    } else if (!scheme && is_own(name)) {
         const struct gm_own_scheme_source source = {
             .text = name, .length = strlen(name), .name = name, .bring = bring, .data = &reading};
         scheme = read_text(&source, &reading);
@@ -289,7 +291,7 @@ bool gm_scheme_check(const char *name, size_t *at, char *message)
     struct gm_fault fault;
     bool unreadable;
     *at = 0;
-    if (gm_word_ends(name, ending) || !gm_scheme_is_own(name) || !gm_text_is_plain(name)) {
+    if (gm_word_ends(name, ending) || !is_own(name) || !gm_text_is_plain(name)) {
         const bool found = gm_scheme_named(name, &unreadable, message) != NULL;
         if (!found && !message[0]) {
             gm_refuse(message, "there is no scheme \"%.60s\"", name);

@@ -7,10 +7,6 @@
 #include "core/ode/own/polish.h"
 #include "render/message.h"
 
-/* Whether what stands for a scheme's name means one's own: a path that ends with .scheme, or a word such as
-   composition(verlet; g, 1 - 2*g, g). */
-bool gm_scheme_is_own(const char *name);
-
 /* The scheme that a name, a path or a word means; those of one's own are made at the first time, and live as
    long as the program. NULL where there is none: the message stays empty where nothing is called so, else it
    is a sentence, with the place that is wrong on the next two lines; `unreadable` says whether because of a

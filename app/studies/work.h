@@ -103,7 +103,4 @@ void gm_work_draw(const struct gm_work_table *table, struct gm_picture *picture)
 /* The parameter's value of what a point has as its resolution, and back. */
 double gm_work_resolution(const struct gm_work_table *table, double resolution);
 
-/* "10⁻³" */
-const char *gm_work_error_text(double error, char text[24]);
-
 #endif

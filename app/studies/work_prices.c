@@ -102,7 +102,8 @@ const struct gm_work_line *gm_work_cheapest(const struct gm_work_table *table, d
     return best;
 }
 
-const char *gm_work_error_text(double error, char text[24])
+/* "10⁻³" */
+static const char *error_text(double error, char text[24])
 {
     static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     const double power = round(-log10(error));
@@ -126,7 +127,7 @@ static size_t tell_cheapest(const struct gm_work_table *table, const char *front
     }
     for (size_t i = 0; i < ERRORS && used < size; i++) {
         char word[24];
-        gm_work_error_text(table->errors[i], word);
+        error_text(table->errors[i], word);
         const bool same = i > 0 && lines[i] == lines[i - 1];
         const bool last = i + 1 == ERRORS || lines[i + 1] != lines[i];
         used += same ? (size_t)snprintf(text + used, size - used, "%s %s", last ? " and" : ",", word)

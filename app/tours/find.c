@@ -13,7 +13,8 @@
 
 static const char ending[] = ".tour";
 
-const char *gm_tour_folder(char *path, size_t size)
+/* The folder: that of GEOMINT_TOURS, or beside the installed program, or where it was installed to. */
+static const char *tour_folder(char *path, size_t size)
 {
     return gm_share_folder("tours", "GEOMINT_TOURS", path, size);
 }
@@ -36,7 +37,7 @@ struct gm_tour *gm_tours_read(size_t *count, char *message)
     struct gm_tour *tours = calloc(1, sizeof *tours);
     *count = 0;
     message[0] = '\0';
-    DIR *directory = opendir(gm_tour_folder(folder, sizeof folder));
+    DIR *directory = opendir(tour_folder(folder, sizeof folder));
     if (!tours) {
         gm_refuse(message, "not enough memory");
     } else if (!directory) {
@@ -88,7 +89,7 @@ bool gm_tour_find(const char *word, char *path, size_t size, bool *file, char *m
         snprintf(path, size, "%s", word);
         return true;
     }
-    gm_tour_folder(folder, sizeof folder);
+    tour_folder(folder, sizeof folder);
     if (snprintf(path, size, "%s/%s%s", folder, word, ending) < (int)size && access(path, R_OK) == 0) {
         return true;
     }

@@ -57,9 +57,6 @@ double gm_tour_begin(const struct gm_tour *tour, size_t step);
 
 /* ---- where tours are ---- */
 
-/* The folder: that of GEOMINT_TOURS, or beside the installed program, or where it was installed to. */
-const char *gm_tour_folder(char *path, size_t size);
-
 /* The path of the tour that a word names: a file, a name in the folder, or a title. False with a sentence;
  *file: because the folder could not be read. */
 bool gm_tour_find(const char *word, char *path, size_t size, bool *file, char *message);

@@ -26,7 +26,9 @@ static const char *name_of(const struct gm_naming *naming, gm_node_id node, gm_n
     return node != root && naming->part ? naming->part(node, naming->data) : NULL;
 }
 
-size_t gm_formula_size(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming)
+/* How many operations and operands are written out for a node, at most SIZE_MAX; a part with a name is one,
+   but not the node itself. */
+static size_t written_size(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming)
 {
     size_t *sizes = malloc((node + (size_t)1) * sizeof *sizes), size = SIZE_MAX;
     for (gm_node_id i = 0; sizes && i <= node; i++) {
@@ -234,7 +236,7 @@ static char *text_of(const struct gm_formula *graph, gm_node_id node, const stru
     char *text = NULL;
     size_t size = 0;
     FILE *out =
-        gm_formula_size(graph, node, naming) <= GM_LONGEST_FORMULA ? open_memstream(&text, &size) : NULL;
+        written_size(graph, node, naming) <= GM_LONGEST_FORMULA ? open_memstream(&text, &size) : NULL;
     if (!out) {
         return NULL;
     }

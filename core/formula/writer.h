@@ -13,10 +13,6 @@ struct gm_naming {
     const void *data;
 };
 
-/* How many operations and operands are written out for a node, at most SIZE_MAX; a part with a name is one,
-   but not the node itself. */
-size_t gm_formula_size(const struct gm_formula *graph, gm_node_id node, const struct gm_naming *naming);
-
 /* Text is malloc'ed; NULL where memory is short, or where more than GM_LONGEST_FORMULA would be written. What
    is written, read again, has the same values, bit for bit. */
 enum { GM_LONGEST_FORMULA = 2000 };

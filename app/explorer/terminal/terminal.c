@@ -48,7 +48,7 @@ static int rung_of(struct gm_graphics graphics)
     return RUNGS - 1;
 }
 
-const char *gm_graphics_name(struct gm_graphics graphics)
+static const char *graphics_name(struct gm_graphics graphics)
 {
     return graphics_names[rung_of(graphics)];
 }
@@ -463,7 +463,7 @@ int gm_terminal_report(const struct gm_overrides *overrides)
     snprintf(text, sizeof text, "%d x %d", terminal.cell_width, terminal.cell_height);
     line("cell", terminal.cell_width > 0 ? text : "unknown", terminal.cell_why);
     line("colours", colours_names[terminal.colours], terminal.colours_why);
-    line("graphics", gm_graphics_name(terminal.graphics), terminal.graphics_why);
+    line("graphics", graphics_name(terminal.graphics), terminal.graphics_why);
     report_ladder(&terminal);
     line("theme", theme_name(&terminal), terminal.theme_why);
     if (!gm_terminal_serves(&terminal, message)) {

@@ -59,7 +59,6 @@ void gm_terminal_cell(int *width, int *height);
 
 /* The next of the ways to show pictures that this terminal has. */
 struct gm_graphics gm_graphics_next(const struct gm_terminal *terminal, struct gm_graphics graphics);
-const char *gm_graphics_name(struct gm_graphics graphics);
 
 /* `geomint terminal`: what was found and what follows from it. */
 int gm_terminal_report(const struct gm_overrides *overrides);
