@@ -235,8 +235,7 @@ static char *text_of(const struct gm_formula *graph, gm_node_id node, const stru
 {
     char *text = NULL;
     size_t size = 0;
-    FILE *out =
-        written_size(graph, node, naming) <= GM_LONGEST_FORMULA ? open_memstream(&text, &size) : NULL;
+    FILE *out = written_size(graph, node, naming) <= GM_LONGEST_FORMULA ? open_memstream(&text, &size) : NULL;
     if (!out) {
         return NULL;
     }
