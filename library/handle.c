@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/arguments.h"
 #include "app/data/meta.h"
 #include "app/output/json.h"
-#include "app/own/arguments.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "library/host.h"

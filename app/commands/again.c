@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/arguments.h"
 #include "app/commands/commands.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
 #include "app/output/still.h"
-#include "app/own/arguments.h"
 #include "app/own/system.h"
 #include "app/request/drive.h"
 #include "app/request/interrupt.h"

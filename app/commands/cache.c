@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "app/commands/commands.h"
+#include "app/exit.h"
 #include "app/native/cache.h"
 #include "app/output/say.h"
-#include "app/own/exit.h"
 #include "core/memory.h"
 
 static int command_cache(const struct gm_options *options)

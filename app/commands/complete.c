@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "app/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
 #include "app/output/say.h"
-#include "app/own/arguments.h"
 #include "app/own/found.h"
 #include "app/own/replacing.h"
 #include "app/own/room.h"

@@ -3,9 +3,9 @@
 #ifndef GM_APP_COMMANDS_OPTIONS_H
 #define GM_APP_COMMANDS_OPTIONS_H
 
+#include "app/arguments.h"
 #include "app/native/engine.h"
 #include "app/output/press.h"
-#include "app/own/arguments.h"
 #include "app/request/request.h"
 
 /* The commands, as bits: an option says which of them take it. */

@@ -10,7 +10,7 @@
 #include "app/explorer/view/pages.h"
 #include "app/own/found.h"
 #include "app/own/room.h"
-#include "app/own/share.h"
+#include "app/share.h"
 #include "render/cells/text.h"
 #include "render/clock.h"
 

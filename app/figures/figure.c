@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/arguments.h"
 #include "app/output/still.h"
-#include "app/own/arguments.h"
 #include "app/request/drive.h"
 #include "app/request/interrupt.h"
 #include "core/memory.h"

@@ -8,9 +8,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/arguments.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
-#include "app/own/arguments.h"
 #include "app/request/request.h"
 #include "render/files/temporary.h"
 #include "render/message.h"

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/own/arguments.h"
+#include "app/arguments.h"
 #include "app/own/room.h"
-#include "app/own/share.h"
+#include "app/share.h"
 #include "core/formula/nearest.h"
 #include "core/formula/reader.h"
 #include "scenes/frame/scene.h"

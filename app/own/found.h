@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Systems by their names: where their files are, and which there are. */
 #ifndef GM_APP_OWN_FOUND_H
 #define GM_APP_OWN_FOUND_H
 

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The text of a system as it is put together, line by line, and where each part of it came from. */
 #ifndef GM_APP_OWN_LINES_H
 #define GM_APP_OWN_LINES_H
 
 #include <stddef.h>
 #include <stdio.h>
 
-#include "app/own/place.h"
+#include "app/place.h"
 
 struct gm_fault;
 

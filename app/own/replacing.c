@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/own/arguments.h"
+#include "app/arguments.h"
 
 const char *const gm_replacing_keys[] = {"H", "L", "V", "rate", "bracket", "S", "K-matrix", "L-matrix", NULL};
 

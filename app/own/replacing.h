@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Words that take the place of a file's formulas. */
 #ifndef GM_APP_OWN_REPLACING_H
 #define GM_APP_OWN_REPLACING_H
 

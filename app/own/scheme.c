@@ -7,8 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "app/own/exit.h"
-#include "app/own/place.h"
+#include "app/exit.h"
+#include "app/place.h"
 #include "core/formula/nearest.h"
 #include "core/formula/reader.h"
 #include "core/memory.h"

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "app/own/place.h"
+#include "app/place.h"
 
 struct gm_own_system;
 struct gm_scene;

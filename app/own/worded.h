@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A system that is said by the words of a command line alone, as the text of a file. */
 #ifndef GM_APP_OWN_WORDED_H
 #define GM_APP_OWN_WORDED_H
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/arguments.h"
 #include "app/native/engine.h"
-#include "app/own/arguments.h"
 #include "app/own/found.h"
 #include "app/own/scheme.h"
 #include "app/own/system.h"

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/arguments.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
-#include "app/own/arguments.h"
 #include "app/request/interrupt.h"
 #include "app/tours/agenda.h"
 #include "core/memory.h"

@@ -10,8 +10,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "app/arguments.h"
 #include "app/output/provenance.h"
-#include "app/own/arguments.h"
 #include "render/cells/text.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

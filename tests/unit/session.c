@@ -15,12 +15,12 @@
 
 #include <cmocka.h>
 
+#include "app/arguments.h"
 #include "app/explorer/surface/search.h"
 #include "app/explorer/view/prompt.h"
 #include "app/explorer/view/studies.h"
 #include "app/lanes/session.h"
 #include "app/lanes/slider.h"
-#include "app/own/arguments.h"
 #include "app/request/drive.h"
 #include "core/count.h"
 #include "core/schemes.h"

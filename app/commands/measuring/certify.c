@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/measuring/certificate.h"
 #include "app/commands/measuring/charted.h"
@@ -12,7 +13,6 @@
 #include "app/output/json.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"
-#include "app/own/arguments.h"
 #include "app/own/scheme.h"
 #include "app/studies/certified_lane.h"
 #include "app/studies/listener.h"

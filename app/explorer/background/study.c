@@ -11,10 +11,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "app/arguments.h"
 #include "app/explorer/background/job.h"
 #include "app/output/chart.h"
 #include "app/output/folder.h"
-#include "app/own/arguments.h"
 #include "app/studies/kinds/study.h"
 #include "render/clock.h"
 

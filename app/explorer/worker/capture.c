@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "app/arguments.h"
 #include "app/output/folder.h"
 #include "app/output/still.h"
-#include "app/own/arguments.h"
 #include "app/own/now.h"
 #include "render/clock.h"
 
