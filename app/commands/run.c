@@ -307,6 +307,7 @@ static bool keep_state(struct outcome *outcome, char *message)
     const struct gm_drive *drive = &outcome->drive;
     outcome->paused.seconds = drive->seconds;
     outcome->paused.rows = 0;
+    outcome->paused.saved = outputs->save ? gm_save_identity(outputs->save) : 0;
     outcome->paused.spacing[0] = (double)outputs->rows.every;
     outcome->paused.spacing[1] = outputs->rows.interval;
     if (outputs->save && !gm_save_sync(outputs->save, &outcome->paused.rows, message)) {
@@ -461,6 +462,22 @@ static bool is_spacing(const struct outcome *outcome)
            (before[1] == rows->interval || (isnan(before[1]) && isnan(rows->interval)));
 }
 
+/* Whether what was saved before can be gone on with. False with a sentence. */
+static bool fits_saved(const struct outcome *outcome, char *message)
+{
+    const struct outputs *outputs = outcome->outputs;
+    if (!outputs->save || outcome->paused.rows == 0) {
+        return true;
+    }
+    if (!is_spacing(outcome)) {
+        return gm_refuse(message, "what was saved before is spaced otherwise: go on with the same --every or "
+                                  "--interval, or save to another file");
+    }
+    return outcome->paused.saved == gm_save_identity(outputs->save) ||
+           gm_refuse(message, "%.200s.part is of another run than %.200s: save to another file",
+                     outputs->options->save, outputs->options->from_checkpoint);
+}
+
 /* Runs one lane; how it ended, if not well, is the last row of its history. */
 static bool run_lane(struct outcome *outcome, long steps, char *message)
 {
@@ -469,9 +486,8 @@ static bool run_lane(struct outcome *outcome, long steps, char *message)
                                                      outcome->drive.lane, &outcome->paused, message)) {
         return false;
     }
-    if (outcome->outputs->save && outcome->paused.rows > 0 && !is_spacing(outcome)) {
-        return gm_refuse(message, "what was saved before is spaced otherwise: go on with the same --every or "
-                                  "--interval, or save to another file");
+    if (!fits_saved(outcome, message)) {
+        return false;
     }
     outcome->drive.seconds = outcome->paused.seconds;
     take_maxima(outcome);

@@ -9,15 +9,18 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/random.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include "app/data/bytes.h"
 #include "app/output/folder.h"
 #include "render/message.h"
 
 enum { NAME = 48 };
+static const char identity[] = "identity";
 
 struct gm_part {
     char *path;
@@ -36,6 +39,7 @@ static void empty(const struct gm_part *part)
     if (entries) {
         closedir(entries);
     }
+    unlinkat(part->folder, identity, 0);
 }
 
 /* Opens the folder and takes the lock; a folder that its last holder removed meanwhile is none. */
@@ -98,6 +102,30 @@ void gm_part_close(struct gm_part *part, bool remove)
     }
     free(part->path);
     free(part);
+}
+
+bool gm_part_sign(struct gm_part *part)
+{
+    uint64_t number = 0;
+    while (number == 0) {
+        if (getrandom(&number, sizeof number, 0) != sizeof number && errno != EINTR) {
+            return false;
+        }
+    }
+    const int file = openat(part->folder, identity, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const bool good = file >= 0 && gm_bytes_write(file, &number, sizeof number, 0) && fsync(file) == 0;
+    return (file < 0 || close(file) == 0) && good;
+}
+
+uint64_t gm_part_identity(const struct gm_part *part)
+{
+    uint64_t number = 0;
+    const int file = openat(part->folder, identity, O_RDONLY | O_CLOEXEC);
+    const bool good = file >= 0 && gm_bytes_read(file, &number, sizeof number, 0);
+    if (file >= 0) {
+        close(file);
+    }
+    return good ? number : 0;
 }
 
 static void name_of(char name[NAME], size_t lane, bool begun)

@@ -17,6 +17,12 @@ struct gm_part *gm_part_open(const char *path, bool go_on, char *message);
 /* Leaves the folder to be gone on with, or removes it. */
 void gm_part_close(struct gm_part *part, bool remove);
 
+/* Gives a folder that was just made a number of its own, on the disk when this returns: by it a checkpoint knows
+   later that its rows are here, and not those of another run to the same file. False with errno. */
+bool gm_part_sign(struct gm_part *part);
+/* That number; 0: it has none. */
+uint64_t gm_part_identity(const struct gm_part *part);
+
 /* A lane's file, for reading and writing; -1 with errno. */
 int gm_part_lane(const struct gm_part *part, size_t lane);
 /* An empty file that is to be a lane's, which is it once it is taken: the one before stays until then. */

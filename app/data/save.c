@@ -80,7 +80,17 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool re
         return NULL;
     }
     gm_temporary_sweep(path);
+    if (resumable && !go_on && !gm_part_sign(save->part)) {
+        complain(save, message);
+        gm_save_close(save, false, false, message);
+        return NULL;
+    }
     return save;
+}
+
+uint64_t gm_save_identity(const struct gm_save *save)
+{
+    return gm_part_identity(save->part);
 }
 
 static struct gm_saved *present(struct gm_save *save)

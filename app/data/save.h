@@ -19,6 +19,10 @@ bool gm_save_knows(const char *path, char *message);
    later from what it is made of. NULL with a sentence. */
 struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool resumable, char *message);
 
+/* The number of what the file is made of, which stays while it is gone on with, and that no other making of a
+   file has; 0: it is not resumable. */
+uint64_t gm_save_identity(const struct gm_save *save);
+
 /* Lane `index` begins, with its first `rows` rows already there; lanes come in their order, and may be left
    out. expected: how many rows it will have, or 0; where that turns out otherwise it only costs time. False
    with a sentence; so are the following. */

@@ -70,7 +70,7 @@ static char *identify(const struct gm_request *request, size_t numbers)
 
 static size_t head_size(const struct gm_pause *pause)
 {
-    return 3 * sizeof(double) + sizeof(uint64_t) + sizeof(int64_t) + pause->numbers * sizeof(double);
+    return 3 * sizeof(double) + 2 * sizeof(uint64_t) + sizeof(int64_t) + pause->numbers * sizeof(double);
 }
 
 /* The file's body as records; false if it is not made of them. */
@@ -162,6 +162,7 @@ static void pass_head(const struct gm_pause *pause, unsigned char *at, struct gm
 {
     at = pass(at, &paused->seconds, sizeof paused->seconds, write);
     at = pass(at, &paused->rows, sizeof paused->rows, write);
+    at = pass(at, &paused->saved, sizeof paused->saved, write);
     at = pass(at, &paused->last_row, sizeof paused->last_row, write);
     at = pass(at, paused->spacing, sizeof paused->spacing, write);
     if (pause->numbers > 0) {

@@ -12,6 +12,7 @@
 struct gm_paused {
     double seconds;    /* processor time of its steps */
     uint64_t rows;     /* of its states that were saved, an end out of turn not among them */
+    uint64_t saved;    /* the number of what they were saved to, as the caller counts such; 0: nothing */
     int64_t last_row;  /* the step of the last row; -1: there is none */
     double spacing[2]; /* of these rows: steps, model time; 0 or NAN: not by these */
     double *numbers;   /* of the caller, as many as gm_pause_open was told */

@@ -370,6 +370,15 @@ def continued():
         refused = geomint(f"run kepler steps=12 {spacing} --continue c.check --save c.npz", 3)
         check("spaced otherwise" in refused.stderr, f"rows of another spacing ({spacing})")
     geomint("run kepler steps=12 --every 2 --continue c.check --save c.npz")
+    # rows of another run to the same file are not taken for those of the checkpoint
+    for ending in ("npz", "csv", "pvd"):
+        geomint(f"run kepler steps=7 --checkpoint c.check --save c.{ending}")
+        geomint(f"run kepler eccentricity=0.3 steps=9 --checkpoint other.check --save c.{ending}")
+        refused = geomint(f"run kepler steps=12 --continue c.check --save c.{ending}", 3)
+        check("of another run" in refused.stderr and len(refused.stderr.splitlines()) == 1, "rows of another run")
+        geomint(f"run kepler eccentricity=0.3 steps=12 --continue other.check --save c.{ending}")
+        geomint(f"run kepler eccentricity=0.3 steps=12 --save d.{ending}")
+        check(bytes_of(f"c.{ending}").replace(b'"c/', b'"d/') == bytes_of(f"d.{ending}"), "a refused run left the other's")
     # a slip loses nothing of what was saved, and of a system with time in it there is one t
     with open("driven.system", "w") as file:
         file.write("coordinates: q\nH: p_q^2/2 + q^2/2 - q*sin(t)\nstart: q = 1, p_q = 0\ndt: 0.1\n")
