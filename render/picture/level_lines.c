@@ -163,21 +163,44 @@ static void level_draw(struct gm_picture *picture, struct gm_panel *panel, struc
     }
 }
 
+/* The values on a triangle: a level crosses it where low < level <= high. */
+struct span {
+    double low, high;
+};
+
+static struct span span_of(const double *points, const double *values, size_t count, const int *triangle)
+{
+    if (!usable(points, values, count, triangle)) {
+        return (struct span){INFINITY, -INFINITY};
+    }
+    const double a = values[triangle[0]], b = values[triangle[1]], c = values[triangle[2]];
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    return (struct span){c < low ? c : low, c > high ? c : high};
+}
+
+static bool crosses(struct span span, double value)
+{
+    return (span.low < value) & (value <= span.high);
+}
+
 void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, struct gm_style style,
                          const double *points, const double *values, size_t count, const int *triangles,
                          size_t triangle_count, const double *levels, size_t level_count)
 {
+    /* Vertices are far apart in memory: they are visited once, not again for every level. */
+    struct span *spans = gm_picture_memory(picture, triangle_count * sizeof *spans);
+    if (!spans) {
+        return;
+    }
+    for (size_t t = 0; t < triangle_count; t++) {
+        spans[t] = span_of(points, values, count, triangles + 3 * t);
+    }
     /* Scratch memory for the level with most segments. */
     size_t most = 0;
     for (size_t l = 0; l < level_count; l++) {
-        struct level level = {.points = points, .values = values, .value = levels[l]};
         size_t crossed = 0;
         for (size_t t = 0; t < triangle_count; t++) {
-            const int *v = triangles + 3 * t;
-            if (usable(points, values, count, v)) {
-                crossed +=
-                    above(&level, v[0]) != above(&level, v[1]) || above(&level, v[0]) != above(&level, v[2]);
-            }
+            crossed += crosses(spans[t], levels[l]);
         }
         most = crossed > most ? crossed : most;
     }
@@ -201,10 +224,8 @@ void gm_mark_level_lines(struct gm_picture *picture, struct gm_panel *panel, str
             table[i].from = NONE;
         }
         for (size_t t = 0; t < triangle_count; t++) {
-            const int *v = triangles + 3 * t;
-            if (usable(points, values, count, v) &&
-                (above(&level, v[0]) != above(&level, v[1]) || above(&level, v[0]) != above(&level, v[2]))) {
-                segment_add(&level, v);
+            if (crosses(spans[t], levels[l])) {
+                segment_add(&level, triangles + 3 * t);
             }
         }
         level_draw(picture, panel, style, &level, line);

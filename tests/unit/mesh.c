@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The r-adaptive schemes against an independent implementation's values of every node. */
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -385,6 +386,155 @@ static void banded_systems_are_solved(void **unused)
     }
 }
 
+/* Where a banded matrix of the test holds zeros. */
+enum zeros { NOWHERE, IN_CORNERS, ANYWHERE, ZEROS };
+
+enum { ORDER = 40 };
+
+static double drawn(unsigned long long *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) / (1ull << 52) - 1;
+}
+
+/* Rows of a random banded matrix. In corners: three unknowns a node, and nodes that know their neighbours alone, so
+   that a row ends where its neighbour's last unknown does. Small diagonals make pivots move. */
+static void draw_banded(double dense[ORDER][ORDER], size_t n, size_t band, enum zeros zeros,
+                        unsigned long long *seed)
+{
+    memset(dense, 0, ORDER * sizeof *dense);
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = i > band ? i - band : 0; j < n && j <= i + band; j++) {
+            const size_t nodes = i / 3 > j / 3 ? i / 3 - j / 3 : j / 3 - i / 3;
+            const bool passed = (zeros == IN_CORNERS && nodes > band / 3) ||
+                                (zeros == ANYWHERE && i != j && drawn(seed) < 0.2);
+            const double value = drawn(seed) * (i == j ? 0.1 : 1);
+            dense[i][j] = passed ? 0 : value;
+        }
+    }
+}
+
+/* Elimination by the book on the whole matrix, the right side carried along, no zero passed over. Multipliers are
+   products with a pivot's inverse, as in banded solves, and every entry takes its terms in the order of columns, so
+   that the same is rounded. False: singular. How many rows were exchanged is added to `exchanges`. */
+static bool eliminate(double a[ORDER][ORDER], size_t n, double *x, size_t *exchanges)
+{
+    for (size_t j = 0; j < n; j++) {
+        size_t pivot = j;
+        for (size_t i = j + 1; i < n; i++) {
+            pivot = fabs(a[i][j]) > fabs(a[pivot][j]) ? i : pivot;
+        }
+        if (a[pivot][j] == 0) {
+            return false;
+        }
+        *exchanges += pivot != j;
+        for (size_t k = 0; k < n; k++) {
+            const double held = a[j][k];
+            a[j][k] = a[pivot][k];
+            a[pivot][k] = held;
+        }
+        const double held = x[j], inverse = 1 / a[j][j];
+        x[j] = x[pivot];
+        x[pivot] = held;
+        for (size_t i = j + 1; i < n; i++) {
+            const double factor = a[i][j] * inverse;
+            for (size_t k = j + 1; k < n; k++) {
+                a[i][k] -= a[j][k] * factor;
+            }
+            x[i] -= x[j] * factor;
+        }
+    }
+    for (size_t i = n; i-- > 0;) {
+        for (size_t j = n; --j > i;) {
+            x[i] -= x[j] * a[i][j];
+        }
+        x[i] /= a[i][i];
+    }
+    return true;
+}
+
+/* Bit for bit what elimination on the whole matrix gives, wherever zeros are; one set of factors serves two right
+   sides; and x solves a system that is
+   the given one but for round-off. */
+static void zeros_of_a_band_change_nothing(void **unused)
+{
+    (void)unused;
+    unsigned long long seed = 20;
+    size_t exchanges[ZEROS] = {0};
+    double worst = 0;
+    for (int trial = 0; trial < 3000; trial++) {
+        const enum zeros zeros = (enum zeros)(trial % ZEROS);
+        const size_t n = 1 + (size_t)trial % ORDER, band = 1 + (size_t)trial / ORDER % 17;
+        static double dense[ORDER][ORDER], eliminated[ORDER][ORDER];
+        draw_banded(dense, n, band, zeros, &seed);
+        struct gm_banded matrix;
+        assert_true(gm_banded_open(&matrix, n, band));
+        for (size_t i = 0; i < n; i++) {
+            for (size_t j = i > band ? i - band : 0; j < n && j <= i + band; j++) {
+                gm_banded_add(&matrix, i, j, dense[i][j]);
+            }
+        }
+        const bool factored = gm_banded_factor(&matrix);
+        for (int side = 0; side < 2; side++) {
+            double right[ORDER], x[ORDER], wanted[ORDER];
+            for (size_t i = 0; i < n; i++) {
+                right[i] = wanted[i] = x[i] = side == 1 && i % 3 != 0 ? 0 : drawn(&seed);
+            }
+            memcpy(eliminated, dense, sizeof eliminated);
+            assert_int_equal(factored, eliminate(eliminated, n, wanted, &exchanges[zeros]));
+            if (!factored) {
+                break;
+            }
+            gm_banded_solve(&matrix, x);
+            for (size_t i = 0; i < n; i++) {
+                if (x[i] != wanted[i]) {
+                    fail_msg("n = %zu, band %zu, zeros %d: x[%zu] = %.17g, %.17g on the whole matrix", n,
+                             band, (int)zeros, i, x[i], wanted[i]);
+                }
+            }
+            double defect = 0, size = 0, length = 0;
+            for (size_t i = 0; i < n; i++) {
+                double left = right[i], row = 0;
+                for (size_t j = 0; j < n; j++) {
+                    left -= dense[i][j] * x[j];
+                    row += fabs(dense[i][j]);
+                }
+                defect = fmax(defect, fabs(left));
+                size = fmax(size, row);
+                length = fmax(length, fabs(x[i]));
+            }
+            worst = fmax(worst, defect / (size * length));
+        }
+        gm_banded_close(&matrix);
+    }
+    print_message("    rows exchanged: %zu, %zu, %zu; largest defect %.1e\n", exchanges[NOWHERE],
+                  exchanges[IN_CORNERS], exchanges[ANYWHERE], worst);
+    assert_true(worst < 100 * DBL_EPSILON); /* 40 columns, and pivots that let entries grow a little */
+    for (int zeros = 0; zeros < ZEROS; zeros++) {
+        assert_true(exchanges[zeros] > 10000);
+    }
+}
+
+/* A column of zeros and a number that is none end in no factors. */
+static void singular_bands_are_refused(void **unused)
+{
+    (void)unused;
+    for (size_t column = 0; column < 9; column++) {
+        for (int fault = 0; fault < 2; fault++) {
+            struct gm_banded matrix;
+            assert_true(gm_banded_open(&matrix, 9, 2));
+            for (size_t i = 0; i < 9; i++) {
+                for (size_t j = i > 2 ? i - 2 : 0; j < 9 && j <= i + 2; j++) {
+                    const double value = 1 + (double)((i + 2 * j) % 5);
+                    gm_banded_add(&matrix, i, j, j != column ? value : fault == 0 ? 0 : i == j ? NAN : value);
+                }
+            }
+            assert_false(gm_banded_factor(&matrix));
+            gm_banded_close(&matrix);
+        }
+    }
+}
+
 /* What ends a run is a status, never a tangled mesh; one node and very many are as good as any. */
 static void extremes_end_well(void **unused)
 {
@@ -513,11 +663,18 @@ static void one_rule_is_multisymplectic(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_node_of_the_reference),         cmocka_unit_test(symmetric_schemes_come_back),
-        cmocka_unit_test(resumed_runs_keep_their_bits),        cmocka_unit_test(strategies_take_over),
-        cmocka_unit_test(without_density_the_mesh_is_uniform), cmocka_unit_test(derivatives_of_an_element),
-        cmocka_unit_test(banded_systems_are_solved),           cmocka_unit_test(extremes_end_well),
-        cmocka_unit_test(other_fields_and_densities),          cmocka_unit_test(wrong_rows_are_caught),
+        cmocka_unit_test(every_node_of_the_reference),
+        cmocka_unit_test(symmetric_schemes_come_back),
+        cmocka_unit_test(resumed_runs_keep_their_bits),
+        cmocka_unit_test(strategies_take_over),
+        cmocka_unit_test(without_density_the_mesh_is_uniform),
+        cmocka_unit_test(derivatives_of_an_element),
+        cmocka_unit_test(banded_systems_are_solved),
+        cmocka_unit_test(zeros_of_a_band_change_nothing),
+        cmocka_unit_test(singular_bands_are_refused),
+        cmocka_unit_test(extremes_end_well),
+        cmocka_unit_test(other_fields_and_densities),
+        cmocka_unit_test(wrong_rows_are_caught),
         cmocka_unit_test(one_rule_is_multisymplectic),
     };
     reference_open("soliton.txt");
