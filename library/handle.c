@@ -9,7 +9,7 @@
 
 #include "app/data/meta.h"
 #include "app/output/json.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "core/memory.h"
 #include "core/schemes.h"
 #include "library/host.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "app/output/scheme_json.h"
-#include "app/request/scheme.h"
+#include "app/own/scheme.h"
 #include "app/studies/certified_lane.h"
 #include "library/handle.h"
 #include "library/host.h"

@@ -8,10 +8,10 @@
 #include "app/output/provenance.h"
 #include "app/output/say.h"
 #include "app/output/still.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
+#include "app/own/system.h"
 #include "app/request/drive.h"
 #include "app/request/interrupt.h"
-#include "app/request/system.h"
 #include "render/vector/svg.h"
 
 /* The texts that it reads. */

@@ -8,7 +8,7 @@
 #include "app/commands/commands.h"
 #include "app/native/cache.h"
 #include "app/output/say.h"
-#include "app/request/exit.h"
+#include "app/own/exit.h"
 #include "core/memory.h"
 
 static int command_cache(const struct gm_options *options)

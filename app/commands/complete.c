@@ -8,10 +8,12 @@
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
 #include "app/output/say.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
+#include "app/own/found.h"
+#include "app/own/replacing.h"
+#include "app/own/room.h"
+#include "app/own/system.h"
 #include "app/request/fitting.h"
-#include "app/request/room.h"
-#include "app/request/system.h"
 #include "app/request/words.h"
 #include "app/studies/sweep.h"
 #include "app/tours/tour.h"
@@ -316,7 +318,7 @@ static void offer_formulas(const char *word, const char *system, const struct gm
     if (gm_room_is(system)) {
         return; /* it has its lines in the file alone */
     }
-    const bool known = scene && gm_system_formulas(scene->text, &formulas);
+    const bool known = scene && gm_replacing_words(scene->text, &formulas);
     for (const char *const *key = gm_system_keys(system); *key; key++) {
         char assignment[32];
         snprintf(assignment, sizeof assignment, "%s=", *key);

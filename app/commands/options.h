@@ -5,7 +5,7 @@
 
 #include "app/native/engine.h"
 #include "app/output/press.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "app/request/request.h"
 
 /* The commands, as bits: an option says which of them take it. */

@@ -378,13 +378,17 @@ static bool drive_lane(struct outcome *outcome, long steps, char *message)
 }
 
 /* The rows of a lane begin: with its start or, where it goes on, behind those that are there. */
-static bool begin_rows(struct outcome *outcome, char *message)
+static bool begin_rows(struct outcome *outcome, long steps, char *message)
 {
     const struct outputs *outputs = outcome->outputs;
     const struct gm_run *run = outcome->drive.lane->run;
     const uint64_t rows = outcome->paused.rows;
-    if (outputs->save && !gm_save_begin(outputs->save, outcome->drive.index, run, rows, message)) {
-        return false;
+    if (outputs->save) {
+        const long end = gm_drive_end(&outcome->drive, steps);
+        if (!gm_save_begin(outputs->save, outcome->drive.index, run, rows,
+                           gm_rows_expected(&outputs->rows, run, end), message)) {
+            return false;
+        }
     }
     if (outputs->save && rows > 0) {
         if (outputs->csv) {
@@ -436,6 +440,18 @@ static bool save_tracks(const struct outcome *outcome, char *message)
     return good;
 }
 
+/* There was no room for all rows: those that fit are what was saved of this lane. */
+static void end_cut(struct outcome *outcome)
+{
+    char message[GM_MESSAGE];
+    outcome->interrupted = true;
+    char *meta = meta_of(outcome);
+    if (meta) {
+        gm_save_end(outcome->outputs->save, meta, message);
+    }
+    free(meta);
+}
+
 /* Whether the rows that were saved before are spaced as those to come. */
 static bool is_spacing(const struct outcome *outcome)
 {
@@ -459,7 +475,7 @@ static bool run_lane(struct outcome *outcome, long steps, char *message)
     }
     outcome->drive.seconds = outcome->paused.seconds;
     take_maxima(outcome);
-    if (!begin_rows(outcome, message) || !drive_lane(outcome, steps, message)) {
+    if (!begin_rows(outcome, steps, message) || !drive_lane(outcome, steps, message)) {
         return false;
     }
     outcome->interrupted = gm_interrupted && gm_drive_goes_on(&outcome->drive, steps);
@@ -645,8 +661,9 @@ static int open_outputs(struct outputs *outputs, const struct gm_request *reques
         (!options->checkpoint || gm_folder_make_for(options->checkpoint, message)) &&
         (!options->csv || (outputs->csv = open_csv(options->csv, request, &outputs->chosen, message))) &&
         (!options->tracks || (outputs->tracks = gm_tracks_open(options->tracks, request->count, message))) &&
-        (!options->save || (outputs->save = gm_save_open(options->save, request->count,
-                                                         gm_pause_has_rows(outputs->pause), message)));
+        (!options->save ||
+         (outputs->save = gm_save_open(options->save, request->count, gm_pause_has_rows(outputs->pause),
+                                       outputs->pause != NULL, message)));
     return good ? GM_EXIT_OK : GM_EXIT_FILE;
 }
 
@@ -707,7 +724,11 @@ static int make_lane(struct outputs *outputs, const struct gm_request *request, 
         gm_complain("%s", message);
         status = GM_EXIT_USAGE;
     } else if (!run_lane(&outcome, request->lanes[index].steps, message)) {
-        gm_complain("%s", message);
+        if (outputs->save && gm_save_is_cut(outputs->save)) {
+            end_cut(&outcome);
+        } else {
+            gm_complain("%s", message);
+        }
         status = GM_EXIT_FILE;
     } else {
         observe(&outcome);

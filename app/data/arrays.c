@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* States as NumPy's arrays: t, a quantity each, meta; of several lanes with the prefix lane0/ and so on.
-   Column 0 is t, the others are the quantities in their order. */
-#include <stdlib.h>
+   Column 0 is t, the others are the quantities in their order.
+
+   A lane's file is its part of the archive from the start: each column has its place, with room for as many
+   rows as are expected, so that what is written stays where it is. Where there are more rows, or were fewer at
+   the end, the file is made anew with room for others, beside the one that there is. */
+#include <errno.h>
 #include <unistd.h>
 
+#include "app/data/bytes.h"
 #include "app/data/format.h"
-#include "app/data/npz.h"
 #include "core/run.h"
 
 static bool put_quantity(struct gm_saved *lane, size_t i, const struct gm_run *run, const double *state)
@@ -40,25 +44,167 @@ static bool is_plain(const struct gm_saved *lane)
     return plain;
 }
 
-static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+static bool is_fixed(const struct gm_saved *lane, size_t column)
 {
-    const double *state = gm_run_state(run);
+    return column > 0 && lane->quantities[column - 1].fixed;
+}
+
+/* Of one row; of a column that does not change, of all. */
+static size_t bytes_of(const struct gm_saved *lane, size_t column)
+{
+    return (column > 0 ? lane->sizes[column - 1] : 1) * sizeof(double);
+}
+
+static size_t shape_of(const struct gm_saved *lane, size_t column, uint64_t rows, uint64_t shape[GM_NPZ_AXES])
+{
+    size_t lengths[GM_QUANTITY_AXES], axes = 0;
+    if (!is_fixed(lane, column)) {
+        shape[axes++] = rows;
+    }
+    const size_t own =
+        column > 0 ? gm_quantity_shape(&lane->quantities[column - 1], lane->members, lengths) : 0;
+    for (size_t i = 0; i < own; i++) {
+        shape[axes++] = lengths[i];
+    }
+    return axes;
+}
+
+static void name_of(const struct gm_saving *saving, const struct gm_saved *lane, const char *name,
+                    char whole[80])
+{
+    if (saving->count > 1) {
+        snprintf(whole, 80, "lane%zu/%s", lane->index, name);
+    } else {
+        snprintf(whole, 80, "%s", name);
+    }
+}
+
+/* The archive that `file` is, or is to be, with room for so many rows; NULL with errno. */
+static struct gm_npz *lay_out(const struct gm_saving *saving, const struct gm_saved *lane, int file,
+                              uint64_t capacity, uint64_t starts[], uint32_t crcs[])
+{
+    struct gm_npz *npz = gm_npz_open(file);
+    bool good = npz != NULL;
+    for (size_t i = 0; i <= lane->count && good; i++) {
+        const struct gm_quantity *quantity = i > 0 ? &lane->quantities[i - 1] : NULL;
+        char name[80];
+        uint64_t shape[GM_NPZ_AXES];
+        const size_t axes = shape_of(lane, i, capacity, shape);
+        name_of(saving, lane, quantity ? quantity->name : "t", name);
+        good = gm_npz_reserve(npz, name, quantity && quantity->whole ? GM_NPZ_WHOLE : GM_NPZ_REAL, shape,
+                              axes, &starts[i], &crcs[i]);
+    }
+    if (!good) {
+        gm_npz_close(npz);
+    }
+    return good ? npz : NULL;
+}
+
+enum { END = 1 << 16 /* meta and contents */, HEADS = 512 /* of a column */ };
+
+/* Makes the lane's file anew, with room for so many rows and all that there are. What ends the archive has its
+   room, too: it can be ended on a disk that is full. */
+static bool make(const struct gm_saving *saving, struct gm_saved *lane, uint64_t capacity)
+{
+    static const char end[END];
+    uint64_t starts[GM_COLUMNS] = {0};
+    uint32_t crcs[GM_COLUMNS] = {0};
+    const int file = gm_part_begin(saving->part, lane->index);
+    struct gm_npz *npz = file < 0 ? NULL : lay_out(saving, lane, file, capacity, starts, crcs);
+    bool good = npz && gm_bytes_write(file, end, sizeof end, gm_npz_size(npz));
+    for (size_t i = 0; i <= lane->count && good; i++) {
+        const uint64_t size = bytes_of(lane, i) * (is_fixed(lane, i) ? 1 : lane->rows);
+        good =
+            gm_npz_settle(npz, i, crcs[i]) &&
+            (lane->file < 0 || gm_bytes_copy(lane->file, lane->starts[i], size, file, starts[i], &crcs[i]));
+        lane->columns[i].place = starts[i] + (lane->file < 0 ? 0 : size);
+    }
+    if (!good || !gm_part_take(saving->part, lane->index)) {
+        const int why = errno;
+        gm_npz_close(npz);
+        if (file >= 0) {
+            close(file);
+            gm_part_drop(saving->part, lane->index, true);
+        }
+        errno = why;
+        return false;
+    }
+    if (lane->file >= 0) {
+        close(lane->file);
+        gm_npz_close(lane->npz);
+    }
+    lane->file = file;
+    lane->npz = npz;
+    lane->capacity = capacity;
+    for (size_t i = 0; i <= lane->count; i++) {
+        lane->starts[i] = starts[i];
+        lane->columns[i].file = file;
+        lane->columns[i].crc = crcs[i];
+    }
+    return true;
+}
+
+/* Opens what was saved before. */
+static bool open_again(const struct gm_saving *saving, struct gm_saved *lane)
+{
+    uint32_t crcs[GM_COLUMNS];
+    lane->file = gm_part_lane(saving->part, lane->index);
+    if (lane->file < 0) {
+        return false;
+    }
+    lane->capacity = gm_npz_length(lane->file);
+    lane->npz = lay_out(saving, lane, lane->file, lane->capacity, lane->starts, crcs);
+    if (lane->npz && lane->capacity < lane->rows) {
+        errno = EILSEQ;
+    }
+    return lane->npz && lane->capacity >= lane->rows;
+}
+
+enum { FEW_ROWS = 1 << 12, MORE = 4 };
+
+/* For how many rows there is to be room: no more than the disk has. */
+static uint64_t capacity_of(const struct gm_saving *saving, const struct gm_saved *lane, uint64_t expected)
+{
+    uint64_t row = 0, beside = END;
+    for (size_t i = 0; i <= lane->count; i++) {
+        row += is_fixed(lane, i) ? 0 : bytes_of(lane, i);
+        beside += HEADS + (is_fixed(lane, i) ? bytes_of(lane, i) : 0);
+    }
+    const uint64_t room = gm_part_room(saving->part), most = room > beside ? (room - beside) / row : 0;
+    const uint64_t wanted = expected > 0 ? expected : FEW_ROWS, fitting = wanted < most ? wanted : most;
+    return fitting > lane->rows ? fitting : lane->rows + 1;
+}
+
+static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+                  uint64_t expected)
+{
+    const bool fresh = lane->rows == 0;
     lane->plain = is_plain(lane);
-    bool good = gm_column_open(saving->part, lane->index, 0, lane->rows, sizeof(double), &lane->columns[0]);
-    for (size_t i = 0; i < lane->count && good; i++) {
-        const struct gm_quantity *quantity = &lane->quantities[i];
-        good = gm_column_open(saving->part, lane->index, i + 1, quantity->fixed ? 0 : lane->rows,
-                              lane->sizes[i] * sizeof(double), &lane->columns[i + 1]) &&
-               (!quantity->fixed || put_quantity(lane, i, run, state));
+    bool good =
+        (fresh || open_again(saving, lane)) && make(saving, lane, capacity_of(saving, lane, expected));
+    for (size_t i = 0; i <= lane->count && good; i++) {
+        good = gm_column_open(&lane->columns[i]) &&
+               (!fresh || !is_fixed(lane, i) ||
+                (put_quantity(lane, i - 1, run, gm_run_state(run)) && gm_column_flush(&lane->columns[i])));
     }
     return good;
 }
 
+/* There are more rows than there is room for. */
+static bool grow(const struct gm_saving *saving, struct gm_saved *lane)
+{
+    bool good = true;
+    for (size_t i = 0; i <= lane->count && good; i++) {
+        good = gm_column_flush(&lane->columns[i]);
+    }
+    return good && make(saving, lane, capacity_of(saving, lane, MORE * lane->rows));
+}
+
 static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
 {
-    (void)saving;
     const double *state = gm_run_state(run);
-    bool good = gm_column_put(&lane->columns[0], &run->t, sizeof run->t);
+    bool good = (lane->rows < lane->capacity || grow(saving, lane)) &&
+                gm_column_put(&lane->columns[0], &run->t, sizeof run->t);
     for (size_t i = 0; i < lane->count && good && lane->plain; i++) {
         good = gm_column_put(&lane->columns[i + 1], state + i, sizeof *state);
     }
@@ -68,55 +214,41 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     return good;
 }
 
-static size_t shape_of(const struct gm_saved *lane, const struct gm_quantity *quantity,
-                       uint64_t shape[GM_NPZ_AXES])
+static void cut(struct gm_saved *lane)
 {
-    size_t lengths[GM_QUANTITY_AXES], axes = 0;
-    if (!quantity->fixed) {
-        shape[axes++] = lane->rows;
+    for (size_t i = 0; i <= lane->count; i++) {
+        const uint64_t there = (lane->columns[i].place - lane->starts[i]) / bytes_of(lane, i);
+        lane->rows = !is_fixed(lane, i) && there < lane->rows ? there : lane->rows;
     }
-    const size_t own = gm_quantity_shape(quantity, lane->members, lengths);
-    for (size_t i = 0; i < own; i++) {
-        shape[axes++] = lengths[i];
-    }
-    return axes;
 }
 
-static bool add_column(const struct gm_saving *saving, struct gm_npz *npz, const struct gm_saved *lane,
-                       size_t column, const char *prefix)
+static bool end(const struct gm_saving *saving, struct gm_saved *lane)
 {
-    const struct gm_quantity *quantity = column > 0 ? &lane->quantities[column - 1] : NULL;
     char name[80];
-    uint64_t shape[GM_NPZ_AXES] = {lane->rows};
-    const size_t axes = quantity ? shape_of(lane, quantity, shape) : 1;
-    const int source = gm_column_read(saving->part, lane->index, column);
-    snprintf(name, sizeof name, "%s%s", prefix, quantity ? quantity->name : "t");
-    const bool good =
-        source >= 0 && gm_npz_array(npz, name, quantity && quantity->whole ? GM_NPZ_WHOLE : GM_NPZ_REAL,
-                                    shape, axes, NULL, source);
-    if (source >= 0) {
-        close(source);
+    bool good = true;
+    /* without room for another file the one that there is has gaps, of which a reader knows nothing */
+    const bool full = lane->rows == lane->capacity || make(saving, lane, lane->rows);
+    for (size_t i = 0; i <= lane->count && good; i++) {
+        good = full || is_fixed(lane, i) ? gm_npz_settle(lane->npz, i, lane->columns[i].crc)
+                                         : gm_npz_shorten(lane->npz, i, lane->rows);
     }
+    name_of(saving, lane, "meta", name);
+    good = good && gm_npz_text(lane->npz, name, lane->meta);
+    lane->size = gm_npz_size(lane->npz);
     return good;
 }
 
-static bool join(const struct gm_saving *saving, FILE *file)
+static bool finish(const struct gm_saving *saving, size_t lanes, int file)
 {
     struct gm_npz *npz = gm_npz_open(file);
     bool good = npz != NULL;
-    for (size_t i = 0; i < saving->begun && good; i++) {
-        const struct gm_saved *lane = &saving->lanes[i];
-        char prefix[40] = "", name[80];
-        if (saving->count > 1) {
-            snprintf(prefix, sizeof prefix, "lane%zu/", lane->index);
-        }
-        for (size_t column = 0; column <= lane->count && good; column++) {
-            good = add_column(saving, npz, lane, column, prefix);
-        }
-        snprintf(name, sizeof name, "%smeta", prefix);
-        good = good && gm_npz_text(npz, name, lane->meta);
+    for (size_t i = 0; i < lanes && good; i++) {
+        good = gm_npz_include(npz, saving->lanes[i].npz);
     }
-    return npz && gm_npz_close(npz) && good;
+    good = good && gm_npz_finish(npz);
+    gm_npz_close(npz);
+    return good;
 }
 
-const struct gm_data_format gm_data_format_npz = {.ending = ".npz", .begin = begin, .row = row, .join = join};
+const struct gm_data_format gm_data_format_npz = {
+    .ending = ".npz", .begin = begin, .row = row, .cut = cut, .end = end, .finish = finish};

@@ -4,11 +4,13 @@
 
 #include <stdio.h>
 
+#include "app/data/column.h"
+#include "app/data/npz.h"
 #include "app/data/part.h"
 #include "core/quantity.h"
 #include "scenes/frame/lane.h"
 
-/* What a format does with the states of lanes: rows to columns, and columns to the file. */
+/* What a format does with the states of lanes: rows to the lanes' files, and these to the file. */
 
 enum { GM_COLUMNS = GM_QUANTITIES + 1 };
 
@@ -18,11 +20,17 @@ struct gm_saved {
     struct gm_quantity quantities[GM_QUANTITIES];
     size_t sizes[GM_QUANTITIES]; /* how many numbers each has (gm_quantity_size) */
     size_t count, members;
-    bool plain; /* every row is the numbers of the state, one a column (npz) */
     uint64_t rows;
+    int file; /* in the part; -1: closed */
     struct gm_column columns[GM_COLUMNS];
     double *scratch; /* room for the longest quantity that is derived; NULL once the lane has ended */
     char *meta;      /* JSON: what was run; of a lane that has ended */
+    uint64_t size;   /* bytes of its file that belong to it; of a lane that has ended */
+    uint64_t heads;  /* of .csv: lines before the rows */
+    /* of .npz */
+    bool plain; /* every row is the numbers of the state, one a column */
+    struct gm_npz *npz;
+    uint64_t capacity, starts[GM_COLUMNS]; /* rows that there is room for; where the columns begin */
 };
 
 struct gm_saving {
@@ -32,15 +40,22 @@ struct gm_saving {
     size_t begun, count;
 };
 
+/* A format's functions are false with errno. */
 struct gm_data_format {
     const char *ending;
-    bool grows; /* the file is made anew now and then while rows come */
-    /* Opens the columns of a lane, with as many rows as it has already; these and the following are false
-       with errno. */
-    bool (*begin)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run);
+    /* Opens the lane's file, with as many rows as it has already; `expected`: how many there will be, 0 where
+       that is not known. */
+    bool (*begin)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+                  uint64_t expected);
     bool (*row)(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run);
-    /* Makes the file of the columns of all lanes that have begun. */
-    bool (*join)(const struct gm_saving *saving, FILE *file);
+    /* After a write that failed, and a flush of all columns: lane->rows is how many there are. */
+    void (*cut)(struct gm_saved *lane);
+    /* The lane is over, and has its meta; what was put was flushed. */
+    bool (*end)(const struct gm_saving *saving, struct gm_saved *lane);
+    /* Makes the file of the lanes, now and then while rows come, too. NULL: it is their files one behind the
+       other, and then what `finish`, if there is one, writes behind those of the first `lanes`. */
+    bool (*list)(const struct gm_saving *saving, FILE *file);
+    bool (*finish)(const struct gm_saving *saving, size_t lanes, int file);
     /* A sentence why these lanes cannot be in one file of this format; NULL: they can, always. */
     const char *(*refuse)(const struct gm_saving *saving);
 };

@@ -6,39 +6,44 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <libdeflate.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "app/data/bytes.h"
 #include "render/cells/text.h"
 
+enum { TYPE = 24, NPY_HEAD = 256 };
+
 struct entry {
-    char *name; /* with its ending */
-    uint64_t place, size;
+    char *name;           /* with its ending */
+    uint64_t place, size; /* of the header; of head and numbers */
     uint32_t crc;
+    char type[TYPE];
+    size_t item, axes, head; /* bytes of a number, and of the head */
+    uint64_t shape[GM_NPZ_AXES];
 };
 
 struct gm_npz {
-    FILE *file;
+    int file;
     struct entry *entries;
     size_t count, room;
-    uint64_t place; /* bytes written */
+    uint64_t place; /* where the next entry begins */
     bool failed;
 };
 
 enum {
-    BLOCK = 1 << 18,
     MOST_16 = 0xFFFF, /* in their places: look at the 64-bit record */
     LOCAL = 0x04034b50,
     CENTRAL = 0x02014b50,
     END = 0x06054b50,
     END_64 = 0x06064b50,
     LOCATOR_64 = 0x07064b50,
-    ZIP_64 = 45,
-    ZIP_PLAIN = 20,     /* versions needed to read it */
+    ZIP_64 = 45,        /* the version needed to read it */
     DAY = 1 << 5 | 1,   /* 1 January 1980: equal data make equal files */
-    CRC_IN_LOCAL = 14,  /* where the checksum stands in a local header */
-    EXTRA_LOCAL = 20,   /* bytes of the 64-bit record: two sizes */
+    HEADER_LOCAL = 30,  /* bytes of a local header without the name */
+    EXTRA_LOCAL = 20,   /* ... of its 64-bit record: two sizes */
     EXTRA_CENTRAL = 28, /* ... and the place */
 };
 static const uint32_t most_32 = 0xFFFFFFFF;
@@ -56,11 +61,16 @@ static void put(struct bytes *bytes, uint64_t value, size_t size)
     }
 }
 
+/* Whether all went well up to now. */
+static bool note(struct gm_npz *npz, bool good)
+{
+    npz->failed = npz->failed || !good;
+    return !npz->failed;
+}
+
 static void emit(struct gm_npz *npz, const void *bytes, size_t size)
 {
-    if (size > 0 && fwrite(bytes, 1, size, npz->file) != size) {
-        npz->failed = true;
-    }
+    note(npz, !npz->failed && gm_bytes_write(npz->file, bytes, size, npz->place));
     npz->place += size;
 }
 
@@ -83,23 +93,28 @@ static void put_entry(struct bytes *bytes, const struct entry *entry, bool wide,
     put(bytes, extra, 2);
 }
 
-static void emit_local(struct gm_npz *npz, const struct entry *entry)
+/* Where the head of the .npy file begins; the header has the 64-bit record always, so that this does not
+   depend on how much is in the entry. */
+static uint64_t head_place(const struct entry *entry)
 {
-    const bool wide = entry->size >= most_32;
-    struct bytes bytes = {.count = 0};
+    return entry->place + HEADER_LOCAL + strlen(entry->name) + EXTRA_LOCAL;
+}
+
+static bool write_local(struct gm_npz *npz, const struct entry *entry)
+{
+    const size_t name = strlen(entry->name);
+    struct bytes bytes = {.count = 0}, extra = {.count = 0};
     put(&bytes, LOCAL, 4);
-    put(&bytes, wide ? ZIP_64 : ZIP_PLAIN, 2);
-    put_entry(&bytes, entry, wide, wide ? EXTRA_LOCAL : 0);
-    emit(npz, bytes.at, bytes.count);
-    emit(npz, entry->name, strlen(entry->name));
-    if (wide) {
-        bytes.count = 0;
-        put(&bytes, 1, 2);
-        put(&bytes, EXTRA_LOCAL - 4, 2);
-        put(&bytes, entry->size, 8);
-        put(&bytes, entry->size, 8);
-        emit(npz, bytes.at, bytes.count);
-    }
+    put(&bytes, ZIP_64, 2);
+    put_entry(&bytes, entry, true, EXTRA_LOCAL);
+    put(&extra, 1, 2);
+    put(&extra, EXTRA_LOCAL - 4, 2);
+    put(&extra, entry->size, 8);
+    put(&extra, entry->size, 8);
+    return note(npz,
+                !npz->failed && gm_bytes_write(npz->file, bytes.at, bytes.count, entry->place) &&
+                    gm_bytes_write(npz->file, entry->name, name, entry->place + HEADER_LOCAL) &&
+                    gm_bytes_write(npz->file, extra.at, extra.count, entry->place + HEADER_LOCAL + name));
 }
 
 static void emit_central(struct gm_npz *npz, const struct entry *entry)
@@ -107,8 +122,8 @@ static void emit_central(struct gm_npz *npz, const struct entry *entry)
     const bool wide = entry->size >= most_32 || entry->place >= most_32;
     struct bytes bytes = {.count = 0};
     put(&bytes, CENTRAL, 4);
-    put(&bytes, wide ? ZIP_64 : ZIP_PLAIN, 2);
-    put(&bytes, wide ? ZIP_64 : ZIP_PLAIN, 2);
+    put(&bytes, ZIP_64, 2);
+    put(&bytes, ZIP_64, 2);
     put_entry(&bytes, entry, wide, wide ? EXTRA_CENTRAL : 0);
     put(&bytes, 0, 2); /* comment */
     put(&bytes, 0, 2); /* disk */
@@ -128,7 +143,7 @@ static void emit_central(struct gm_npz *npz, const struct entry *entry)
     }
 }
 
-struct gm_npz *gm_npz_open(FILE *file)
+struct gm_npz *gm_npz_open(int file)
 {
     struct gm_npz *npz = calloc(1, sizeof *npz);
     if (!npz) {
@@ -139,44 +154,52 @@ struct gm_npz *gm_npz_open(FILE *file)
     return npz;
 }
 
-static struct entry *add_entry(struct gm_npz *npz, const char *name)
+void gm_npz_close(struct gm_npz *npz)
+{
+    for (size_t i = 0; npz && i < npz->count; i++) {
+        free(npz->entries[i].name);
+    }
+    if (npz) {
+        free(npz->entries);
+    }
+    free(npz);
+}
+
+/* Takes a malloc'ed name; NULL when memory is short. */
+static struct entry *add_entry(struct gm_npz *npz, char *name)
 {
     if (npz->count == npz->room) {
         const size_t room = npz->room ? 2 * npz->room : 16;
         struct entry *entries = realloc(npz->entries, room * sizeof *entries);
-        if (!entries) {
-            npz->failed = true;
-            errno = ENOMEM;
-            return NULL;
-        }
-        npz->entries = entries;
-        npz->room = room;
+        npz->room = entries ? room : npz->room;
+        npz->entries = entries ? entries : npz->entries;
     }
-    struct entry *entry = &npz->entries[npz->count];
-    *entry = (struct entry){.place = npz->place};
-    if (asprintf(&entry->name, "%s.npy", name) < 0) {
+    if (!name || npz->count == npz->room || npz->failed) {
+        free(name);
+        errno = npz->failed ? errno : ENOMEM;
         npz->failed = true;
-        errno = ENOMEM;
         return NULL;
     }
-    npz->count++;
+    struct entry *entry = &npz->entries[npz->count++];
+    *entry = (struct entry){.name = name, .place = npz->place};
     return entry;
 }
 
-/* The head of an .npy file, a multiple of 64 bytes; its length. */
-static size_t head_of(char head[256], const char *type, const uint64_t *shape, size_t axes)
+/* The head of an .npy file, a multiple of 64 bytes, `least` at least; its length. */
+static size_t head_of(const struct entry *entry, char head[NPY_HEAD], size_t least)
 {
     enum { FRONT = 10, ALIGNED = 64 };
     char *dictionary = head + FRONT;
-    const size_t room = 256 - FRONT;
+    const size_t room = NPY_HEAD - FRONT, axes = entry->axes;
     size_t used =
-        (size_t)snprintf(dictionary, room, "{'descr': '%s', 'fortran_order': False, 'shape': (", type);
+        (size_t)snprintf(dictionary, room, "{'descr': '%s', 'fortran_order': False, 'shape': (", entry->type);
     for (size_t i = 0; i < axes; i++) {
-        used += (size_t)snprintf(dictionary + used, room - used, "%s%" PRIu64 "%s", i ? " " : "", shape[i],
-                                 i + 1 < axes || axes == 1 ? "," : "");
+        used += (size_t)snprintf(dictionary + used, room - used, "%s%" PRIu64 "%s", i ? " " : "",
+                                 entry->shape[i], i + 1 < axes || axes == 1 ? "," : "");
     }
     used += (size_t)snprintf(dictionary + used, room - used, "), }");
-    const size_t size = (FRONT + used + 1 + ALIGNED - 1) / ALIGNED * ALIGNED;
+    size_t size = (FRONT + used + 1 + ALIGNED - 1) / ALIGNED * ALIGNED;
+    size = size > least ? size : least;
     memset(dictionary + used, ' ', size - FRONT - used - 1);
     head[size - 1] = '\n';
     memcpy(head, "\x93NUMPY\x01\x00", 8);
@@ -185,83 +208,147 @@ static size_t head_of(char head[256], const char *type, const uint64_t *shape, s
     return size;
 }
 
-/* Copies `size` bytes from the start of `source`, and goes on with the checksum. */
-static uint32_t copy(struct gm_npz *npz, uint32_t crc, int source, uint64_t size)
+uint64_t gm_npz_length(int file)
 {
-    unsigned char *block = malloc(BLOCK);
-    if (!block) {
-        npz->failed = true;
-        errno = ENOMEM;
+    static const char mark[] = "'shape': (";
+    char front[2 * NPY_HEAD + 1] = "";
+    if (!gm_bytes_read(file, front, 2 * NPY_HEAD, 0)) {
+        return 0;
     }
-    for (uint64_t at = 0; at < size && !npz->failed;) {
-        const size_t wanted = size - at < BLOCK ? (size_t)(size - at) : BLOCK;
-        const ssize_t got = pread(source, block, wanted, (off_t)at);
-        if (got <= 0) {
-            errno = got == 0 ? EIO : errno; /* shorter than it was */
-            npz->failed = true;
-            break;
-        }
-        crc = libdeflate_crc32(crc, block, (size_t)got);
-        emit(npz, block, (size_t)got);
-        at += (uint64_t)got;
+    const char *shape = memmem(front, 2 * NPY_HEAD, mark, strlen(mark));
+    return shape ? strtoull(shape + strlen(mark), NULL, 10) : 0;
+}
+
+/* How many bytes its numbers have. */
+static uint64_t numbers_of(const struct entry *entry)
+{
+    uint64_t size = entry->item;
+    for (size_t i = 0; i < entry->axes; i++) {
+        size *= entry->shape[i];
     }
-    free(block);
-    return crc;
+    return size;
+}
+
+/* The next entry: its place, and the checksum of its head. */
+static struct entry *reserve(struct gm_npz *npz, const char *name, const char *type, size_t item,
+                             const uint64_t *shape, size_t axes)
+{
+    char head[NPY_HEAD], *file_name = NULL;
+    struct entry *entry = add_entry(npz, asprintf(&file_name, "%s.npy", name) < 0 ? NULL : file_name);
+    if (!entry) {
+        return NULL;
+    }
+    snprintf(entry->type, sizeof entry->type, "%s", type);
+    entry->item = item;
+    entry->axes = axes;
+    for (size_t i = 0; i < axes; i++) {
+        entry->shape[i] = shape[i];
+    }
+    entry->head = head_of(entry, head, 0);
+    entry->size = entry->head + numbers_of(entry);
+    entry->crc = libdeflate_crc32(0, head, entry->head);
+    npz->place = head_place(entry) + entry->size;
+    return entry;
+}
+
+static bool settle(struct gm_npz *npz, const struct entry *entry)
+{
+    char head[NPY_HEAD];
+    const size_t size = head_of(entry, head, entry->head);
+    return note(npz, write_local(npz, entry) && gm_bytes_write(npz->file, head, size, head_place(entry)));
 }
 
 static bool write_array(struct gm_npz *npz, const char *name, const char *type, size_t item,
-                        const uint64_t *shape, size_t axes, const void *values, int source)
+                        const uint64_t *shape, size_t axes, const void *values)
 {
-    char head[256];
-    const size_t head_size = head_of(head, type, shape, axes);
-    uint64_t size = item;
-    for (size_t i = 0; i < axes; i++) {
-        size *= shape[i];
-    }
-    struct entry *entry = npz->failed ? NULL : add_entry(npz, name);
+    struct entry *entry = reserve(npz, name, type, item, shape, axes);
     if (!entry) {
         return false;
     }
-    entry->size = head_size + size;
-    emit_local(npz, entry);
-    emit(npz, head, head_size);
-    entry->crc = libdeflate_crc32(0, head, head_size);
-    if (values) {
-        emit(npz, values, size);
-        entry->crc = libdeflate_crc32(entry->crc, values, size);
-    } else {
-        entry->crc = copy(npz, entry->crc, source, size);
-    }
-    struct bytes crc = {.count = 0};
-    put(&crc, entry->crc, 4);
-    npz->failed = npz->failed || fseeko(npz->file, (off_t)(entry->place + CRC_IN_LOCAL), SEEK_SET) != 0 ||
-                  fwrite(crc.at, 1, crc.count, npz->file) != crc.count ||
-                  fseeko(npz->file, (off_t)npz->place, SEEK_SET) != 0;
-    return !npz->failed;
+    const uint64_t size = numbers_of(entry);
+    entry->crc = libdeflate_crc32(entry->crc, values, size);
+    return note(npz, gm_bytes_write(npz->file, values, size, head_place(entry) + entry->head)) &&
+           settle(npz, entry);
+}
+
+static const char *code_of(enum gm_npz_type type)
+{
+    return type == GM_NPZ_REAL ? "<f8" : "<i8";
 }
 
 bool gm_npz_array(struct gm_npz *npz, const char *name, enum gm_npz_type type, const uint64_t *shape,
-                  size_t axes, const void *values, int source)
+                  size_t axes, const void *values)
 {
-    return write_array(npz, name, type == GM_NPZ_REAL ? "<f8" : "<i8", 8, shape, axes, values, source);
+    return write_array(npz, name, code_of(type), 8, shape, axes, values);
 }
 
 bool gm_npz_text(struct gm_npz *npz, const char *name, const char *text)
 {
-    char type[32];
+    char type[TYPE];
     uint32_t *letters = malloc((strlen(text) + 1) * sizeof *letters);
     if (!letters) {
         errno = ENOMEM;
-        return false;
+        return note(npz, false);
     }
     size_t count = 0;
     while (*text) {
         letters[count++] = gm_text_next(&text);
     }
     snprintf(type, sizeof type, "<U%zu", count);
-    const bool good = write_array(npz, name, type, count * sizeof *letters, NULL, 0, letters, -1);
+    const bool good = write_array(npz, name, type, count * sizeof *letters, NULL, 0, letters);
     free(letters);
     return good;
+}
+
+bool gm_npz_reserve(struct gm_npz *npz, const char *name, enum gm_npz_type type, const uint64_t *shape,
+                    size_t axes, uint64_t *place, uint32_t *crc)
+{
+    const struct entry *entry = reserve(npz, name, code_of(type), 8, shape, axes);
+    if (entry) {
+        *place = head_place(entry) + entry->head;
+        *crc = entry->crc;
+    }
+    return entry != NULL;
+}
+
+bool gm_npz_settle(struct gm_npz *npz, size_t index, uint32_t crc)
+{
+    npz->entries[index].crc = crc;
+    return settle(npz, &npz->entries[index]);
+}
+
+bool gm_npz_shorten(struct gm_npz *npz, size_t index, uint64_t length)
+{
+    struct entry *entry = &npz->entries[index];
+    char head[NPY_HEAD];
+    entry->shape[0] = length;
+    entry->size = entry->head + numbers_of(entry);
+    entry->crc = libdeflate_crc32(0, head, head_of(entry, head, entry->head));
+    return note(npz,
+                gm_bytes_check(npz->file, head_place(entry) + entry->head, numbers_of(entry), &entry->crc)) &&
+           settle(npz, entry);
+}
+
+uint64_t gm_npz_size(const struct gm_npz *npz)
+{
+    return npz->place;
+}
+
+bool gm_npz_include(struct gm_npz *npz, const struct gm_npz *other)
+{
+    const uint64_t base = npz->place;
+    for (size_t i = 0; i < other->count; i++) {
+        struct entry *entry = add_entry(npz, strdup(other->entries[i].name));
+        if (!entry) {
+            return false;
+        }
+        char *name = entry->name;
+        *entry = other->entries[i];
+        entry->name = name;
+        entry->place += base;
+    }
+    npz->place += other->place;
+    return true;
 }
 
 static void emit_end(struct gm_npz *npz, uint64_t contents, uint64_t size)
@@ -296,20 +383,12 @@ static void emit_end(struct gm_npz *npz, uint64_t contents, uint64_t size)
     emit(npz, bytes.at, bytes.count);
 }
 
-bool gm_npz_close(struct gm_npz *npz)
+bool gm_npz_finish(struct gm_npz *npz)
 {
     const uint64_t contents = npz->place;
-    for (size_t i = 0; i < npz->count && !npz->failed; i++) {
+    for (size_t i = 0; i < npz->count; i++) {
         emit_central(npz, &npz->entries[i]);
     }
-    if (!npz->failed) {
-        emit_end(npz, contents, npz->place - contents);
-    }
-    const bool good = !npz->failed;
-    for (size_t i = 0; i < npz->count; i++) {
-        free(npz->entries[i].name);
-    }
-    free(npz->entries);
-    free(npz);
-    return good;
+    emit_end(npz, contents, npz->place - contents);
+    return note(npz, !npz->failed && ftruncate(npz->file, (off_t)npz->place) == 0);
 }

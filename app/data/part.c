@@ -1,22 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A file in the making: columns that grow in a folder beside it. */
+/* A file in the making: a folder beside it. */
 #include "app/data/part.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include "app/output/folder.h"
 #include "render/message.h"
 
-enum { BUFFER = GM_COLUMN_BUFFER, NAME = 48 };
+enum { NAME = 48 };
 
 struct gm_part {
     char *path;
@@ -28,7 +29,7 @@ static void empty(const struct gm_part *part)
     DIR *entries = opendir(part->path);
     const struct dirent *entry = NULL;
     while (entries && (entry = readdir(entries))) {
-        if (strncmp(entry->d_name, "column-", strlen("column-")) == 0) {
+        if (strncmp(entry->d_name, "lane-", strlen("lane-")) == 0) {
             unlinkat(part->folder, entry->d_name, 0);
         }
     }
@@ -99,135 +100,58 @@ void gm_part_close(struct gm_part *part, bool remove)
     free(part);
 }
 
-static void name_of(char name[NAME], size_t lane, size_t index)
+static void name_of(char name[NAME], size_t lane, bool begun)
 {
-    snprintf(name, NAME, "column-%zu-%zu", lane, index);
+    snprintf(name, NAME, "lane-%zu%s", lane, begun ? ".new" : "");
 }
 
-/* How many bytes the first `rows` lines have; false if there are not so many. */
-static bool measure_lines(int file, uint64_t rows, off_t *size)
-{
-    char block[1 << 14];
-    *size = 0;
-    while (rows > 0) {
-        const ssize_t got = pread(file, block, sizeof block, *size);
-        if (got <= 0) {
-            return false;
-        }
-        ssize_t at = 0;
-        while (at < got && rows > 0) {
-            rows -= block[at++] == '\n';
-        }
-        *size += at;
-    }
-    return true;
-}
-
-bool gm_column_open(const struct gm_part *part, size_t lane, size_t index, uint64_t rows, size_t row_size,
-                    struct gm_column *column)
+static int open_file(const struct gm_part *part, size_t lane, bool begun)
 {
     char name[NAME];
-    struct stat status;
-    name_of(name, lane, index);
-    *column = (struct gm_column){.buffer = malloc(BUFFER)};
-    column->file = openat(part->folder, name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    bool good = column->buffer && column->file >= 0 && fstat(column->file, &status) == 0;
-    if (good) {
-        off_t size = (off_t)(rows * row_size);
-        if (row_size > 0 ? size > status.st_size : !measure_lines(column->file, rows, &size)) {
-            errno = EILSEQ;
-            good = false;
-        }
-        good = good && ftruncate(column->file, size) == 0 && lseek(column->file, size, SEEK_SET) == size;
-    }
-    if (!good) {
-        const int why = errno;
-        if (column->file >= 0) {
-            close(column->file);
-        }
-        free(column->buffer);
-        column->buffer = NULL;
-        errno = why;
-    }
-    return good;
+    name_of(name, lane, begun);
+    return openat(part->folder, name, O_RDWR | O_CREAT | O_CLOEXEC | (begun ? O_TRUNC : 0), 0666);
 }
 
-static bool write_all(int file, const unsigned char *bytes, size_t size)
+int gm_part_lane(const struct gm_part *part, size_t lane)
 {
-    while (size > 0) {
-        const ssize_t done = write(file, bytes, size);
-        if (done < 0 && errno == EINTR) {
-            continue;
-        }
-        if (done <= 0) {
-            return false;
-        }
-        bytes += done;
-        size -= (size_t)done;
-    }
-    return true;
+    return open_file(part, lane, false);
 }
 
-bool gm_column_flush(struct gm_column *column, bool sync)
+int gm_part_begin(const struct gm_part *part, size_t lane)
 {
-    const size_t used = column->used;
-    column->used = 0;
-    return write_all(column->file, column->buffer, used) && (!sync || fsync(column->file) == 0);
+    return open_file(part, lane, true);
 }
 
-bool gm_column_put_full(struct gm_column *column, const void *bytes, size_t size)
+bool gm_part_take(const struct gm_part *part, size_t lane)
 {
-    if (!gm_column_flush(column, false)) {
-        return false;
-    }
-    if (size > BUFFER) {
-        return write_all(column->file, bytes, size);
-    }
-    memcpy(column->buffer + column->used, bytes, size);
-    column->used += size;
-    return true;
+    char begun[NAME], name[NAME];
+    name_of(begun, lane, true);
+    name_of(name, lane, false);
+    return renameat(part->folder, begun, part->folder, name) == 0;
 }
 
-bool gm_column_print(struct gm_column *column, const char *format, ...)
-{
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    const int length = vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return length >= 0 && (size_t)length < sizeof text && gm_column_put(column, text, (size_t)length);
-}
-
-bool gm_column_close(struct gm_column *column)
-{
-    if (!column->buffer) {
-        return true;
-    }
-    bool good = gm_column_flush(column, false);
-    good = close(column->file) == 0 && good;
-    free(column->buffer);
-    column->buffer = NULL;
-    return good;
-}
-
-int gm_column_read(const struct gm_part *part, size_t lane, size_t index)
+void gm_part_drop(const struct gm_part *part, size_t lane, bool begun)
 {
     char name[NAME];
-    name_of(name, lane, index);
-    return openat(part->folder, name, O_RDONLY | O_CLOEXEC);
+    name_of(name, lane, begun);
+    unlinkat(part->folder, name, 0);
 }
 
-bool gm_column_copy(const struct gm_part *part, size_t lane, size_t index, FILE *file)
+bool gm_part_publish(const struct gm_part *part, size_t lane, const char *path)
 {
-    char block[1 << 16];
-    const int source = gm_column_read(part, lane, index);
-    ssize_t got = 0;
-    bool good = source >= 0;
-    while (good && (got = read(source, block, sizeof block)) > 0) {
-        good = fwrite(block, 1, (size_t)got, file) == (size_t)got;
+    char name[NAME];
+    name_of(name, lane, false);
+    return renameat(part->folder, name, AT_FDCWD, path) == 0;
+}
+
+uint64_t gm_part_room(const struct gm_part *part)
+{
+    struct statvfs disk;
+    struct rlimit limit;
+    const uint64_t unknown = (uint64_t)1 << 40;
+    uint64_t room = fstatvfs(part->folder, &disk) == 0 ? (uint64_t)disk.f_bavail * disk.f_frsize : unknown;
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur < room) {
+        room = limit.rlim_cur;
     }
-    if (source >= 0) {
-        close(source);
-    }
-    return good && got == 0;
+    return room;
 }

@@ -5,11 +5,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <string.h>
 
 /* What a file is made of while it is made: a folder FILE.part beside it, which one process holds at a time,
-   with files that only grow, the columns of the lanes. */
+   with a file a lane. */
 
 struct gm_part;
 
@@ -19,39 +17,17 @@ struct gm_part *gm_part_open(const char *path, bool go_on, char *message);
 /* Leaves the folder to be gone on with, or removes it. */
 void gm_part_close(struct gm_part *part, bool remove);
 
-struct gm_column {
-    int file;
-    unsigned char *buffer; /* NULL: closed */
-    size_t used;
-};
+/* A lane's file, for reading and writing; -1 with errno. */
+int gm_part_lane(const struct gm_part *part, size_t lane);
+/* An empty file that is to be a lane's, which is it once it is taken: the one before stays until then. */
+int gm_part_begin(const struct gm_part *part, size_t lane);
+bool gm_part_take(const struct gm_part *part, size_t lane);
+/* Removes what was begun, or the lane's file. */
+void gm_part_drop(const struct gm_part *part, size_t lane, bool begun);
+/* Renames a lane's file: it is now the file that was to be made. False with errno. */
+bool gm_part_publish(const struct gm_part *part, size_t lane, const char *path);
 
-/* Opens the column with its first `rows` rows, of row_size bytes each or, with 0, lines; what follows is cut
-   off. False with errno; a column that is shorter has EILSEQ. */
-bool gm_column_open(const struct gm_part *part, size_t lane, size_t index, uint64_t rows, size_t row_size,
-                    struct gm_column *column);
-/* Of every column; writes of 64 KB took twice the time of these, longer ones no less. */
-enum { GM_COLUMN_BUFFER = 1 << 18 };
-
-/* Appends where there is no room in the buffer; false with errno. */
-bool gm_column_put_full(struct gm_column *column, const void *bytes, size_t size);
-/* Appends; false with errno. Here, since it is called for every number of a row. */
-static inline bool gm_column_put(struct gm_column *column, const void *bytes, size_t size)
-{
-    if (size > GM_COLUMN_BUFFER - column->used) {
-        return gm_column_put_full(column, bytes, size);
-    }
-    memcpy(column->buffer + column->used, bytes, size);
-    column->used += size;
-    return true;
-}
-__attribute__((format(printf, 2, 3))) bool gm_column_print(struct gm_column *column, const char *format, ...);
-/* Hands all that was put to the system, with `sync` to the disk. */
-bool gm_column_flush(struct gm_column *column, bool sync);
-/* Flushes and closes. */
-bool gm_column_close(struct gm_column *column);
-/* A finished column, open for reading; -1 with errno. */
-int gm_column_read(const struct gm_part *part, size_t lane, size_t index);
-/* Copies one to `file` at its present place. False with errno. */
-bool gm_column_copy(const struct gm_part *part, size_t lane, size_t index, FILE *file);
+/* How many bytes a file in the folder may have: as the disk and the limits of the process are now. */
+uint64_t gm_part_room(const struct gm_part *part);
 
 #endif

@@ -44,3 +44,17 @@ bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double be
     }
     return step_from(rows, run, (double)run->steps) == (double)run->steps;
 }
+
+uint64_t gm_rows_expected(const struct gm_rows *rows, const struct gm_run *run, long last)
+{
+    if (run->scheme->family->own_time || last < 0) {
+        return 0;
+    }
+    if (!is_by_time(rows, run)) {
+        const long every = rows->every < 2 ? 1 : rows->every;
+        return (uint64_t)(last / every) + (last % every != 0) + 1;
+    }
+    const double steps = rows->interval / fabs(run->dt), most = (double)(1L << 50);
+    const double k = fmin(floor(((double)last + 0.5) / steps), most);
+    return (uint64_t)k + (round(k * steps) != (double)last) + 1;
+}

@@ -2,6 +2,8 @@
 #ifndef GM_APP_DATA_ROWS_H
 #define GM_APP_DATA_ROWS_H
 
+#include <stdint.h>
+
 #include "core/run.h"
 
 /* After which steps a run's history and states have a row, beside its start and its end. */
@@ -13,6 +15,10 @@ struct gm_rows {
 
 /* The step of the next row, after the present one. */
 long gm_rows_next(const struct gm_rows *rows, const struct gm_run *run);
+
+/* How many rows there will be from the start of the run to its step `last`, both with a row, if nothing comes
+   between; 0: the scheme chooses its steps, and nobody knows. */
+uint64_t gm_rows_expected(const struct gm_rows *rows, const struct gm_run *run, long last);
 
 /* Whether the present step has a row; `before` is the time before it. */
 bool gm_rows_due(const struct gm_rows *rows, const struct gm_run *run, double before);

@@ -3,9 +3,12 @@
 #include "app/data/save.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "app/data/bytes.h"
 #include "app/data/format.h"
 #include "core/count.h"
 #include "render/clock.h"
@@ -18,6 +21,9 @@ struct gm_save {
     struct gm_part *part;
     char *path;
     double due; /* of a file that grows: when it is made anew */
+    bool resumable;
+    int cut;      /* errno of the write for which there was no room; 0: there was none */
+    size_t lanes; /* of those that have begun, how many the file has */
 };
 
 static const struct gm_data_format *const formats[] = {&gm_data_format_npz, &gm_data_format_csv,
@@ -50,7 +56,7 @@ static bool complain(const struct gm_save *save, char *message)
     return gm_refuse(message, "%.360s could not be written: %s", save->path, strerror(errno));
 }
 
-struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, char *message)
+struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool resumable, char *message)
 {
     struct gm_save *save = calloc(1, sizeof *save);
     struct gm_saved *saved = calloc(lanes, sizeof *saved);
@@ -64,8 +70,10 @@ struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, char *m
         free(name);
         return NULL;
     }
-    *save = (struct gm_save){
-        .saving = {.path = name, .lanes = saved, .count = lanes}, .format = format_of(path), .path = name};
+    *save = (struct gm_save){.saving = {.path = name, .lanes = saved, .count = lanes},
+                             .format = format_of(path),
+                             .path = name,
+                             .resumable = resumable};
     save->saving.part = save->part = gm_part_open(path, go_on, message);
     if (!save->part) {
         gm_save_close(save, false, true, message);
@@ -80,10 +88,11 @@ static struct gm_saved *present(struct gm_save *save)
     return &save->saving.lanes[save->saving.begun - 1];
 }
 
-bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows, char *message)
+bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows,
+                   uint64_t expected, char *message)
 {
     struct gm_saved *lane = &save->saving.lanes[save->saving.begun++];
-    *lane = (struct gm_saved){.index = index, .rows = rows, .members = run->problem->m};
+    *lane = (struct gm_saved){.index = index, .rows = rows, .members = run->problem->m, .file = -1};
     lane->count = gm_quantities_beside_time(run, lane->quantities);
     size_t longest = 1;
     for (size_t i = 0; i < lane->count; i++) {
@@ -96,27 +105,47 @@ bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run,
         return gm_refuse(message, "%.240s cannot be saved: %s", save->path, reason);
     }
     errno = ENOMEM;
-    return (lane->scratch && save->format->begin(&save->saving, lane, run)) || complain(save, message);
+    return (lane->scratch && save->format->begin(&save->saving, lane, run, expected)) ||
+           complain(save, message);
 }
 
-static bool join(FILE *file, const void *context)
+static bool list(FILE *file, const void *context)
 {
     const struct gm_save *save = context;
-    return save->format->join(&save->saving, file);
+    return save->format->list(&save->saving, file);
 }
 
-static bool publish(const struct gm_save *save)
-{
-    return gm_temporary_make(save->path, join, save);
-}
-
-static bool flush(struct gm_saved *lane, bool sync)
+static bool flush(struct gm_saved *lane)
 {
     bool good = true;
     for (size_t i = 0; i < GM_COLUMNS; i++) {
-        good = good && (!lane->columns[i].buffer || gm_column_flush(&lane->columns[i], sync));
+        good = (!lane->columns[i].buffer || gm_column_flush(&lane->columns[i])) && good;
     }
     return good;
+}
+
+static bool is_want_of_room(int why)
+{
+    return why == ENOSPC || why == EFBIG || why == EDQUOT;
+}
+
+/* A write failed. Where that is for want of room, and the lane has rows, it will end with those that fit. */
+static bool give_up(struct gm_save *save, char *message)
+{
+    struct gm_saved *lane = present(save);
+    const int why = errno;
+    if (is_want_of_room(why) && !save->resumable && save->cut == 0) {
+        flush(lane);
+        save->format->cut(lane);
+        save->cut = lane->rows > 0 ? why : 0;
+    }
+    errno = why;
+    return complain(save, message);
+}
+
+bool gm_save_is_cut(const struct gm_save *save)
+{
+    return save->cut != 0;
 }
 
 bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message)
@@ -124,12 +153,12 @@ bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message)
     enum { SECONDS = 1 }; /* between two makings of a file that grows */
     struct gm_saved *lane = present(save);
     if (!save->format->row(&save->saving, lane, run)) {
-        return complain(save, message);
+        return give_up(save, message);
     }
     lane->rows++;
-    if (save->format->grows && gm_clock_seconds() >= save->due) {
-        if (!flush(lane, false) || !publish(save)) {
-            return complain(save, message);
+    if (save->format->list && gm_clock_seconds() >= save->due) {
+        if (!flush(lane) || !gm_temporary_make(save->path, list, save)) {
+            return give_up(save, message);
         }
         save->due = gm_clock_seconds() + SECONDS;
     }
@@ -138,38 +167,128 @@ bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message)
 
 bool gm_save_sync(struct gm_save *save, uint64_t *rows, char *message)
 {
-    *rows = present(save)->rows;
-    return flush(present(save), true) || complain(save, message);
+    struct gm_saved *lane = present(save);
+    *rows = lane->rows;
+    return (flush(lane) && fsync(lane->file) == 0) || complain(save, message);
 }
 
-static bool finish(struct gm_saved *lane)
+/* Its memory and its file, but for what the whole file is to be made of. */
+static void release(struct gm_saved *lane)
 {
-    bool good = true;
     for (size_t i = 0; i < GM_COLUMNS; i++) {
-        good = gm_column_close(&lane->columns[i]) && good;
+        gm_column_close(&lane->columns[i]);
     }
     free(lane->scratch);
     lane->scratch = NULL;
-    return good;
+    if (lane->file >= 0) {
+        close(lane->file);
+    }
+    lane->file = -1;
 }
 
 bool gm_save_end(struct gm_save *save, const char *meta, char *message)
 {
     struct gm_saved *lane = present(save);
-    errno = ENOMEM;
+    if (lane->file < 0) {
+        return true;
+    }
     lane->meta = strdup(meta);
-    const bool whole = lane->meta != NULL;
-    return (finish(lane) && whole) || complain(save, message);
+    errno = ENOMEM;
+    bool good = lane->meta != NULL && flush(lane);
+    if (!good) {
+        give_up(save, message);
+    }
+    if ((good || save->cut != 0) && !save->format->end(&save->saving, lane)) {
+        save->cut = 0;
+        good = complain(save, message);
+    }
+    release(lane);
+    return good;
+}
+
+/* Puts the lanes behind each other in `file`, the first of which is `there` already. Without room for all of
+   them, those that come first. */
+static bool join(struct gm_save *save, int file, bool there)
+{
+    const struct gm_saving *saving = &save->saving;
+    uint64_t place = 0;
+    bool good = true;
+    for (save->lanes = 0; save->lanes < saving->begun; save->lanes++) {
+        const struct gm_saved *lane = &saving->lanes[save->lanes];
+        if (save->lanes > 0 || !there) {
+            uint32_t crc = 0;
+            const int source = gm_part_lane(save->part, lane->index);
+            good = source >= 0 && gm_bytes_copy(source, 0, lane->size, file, place, &crc);
+            if (source >= 0) {
+                close(source);
+            }
+        }
+        if (!good) {
+            break;
+        }
+        if (save->lanes > 0 && !save->resumable) {
+            gm_part_drop(save->part, lane->index, false);
+        }
+        place += lane->size;
+    }
+    if (!good && (!is_want_of_room(errno) || save->resumable || save->lanes == 0)) {
+        return false;
+    }
+    save->cut = good ? save->cut : errno;
+    return save->format->finish ? save->format->finish(saving, save->lanes, file)
+                                : ftruncate(file, (off_t)place) == 0;
+}
+
+static bool copy(FILE *file, const void *context)
+{
+    struct gm_save *const *save = context;
+    return join(*save, fileno(file), false);
+}
+
+/* The file becomes the first lane's, or, where that stays to be gone on with, one of its own. */
+static bool publish(struct gm_save *save, bool keep)
+{
+    if (save->format->list) {
+        return gm_temporary_make(save->path, list, save);
+    }
+    if (keep) {
+        return gm_temporary_make(save->path, copy, &save);
+    }
+    const size_t first = save->saving.lanes[0].index;
+    const int file = gm_part_lane(save->part, first);
+    bool good = file >= 0 && join(save, file, true) && fsync(file) == 0;
+    if (file >= 0) {
+        good = close(file) == 0 && good;
+    }
+    return good && gm_part_publish(save->part, first, save->path);
+}
+
+/* What became of a file for which there was no room. */
+static bool tell_cut(const struct gm_save *save, char *message)
+{
+    const struct gm_saved *last = &save->saving.lanes[save->saving.begun - 1];
+    const char *why = strerror(save->cut);
+    if (!save->format->list && save->lanes < save->saving.begun) {
+        return gm_refuse(message, "%.300s has the first %zu of %zu lanes only: %s", save->path, save->lanes,
+                         save->saving.begun, why);
+    }
+    if (save->saving.count > 1) {
+        return gm_refuse(message, "%.300s ends after %" PRIu64 " rows of lane %zu: %s", save->path,
+                         last->rows, last->index, why);
+    }
+    return gm_refuse(message, "%.300s ends after %" PRIu64 " rows: %s", save->path, last->rows, why);
 }
 
 bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message)
 {
+    const bool makes = (complete || save->cut != 0) && save->saving.begun > 0;
+    bool good = !makes || publish(save, keep) || complain(save, message);
+    good = good && (!makes || save->cut == 0 || tell_cut(save, message));
     for (size_t i = 0; i < save->saving.begun; i++) {
-        finish(&save->saving.lanes[i]);
-    }
-    const bool good = !complete || save->saving.begun == 0 || publish(save) || complain(save, message);
-    for (size_t i = 0; i < save->saving.begun; i++) {
-        free(save->saving.lanes[i].meta);
+        struct gm_saved *lane = &save->saving.lanes[i];
+        release(lane);
+        gm_npz_close(lane->npz);
+        free(lane->meta);
     }
     gm_part_close(save->part, !keep);
     free(save->saving.lanes);

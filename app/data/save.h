@@ -15,13 +15,15 @@ struct gm_save;
    them. */
 bool gm_save_knows(const char *path, char *message);
 
-/* Begins a file of `lanes` lanes or, with go_on, one that was interrupted. NULL with a sentence. */
-struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, char *message);
+/* Begins a file of `lanes` lanes or, with go_on, one that was interrupted; resumable: it can be gone on with
+   later from what it is made of. NULL with a sentence. */
+struct gm_save *gm_save_open(const char *path, size_t lanes, bool go_on, bool resumable, char *message);
 
 /* Lane `index` begins, with its first `rows` rows already there; lanes come in their order, and may be left
-   out. False with a sentence; so are the following. */
+   out. expected: how many rows it will have, or 0; where that turns out otherwise it only costs time. False
+   with a sentence; so are the following. */
 bool gm_save_begin(struct gm_save *save, size_t index, const struct gm_run *run, uint64_t rows,
-                   char *message);
+                   uint64_t expected, char *message);
 /* A row: the state now. */
 bool gm_save_row(struct gm_save *save, const struct gm_run *run, char *message);
 /* The rows of the present lane, safe on the disk: what gm_save_begin goes on from. */
@@ -29,8 +31,12 @@ bool gm_save_sync(struct gm_save *save, uint64_t *rows, char *message);
 /* The lane is over; meta: JSON that says what it was. */
 bool gm_save_end(struct gm_save *save, const char *meta, char *message);
 
+/* Whether a write failed for want of room, of a file that is not resumable: it will have the rows that fit, once
+   this lane has ended, and gm_save_close says so. */
+bool gm_save_is_cut(const struct gm_save *save);
+
 /* Makes the file if `complete` and any lane has begun, and frees; what it was made of stays with `keep`, to
- * be gone on with. */
+   be gone on with. */
 bool gm_save_close(struct gm_save *save, bool complete, bool keep, char *message);
 
 #endif

@@ -1,35 +1,42 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* States as CSV: a row a time, a column a number; one column of lines a lane, joined under one head. */
-#include <errno.h>
+/* States as CSV: a row a time, a column a number; the lanes one behind the other, under one head. */
 #include <string.h>
 
 #include "app/data/format.h"
 
-/* Calls for each number of a row but t, in their order: "q", "u[3]", "velocity[7][1]". */
-static bool put_names(const struct gm_saved *lane, FILE *file)
+/* A name for each number of a row, in their order: "q", "u[3]", "velocity[7][1]". */
+static bool put_names(const struct gm_saving *saving, const struct gm_saved *lane, struct gm_column *column)
 {
+    bool good = gm_column_print(column, saving->count > 1 ? "t,lane" : "t");
     for (size_t i = 0; i < lane->count; i++) {
         const struct gm_quantity *quantity = &lane->quantities[i];
         size_t lengths[GM_QUANTITY_AXES];
         const size_t axes = gm_quantity_shape(quantity, lane->members, lengths);
         const size_t size = quantity->count * lane->members * quantity->width;
-        for (size_t k = 0; k < size && !quantity->fixed; k++) {
+        for (size_t k = 0; k < size && !quantity->fixed && good; k++) {
             size_t block = size, rest = k;
-            fprintf(file, ",%s", quantity->name);
-            for (size_t axis = 0; axis < axes; axis++) {
+            good = gm_column_print(column, ",%s", quantity->name);
+            for (size_t axis = 0; axis < axes && good; axis++) {
                 block /= lengths[axis];
-                fprintf(file, "[%zu]", rest / block);
+                good = gm_column_print(column, "[%zu]", rest / block);
                 rest %= block;
             }
         }
     }
-    return !ferror(file);
+    return good && gm_column_put(column, "\n", 1);
 }
 
-static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+/* The head of the table is the first line of the first lane's file. */
+static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+                  uint64_t expected)
 {
-    (void)run;
-    return gm_column_open(saving->part, lane->index, 0, lane->rows, 0, &lane->columns[0]);
+    (void)run, (void)expected;
+    struct gm_column *column = &lane->columns[0];
+    const bool fresh = lane->rows == 0;
+    lane->heads = saving->begun == 1;
+    lane->file = gm_part_lane(saving->part, lane->index);
+    return lane->file >= 0 && gm_lines_open(column, lane->file, fresh ? 0 : lane->heads + lane->rows) &&
+           (lane->heads == 0 || !fresh || put_names(saving, lane, column));
 }
 
 static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
@@ -50,14 +57,10 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     return good && gm_column_put(column, "\n", 1);
 }
 
-static bool join(const struct gm_saving *saving, FILE *file)
+static void cut(struct gm_saved *lane)
 {
-    bool good = fputs(saving->count > 1 ? "t,lane" : "t", file) >= 0 && put_names(&saving->lanes[0], file) &&
-                fputc('\n', file) != EOF;
-    for (size_t i = 0; i < saving->begun && good; i++) {
-        good = gm_column_copy(saving->part, saving->lanes[i].index, 0, file);
-    }
-    return good;
+    const uint64_t lines = gm_lines_cut(&lane->columns[0]);
+    lane->rows = lines > lane->heads ? lines - lane->heads : 0;
 }
 
 static const char *refuse(const struct gm_saving *saving)
@@ -73,5 +76,12 @@ static const char *refuse(const struct gm_saving *saving)
                 : "the lanes' states differ in their columns, which one table does not hold; .npz does";
 }
 
+static bool end(const struct gm_saving *saving, struct gm_saved *lane)
+{
+    (void)saving;
+    lane->size = lane->columns[0].place;
+    return true;
+}
+
 const struct gm_data_format gm_data_format_csv = {
-    .ending = ".csv", .begin = begin, .row = row, .join = join, .refuse = refuse};
+    .ending = ".csv", .begin = begin, .row = row, .cut = cut, .end = end, .refuse = refuse};

@@ -3,6 +3,8 @@
 #include "app/data/tracks.h"
 
 #include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,7 +17,7 @@
 struct gm_tracks {
     const char *path;
     char *temporary;
-    FILE *file;
+    int file;
     struct gm_npz *npz;
     size_t lanes;
 };
@@ -47,12 +49,13 @@ struct gm_tracks *gm_tracks_open(const char *path, size_t lanes, char *message)
         gm_refuse(message, "not enough memory");
         return NULL;
     }
-    *tracks = (struct gm_tracks){.path = path, .lanes = lanes};
+    *tracks = (struct gm_tracks){.path = path, .lanes = lanes, .file = -1};
     gm_temporary_sweep(path);
     errno = ENOMEM;
     tracks->temporary = gm_temporary_name(path, ".tmp");
-    tracks->file = tracks->temporary ? fopen(tracks->temporary, "wbxe") : NULL;
-    tracks->npz = tracks->file ? gm_npz_open(tracks->file) : NULL;
+    tracks->file =
+        tracks->temporary ? open(tracks->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666) : -1;
+    tracks->npz = tracks->file >= 0 ? gm_npz_open(tracks->file) : NULL;
     if (!tracks->npz) {
         complain(tracks, message);
         gm_tracks_close(tracks, false, message);
@@ -77,22 +80,23 @@ bool gm_tracks_add(struct gm_tracks *tracks, size_t index, const struct gm_lane 
             snprintf(prefix, sizeof prefix, "lane%zu/", index);
         }
         snprintf(name, sizeof name, "%s%s_t", prefix, lane->scene->tracks[i].key);
-        good = gm_npz_array(tracks->npz, name, GM_NPZ_REAL, shape, 1, entries->times, -1);
+        good = gm_npz_array(tracks->npz, name, GM_NPZ_REAL, shape, 1, entries->times);
         snprintf(name, sizeof name, "%s%s", prefix, lane->scene->tracks[i].key);
-        good = good && gm_npz_array(tracks->npz, name, GM_NPZ_REAL, shape, 2, entries->values, -1);
+        good = good && gm_npz_array(tracks->npz, name, GM_NPZ_REAL, shape, 2, entries->values);
     }
     return good || complain(tracks, message);
 }
 
 bool gm_tracks_close(struct gm_tracks *tracks, bool complete, char *message)
 {
-    bool good = tracks->npz && gm_npz_close(tracks->npz);
-    good = tracks->file && fclose(tracks->file) == 0 && good;
+    bool good = tracks->npz && gm_npz_finish(tracks->npz);
+    gm_npz_close(tracks->npz);
+    good = tracks->file >= 0 && close(tracks->file) == 0 && good;
     good = good && (!complete || rename(tracks->temporary, tracks->path) == 0);
     if (complete && !good) {
         complain(tracks, message);
     }
-    if (tracks->file && !(complete && good)) {
+    if (tracks->file >= 0 && !(complete && good)) {
         unlink(tracks->temporary);
     }
     free(tracks->temporary);

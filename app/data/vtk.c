@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* States for VTK: FILE.pvd is a list of times and files; these lie in the folder FILE, one .vtu file a row
    for the mesh, the line or the bodies, and one for the tracers. "VTK XML Formats", vtk.org; raw appended
-   data, lowest byte first. Column 0 of a lane holds its lines of the list. */
+   data, lowest byte first. The file of a lane in the making holds its lines of the list. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "app/data/format.h"
 #include "app/output/folder.h"
@@ -298,7 +299,16 @@ static bool write_group(const struct group *group, const char *path)
         good = good && !ferror(file) && ftello(file) - before == (off_t)size;
     }
     fputs("\n</AppendedData>\n</VTKFile>\n", file);
-    return fclose(file) == 0 && good;
+    int why = errno;
+    if (fclose(file) != 0 && good) {
+        why = errno;
+        good = false;
+    }
+    if (!good) { /* not the half of a row */
+        unlink(path);
+    }
+    errno = why;
+    return good;
 }
 
 /* The folder of the .vtu files, FILE without its ending; malloc'ed. */
@@ -307,14 +317,16 @@ static char *folder_of(const struct gm_saving *saving)
     return strndup(saving->path, strlen(saving->path) - strlen(gm_data_format_pvd.ending));
 }
 
-static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
+static bool begin(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run,
+                  uint64_t expected)
 {
-    (void)run;
+    (void)run, (void)expected;
     char message[GM_MESSAGE];
     char *folder = folder_of(saving);
     const bool made = folder && gm_folder_make(folder, message);
     free(folder);
-    return made && gm_column_open(saving->part, lane->index, 0, lane->rows, 0, &lane->columns[0]);
+    lane->file = made ? gm_part_lane(saving->part, lane->index) : -1;
+    return lane->file >= 0 && gm_lines_open(&lane->columns[0], lane->file, lane->rows);
 }
 
 static bool row(const struct gm_saving *saving, struct gm_saved *lane, const struct gm_run *run)
@@ -325,6 +337,7 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
     } groups[] = {{GM_ON_RUN, ""}, {GM_ON_BODIES, ""}, {GM_ON_NODES, ""}, {GM_ON_TRACERS, "-tracers"}};
     char *folder = folder_of(saving), prefix[40] = "";
     bool good = folder != NULL;
+    errno = ENOMEM; /* where no call to a file says otherwise */
     if (saving->count > 1) {
         snprintf(prefix, sizeof prefix, "lane%zu-", lane->index);
     }
@@ -338,6 +351,7 @@ static bool row(const struct gm_saving *saving, struct gm_saved *lane, const str
             continue;
         }
         if (asprintf(&path, "%s/%s%06" PRIu64 "%s.vtu", folder, prefix, lane->rows, groups[i].ending) < 0) {
+            errno = ENOMEM;
             good = false;
             break;
         }
@@ -364,18 +378,44 @@ static bool put_meta(const char *meta, FILE *file)
     return fputs(" -->\n", file) >= 0 && !ferror(file);
 }
 
-static bool join(const struct gm_saving *saving, FILE *file)
+static bool copy_lines(const struct gm_saving *saving, const struct gm_saved *lane, FILE *file)
+{
+    char block[1 << 14];
+    const int source = gm_part_lane(saving->part, lane->index);
+    ssize_t got = 0;
+    bool good = source >= 0;
+    while (good && (got = read(source, block, sizeof block)) > 0) {
+        good = fwrite(block, 1, (size_t)got, file) == (size_t)got;
+    }
+    if (source >= 0) {
+        close(source);
+    }
+    return good && got == 0;
+}
+
+static bool list(const struct gm_saving *saving, FILE *file)
 {
     bool good = fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
                       "byte_order=\"LittleEndian\">\n<Collection>\n",
                       file) >= 0;
     for (size_t i = 0; i < saving->begun && good; i++) {
         const char *meta = saving->lanes[i].meta; /* not before the lane has ended */
-        good =
-            (!meta || put_meta(meta, file)) && gm_column_copy(saving->part, saving->lanes[i].index, 0, file);
+        good = (!meta || put_meta(meta, file)) && copy_lines(saving, &saving->lanes[i], file);
     }
     return good && fputs("</Collection>\n</VTKFile>\n", file) >= 0;
 }
 
+static void cut(struct gm_saved *lane)
+{
+    lane->rows = gm_lines_cut(&lane->columns[0]);
+}
+
+static bool end(const struct gm_saving *saving, struct gm_saved *lane)
+{
+    (void)saving;
+    lane->size = lane->columns[0].place;
+    return true;
+}
+
 const struct gm_data_format gm_data_format_pvd = {
-    .ending = ".pvd", .grows = true, .begin = begin, .row = row, .join = join};
+    .ending = ".pvd", .begin = begin, .row = row, .cut = cut, .end = end, .list = list};

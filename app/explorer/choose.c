@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The list of scenes and tours: what is found and chosen, looked at and opened. */
+/* The list of what there is: what is found and chosen, looked at and opened. */
 #include "app/explorer/events.h"
 
 #include <curses.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "app/explorer/surface/search.h"
 #include "app/explorer/view/pages.h"
+#include "app/own/found.h"
+#include "app/own/room.h"
+#include "app/own/share.h"
+#include "render/cells/text.h"
 #include "render/clock.h"
 
 /* The choice in the list of scenes rests for this long before it is looked at. */
@@ -18,27 +23,104 @@ static const struct gm_start_entry *chosen(const struct gm_explorer *explorer)
     return start->choice < start->count ? &start->found[start->choice] : NULL;
 }
 
-/* Whether the worker is this scene's or this tour's. */
+/* ---- systems and rooms of files ---- */
+
+static bool is_listed(const struct gm_list *list, const char *name)
+{
+    for (size_t i = 0; i < list->file_count; i++) {
+        if (strcmp(list->files[i].name, name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* One that memory is too short for is not offered, nor a name that a terminal cannot show. */
+static void add_file(struct gm_list *list, enum gm_start_group group, const char *name, const char *path)
+{
+    char title[128];
+    gm_share_title(path, title, sizeof title);
+    struct gm_start_entry *longer = NULL;
+    char *names = NULL, *titles = NULL;
+    if (!is_listed(list, name) && !gm_scene_find(name) && gm_text_is_plain(name)) {
+        longer = realloc(list->files, (list->file_count + 1) * sizeof *longer);
+        list->files = longer ? longer : list->files;
+        names = strdup(name);
+        titles = strdup(gm_text_tame(title));
+    }
+    if (longer && names && titles) {
+        list->files[list->file_count++] =
+            (struct gm_start_entry){.group = group, .name = names, .title = titles};
+    } else {
+        free(names);
+        free(titles);
+    }
+}
+
+static void add_system(const char *name, const void *list)
+{
+    char path[4096];
+    if (gm_system_path(name, path, sizeof path)) {
+        add_file(*(struct gm_list *const *)list, GM_START_SYSTEMS, name, path);
+    }
+}
+
+static void add_room(const char *name, const void *list)
+{
+    char path[4096];
+    if (gm_room_path(name, path, sizeof path)) {
+        add_file(*(struct gm_list *const *)list, GM_START_ROOMS, name, path);
+    }
+}
+
+static void close_files(struct gm_list *list)
+{
+    for (size_t i = 0; i < list->file_count; i++) {
+        free((char *)list->files[i].name);
+        free((char *)list->files[i].title);
+    }
+    free(list->files);
+    list->files = NULL;
+    list->file_count = list->start.count = 0;
+}
+
+void gm_explorer_close_list(struct gm_list *list)
+{
+    close_files(list);
+    gm_tours_close(list->tours, list->tour_count);
+}
+
+/* ---- what is chosen ---- */
+
+/* Whether the worker is that of this entry. */
 static bool is_open(const struct gm_explorer *explorer, const struct gm_start_entry *entry)
 {
+    const struct gm_open *open = &explorer->open;
     if (entry->tour) {
-        return explorer->open.touring && strcmp(entry->tour->name, explorer->open.guide.tour->name) == 0;
+        return open->touring && strcmp(entry->name, open->guide.tour->name) == 0;
     }
-    const struct gm_scene *scene = explorer->open.scene;
-    const bool own = scene && scene->text; /* which is in no list */
-    return !explorer->open.touring && (entry->scene ? entry->scene == scene : own);
+    if (gm_start_is_own(entry)) { /* or by a file that is in no list */
+        return !open->touring && open->scene && open->scene->text && !is_listed(&explorer->list, open->name);
+    }
+    return !open->touring && open->worker && strcmp(entry->name, open->name) == 0;
+}
+
+/* Whether it has a live look. */
+static bool can_be_looked_at(const struct gm_start_entry *entry)
+{
+    return entry && !entry->tour && !gm_start_is_own(entry);
 }
 
 bool gm_explorer_is_looked_at(const struct gm_explorer *explorer)
 {
     const struct gm_start_entry *entry = chosen(explorer);
-    return entry && entry->scene && is_open(explorer, entry);
+    return can_be_looked_at(entry) && is_open(explorer, entry);
 }
 
 void gm_explorer_look_soon(struct gm_explorer *explorer)
 {
     const struct gm_start_entry *entry = chosen(explorer);
-    bool due = entry && entry->scene && !is_open(explorer, entry);
+    bool due = can_be_looked_at(entry) && !is_open(explorer, entry);
     explorer->list.look_due = due ? gm_clock_milliseconds() + REST_MILLISECONDS : -1;
     explorer->dirty = true;
 }
@@ -47,21 +129,57 @@ void gm_explorer_look(struct gm_explorer *explorer)
 {
     explorer->list.look_due = -1;
     explorer->list.kept = false;
-    if (!gm_open_scene(&explorer->open, chosen(explorer)->scene, true, explorer->message)) {
+    if (!gm_open_named(&explorer->open, chosen(explorer)->name, true, explorer->message)) {
         gm_explorer_leave(explorer, GM_EXIT_USAGE);
     }
 }
 
 /* Takes what is found into the list, from place `first` on: the best answer to what was typed comes first. */
-static void find(struct gm_start *start, size_t first, struct gm_start_entry entry, const char *const *texts)
+static void find(struct gm_start *start, size_t first, const struct gm_start_entry *entry, const char *more,
+                 const char *further)
 {
+    const char *texts[] = {entry->name, entry->title, more ? more : "", further ? further : "", NULL};
     const int rank = gm_search_rank(start->typed, texts);
     if (rank < 0 || start->count == GM_START_ENTRIES) {
         return;
     }
     const size_t at = gm_search_place(start->ranks, first, start->count, rank);
-    memmove(&start->found[at + 1], &start->found[at], (start->count++ - at) * sizeof entry);
-    start->found[at] = entry;
+    memmove(&start->found[at + 1], &start->found[at], (start->count++ - at) * sizeof *entry);
+    start->found[at] = *entry;
+}
+
+static void find_scenes(struct gm_start *start)
+{
+    for (size_t i = 0; i < gm_scene_count(); i++) {
+        const struct gm_scene *scene = gm_scene_at(i);
+        const struct gm_start_entry entry = {
+            .group = GM_START_SCENES, .name = scene->name, .title = scene->title, .scene = scene};
+        find(start, 0, &entry, scene->blurb, scene->watch);
+    }
+    const struct gm_start_entry own = {
+        .group = GM_START_SCENES, .name = GM_START_OWN, .title = GM_START_OWN_TITLE};
+    find(start, 0, &own, NULL, NULL);
+}
+
+static void find_tours(struct gm_start *start, const struct gm_list *list)
+{
+    const size_t first = start->count;
+    for (size_t i = 0; i < list->tour_count; i++) {
+        const struct gm_tour *tour = &list->tours[i];
+        const struct gm_start_entry entry = {
+            .group = GM_START_TOURS, .name = tour->name, .title = tour->title, .tour = tour};
+        find(start, first, &entry, tour->about, "tour");
+    }
+}
+
+static void find_files(struct gm_start *start, const struct gm_list *list, enum gm_start_group group)
+{
+    const size_t first = start->count;
+    for (size_t i = 0; i < list->file_count; i++) {
+        if (list->files[i].group == group) {
+            find(start, first, &list->files[i], NULL, NULL);
+        }
+    }
 }
 
 /* What was chosen before stays so unless something else answers better. */
@@ -70,7 +188,7 @@ static void choose(struct gm_start *start, const struct gm_start_entry *before)
     start->choice = 0;
     for (size_t i = 1; i < start->count && before; i++) {
         const struct gm_start_entry *entry = &start->found[i];
-        const bool same = entry->scene == before->scene && entry->tour == before->tour;
+        const bool same = entry->group == before->group && entry->name == before->name;
         const int rank = start->ranks[i], best = start->ranks[start->choice];
         start->choice = rank < best || (rank == best && same) ? i : start->choice;
     }
@@ -82,20 +200,10 @@ static void find_all(struct gm_explorer *explorer)
     const struct gm_start_entry *present = chosen(explorer);
     const struct gm_start_entry before = present ? *present : (struct gm_start_entry){0};
     start->count = 0;
-    for (size_t i = 0; i < gm_scene_count(); i++) {
-        const struct gm_scene *scene = gm_scene_at(i);
-        const char *texts[] = {scene->name, scene->title, scene->blurb ? scene->blurb : "",
-                               scene->watch ? scene->watch : "", NULL};
-        find(start, 0, (struct gm_start_entry){.scene = scene}, texts);
-    }
-    const char *own[] = {GM_START_OWN, "a formula that you type, or a file", NULL};
-    find(start, 0, (struct gm_start_entry){0}, own);
-    start->scenes = start->count;
-    for (size_t i = 0; i < explorer->list.tour_count; i++) {
-        const struct gm_tour *tour = &explorer->list.tours[i];
-        const char *texts[] = {tour->name, tour->title, tour->about ? tour->about : "", "tour", NULL};
-        find(start, start->scenes, (struct gm_start_entry){.tour = tour}, texts);
-    }
+    find_scenes(start);
+    find_tours(start, &explorer->list);
+    find_files(start, &explorer->list, GM_START_SYSTEMS);
+    find_files(start, &explorer->list, GM_START_ROOMS);
     choose(start, present ? &before : NULL);
     gm_explorer_look_soon(explorer);
 }
@@ -106,6 +214,10 @@ void gm_explorer_show_start(struct gm_explorer *explorer)
     if (!explorer->list.tours) {
         explorer->list.tours = gm_tours_read(&explorer->list.tour_count, message);
     }
+    struct gm_list *list = &explorer->list;
+    close_files(list);
+    gm_system_each(add_system, &list);
+    gm_room_each(add_room, &list);
     explorer->list.shown = true;
     explorer->editing = false;
     explorer->list.start.typed[0] = '\0';
@@ -130,11 +242,11 @@ static bool enter_tour(struct gm_explorer *explorer, const struct gm_tour *tour)
     return gm_open_step(&explorer->open, explorer->message);
 }
 
-static bool enter_scene(struct gm_explorer *explorer, const struct gm_scene *scene)
+static bool enter_named(struct gm_explorer *explorer, const char *name)
 {
     explorer->open.guide.tour = NULL;
     explorer->face.guide = NULL;
-    return gm_open_scene(&explorer->open, scene, false, explorer->message);
+    return gm_open_named(&explorer->open, name, false, explorer->message);
 }
 
 void gm_explorer_enter(struct gm_explorer *explorer)
@@ -144,29 +256,18 @@ void gm_explorer_enter(struct gm_explorer *explorer)
         return;
     }
     const bool goes_on = explorer->list.kept && is_open(explorer, entry);
-    if (!goes_on && !entry->tour && !entry->scene) {
+    if (!goes_on && gm_start_is_own(entry)) {
         gm_explorer_ask_system(explorer);
         return;
     }
     if (!goes_on) {
         explorer->face.parameter = 0;
-        if (!(entry->tour ? enter_tour(explorer, entry->tour) : enter_scene(explorer, entry->scene))) {
+        if (!(entry->tour ? enter_tour(explorer, entry->tour) : enter_named(explorer, entry->name))) {
             gm_explorer_leave(explorer, GM_EXIT_USAGE);
         }
     }
     explorer->list.shown = false;
     explorer->dirty = explorer->fresh = true;
-}
-
-/* From the scenes to the tours and back. */
-static void go_to_others(struct gm_explorer *explorer)
-{
-    struct gm_start *start = &explorer->list.start;
-    size_t other = start->choice < start->scenes ? start->scenes : 0;
-    if (other < start->count) {
-        start->choice = other;
-        gm_explorer_look_soon(explorer);
-    }
 }
 
 void gm_explorer_press_in_list(struct gm_explorer *explorer, int key)
@@ -195,7 +296,8 @@ void gm_explorer_press_in_list(struct gm_explorer *explorer, int key)
         start->choice = key == KEY_HOME ? 0 : count - 1;
         gm_explorer_look_soon(explorer);
     } else if (key == '\t' || key == KEY_BTAB) {
-        go_to_others(explorer);
+        start->choice = gm_start_next_group(start);
+        gm_explorer_look_soon(explorer);
     } else if (key == '/' && !start->typed[0]) {
         /* what is typed is looked for anyway */
     } else if (gm_typed_key(start->typed, key)) {

@@ -10,13 +10,16 @@
 #include "app/explorer/view/start.h"
 
 /* What the files of the explorer share: explorer.c its beginning, its events and its end, choose.c the list
-   of scenes and tours, own.c the prompt for a system or scheme of one's own, press.c the keys, point.c the
+   of what there is, own.c the prompt for a system or scheme of one's own, press.c the keys, point.c the
    mouse, show.c what is shown and when. Everything stands under who writes it. */
 
-/* The list of scenes and tours. */
+/* The list of what there is. */
 struct gm_list {
     bool shown; /* and what is open is a look at a scene */
     struct gm_start start;
+    struct gm_start_entry *files; /* systems and rooms, as they were when the list was shown; names and titles
+                                     are its own */
+    size_t file_count;
     struct gm_tour *tours; /* that it offers; NULL: not read yet */
     size_t tour_count;
     bool kept;        /* that look is a scene that was left and can be gone back to */
@@ -62,6 +65,7 @@ static inline void gm_explorer_leave(struct gm_explorer *explorer, int status)
 /* ---- the list of scenes ---- */
 
 void gm_explorer_show_start(struct gm_explorer *explorer);
+void gm_explorer_close_list(struct gm_list *list);
 /* Whether the worker is a look at what is chosen. */
 bool gm_explorer_is_looked_at(const struct gm_explorer *explorer);
 /* The chosen scene is looked at in a while, unless it is open already; or now. Tours are only told of. */

@@ -123,9 +123,8 @@ static void read_news(struct gm_explorer *explorer)
     explorer->dirty = gm_studies_look(&explorer->open.studies) || explorer->dirty;
     struct gm_shot *shot = explorer->open.worker ? gm_worker_take(explorer->open.worker) : NULL;
     if (shot) {
-        explorer->open.shot = shot;
+        gm_open_take(&explorer->open, shot);
         read_command(explorer);
-        explorer->open.asked = false;
         explorer->open.next_shot = next_time(explorer->open.next_shot,
                                              explorer->list.shown ? LOOK_MILLISECONDS : FRAME_MILLISECONDS);
         explorer->dirty = true;
@@ -253,7 +252,7 @@ static int explore(const struct gm_request *request, const struct gm_tour *tour,
     gm_open_close(&explorer.open);
     gm_studies_close(&explorer.open.studies);
     gm_screen_close(&explorer.screen);
-    gm_tours_close(explorer.list.tours, explorer.list.tour_count);
+    gm_explorer_close_list(&explorer.list);
     fputs(explorer.open.partings ? explorer.open.partings : "", stderr);
     free(explorer.open.partings);
     gm_console_release();

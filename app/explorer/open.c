@@ -9,11 +9,16 @@
 
 enum { FIRST_SCHEMES = 3, LOOK_SCHEMES = 2 };
 
-/* A new worker, or NULL, which owes its first shot. */
-static bool take_over(struct gm_open *open, struct gm_worker *worker, const struct gm_scene *scene)
+/* A new worker, or NULL, which owes its first shot; of a scene, or of one that it makes by that name. */
+static bool take_over(struct gm_open *open, struct gm_worker *worker, const struct gm_scene *scene,
+                      const char *name)
 {
     open->worker = worker;
     open->scene = scene;
+    snprintf(open->name, sizeof open->name, "%s",
+             !scene         ? name
+             : scene->words ? scene->words[0]
+                            : scene->name);
     open->shot = NULL;
     open->told = 0;
     open->asked = true;
@@ -57,7 +62,7 @@ static void abandon(struct gm_open *open)
 bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message)
 {
     abandon(open);
-    return take_over(open, gm_worker_open(request, open->wake, NULL, message), request->scene);
+    return take_over(open, gm_worker_open(request, open->wake, NULL, message), request->scene, NULL);
 }
 
 bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault *fault)
@@ -69,17 +74,24 @@ bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault 
     struct gm_worker *worker = gm_worker_open(&request, open->wake, NULL, fault->sentence);
     if (worker) {
         abandon(open);
-        take_over(open, worker, request.scene);
+        take_over(open, worker, request.scene, NULL);
     }
     gm_request_close(&request);
     return worker != NULL;
 }
 
-bool gm_open_scene(struct gm_open *open, const struct gm_scene *scene, bool preview, char *message)
+bool gm_open_named(struct gm_open *open, const char *name, bool preview, char *message)
 {
     abandon(open);
     const size_t schemes = preview ? LOOK_SCHEMES : FIRST_SCHEMES;
-    return take_over(open, gm_worker_open_scene(scene, schemes, preview, open->wake, message), scene);
+    return take_over(open, gm_worker_open_named(name, schemes, preview, open->wake, message), NULL, name);
+}
+
+void gm_open_take(struct gm_open *open, struct gm_shot *shot)
+{
+    open->shot = shot;
+    open->scene = shot->scene;
+    open->asked = false;
 }
 
 void gm_open_study(struct gm_open *open)
@@ -101,5 +113,5 @@ bool gm_open_step(struct gm_open *open, char *message)
     abandon(open);
     gm_open_study(open);
     open->touring = true;
-    return take_over(open, gm_worker_open(request, open->wake, &first, message), request->scene);
+    return take_over(open, gm_worker_open(request, open->wake, &first, message), request->scene, NULL);
 }

@@ -10,11 +10,14 @@
 
 /* What is open: a scene, or a step of a tour with its study; with the thread that plays it. */
 
+enum { GM_NAME = 256 };
+
 struct gm_open {
     int wake;                   /* the worker's shots are announced here */
     struct gm_display *display; /* that may be painting a picture of the worker's */
     struct gm_worker *worker;
-    const struct gm_scene *scene; /* the worker's */
+    const struct gm_scene *scene; /* the worker's; NULL: it makes it first */
+    char name[GM_NAME];           /* of that scene, in the list of what there is */
     struct gm_shot *shot;         /* NULL: it has given none yet */
     bool asked;                   /* for a shot */
     int64_t next_shot;            /* in milliseconds: none is asked for earlier */
@@ -30,8 +33,10 @@ struct gm_open {
 bool gm_open_request(struct gm_open *open, const struct gm_request *request, char *message);
 /* What a typed line says (app/request/typed.h), as of a file; what was open stays where that is wrong. */
 bool gm_open_line(struct gm_open *open, const char *line, struct gm_typed_fault *fault);
-/* A scene as its name alone gives it; a preview is for the list of scenes. */
-bool gm_open_scene(struct gm_open *open, const struct gm_scene *scene, bool preview, char *message);
+/* A scene, a system or a room as its name alone gives it; a preview is for the list of them. */
+bool gm_open_named(struct gm_open *open, const char *name, bool preview, char *message);
+/* A shot of the worker, which has made its scene by now. */
+void gm_open_take(struct gm_open *open, struct gm_shot *shot);
 /* The scene of the tour's present step, from its start, and its study. */
 bool gm_open_step(struct gm_open *open, char *message);
 

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "app/explorer/surface/keystroke.h"
-#include "app/request/system.h"
+#include "app/own/replacing.h"
 #include "app/studies/kinds/study.h"
 #include "core/count.h"
 #include "core/schemes.h"
@@ -92,7 +92,7 @@ void gm_explorer_edit_system(struct gm_explorer *explorer, const char *command)
        formulas */
     const bool formula = good && strcmp(typed.words[1], "system") == 0;
     good = good && (formula || (gm_arguments_add(&words, typed.words[1]) &&
-                                gm_system_formulas(explorer->open.scene->text, &formulas)));
+                                gm_replacing_words(explorer->open.scene->text, &formulas)));
     for (int i = 0; good && i < formulas.count; i++) {
         good = gm_arguments_add(&words, formulas.words[i]);
     }

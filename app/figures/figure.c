@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "app/output/still.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "app/request/drive.h"
 #include "app/request/interrupt.h"
 #include "core/memory.h"

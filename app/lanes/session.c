@@ -11,6 +11,7 @@
 #include "app/native/engine.h"
 #include "core/schemes.h"
 #include "scenes/frame/lane_pack.h"
+#include "scenes/frame/symbol.h"
 
 /* Says a sentence; false. */
 static bool short_of_memory(char *message)
@@ -453,7 +454,7 @@ static bool look(struct gm_session *session, size_t i, const struct gm_parameter
 static void rename_by_parameter(struct gm_session *session, size_t i, const char *key, const char *text)
 {
     char before[64], after[GM_MESSAGE];
-    snprintf(before, sizeof before, "%.50s = ", strcmp(key, "dt") == 0 ? "Δt" : key);
+    snprintf(before, sizeof before, "%.50s = ", gm_key_symbol(key));
     snprintf(after, sizeof after, "%s%s", before, text);
     struct gm_shown *shown = &session->log.lanes[i].shown;
     gm_shown_rename(shown, before, after, true);

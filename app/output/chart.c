@@ -10,7 +10,7 @@
 
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "app/request/request.h"
 #include "render/files/temporary.h"
 #include "render/message.h"

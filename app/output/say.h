@@ -2,7 +2,7 @@
 #ifndef GM_APP_OUTPUT_SAY_H
 #define GM_APP_OUTPUT_SAY_H
 
-#include "app/request/exit.h"
+#include "app/own/exit.h"
 
 /* What commands say, line by line. */
 

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
+#include "app/own/scheme.h"
 #include "app/request/request.h"
-#include "app/request/scheme.h"
 #include "core/schemes.h"
 #include "render/cells/text.h"
 

@@ -11,11 +11,15 @@
 #include "app/request/interrupt.h"
 #include "render/clock.h"
 
-/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble. */
-static long burst_of(const struct gm_lane *lane)
+/* Steps are made in bursts short enough to answer an interruption at once, even for a large ensemble; as soon as
+   it is known what a step takes, that says how many. In single steps an ensemble that does not fit in the cache
+   would go to memory and back for each. */
+static long burst_of(const struct gm_drive *drive)
 {
-    const double members = (double)(lane->problem.n * lane->problem.m);
-    const double burst = 2e5 / members;
+    static const double at_once = 0.02; /* seconds */
+    const struct gm_problem *problem = &drive->lane->problem;
+    const double guess = 2e5 / (double)(problem->n * problem->m);
+    const double burst = drive->each > 0 ? fmax(guess, at_once / drive->each) : guess;
     return burst < 1 ? 1 : burst > 1e5 ? 100000 : (long)burst;
 }
 
@@ -55,6 +59,12 @@ static double until_of(const struct gm_lane *lane)
 bool gm_drive_goes_on(const struct gm_drive *drive, long step)
 {
     return gm_run_goes_on(drive->lane->run, step, until_of(drive->lane)) && !gm_lane_stopped(drive->lane);
+}
+
+long gm_drive_end(const struct gm_drive *drive, long step)
+{
+    const long end = gm_run_steps_at(drive->lane->run, until_of(drive->lane));
+    return end < step ? end : step;
 }
 
 /* The system is asked for the time of every step that is long, of short ones after so many seconds of them:
@@ -107,8 +117,7 @@ static void look_for_engine(struct gm_drive *drive, long step)
     const struct gm_run *run = drive->lane->run;
     if (drive->seconds >= drive->looked + often || drive->looked == 0) {
         const bool known = !drive->lane->scheme->family->own_time;
-        const long end = known ? gm_run_steps_at(run, until_of(drive->lane)) : run->steps;
-        const double left = (double)((end < step ? end : step) - run->steps);
+        const double left = known ? (double)(gm_drive_end(drive, step) - run->steps) : 0;
         gm_engine_look(drive->lane, drive->seconds - drive->looked, drive->each * fmax(left, 0));
         drive->looked = drive->seconds;
     }
@@ -117,7 +126,6 @@ static void look_for_engine(struct gm_drive *drive, long step)
 bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
 {
     struct gm_lane *lane = drive->lane;
-    const long burst = record ? 1 : burst_of(lane);
     while (gm_drive_goes_on(drive, LONG_MAX) && !gm_interrupted) {
         if (!make_changes(drive, message)) {
             return false;
@@ -126,7 +134,7 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message)
         if (left <= 0) {
             break;
         }
-        const long stop = before + (left < burst ? left : burst);
+        const long burst = record ? 1 : burst_of(drive), stop = before + (left < burst ? left : burst);
         advance(drive, stop, record);
         if (record && lane->run->steps > before) {
             gm_lane_record(lane);

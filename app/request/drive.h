@@ -25,6 +25,10 @@ bool gm_drive_to(struct gm_drive *drive, long step, bool record, char *message);
 /* Whether the lane is still on its way to `step` steps in all, or its end (gm_run_goes_on). */
 bool gm_drive_goes_on(const struct gm_drive *drive, long step);
 
+/* The step of its end, `step` or the lane's own, if nothing comes between; of a scheme that chooses its steps
+   more than it may make. */
+long gm_drive_end(const struct gm_drive *drive, long step);
+
 /* Advances to where the lane is looked at for the time t (gm_run_steps_by), but not beyond its own end. */
 bool gm_drive_until(struct gm_drive *drive, double t, bool record, char *message);
 

@@ -8,14 +8,16 @@
 #include <string.h>
 
 #include "app/native/engine.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
+#include "app/own/found.h"
+#include "app/own/scheme.h"
+#include "app/own/system.h"
 #include "app/request/fitting.h"
-#include "app/request/scheme.h"
-#include "app/request/system.h"
 #include "app/request/words.h"
 #include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "core/schemes.h"
+#include "scenes/frame/symbol.h"
 
 static const char *scheme_name(size_t i, const void *data)
 {
@@ -120,8 +122,8 @@ static void add_name(const struct gm_word *list, size_t index, const struct gm_s
     if (strcmp(list->key, "scheme") == 0) {
         snprintf(name + length, size - length, "%s%s", comma, scheme->title);
     } else {
-        snprintf(name + length, size - length, "%s%s = %s", comma,
-                 strcmp(list->key, "dt") == 0 ? "Δt" : list->key, gm_word_name(list, index, value));
+        snprintf(name + length, size - length, "%s%s = %s", comma, gm_key_symbol(list->key),
+                 gm_word_name(list, index, value));
     }
 }
 

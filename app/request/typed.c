@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/scheme.h"
-#include "app/request/system.h"
+#include "app/own/scheme.h"
+#include "app/own/system.h"
 #include "app/request/words.h"
 #include "core/memory.h"
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "core/count.h"
 #include "core/formula/nearest.h"
 #include "core/schemes.h"
@@ -321,6 +321,31 @@ bool gm_words_count(const struct gm_words *words, size_t most, size_t *runs, cha
     return true;
 }
 
+/* Whether "key=value" is among the words, that value alone. */
+static bool says(const struct gm_words *words, const char *text)
+{
+    const char *equals = strchr(text, '=');
+    for (size_t i = 0; i < words->count; i++) {
+        const struct gm_word *word = &words->list[i];
+        if (strlen(word->key) == (size_t)(equals - text) &&
+            strncmp(word->key, text, (size_t)(equals - text)) == 0) {
+            return word->count == 1 && strcmp(word->pieces[0].text, equals + 1) == 0;
+        }
+    }
+    return false;
+}
+
+/* The schemes that a scene prefers where these words are typed. */
+static const char *const *preferred(const struct gm_words *words, const struct gm_scene *scene)
+{
+    for (const struct gm_preference *row = scene->preferences; row && row->word; row++) {
+        if (says(words, row->word)) {
+            return row->schemes;
+        }
+    }
+    return scene->schemes;
+}
+
 /* The first `schemes` of the scene's preferred ones, as if they had been typed in front. */
 static bool prefer(struct gm_words *words, const struct gm_scene *scene, size_t schemes, char *message)
 {
@@ -331,9 +356,10 @@ static bool prefer(struct gm_words *words, const struct gm_scene *scene, size_t 
         return gm_refuse(message, "more than %d keys", GM_MOST_WORDS);
     }
     struct gm_word list = {.key = strdup("scheme")};
+    const char *const *names = preferred(words, scene);
     bool good = list.key != NULL;
-    for (size_t i = 0; good && i < schemes && scene->schemes[i]; i++) {
-        good = add_value(&list, scene->schemes[i], strlen(scene->schemes[i]), message);
+    for (size_t i = 0; good && i < schemes && names[i]; i++) {
+        good = add_value(&list, names[i], strlen(names[i]), message);
     }
     memmove(&words->list[1], &words->list[0], words->count * sizeof words->list[0]);
     words->list[0] = list;

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "app/request/request.h"
 
 struct kept {

@@ -7,7 +7,7 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include "app/request/share.h"
+#include "app/own/share.h"
 #include "app/tours/tour.h"
 #include "core/formula/nearest.h"
 

@@ -10,7 +10,7 @@
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "app/request/interrupt.h"
 #include "app/tours/agenda.h"
 #include "core/memory.h"

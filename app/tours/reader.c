@@ -9,8 +9,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/request/arguments.h"
-#include "app/request/scheme.h"
+#include "app/own/arguments.h"
+#include "app/own/scheme.h"
 #include "app/tours/tour.h"
 #include "core/count.h"
 #include "core/formula/nearest.h"

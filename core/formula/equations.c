@@ -10,6 +10,7 @@
 #include "core/formula/derivative.h"
 #include "core/formula/legendre.h"
 #include "core/formula/linear_part.h"
+#include "core/formula/said.h"
 
 static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
 {
@@ -666,8 +667,9 @@ static bool check_legendre(struct gm_own_system *system, double *start, double *
         length += (size_t)snprintf(where + length, sizeof where - length, "%s%.16s = %.6g", i > 0 ? ", " : "",
                                    system->variables[i].name, start[i]);
     }
+    const size_t place = gm_formula_origin(&system->graph, system->energy);
     return gm_fail(
-        fault, 0,
+        fault, place == SIZE_MAX ? 0 : place,
         "the Legendre transform of L is singular at the start, %s: momenta do not determine velocities",
         where);
 }
@@ -1139,10 +1141,10 @@ static bool check_matrices(struct gm_own_system *system, struct gm_fault *fault)
            check_line(system, 1, fault);
 }
 
-bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
-                       const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+bool gm_equations_derive(struct gm_own_system *system, struct gm_fault *fault)
 {
-    if (!gm_system_read(system, text, length, values, count, fault) || !derive(system)) {
+    *fault = (struct gm_fault){0};
+    if (!derive(system)) {
         return false;
     }
     if (gm_system_is_field(system)) {
@@ -1152,4 +1154,10 @@ bool gm_equations_open(struct gm_own_system *system, const char *text, size_t le
     }
     return (system->kind != GM_POISSON || check_jacobi(system, fault)) && check_start(system, fault) &&
            check_items(system, fault) && !system->graph.failed;
+}
+
+bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
+                       const struct gm_system_value *values, size_t count, struct gm_fault *fault)
+{
+    return gm_system_read(system, text, length, values, count, fault) && gm_equations_derive(system, fault);
 }

@@ -5,10 +5,11 @@
 
 #include "core/formula/system.h"
 
-/* Reads a system (gm_system_read), derives its equations, and checks Jacobi's identity, Casimirs, invariants,
-   symmetries, whose momentum maps are appended, and the start: constraints, the Legendre transform, what is
-   not finite. False with a fault, whose sentence is empty where memory was refused. To be closed, by
-   gm_system_close, in both cases. */
+/* Derives the equations of a system that was read (gm_system_read), and checks Jacobi's identity, Casimirs,
+   invariants, symmetries, whose momentum maps are appended, and the start: constraints, the Legendre transform,
+   what is not finite. False with a fault, whose sentence is empty where memory was refused. */
+bool gm_equations_derive(struct gm_own_system *system, struct gm_fault *fault);
+/* Reads a system and derives its equations. To be closed, by gm_system_close, in both cases. */
 bool gm_equations_open(struct gm_own_system *system, const char *text, size_t length,
                        const struct gm_system_value *values, size_t count, struct gm_fault *fault);
 

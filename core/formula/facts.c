@@ -43,16 +43,7 @@ const char *gm_fact_word(enum gm_fact fact)
 /* what is marked among the variables that a node holds */
 static bool depends(struct gm_own_system *system, gm_node_id node, const bool *marked)
 {
-    size_t count = 0;
-    gm_node_id *parts = gm_formula_parts(&system->graph, node, &count);
-    bool found = false;
-    for (size_t i = 0; i < count && !found; i++) {
-        const struct gm_node *part = &system->graph.nodes[parts[i]];
-        found = part->operation == GM_VARIABLE && marked[part->a];
-    }
-    system->graph.failed |= !parts;
-    free(parts);
-    return found;
+    return gm_formula_holds(&system->graph, node, marked, system->variable_count);
 }
 
 static gm_node_id apply(struct gm_own_system *system, enum gm_operation operation, gm_node_id a, gm_node_id b)
@@ -582,6 +573,10 @@ static void find_of_rates(struct gm_own_system *system, struct gm_finding *findi
             quadratic->term = quadratic->holds ? GM_NO_NODE : culprit(system, rate, components, thrice, 3);
         }
         own[i] = true;
+        if (!depends(system, rate, own)) { /* of most rates, and what follows takes longer */
+            own[i] = false;
+            continue;
+        }
         if (volume->holds) {
             conclude(volume, vanishes(system, rate, once, 1));
             volume->component = i;
@@ -600,13 +595,40 @@ static void find_of_rates(struct gm_own_system *system, struct gm_finding *findi
     divergence->term = divergence->holds ? GM_NO_NODE : sum;
 }
 
+/* Whether equations hold the time, or an operation that is not smooth: one look at all of them. */
+static bool has_remarkable(struct gm_own_system *system)
+{
+    gm_node_id *roots = malloc((system->n + 1) * sizeof *roots);
+    size_t count = 0, part_count = 0;
+    for (size_t i = 0; roots && i < system->n; i++) {
+        if (system->rates[i] != GM_NO_NODE) {
+            roots[count++] = system->rates[i];
+        }
+    }
+    if (roots && system->kind != GM_RATES) {
+        roots[count++] = system->energy;
+    }
+    gm_node_id *parts = roots ? gm_formula_parts_of(&system->graph, roots, count, &part_count) : NULL;
+    bool found = false;
+    for (size_t k = 0; parts && k < part_count && !found; k++) {
+        const struct gm_node *node = &system->graph.nodes[parts[k]];
+        found = node->operation > GM_VARIABLE ? !gm_operation_rows[node->operation].smooth
+                                              : node->operation == GM_VARIABLE && node->a == system->n;
+    }
+    system->graph.failed |= !parts;
+    free(roots);
+    free(parts);
+    return found;
+}
+
 /* Of all that the equations are made of, the first node of a kind; one that was written before one that was
    derived. */
 static void find_of_parts(struct gm_own_system *system, struct gm_finding *findings)
 {
     struct gm_finding *smooth = &findings[GM_FACT_SMOOTH], *autonomous = &findings[GM_FACT_AUTONOMOUS];
     smooth->asked = autonomous->asked = true;
-    for (size_t i = 0; i <= system->n && !system->graph.failed; i++) {
+    const bool remarkable = has_remarkable(system);
+    for (size_t i = 0; i <= system->n && remarkable && !system->graph.failed; i++) {
         const gm_node_id root = i < system->n ? system->rates[i] : system->energy;
         if (root == GM_NO_NODE || (i == system->n && system->kind == GM_RATES)) {
             continue;

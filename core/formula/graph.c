@@ -51,17 +51,26 @@ static uint64_t bits_of(double value)
     return bits;
 }
 
+/* a + b and b + a are the same bits, and one node */
+static bool commutes(const struct gm_node *node)
+{
+    return node->operation == GM_OPERATION_ADD || node->operation == GM_OPERATION_MULTIPLY;
+}
+
 static size_t hash_of(const struct gm_node *node)
 {
+    const bool turned = commutes(node) && node->a > node->b;
+    const gm_node_id a = turned ? node->b : node->a, b = turned ? node->a : node->b;
     uint64_t hash = (uint64_t)node->operation * UINT64_C(0x9e3779b97f4a7c15) ^ bits_of(node->value);
-    hash = (hash ^ node->a) * UINT64_C(0xbf58476d1ce4e5b9);
-    hash = (hash ^ (hash >> 29) ^ node->b) * UINT64_C(0x94d049bb133111eb);
+    hash = (hash ^ a) * UINT64_C(0xbf58476d1ce4e5b9);
+    hash = (hash ^ (hash >> 29) ^ b) * UINT64_C(0x94d049bb133111eb);
     return (size_t)(hash ^ (hash >> 32));
 }
 
 static bool is_same(const struct gm_node *x, const struct gm_node *y)
 {
-    return x->operation == y->operation && x->a == y->a && x->b == y->b &&
+    return x->operation == y->operation &&
+           ((x->a == y->a && x->b == y->b) || (x->a == y->b && x->b == y->a && commutes(x))) &&
            bits_of(x->value) == bits_of(y->value);
 }
 
@@ -106,12 +115,6 @@ static gm_node_id intern(struct gm_formula *graph, struct gm_node node)
         return 0;
     }
     gm_node_id *entry = entry_of(graph, &node);
-    if (!*entry && (node.operation == GM_OPERATION_ADD || node.operation == GM_OPERATION_MULTIPLY)) {
-        /* a + b and b + a are the same bits */
-        const struct gm_node swapped = {.operation = node.operation, .a = node.b, .b = node.a};
-        gm_node_id *other = entry_of(graph, &swapped);
-        entry = *other ? other : entry;
-    }
     if (!*entry) {
         graph->nodes[graph->count] = node;
         graph->places[graph->count] = graph->simplifies ? SIZE_MAX : graph->place;
@@ -416,6 +419,48 @@ static inline bool is_new(uint8_t *seen, gm_node_id node)
     return answer;
 }
 
+/* What some nodes are made of, as it is met, with a bit for each of the nodes up to the last root. Both are NULL where
+   memory is short. */
+static gm_node_id *gather(const struct gm_formula *graph, const gm_node_id *roots, size_t root_count,
+                          gm_node_id root, uint8_t **marks, size_t *count)
+{
+    uint8_t *seen =
+        calloc(root / 8 + (size_t)1, 1); /* a bit a node: the graph may be much larger than its parts */
+    size_t capacity = root_count + 64, found = 0;
+    gm_node_id *parts = malloc(capacity * sizeof *parts);
+    bool good = seen && parts;
+    for (size_t k = 0; k < root_count && good; k++) {
+        if (is_new(seen, roots[k])) {
+            parts[found++] = roots[k];
+        }
+    }
+    for (size_t i = 0; i < found && good; i++) {
+        const struct gm_node *node = &graph->nodes[parts[i]];
+        const size_t arity = node->operation > GM_VARIABLE ? gm_operation_rows[node->operation].arity : 0;
+        if (found + 2 > capacity) {
+            capacity *= 2;
+            gm_node_id *more = realloc(parts, capacity * sizeof *parts);
+            good = more != NULL;
+            parts = more ? more : parts;
+        }
+        for (size_t k = 0; k < arity && good; k++) {
+            const gm_node_id operand = k == 0 ? node->a : node->b;
+            if (is_new(seen, operand)) {
+                parts[found++] = operand;
+            }
+        }
+    }
+    if (!good) {
+        free(seen);
+        free(parts);
+        seen = NULL;
+        parts = NULL;
+    }
+    *marks = seen;
+    *count = found;
+    return parts;
+}
+
 gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id *roots, size_t root_count,
                                 size_t *count)
 {
@@ -424,40 +469,11 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
     for (size_t k = 0; k < root_count; k++) {
         root = roots[k] > root ? roots[k] : root;
     }
-    uint8_t *seen =
-        calloc(root / 8 + (size_t)1, 1); /* a bit a node: the graph may be much larger than its parts */
-    size_t capacity = root_count + 64, found = 0;
-    gm_node_id *parts = malloc(capacity * sizeof *parts);
-    for (size_t k = 0; k < root_count && seen && parts; k++) {
-        if (is_new(seen, roots[k])) {
-            parts[found++] = roots[k];
-        }
-    }
-    for (size_t i = 0; i < found; i++) {
-        const struct gm_node *node = &graph->nodes[parts[i]];
-        const size_t arity = node->operation > GM_VARIABLE ? gm_operation_rows[node->operation].arity : 0;
-        if (found + 2 > capacity) {
-            capacity *= 2;
-            gm_node_id *more = realloc(parts, capacity * sizeof *parts);
-            if (!more) {
-                found = 0;
-                break;
-            }
-            parts = more;
-        }
-        for (size_t k = 0; k < arity; k++) {
-            const gm_node_id operand = k == 0 ? node->a : node->b;
-            if (is_new(seen, operand)) {
-                parts[found++] = operand;
-            }
-        }
-    }
-    if (!seen || (found == 0 && root_count > 0)) {
-        free(parts);
-        parts = NULL;
-    } else if (found < root / DENSE) {
-        qsort(parts, found, sizeof *parts, ascending);
-    } else {
+    uint8_t *seen;
+    gm_node_id *parts = gather(graph, roots, root_count, root, &seen, count);
+    if (parts && *count < root / DENSE) {
+        qsort(parts, *count, sizeof *parts, ascending);
+    } else if (parts) {
         size_t filled = 0;
         for (gm_node_id i = 0; i <= root; i++) {
             if (seen[i / 8] >> i % 8 & 1) {
@@ -466,8 +482,23 @@ gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id
         }
     }
     free(seen);
-    *count = found;
     return parts;
+}
+
+bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables)
+{
+    size_t count = 0;
+    uint8_t *seen;
+    gm_node_id *parts = gather(graph, &node, 1, node, &seen, &count);
+    bool found = false;
+    for (size_t i = 0; i < count && parts && !found; i++) {
+        const struct gm_node *part = &graph->nodes[parts[i]];
+        found = part->operation == GM_VARIABLE && part->a < variables && marked[part->a];
+    }
+    graph->failed |= !parts;
+    free(parts);
+    free(seen);
+    return found;
 }
 
 gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, size_t *count)

@@ -105,6 +105,9 @@ gm_node_id *gm_formula_parts(const struct gm_formula *graph, gm_node_id node, si
 /* What several nodes are made of. */
 gm_node_id *gm_formula_parts_of(const struct gm_formula *graph, const gm_node_id *nodes, size_t node_count,
                                 size_t *count);
+/* Whether a node holds one of the variables that are marked; there are `variables` of these. Where memory was refused
+   graph->failed is set. */
+bool gm_formula_holds(struct gm_formula *graph, gm_node_id node, const bool *marked, size_t variables);
 /* For each node whether it depends on one of the variables that are marked; there are `variables` of these.
    malloc'ed, NULL if memory is short. */
 bool *gm_formula_dependent(const struct gm_formula *graph, const bool *marked, size_t variables);

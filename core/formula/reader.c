@@ -38,27 +38,52 @@ struct reader {
     struct gm_fault *fault;
 };
 
+static void tell(struct gm_fault *fault, size_t offset, const char *format, va_list arguments)
+{
+    vsnprintf(fault->sentence, sizeof fault->sentence, format, arguments);
+    fault->offset = offset;
+}
+
 bool gm_fail(struct gm_fault *fault, size_t offset, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(fault->sentence, sizeof fault->sentence, format, arguments);
+    tell(fault, offset, format, arguments);
     va_end(arguments);
-    fault->offset = offset;
+    return false;
+}
+
+bool gm_fail_first(struct gm_first_fault *first, size_t offset, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (!first->failed) {
+        tell(first->fault, offset, format, arguments);
+    }
+    va_end(arguments);
+    first->failed = true;
+    return false;
+}
+
+bool gm_fail_memory(struct gm_first_fault *first)
+{
+    if (!first->failed) {
+        *first->fault = (struct gm_fault){0};
+    }
+    first->failed = first->no_memory = true;
     return false;
 }
 
 __attribute__((format(printf, 3, 4))) static gm_node_id fail(struct reader *reader, size_t offset,
                                                              const char *format, ...)
 {
+    va_list arguments;
+    va_start(arguments, format);
     if (!reader->failed) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(reader->fault->sentence, sizeof reader->fault->sentence, format, arguments);
-        va_end(arguments);
-        reader->fault->offset = offset;
-        reader->failed = true;
+        tell(reader->fault, offset, format, arguments);
     }
+    va_end(arguments);
+    reader->failed = true;
     reader->at = reader->end;
     return 0;
 }
@@ -273,8 +298,13 @@ static long read_whole(struct reader *reader, const char *what)
         fail(reader, begin, "%s holds whole numbers, indices of loops and parameters alone", what);
         return 0;
     }
-    if (value != floor(value) || fabs(value) > 1e9) {
+    if (value != floor(value)) {
         fail(reader, begin, "%s has to be a whole number, not %g", what, value);
+        return 0;
+    }
+    if (fabs(value) > GM_LARGEST_INDEX) {
+        fail(reader, begin, "%s lies between -%d and %d, and this is %g", what, GM_LARGEST_INDEX,
+             GM_LARGEST_INDEX, value);
         return 0;
     }
     return (long)value;

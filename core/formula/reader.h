@@ -11,7 +11,7 @@
    index is computed while reading: it may hold whole numbers, the indices of the loops around it, and what
    the scope knows the value of. */
 
-enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8 };
+enum { GM_FAULT_SENTENCE = 320, GM_MOST_INDICES = 8, GM_LARGEST_INDEX = 1000000000 };
 
 /* What is wrong, and where: bytes from the beginning of the text. */
 struct gm_fault {
@@ -21,6 +21,17 @@ struct gm_fault {
 /* Says what is wrong, and where. Returns false. */
 __attribute__((format(printf, 3, 4))) bool gm_fail(struct gm_fault *fault, size_t offset, const char *format,
                                                    ...);
+
+/* The first thing that is wrong with a text; what follows from it is not told. */
+struct gm_first_fault {
+    struct gm_fault *fault;
+    bool failed, no_memory;
+};
+/* As gm_fail, once. */
+__attribute__((format(printf, 3, 4))) bool gm_fail_first(struct gm_first_fault *first, size_t offset,
+                                                         const char *format, ...);
+/* Memory was refused: a fault without a sentence, unless another one came first. Returns false. */
+bool gm_fail_memory(struct gm_first_fault *first);
 
 /* A name as it is used. */
 struct gm_name {

@@ -101,10 +101,6 @@ struct gm_system_value {
     const char *name, *text;
 };
 
-/* Reads what a system says, not yet what follows from it: that is gm_equations_open. False with a fault,
-   whose sentence is empty where memory was refused. To be closed in both cases. */
-bool gm_system_read(struct gm_own_system *system, const char *text, size_t length,
-                    const struct gm_system_value *values, size_t count, struct gm_fault *fault);
 void gm_system_close(struct gm_own_system *system);
 
 /* Whether it is a field on a line. */

@@ -7,15 +7,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/clones.h"
+
 bool gm_banded_open(struct gm_banded *matrix, size_t n, size_t band)
 {
     *matrix = (struct gm_banded){.n = n, .band = band, .stride = 3 * band + 1};
     matrix->values = calloc(n * matrix->stride, sizeof *matrix->values);
-    matrix->pivots = calloc(n, sizeof *matrix->pivots);
+    matrix->pivots = calloc(3 * n, sizeof *matrix->pivots);
     if (!matrix->values || !matrix->pivots) {
         gm_banded_close(matrix);
         return false;
     }
+    matrix->above = matrix->pivots + n;
+    matrix->below = matrix->above + n;
     return true;
 }
 
@@ -44,7 +48,18 @@ static inline void subtract(double *restrict y, const double *restrict x, double
     }
 }
 
-bool gm_banded_factor(struct gm_banded *matrix)
+/* How many of the entries values[0], values[step], ... are left when zeros at the end are not counted. */
+static inline size_t without_zeros(const double *values, ptrdiff_t step, size_t count)
+{
+    while (count > 0 && values[(ptrdiff_t)(count - 1) * step] == 0) {
+        count--;
+    }
+    return count;
+}
+
+/* Unknowns that belong to nodes leave the corners of a band empty, and pivots that stand in their place the upper
+   third: what is 0 there is passed over, which changes nothing but perhaps the sign of a 0. */
+GM_CLONES bool gm_banded_factor(struct gm_banded *matrix)
 {
     const size_t n = matrix->n, band = matrix->band, step = matrix->stride - 1;
     size_t last = 0; /* the last column that the rows used so far reach */
@@ -70,20 +85,23 @@ bool gm_banded_factor(struct gm_banded *matrix)
             }
         }
         const double inverse = 1 / diagonal[0];
-        for (size_t i = 1; i <= below; i++) {
+        const size_t filled = without_zeros(diagonal + 1, 1, below);
+        for (size_t i = 1; i <= filled; i++) {
             diagonal[i] *= inverse;
         }
+        matrix->above[j] = without_zeros(diagonal - 1, -1, least(2 * band, j));
+        matrix->below[j] = filled;
         for (size_t k = 1; k <= last - j; k++) {
             double *column = diagonal + k * step;
             if (column[0] != 0) {
-                subtract(column + 1, diagonal + 1, column[0], below);
+                subtract(column + 1, diagonal + 1, column[0], filled);
             }
         }
     }
     return true;
 }
 
-void gm_banded_solve(const struct gm_banded *matrix, double *x)
+GM_CLONES void gm_banded_solve(const struct gm_banded *matrix, double *x)
 {
     const size_t n = matrix->n, band = matrix->band;
     for (size_t j = 0; j < n; j++) {
@@ -91,12 +109,11 @@ void gm_banded_solve(const struct gm_banded *matrix, double *x)
         const double value = x[pivot];
         x[pivot] = x[j];
         x[j] = value;
-        subtract(x + j + 1, matrix->values + j * matrix->stride + 2 * band + 1, value,
-                 least(band, n - 1 - j));
+        subtract(x + j + 1, matrix->values + j * matrix->stride + 2 * band + 1, value, matrix->below[j]);
     }
     for (size_t j = n; j-- > 0;) {
         const double *diagonal = matrix->values + j * matrix->stride + 2 * band;
-        const size_t above = least(2 * band, j);
+        const size_t above = matrix->above[j];
         x[j] /= diagonal[0];
         subtract(x + j - above, diagonal - above, x[j], above);
     }

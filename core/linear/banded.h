@@ -13,6 +13,8 @@ struct gm_banded {
     size_t stride;  /* of a column: 3 band + 1, band of them for what pivoting fills in */
     double *values; /* stride * n */
     size_t *pivots; /* n */
+    size_t *above,
+        *below; /* of the factors: so many entries of each column beside the diagonal are not all 0 */
 };
 
 /* False: out of memory, nothing is held. */

@@ -18,6 +18,7 @@ enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
 struct gm_split {
     bool nystrom;   /* T is quadratic, */
     bool unit_mass; /* q' = p even: it need not be asked for */
+    bool attracts;  /* V = H at p = 0 is negative at the start, and T(0) = 0 */
 };
 
 /* q' = w dH/dp, p' = -w dH/dq with q the first n / 2 components and w = weight(problem) (NULL: 1). So the
@@ -140,8 +141,9 @@ enum gm_ode_facet {
     GM_NEEDS_AXES = 1u << 16,      /* of one, or with a vector, and an energy that is a sum over the axes */
     GM_NEEDS_FREE_BODY = 1u << 17,
     GM_NEEDS_SEMILINEAR = 1u << 18,
-    GM_NEEDS_GROUP = 1u << 19,  /* the bracket of angular momenta alone, or with a vector */
-    GM_NEEDS_PIECES = 1u << 20, /* a bracket, and an energy in pieces that have exact flows */
+    GM_NEEDS_GROUP = 1u << 19,      /* the bracket of angular momenta alone, or with a vector */
+    GM_NEEDS_PIECES = 1u << 20,     /* a bracket, and an energy in pieces that have exact flows */
+    GM_NEEDS_ATTRACTION = 1u << 21, /* a split and an energy, V(q) < 0 */
 };
 struct gm_ode {
     /* The names of the components, "q1 q2 p1 p2", or of lists of equal length, "x[] y[]"; NULL: "y[]". */

@@ -4,7 +4,6 @@
 #include "core/theory/written_scheme.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,32 +74,8 @@ struct reading {
     struct formula lets[GM_MOST_LETS];
     char let_names[GM_MOST_LETS][64];
     gm_node_id *nodes[GM_SCHEME_WORDS]; /* of each line's numbers */
-    struct gm_fault *fault;
-    bool failed;
+    struct gm_first_fault fault;
 };
-
-__attribute__((format(printf, 3, 4))) static bool fail(struct reading *reading, size_t place,
-                                                       const char *format, ...)
-{
-    if (!reading->failed) {
-        va_list arguments;
-        va_start(arguments, format);
-        vsnprintf(reading->fault->sentence, sizeof reading->fault->sentence, format, arguments);
-        va_end(arguments);
-        reading->fault->offset = place;
-        reading->failed = true;
-    }
-    return false;
-}
-
-static bool no_memory(struct reading *reading)
-{
-    if (!reading->failed) {
-        *reading->fault = (struct gm_fault){0};
-    }
-    reading->failed = true;
-    return false;
-}
 
 static int brief(struct gm_span span)
 {
@@ -167,17 +142,17 @@ static bool take_line(struct reading *reading, enum gm_scheme_word word, size_t 
             gm_span_trimmed(reading->text, (struct gm_span){value.begin, (size_t)(comment - reading->text)});
     }
     if (value.begin == value.end) {
-        return fail(reading, place, "%s: says nothing", words[word].word);
+        return gm_fail_first(&reading->fault, place, "%s: says nothing", words[word].word);
     }
     if (word == GM_SCHEME_WORD_LET) {
         if (scheme->let_count == GM_MOST_LETS) {
-            return fail(reading, place, "a scheme has at most %d lets", GM_MOST_LETS);
+            return gm_fail_first(&reading->fault, place, "a scheme has at most %d lets", GM_MOST_LETS);
         }
         scheme->lets[scheme->let_count++] = value;
         return true;
     }
     if (scheme->lines[word].said) {
-        return fail(reading, place, "%s is said twice", words[word].word);
+        return gm_fail_first(&reading->fault, place, "%s is said twice", words[word].word);
     }
     scheme->lines[word] = (struct gm_written_line){.said = true, .value = value};
     return true;
@@ -197,8 +172,8 @@ static bool take_named(struct reading *reading, const struct gm_text_line *line)
     char copy[41];
     snprintf(copy, sizeof copy, "%.*s", brief(line->word), name);
     const char *near = gm_nearest(copy, GM_SCHEME_WORDS, word_name, NULL);
-    return fail(reading, line->word.begin, "a scheme has no line \"%s\"%s%s", copy,
-                near ? "; did you mean " : "", near ? near : "");
+    return gm_fail_first(&reading->fault, line->word.begin, "a scheme has no line \"%s\"%s%s", copy,
+                         near ? "; did you mean " : "", near ? near : "");
 }
 
 static bool find_kind(struct reading *reading, struct gm_span name)
@@ -211,11 +186,11 @@ static bool find_kind(struct reading *reading, struct gm_span name)
     char copy[41];
     snprintf(copy, sizeof copy, "%.*s", brief(name), text);
     const char *near = gm_nearest(copy, GM_WRITTEN_KINDS, kind_name, NULL);
-    return fail(reading, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
-                near ? "; did you mean "
-                     : "; there are runge-kutta, explicit, partitioned, nystrom, "
-                       "composition, splitting, processed, adjoint",
-                near ? near : "");
+    return gm_fail_first(&reading->fault, name.begin, "there is no kind of schemes \"%s\"%s%s", copy,
+                         near ? "; did you mean "
+                              : "; there are runge-kutta, explicit, partitioned, nystrom, "
+                                "composition, splitting, processed, adjoint",
+                         near ? near : "");
 }
 
 static bool read_file(struct reading *reading, struct gm_span span)
@@ -228,11 +203,12 @@ static bool read_file(struct reading *reading, struct gm_span span)
         }
     }
     if (fault.sentence[0]) {
-        return fail(reading, fault.offset, "%s", fault.sentence);
+        return gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence);
     }
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
     return kind->said ? find_kind(reading, kind->value)
-                      : fail(reading, span.begin, "what kind of a scheme is it? A line kind: says so");
+                      : gm_fail_first(&reading->fault, span.begin,
+                                      "what kind of a scheme is it? A line kind: says so");
 }
 
 /* Where the parenthesis at span.begin is closed, or the end. */
@@ -253,15 +229,15 @@ static bool read_word(struct reading *reading, struct gm_span span)
     const size_t open = span.begin + kind_length(text + span.begin, span.end - span.begin);
     const size_t close = closing(text, (struct gm_span){open, span.end});
     if (close == span.end) {
-        return fail(reading, open, "this parenthesis is not closed");
+        return gm_fail_first(&reading->fault, open, "this parenthesis is not closed");
     }
     if (close + 1 < span.end) {
-        return fail(reading, close + 1, "the scheme ends before this");
+        return gm_fail_first(&reading->fault, close + 1, "the scheme ends before this");
     }
     struct gm_span rest = {open + 1, close}, segment;
     int positional = 0;
     find_kind(reading, (struct gm_span){span.begin, open});
-    while (!reading->failed && gm_span_take(text, &rest, ";", &segment)) {
+    while (!reading->fault.failed && gm_span_take(text, &rest, ";", &segment)) {
         const size_t name = gm_name_length(text + segment.begin, segment.end - segment.begin);
         const size_t colon = segment.begin + name;
         if (name > 0 && colon < segment.end && text[colon] == ':') {
@@ -271,17 +247,17 @@ static bool read_word(struct reading *reading, struct gm_span span)
         } else if (positional < kinds[reading->scheme->kind].count) {
             take_line(reading, kinds[reading->scheme->kind].positional[positional++], segment.begin, segment);
         } else {
-            fail(reading, segment.begin, "there is more between the parentheses than %s has",
-                 kinds[reading->scheme->kind].name);
+            gm_fail_first(&reading->fault, segment.begin, "there is more between the parentheses than %s has",
+                          kinds[reading->scheme->kind].name);
         }
     }
     const struct gm_written_line *kind = &reading->scheme->lines[GM_SCHEME_WORD_KIND];
-    if (!reading->failed && kind->said &&
+    if (!reading->fault.failed && kind->said &&
         kind_of(text + kind->value.begin, kind->value.end - kind->value.begin) != reading->scheme->kind) {
-        return fail(reading, kind->value.begin, "the word says that it is of the kind %s",
-                    kinds[reading->scheme->kind].name);
+        return gm_fail_first(&reading->fault, kind->value.begin, "the word says that it is of the kind %s",
+                             kinds[reading->scheme->kind].name);
     }
-    return !reading->failed;
+    return !reading->fault.failed;
 }
 
 /* What is said belongs to the kind, and what it needs is said. */
@@ -291,14 +267,15 @@ static bool check_lines(struct reading *reading, struct gm_span span)
     const char *name = kinds[scheme->kind].name;
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         if (scheme->lines[word].said && !(words[word].kinds >> scheme->kind & 1)) {
-            return fail(reading, scheme->lines[word].value.begin, "a scheme of the kind %s has no %s:", name,
-                        words[word].word);
+            return gm_fail_first(&reading->fault, scheme->lines[word].value.begin,
+                                 "a scheme of the kind %s has no %s:", name, words[word].word);
         }
     }
     for (int i = 0; i < kinds[scheme->kind].required; i++) {
         const enum gm_scheme_word word = kinds[scheme->kind].positional[i];
         if (!scheme->lines[word].said) {
-            return fail(reading, span.begin, "a scheme of the kind %s needs %s:", name, words[word].word);
+            return gm_fail_first(&reading->fault, span.begin, "a scheme of the kind %s needs %s:", name,
+                                 words[word].word);
         }
     }
     return true;
@@ -351,7 +328,8 @@ static gm_node_id decimal(void *data, const char *text, size_t length, double va
         return gm_formula_constant(&reading->graph, value);
     }
     if (whole && length > GM_BALL_DIGITS) {
-        fail(reading, (size_t)(text - reading->text), "a whole number has at most %d digits", GM_BALL_DIGITS);
+        gm_fail_first(&reading->fault, (size_t)(text - reading->text), "a whole number has at most %d digits",
+                      GM_BALL_DIGITS);
     }
     const size_t count = reading->decimal_count;
     if ((count & (count - 1)) == 0) {
@@ -399,10 +377,10 @@ static bool read_formula(struct reading *reading, struct gm_span span, gm_node_i
         .find = find, .known = known, .decimal = decimal, .data = reading, .lines = true};
     struct gm_fault fault;
     if (gm_formula_read(&reading->graph, reading->text, span.begin, span.end, &scope, node, &fault)) {
-        return !reading->failed;
+        return !reading->fault.failed;
     }
-    return reading->graph.failed ? no_memory(reading)
-           : fault.sentence[0]   ? fail(reading, fault.offset, "%s", fault.sentence)
+    return reading->graph.failed ? gm_fail_memory(&reading->fault)
+           : fault.sentence[0]   ? gm_fail_first(&reading->fault, fault.offset, "%s", fault.sentence)
                                  : false;
 }
 
@@ -415,16 +393,18 @@ static bool name_let(struct reading *reading, int i)
     let->name = (struct gm_span){span.begin, span.begin + length};
     const struct gm_span rest = gm_span_trimmed(text, (struct gm_span){let->name.end, span.end});
     if (length == 0 || rest.begin == rest.end || text[rest.begin] != '=') {
-        return fail(reading, length ? rest.begin : span.begin, "a let is a name, = and a formula");
+        return gm_fail_first(&reading->fault, length ? rest.begin : span.begin,
+                             "a let is a name, = and a formula");
     }
     if (length >= sizeof reading->let_names[0] || gm_formula_reserves(text + span.begin, length)) {
-        return fail(reading, span.begin, "the name %.*s is %s", brief(let->name), text + span.begin,
-                    length >= sizeof reading->let_names[0] ? "too long" : "reserved");
+        return gm_fail_first(&reading->fault, span.begin, "the name %.*s is %s", brief(let->name),
+                             text + span.begin,
+                             length >= sizeof reading->let_names[0] ? "too long" : "reserved");
     }
     memcpy(reading->let_names[i], text + span.begin, length);
     for (int k = 0; k < i; k++) {
         if (strcmp(reading->let_names[k], reading->let_names[i]) == 0) {
-            return fail(reading, span.begin, "%s is defined twice", reading->let_names[i]);
+            return gm_fail_first(&reading->fault, span.begin, "%s is defined twice", reading->let_names[i]);
         }
     }
     let->value = gm_span_trimmed(text, (struct gm_span){rest.begin + 1, rest.end});
@@ -442,7 +422,7 @@ static bool read_lets(struct reading *reading)
     }
     for (bool again = true; again;) {
         again = false;
-        for (int i = 0; i < count && !reading->failed; i++) {
+        for (int i = 0; i < count && !reading->fault.failed; i++) {
             struct formula *let = &reading->lets[i];
             if (!let->read) {
                 let->read = read_formula(reading, let->value, &let->node);
@@ -452,11 +432,11 @@ static bool read_lets(struct reading *reading)
     }
     for (int i = 0; i < count; i++) {
         if (!reading->lets[i].read) {
-            return fail(reading, reading->lets[i].name.begin, "%s is defined by itself, through other lets",
-                        reading->let_names[i]);
+            return gm_fail_first(&reading->fault, reading->lets[i].name.begin,
+                                 "%s is defined by itself, through other lets", reading->let_names[i]);
         }
     }
-    return !reading->failed;
+    return !reading->fault.failed;
 }
 
 /* The piece before the next separator, behind which another one has to stand; false at the end, and with a
@@ -466,7 +446,7 @@ static bool take_piece(struct reading *reading, struct gm_span *rest, const char
 {
     const size_t end = gm_span_until(reading->text, *rest, separator);
     if (end < rest->end && end + 1 == rest->end) {
-        return fail(reading, end, "nothing stands behind this %s", separator);
+        return gm_fail_first(&reading->fault, end, "nothing stands behind this %s", separator);
     }
     return gm_span_take(reading->text, rest, separator, piece);
 }
@@ -491,20 +471,21 @@ static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
     line->numbers = calloc(room, sizeof *line->numbers);
     reading->nodes[word] = calloc(room, sizeof *reading->nodes[word]);
     if (!line->numbers || !reading->nodes[word]) {
-        return no_memory(reading);
+        return gm_fail_memory(&reading->fault);
     }
     struct gm_span rows = line->value, row, entry;
     for (int count = 0; take_piece(reading, &rows, "|", &row); line->rows++) {
         const size_t begin = row.begin;
         int columns = 0;
         if (line->rows == (words[word].holds == MATRIX ? most : 1)) {
-            return words[word].holds == MATRIX ? fail(reading, begin, "a scheme has at most %d stages", most)
-                                               : fail(reading, begin, "%s is one row", words[word].word);
+            return words[word].holds == MATRIX
+                       ? gm_fail_first(&reading->fault, begin, "a scheme has at most %d stages", most)
+                       : gm_fail_first(&reading->fault, begin, "%s is one row", words[word].word);
         }
         for (; take_piece(reading, &row, ",", &entry); columns++, count++) {
             if (columns == most) {
-                return fail(reading, entry.begin, "a scheme has at most %d %s", most,
-                            stages ? "stages" : "steps");
+                return gm_fail_first(&reading->fault, entry.begin, "a scheme has at most %d %s", most,
+                                     stages ? "stages" : "steps");
             }
             line->numbers[count].place = entry.begin;
             line->numbers[count].length = length_of(reading->text, entry);
@@ -512,13 +493,13 @@ static bool read_numbers(struct reading *reading, enum gm_scheme_word word)
                 return false;
             }
         }
-        if (!reading->failed && line->rows > 0 && columns != line->columns) {
-            return fail(reading, begin, "row %d of %s has %d entries, the first has %d", line->rows + 1,
-                        words[word].word, columns, line->columns);
+        if (!reading->fault.failed && line->rows > 0 && columns != line->columns) {
+            return gm_fail_first(&reading->fault, begin, "row %d of %s has %d entries, the first has %d",
+                                 line->rows + 1, words[word].word, columns, line->columns);
         }
         line->columns = columns;
     }
-    return !reading->failed;
+    return !reading->fault.failed;
 }
 
 /* What the node is, from those before it. */
@@ -575,7 +556,7 @@ static bool compute(struct reading *reading)
     struct gm_ball *balls = malloc((count + (size_t)1) * sizeof *balls);
     double *values = malloc((count + (size_t)1) * sizeof *values);
     double *variables = malloc((reading->decimal_count + 1) * sizeof *variables);
-    bool good = (balls && values && variables) || no_memory(reading);
+    bool good = (balls && values && variables) || gm_fail_memory(&reading->fault);
     for (size_t i = 0; good && i < reading->decimal_count; i++) {
         variables[i] = reading->decimals[i].value;
     }
@@ -587,8 +568,9 @@ static bool compute(struct reading *reading)
         balls[id] = ball_of(reading, balls, id, &exact);
         if (!exact) {
             const size_t place = reading->graph.places[id];
-            good = fail(reading, place == SIZE_MAX ? 0 : place,
-                        "coefficients are made of numbers, + - * / ^, sqrt, exp, log, sin, cos and pi alone");
+            good = gm_fail_first(
+                &reading->fault, place == SIZE_MAX ? 0 : place,
+                "coefficients are made of numbers, + - * / ^, sqrt, exp, log, sin, cos and pi alone");
         }
     }
     for (enum gm_scheme_word word = 0; good && word < GM_SCHEME_WORDS; word++) {
@@ -599,8 +581,8 @@ static bool compute(struct reading *reading)
             number->value = values[node];
             number->ball = balls[node];
             good = (isfinite(number->value) && isfinite(number->ball.radius) && fabs(number->value) < 1e6) ||
-                   fail(reading, number->place, "this coefficient is %g: no finite number below a million",
-                        number->value);
+                   gm_fail_first(&reading->fault, number->place,
+                                 "this coefficient is %g: no finite number below a million", number->value);
         }
     }
     free(balls);
@@ -633,12 +615,12 @@ static bool check_sums(struct reading *reading, const struct gm_written_line *a,
         }
         const bool same = gm_ball_may_vanish(gm_ball_subtract(sum, said->ball));
         if (!same && !tried) {
-            return fail(reading, said->place, "row %d of a sums to %.15g, c says %.15g", i + 1,
-                        gm_ball_midpoint(sum), said->value);
+            return gm_fail_first(&reading->fault, said->place, "row %d of a sums to %.15g, c says %.15g",
+                                 i + 1, gm_ball_midpoint(sum), said->value);
         }
         if (sums && (!same || said->ball.radius > rounding) &&
             !gather(&sums->at, &sums->count, (struct gm_decimal){said->place, said->length, sum})) {
-            return no_memory(reading);
+            return gm_fail_memory(&reading->fault);
         }
     }
     return true;
@@ -652,20 +634,23 @@ static bool check_tableau(struct reading *reading)
     for (enum gm_scheme_word word = 0; word < GM_SCHEME_WORDS; word++) {
         const struct gm_written_line *line = &scheme->lines[word];
         if (words[word].holds == MATRIX && line->said && line->rows != line->columns) {
-            return fail(reading, line->value.begin, "%s has %d rows of %d entries: it is not square",
-                        words[word].word, line->rows, line->columns);
+            return gm_fail_first(&reading->fault, line->value.begin,
+                                 "%s has %d rows of %d entries: it is not square", words[word].word,
+                                 line->rows, line->columns);
         }
         if (line->rows > 0 && line->columns != stages) {
-            return fail(reading, line->value.begin, "%s has %d entries%s; the rows of a make %d stages",
-                        words[word].word, line->columns, line->rows > 1 ? " in a row" : "", stages);
+            return gm_fail_first(&reading->fault, line->value.begin,
+                                 "%s has %d entries%s; the rows of a make %d stages", words[word].word,
+                                 line->columns, line->rows > 1 ? " in a row" : "", stages);
         }
     }
     for (int i = 0; scheme->kind == GM_WRITTEN_EXPLICIT && i < stages; i++) {
         for (int j = i; j < stages; j++) {
             if (entry_of(a, i, j)->value != 0) {
-                return fail(reading, entry_of(a, i, j)->place,
-                            "entry %d, %d stands %s the diagonal and is not 0: the scheme is not explicit",
-                            i + 1, j + 1, i == j ? "on" : "above");
+                return gm_fail_first(
+                    &reading->fault, entry_of(a, i, j)->place,
+                    "entry %d, %d stands %s the diagonal and is not 0: the scheme is not explicit", i + 1,
+                    j + 1, i == j ? "on" : "above");
             }
         }
     }
@@ -681,7 +666,7 @@ static bool check_steps(struct reading *reading)
     }
     const bool tried = reading->gathered && reading->gathered->instead;
     return tried || fabs(sum - 1) <= 1e-3 ||
-           fail(reading, steps->value.begin, "the steps sum to %.15g, not to 1", sum);
+           gm_fail_first(&reading->fault, steps->value.begin, "the steps sum to %.15g, not to 1", sum);
 }
 
 static bool is_text(const struct reading *reading, const struct gm_written_line *line, const char *word)
@@ -697,22 +682,25 @@ static bool check_pieces(struct reading *reading)
     const int drifts = scheme->lines[GM_SCHEME_WORD_DRIFTS].columns;
     const int kicks = scheme->lines[GM_SCHEME_WORD_KICKS].columns;
     if (abs(drifts - kicks) > 1) {
-        return fail(reading, scheme->lines[GM_SCHEME_WORD_KICKS].value.begin,
-                    "%d drifts and %d kicks cannot take turns", drifts, kicks);
+        return gm_fail_first(&reading->fault, scheme->lines[GM_SCHEME_WORD_KICKS].value.begin,
+                             "%d drifts and %d kicks cannot take turns", drifts, kicks);
     }
     scheme->kick_first = kicks > drifts || (first->said && is_text(reading, first, "kick"));
     if (first->said && !is_text(reading, first, "kick") && !is_text(reading, first, "drift")) {
-        return fail(reading, first->value.begin, "first: is kick or drift");
+        return gm_fail_first(&reading->fault, first->value.begin, "first: is kick or drift");
     }
     if (first->said && drifts != kicks && scheme->kick_first != (kicks > drifts)) {
-        return fail(reading, first->value.begin, "there is one more drift than kicks: a drift is first");
+        return gm_fail_first(&reading->fault, first->value.begin,
+                             "there is one more drift than kicks: a drift is first");
     }
     if (first->said && kicks > drifts && is_text(reading, first, "drift")) {
-        return fail(reading, first->value.begin, "there is one more kick than drifts: a kick is first");
+        return gm_fail_first(&reading->fault, first->value.begin,
+                             "there is one more kick than drifts: a kick is first");
     }
     scheme->nystrom = purpose->said && is_text(reading, purpose, "nystrom");
     return !purpose->said || scheme->nystrom ||
-           fail(reading, purpose->value.begin, "for: is nystrom, where T is quadratic, or is not said");
+           gm_fail_first(&reading->fault, purpose->value.begin,
+                         "for: is nystrom, where T is quadratic, or is not said");
 }
 
 static bool read_order(struct reading *reading)
@@ -725,7 +713,7 @@ static bool read_order(struct reading *reading)
         reading->scheme->order = good ? 10 * reading->scheme->order + digit - '0' : MOST + 1;
     }
     return !order->said || (reading->scheme->order > 0 && reading->scheme->order <= MOST) ||
-           fail(reading, order->value.begin, "order: is a whole number from 1 to %d", MOST);
+           gm_fail_first(&reading->fault, order->value.begin, "order: is a whole number from 1 to %d", MOST);
 }
 
 /* Titles stand in the word, between its parentheses and semicolons. */
@@ -738,8 +726,8 @@ static bool check_title(struct reading *reading)
         const int opens = (here == '(' || here == '['), closes = (here == ')' || here == ']');
         depth = here == ';' ? -1 : depth + opens - closes;
     }
-    return depth == 0 || fail(reading, title->value.begin,
-                              "a title has no semicolon, and closes its parentheses and brackets");
+    return depth == 0 || gm_fail_first(&reading->fault, title->value.begin,
+                                       "a title has no semicolon, and closes its parentheses and brackets");
 }
 
 static bool read(struct reading *reading, struct gm_span span)
@@ -747,10 +735,10 @@ static bool read(struct reading *reading, struct gm_span span)
     struct gm_written_scheme *scheme = reading->scheme;
     struct gm_fault fault;
     if (span.end - span.begin > GM_LARGEST_SCHEME) {
-        return fail(reading, span.begin, "a scheme has at most %d bytes", GM_LARGEST_SCHEME);
+        return gm_fail_first(&reading->fault, span.begin, "a scheme has at most %d bytes", GM_LARGEST_SCHEME);
     }
     if (!gm_lines_are_text(reading->text + span.begin, span.end - span.begin, &fault)) {
-        return fail(reading, span.begin + fault.offset, "%s", fault.sentence);
+        return gm_fail_first(&reading->fault, span.begin + fault.offset, "%s", fault.sentence);
     }
     const bool is_word = gm_written_is_word(reading->text + span.begin, span.end - span.begin);
     if (!(is_word ? read_word(reading, span) : read_file(reading, span)) || !check_lines(reading, span)) {
@@ -758,7 +746,8 @@ static bool read(struct reading *reading, struct gm_span span)
     }
     const struct gm_written_line *format = &scheme->lines[GM_SCHEME_WORD_GEOMINT];
     if (format->said && !is_text(reading, format, "1")) {
-        return fail(reading, format->value.begin, "this is of a later format; this geomint reads 1");
+        return gm_fail_first(&reading->fault, format->value.begin,
+                             "this is of a later format; this geomint reads 1");
     }
     if (!read_order(reading) || !check_title(reading) || !read_lets(reading)) {
         return false;
@@ -767,7 +756,7 @@ static bool read(struct reading *reading, struct gm_span span)
         const bool numbers = words[word].holds == ROW || words[word].holds == MATRIX;
         reading->sums = word == GM_SCHEME_WORD_C && scheme->kind != GM_WRITTEN_NYSTROM;
         if (numbers && scheme->lines[word].said && !read_numbers(reading, word)) {
-            return reading->failed ? false : no_memory(reading);
+            return reading->fault.failed ? false : gm_fail_memory(&reading->fault);
         }
     }
     if (!compute(reading)) {
@@ -790,7 +779,7 @@ bool gm_written_open(struct gm_written_scheme *scheme, const char *text, size_t 
     }
     reading->scheme = scheme;
     reading->text = text;
-    reading->fault = fault;
+    reading->fault.fault = fault;
     reading->gathered = decimals;
     gm_formula_open(&reading->graph);
     reading->graph.keeps = true;

@@ -13,12 +13,12 @@
 
 /* Ink covers a pixel by clamp(half + 1/2 - |(across, along)|), the distances in pixels: a stroke's body has
    along = 0, its round cap counts along from its end, a disc has both from its centre. Text: (across,
-   along) is a place in the glyph atlas, in texels. Fields: across is the value from 0 to 1, half the alpha.
-   Images: (across, along) is the place in the image, from 0 to 1, half the alpha. */
+   along) is a place in the glyph atlas, in texels, half is 1. Fields: across is the value from 0 to 1, along 0,
+   half the alpha. Images: (across, along) is the place in the image, from 0 to 1, half the alpha. */
 struct gm_vertex {
     float x, y; /* in pixels, downwards */
     float across, along, half;
-    uint8_t colour[4]; /* of fields and images: the first is the row of the colour map, 0 or 255 */
+    uint8_t colour[4]; /* of fields and images: the row of the colour map, 0 or 255, and three of 255 */
 };
 
 enum gm_stencil {

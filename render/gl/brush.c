@@ -85,6 +85,7 @@ static void put_letter(struct gm_batch *batch, bool upwards, double x, double y,
             .y = (float)(upwards ? y - along : y + down),
             .across = (float)(letter->atlas_x + u),
             .along = (float)(letter->atlas_y + v),
+            .half = 1,
         };
         memcpy(strip[i].colour, ink.colour, sizeof strip[i].colour);
     }
@@ -114,7 +115,7 @@ static struct gm_vertex vertex(double x, double y, double across, double along, 
 {
     const uint8_t row = map == GM_MAP_SEQUENTIAL ? 0 : 255;
     return (struct gm_vertex){(float)x,     (float)y,     (float)across,
-                              (float)along, (float)alpha, {row, 0, 0, 255}};
+                              (float)along, (float)alpha, {row, 255, 255, 255}};
 }
 
 static void paint_mesh(struct gm_brush *brush, const struct gm_frame *frame, const struct gm_mark *mark)

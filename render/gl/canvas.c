@@ -12,7 +12,7 @@
 #include "render/drawing/page.h"
 #include "render/gl/brush.h"
 
-enum { MAP_STEPS = 256, MAP_ROWS = 2 };
+enum { MAP_STEPS = 256, MAP_ROWS = 2, BAND = 64 /* rows that are read back at a time, and stay in cache */ };
 
 struct gm_canvas {
     struct gm_context *context;
@@ -21,8 +21,8 @@ struct gm_canvas {
     struct gm_painter painter;
     GLuint framebuffer, colour_buffer, stencil_buffer;
     GLuint atlas, maps;
-    int atlas_height;      /* of the texture */
-    unsigned char *pixels; /* as read back, 4 bytes each */
+    int atlas_height;    /* of the texture */
+    unsigned char *band; /* rows as they are read back, 4 bytes a pixel */
     char backend[GM_MESSAGE];
 };
 
@@ -136,37 +136,32 @@ static void close_alone(struct gm_canvas *canvas)
     gm_polyline_free(&canvas->brush.dash);
     free(canvas->brush.images);
     free(canvas->brush.texels);
-    free(canvas->pixels);
+    free(canvas->band);
     gm_context_close(canvas->context);
     free(canvas);
 }
 
-static struct gm_canvas *open_alone(const struct gm_appearance *look, char *message)
+/* The page, for which the fonts are found, and the memory: what needs no GL. */
+static bool page_open(struct gm_canvas *canvas, const struct gm_appearance *look, char *message)
 {
-    struct gm_canvas *canvas = calloc(1, sizeof *canvas);
-    if (!canvas) {
-        gm_refuse(message, "There is not enough memory for a picture.");
-        return NULL;
+    if (!gm_page_open(&canvas->painter, &gm_brush_pen, &canvas->brush, look, message)) {
+        return false;
     }
-    canvas->painter.look = *look;
+    canvas->brush.glyphs = canvas->painter.glyphs;
+    const size_t rows = look->height < BAND ? (size_t)look->height : BAND;
+    canvas->band = malloc((size_t)look->width * rows * 4);
+    return canvas->band || gm_refuse(message, "There is not enough memory for a picture of %d x %d pixels.",
+                                     look->width, look->height);
+}
+
+static bool gl_page_open(struct gm_canvas *canvas, char *message)
+{
     if (!gl_open(canvas, message)) {
-        close_alone(canvas);
-        return NULL;
+        return false;
     }
     textures_open(canvas);
     canvas->brush.gl = &canvas->gl;
-    const bool page = gm_page_open(&canvas->painter, &gm_brush_pen, &canvas->brush, look, message);
-    canvas->brush.glyphs = canvas->painter.glyphs;
-    canvas->pixels = malloc((size_t)look->width * (size_t)look->height * 4);
-    if (page && !canvas->pixels) {
-        snprintf(message, GM_MESSAGE, "There is not enough memory for a picture of %d x %d pixels.",
-                 look->width, look->height);
-    }
-    if (!page || !canvas->pixels) {
-        close_alone(canvas);
-        return NULL;
-    }
-    return canvas;
+    return true;
 }
 
 const char *gm_canvas_backend(const struct gm_canvas *canvas)
@@ -224,11 +219,13 @@ static void drop_alpha(const unsigned char *rgba, unsigned char *rgb, size_t cou
 static void read_back(const struct gm_canvas *canvas, unsigned char *rgb)
 {
     const struct gm_gl *gl = &canvas->gl;
-    const size_t count = (size_t)canvas->painter.look.width * (size_t)canvas->painter.look.height;
+    const int width = canvas->painter.look.width, height = canvas->painter.look.height;
     gl->PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl->ReadPixels(0, 0, canvas->painter.look.width, canvas->painter.look.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                   canvas->pixels);
-    drop_alpha(canvas->pixels, rgb, count);
+    for (int row = 0; row < height; row += BAND) {
+        const int rows = height - row < BAND ? height - row : BAND;
+        gl->ReadPixels(0, row, width, rows, GL_RGBA, GL_UNSIGNED_BYTE, canvas->band);
+        drop_alpha(canvas->band, rgb + (size_t)row * (size_t)width * 3, (size_t)rows * (size_t)width);
+    }
 }
 
 static bool paint_alone(struct gm_canvas *canvas, struct gm_picture *picture, unsigned char *rgb)
@@ -274,15 +271,25 @@ void gm_canvas_load(void)
 
 enum { TAKEN = 512 << 20 /* bytes of the address space, by Mesa and what it loads */ };
 
+/* Fonts are found before the turn is taken: Mesa may still be loaded meanwhile. */
 struct gm_canvas *gm_canvas_open(const struct gm_appearance *look, char *message)
 {
+    struct gm_canvas *canvas = calloc(1, sizeof *canvas);
+    if (!canvas) {
+        gm_refuse(message, "There is not enough memory for a picture.");
+        return NULL;
+    }
+    bool good = page_open(canvas, look, message);
     take_turn();
-    struct gm_canvas *canvas = open_alone(look, message);
-    if (!canvas && !gm_address_space_has(TAKEN)) {
-        gm_refuse(message, "There is not enough memory to paint pictures.");
+    good = good && gl_page_open(canvas, message);
+    if (!good) {
+        close_alone(canvas);
+        if (!gm_address_space_has(TAKEN)) {
+            gm_refuse(message, "There is not enough memory to paint pictures.");
+        }
     }
     end_turn();
-    return canvas;
+    return good ? canvas : NULL;
 }
 
 void gm_canvas_close(struct gm_canvas *canvas)

@@ -234,6 +234,12 @@ static const char *const schemes[] = {"ftcs",
                                       "ftcs-family",
                                       NULL};
 
+/* Of frames, one that steps in it. */
+static const struct gm_preference preferences[] = {
+    {"show=frame", {"ftcs-invariant"}},
+    {NULL, {NULL}},
+};
+
 static const struct gm_figure figures[] = {
     {
         .name = "razafindralandy-22",
@@ -331,6 +337,7 @@ const struct gm_scene gm_scene_burgers = {
     .parameters = parameters,
     .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
+    .preferences = preferences,
     .lanes = "scheme=ftcs,lax-wendroff,ftcs-invariant,lax-wendroff-invariant lambda=0,0.5,1",
     .observables = observables,
     .observable_count = GM_COUNT(observables),

@@ -64,8 +64,7 @@ static struct gm_panel *add_panel(struct gm_picture *picture, const struct gm_la
 static void name_lane(struct gm_picture *picture, struct gm_panel *panel, const struct gm_lane *lane,
                       bool first)
 {
-    const char *typed = lane->shown.colour_name, *failure = gm_lane_failure(picture, lane);
-    const char *name = strncmp(typed, "lambda", 6) == 0 ? gm_picture_text(picture, "λ%s", typed + 6) : typed;
+    const char *name = lane->shown.colour_name, *failure = gm_lane_failure(picture, lane);
     if (first || failure[0]) {
         gm_panel_key(picture, panel, gm_lane_style(lane, 1, 2.2),
                      failure[0] ? gm_picture_text(picture, "%s, %s", name, failure) : name);

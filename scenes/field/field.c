@@ -15,6 +15,14 @@ struct gm_line gm_ring(double half_length, long points)
         .points = (size_t)points, .dx = 2 * half_length / (double)points, .first = -half_length};
 }
 
+struct gm_line gm_between_walls(double half_length, long points)
+{
+    return (struct gm_line){.points = 2 * ((size_t)points - 1),
+                            .dx = 2 * half_length / (double)(points - 1),
+                            .first = -half_length,
+                            .walls = true};
+}
+
 bool gm_settle_courant(const char *const *keys, size_t count, double dx, struct gm_timing *timing,
                        double *courant, char *sentence)
 {
@@ -39,7 +47,7 @@ double gm_field_u(const struct gm_view *view, size_t node)
 double gm_field_error(const struct gm_view *view, double (*exact)(const struct gm_view *view, double x))
 {
     double largest = 0;
-    for (size_t i = 0; i < view->problem->line.points; i++) {
+    for (size_t i = 0; i < gm_line_seen(&view->problem->line); i++) {
         const double error = fabs(view->state[i] - exact(view, gm_line_node(&view->problem->line, i)));
         largest = error > largest || isnan(error) ? error : largest;
     }
@@ -53,7 +61,8 @@ double gm_field_form_residual(const struct gm_view *view)
 
 static size_t columns_of(const struct gm_problem *problem)
 {
-    return problem->line.points < GM_SURFACE_COLUMNS ? problem->line.points : GM_SURFACE_COLUMNS;
+    const size_t seen = gm_line_seen(&problem->line);
+    return seen < GM_SURFACE_COLUMNS ? seen : GM_SURFACE_COLUMNS;
 }
 
 size_t gm_surface_width(const struct gm_view *view)
@@ -70,9 +79,9 @@ double gm_surface_interval(const void *parameters)
 void gm_surface_record(const struct gm_view *view, double (*value)(const struct gm_view *, size_t),
                        double *entry)
 {
-    const size_t points = view->problem->line.points, columns = columns_of(view->problem);
+    const size_t seen = gm_line_seen(&view->problem->line), columns = columns_of(view->problem);
     for (size_t k = 0; k < columns; k++) {
-        entry[k] = value(view, k * points / columns);
+        entry[k] = value(view, k * seen / columns);
     }
 }
 
@@ -83,7 +92,7 @@ void gm_surface_record_u(const struct gm_view *view, double *entry)
 
 static double end_of(const struct gm_line *line)
 {
-    return line->first + line->dx * (double)line->points;
+    return line->first + line->dx * (double)(line->walls ? line->points / 2 : line->points);
 }
 
 static const char *law_name(const struct gm_field_look *look)
@@ -171,9 +180,9 @@ static size_t profile(const struct gm_lane *lane, const struct gm_field_look *lo
 {
     const struct gm_view view = gm_lane_view(lane);
     const struct gm_line *line = &lane->problem.line;
-    const size_t stride = (line->points + DRAWN - 1) / DRAWN;
+    const size_t seen = gm_line_seen(line), stride = (seen + DRAWN - 1) / DRAWN;
     size_t count = 0;
-    for (size_t i = 0; i < line->points; i += stride, count++) {
+    for (size_t i = 0; i < seen; i += stride, count++) {
         points[2 * count] = line->first + line->dx * (double)i;
         points[2 * count + 1] = look->value(&view, i);
     }

@@ -36,6 +36,8 @@ struct gm_field_look {
 
 /* A ring from -half_length to half_length. */
 struct gm_line gm_ring(double half_length, long points);
+/* So many points from wall to wall. */
+struct gm_line gm_between_walls(double half_length, long points);
 
 /* Either the time step is given or the Courant number dt / dx, and the other follows. False with a sentence
    where both are given and contradict. */

@@ -189,8 +189,12 @@ static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct 
 {
     const struct scene *scene = lanes[0]->parameters;
     struct gm_moving_frame *stencils = gm_picture_memory(picture, count * sizeof *stencils);
+    bool any = false, all = true;
     for (size_t i = 0; stencils && i < count; i++) {
         stencils[i] = stencil(lanes[i]);
+        const bool projected = gm_heat_keeps(lanes[i]->scheme) & GM_HEAT_PROJECTIONS;
+        any |= projected;
+        all &= projected;
     }
     picture->title = "The moving frame at a node of the heat equation";
     picture->subtitle =
@@ -200,9 +204,9 @@ static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct 
                                        .k = lanes[0]->run->dt,
                                        .value = "ln u/uⱼ",
                                        .carried = "ln û/ûⱼ",
-                                       .section = gm_heat_keeps(lanes[0]->scheme) & GM_HEAT_PROJECTIONS
-                                                      ? "ûⱼ₋₁ = ûⱼ = ûⱼ₊₁"
-                                                      : "ûⱼ₋₁ = ûⱼ₊₁"};
+                                       .section = all   ? "ûⱼ₋₁ = ûⱼ = ûⱼ₊₁"
+                                                  : any ? "ûⱼ₋₁ = ûⱼ₊₁, by projections = ûⱼ"
+                                                        : "ûⱼ₋₁ = ûⱼ₊₁"};
     if (stencils) {
         gm_draw_moving_frame(picture, lanes, count, stencils, &look);
     }
@@ -282,6 +286,12 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
 
 static const char *const schemes[] = {"heat-ftcs", "heat-boosts", "heat-projections", NULL};
 
+/* Of frames, the one that steps in one of boosts and projections. */
+static const struct gm_preference preferences[] = {
+    {"show=frame", {"heat-projections"}},
+    {NULL, {NULL}},
+};
+
 /* The mesh ratio follows the square of dx. */
 static const double mesh[] = {0.4, 0.2, 0.1, 0.05};
 static const double compared[] = {1e-1, 1e-2, 1e-3};
@@ -331,6 +341,7 @@ const struct gm_scene gm_scene_heat = {
     .parameters = parameters,
     .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
+    .preferences = preferences,
     .lanes = "scheme=heat-ftcs,heat-boosts,heat-projections lambda=0,3,6",
     .observables = observables,
     .observable_count = GM_COUNT(observables),

@@ -5,24 +5,38 @@
    other, or the cosine of Zabusky & Kruskal (Phys. Rev. Lett. 15 (1965) 240), which breaks up into solitons.
    What to look at: how long a step each scheme bears, and what it keeps: leapfrog is bound by dx^3, the
    multisymplectic box by no such limit. Razafindralandy, Hamdouni & Chhay (2018), section "Multisymplectic
-   integrators", which has no figure of it. */
+   integrators", which has no figure of it.
+
+   And the same from frames that move with the velocity lambda,
+       (t, x, u) -> (t, x + lambda t, u + lambda/eta)
+   drawn at rest: schemes that step in a moving frame, on nodes that move along, give one and the same from
+   each; with show=frame the nodes around one and where the moving frame carries them, as in figures 19 to 23
+   of that document for Burgers' equation. */
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/field/families/kdv_frames.h"
 #include "core/field/problems/dispersive.h"
+#include "core/larger.h"
 #include "scenes/field/local_laws.h"
+#include "scenes/field/moving_frame.h"
 
 struct scene {
     struct gm_timing timing;
     struct gm_kdv kdv;
-    double half_length;
+    double half_length, at;
     long points;
     int show;
 };
 
 static const char *const initials[] = {"soliton", "two-solitons", "cosine", NULL};
 
-static const char *const shown[] = {"field", "energy-law", "momentum-law", "mass-law", NULL};
+static const char *const frames[] = {"each", "fixed", "moving", NULL};
+
+static const char *const shown[] = {"field", "energy-law", "momentum-law", "mass-law", "frame", NULL};
+enum { SHOW_FRAME = 4 };
 
 static const struct gm_parameter parameters[] = {
     GM_DT("0.05", 1e-9, 10),
@@ -40,7 +54,18 @@ static const struct gm_parameter parameters[] = {
         struct scene, half_length, "50",
         "half the length of the ring (50 for two solitons, 20 for one, 1 for the cosine, unless given)"),
     GM_POINTS(struct scene, points, "1001", 5, "of the grid"),
-    GM_LAW_ROW(struct scene, show, shown),
+    GM_REAL_ROW(struct scene, kdv.lambda, "lambda", "0", -1e3, 1e3, "velocity of the frame"),
+    GM_CHOICE_ROW(
+        struct scene, kdv.frame, "frame", "each", frames,
+        "nodes at rest in the frame, or moving by lambda dt a step, which only invariant schemes know of; each: "
+        "moving for the invariant schemes, fixed for the others"),
+    GM_CHOICE_ROW(
+        struct scene, show, "show", "field", shown,
+        "what is drawn over space and time: the field, or what each step leaves of a local law; or the "
+        "moving frame: a node with its neighbours, and where the frame carries them"),
+    GM_REAL_ROW(struct scene, at, "at", "31", -1e4, 1e4,
+                "show=frame: the node nearest to this place of the original frame (31 for two solitons, "
+                "1 beyond the start of one, 0.4 for the cosine, unless given)"),
 };
 
 /* The ring, the dispersion and the end that belong to a start. */
@@ -48,10 +73,13 @@ static bool settle(void *own, const char *const *keys, size_t count, char *sente
 {
     (void)sentence;
     struct scene *scene = own;
+    const bool cosine = scene->kdv.initial == GM_KDV_COSINE;
+    if (!gm_is_given("at", keys, count) && scene->kdv.initial != GM_KDV_TWO) {
+        scene->at = cosine ? 0.4 : scene->kdv.position + 1;
+    }
     if (!gm_is_given("initial", keys, count)) {
         return true;
     }
-    const bool cosine = scene->kdv.initial == GM_KDV_COSINE;
     if (!gm_is_given("half_length", keys, count)) {
         scene->half_length = cosine ? 1 : scene->kdv.initial == GM_KDV_TWO ? 50 : 20;
     }
@@ -86,14 +114,35 @@ static void start(const void *own, const struct gm_problem *problem, double *y)
     gm_kdv_levels(problem, ((const struct gm_timing *)own)->dt, y);
 }
 
-/* NaN where it is not known. */
-static double exact(const struct gm_view *view, double x)
+/* How far the nodes are from where they were, as the original frame sees them. */
+static double travelled(const struct gm_view *view)
 {
     const struct gm_kdv *kdv = gm_kdv_of(view->problem);
-    if (!gm_kdv_is_known(kdv, &view->problem->line, view->t)) {
+    return gm_kdv_fixed(kdv, view->scheme) ? -kdv->lambda * view->t : 0;
+}
+
+/* Of the original frame; NaN where it is not known. */
+static double exact(const struct gm_view *view, double x)
+{
+    struct gm_kdv kdv = *gm_kdv_of(view->problem);
+    if (!gm_kdv_is_known(&kdv, &view->problem->line, view->t)) {
         return NAN;
     }
-    return gm_kdv_exact(kdv, &view->problem->line, x, view->t);
+    kdv.lambda = 0;
+    return gm_kdv_exact(&kdv, &view->problem->line, x, view->t);
+}
+
+/* What the original frame sees where a node was at the start; between nodes, by a line. */
+static double at_rest(const struct gm_view *view, size_t node)
+{
+    const struct gm_kdv *kdv = gm_kdv_of(view->problem);
+    const size_t points = view->problem->line.points;
+    const double place = (double)node - travelled(view) / view->problem->line.dx;
+    const double below = floor(place), part = place - below;
+    const double around = below - floor(below / (double)points) * (double)points;
+    const size_t here = around < (double)points ? (size_t)around : 0, next = here + 1 < points ? here + 1 : 0;
+    const double u = part > 0 ? (1 - part) * view->state[here] + part * view->state[next] : view->state[here];
+    return u - kdv->lambda / kdv->eta;
 }
 
 static double mass(const struct gm_view *view)
@@ -113,8 +162,28 @@ static double energy(const struct gm_view *view)
 
 static double solution_error(const struct gm_view *view)
 {
-    return gm_field_error(view, exact);
+    const struct gm_kdv *kdv = gm_kdv_of(view->problem);
+    double largest = 0;
+    for (size_t i = 0; i < view->problem->line.points; i++) {
+        const double here = exact(view, gm_line_node(&view->problem->line, i) + travelled(view));
+        largest = gm_larger(fabs(view->state[i] - kdv->lambda / kdv->eta - here), largest);
+    }
+    return largest;
 }
+
+static double boost_defect(const struct gm_view *view)
+{
+    return gm_kdv_defect(view->problem, view->scheme, view->dt,
+                         &(const struct gm_kdv_symmetry){.boost = 0.5, .scale = 1}, view->state);
+}
+
+static double scaling_defect(const struct gm_view *view)
+{
+    return gm_kdv_defect(view->problem, view->scheme, view->dt, &(const struct gm_kdv_symmetry){.scale = 1.3},
+                         view->state);
+}
+
+#define NO_FRAME "the scheme does not step in a moving frame, or the step from here is not solved"
 
 /* The halves of the cosine cancel in u and in u³: the integrals of |u| and η|u|³/6 over its period. */
 static double mass_of_cosine(const void *own)
@@ -141,11 +210,16 @@ static const struct gm_observable observables[] = {
     GM_LOG_OBSERVABLE("local_mass_residual", gm_view_content_residual, "residual of the local mass law",
                       .missing = GM_NO_LAW),
     GM_FORM_RESIDUAL,
+    GM_LOG_OBSERVABLE("boost_defect", boost_defect, "defect of a step under a boost by 1/2",
+                      .missing = NO_FRAME),
+    GM_LOG_OBSERVABLE("scaling_defect", scaling_defect, "defect of a step under a scaling by 1.3",
+                      .missing = NO_FRAME),
 };
 
 static void record(const struct gm_view *view, double *entry)
 {
-    gm_surface_record_shown(view, ((const struct scene *)view->parameters)->show, gm_field_u, entry);
+    const int show = ((const struct scene *)view->parameters)->show;
+    gm_surface_record_shown(view, show == SHOW_FRAME ? GM_SHOW_FIELD : show, at_rest, entry);
 }
 
 static const struct gm_track tracks[] = {GM_SURFACE_TRACK(record)};
@@ -158,9 +232,88 @@ static size_t point(const void *own, double x, double u, struct gm_choice *choic
     return ((const struct scene *)own)->kdv.initial == GM_KDV_SOLITON ? 1 : 0;
 }
 
+/* At a node of the lane, in the frame that its scheme makes the next step in; the scaling by which the nodes
+   become `unit` apart follows the boost. */
+static struct gm_moving_frame moving_frame(const struct gm_lane *lane, double unit)
+{
+    const struct gm_view view = gm_lane_view(lane);
+    const struct gm_kdv *kdv = gm_kdv_of(view.problem);
+    const struct gm_line *line = &view.problem->line;
+    const size_t points = line->points;
+    const double sigma = gm_kdv_fixed(kdv, view.scheme) ? 0 : kdv->lambda * view.dt;
+    const double at = ((const struct scene *)view.parameters)->at - travelled(&view);
+    const double turns = floor((at - line->first) / (line->dx * (double)points));
+    const size_t j = gm_stencil_node(line, at - turns * line->dx * (double)points);
+    double *boosts = malloc(points * sizeof *boosts);
+    struct gm_moving_frame made = {.known =
+                                       gm_kdv_has_frames(view.scheme) && boosts &&
+                                       gm_kdv_frames(view.problem, view.scheme, view.dt, view.state, boosts)};
+    const struct gm_kdv_symmetry frame = {.boost = made.known ? boosts[j] : 0, .scale = unit / line->dx};
+    for (size_t e = 0; made.known && e < 2 * GM_STENCIL; e++) {
+        const size_t i = j + e % GM_STENCIL - GM_STENCIL / 2;
+        const bool next = e >= GM_STENCIL;
+        made.seen[e] = (struct gm_event){.t = next ? view.dt : 0,
+                                         .x = ((double)i - (double)j) * line->dx + (next ? sigma : 0),
+                                         .u = view.state[i]};
+        made.carried[e] = gm_kdv_carried(kdv, &frame, made.seen[e]);
+    }
+    free(boosts);
+    return made;
+}
+
+static void draw_frame(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
+{
+    const struct scene *scene = lanes[0]->parameters;
+    const double h = lanes[0]->problem.line.dx;
+    struct gm_moving_frame *made = gm_picture_memory(picture, count * sizeof *made);
+    bool any = false, all = true;
+    for (size_t i = 0; made && i < count; i++) {
+        made[i] = moving_frame(lanes[i], h);
+        any |= gm_kdv_solves(lanes[i]->scheme);
+        all &= gm_kdv_solves(lanes[i]->scheme);
+    }
+    picture->title = "The moving frame at a node of the Korteweg-de Vries equation";
+    picture->subtitle = gm_picture_text(picture, "the node nearest to x = %g,  h = %.3g,  k = %s,  and ĥ = h",
+                                        scene->at, h, gm_step_text(picture, lanes[0]->run->dt));
+    const struct gm_frame_look look = {.h = h,
+                                       .k = lanes[0]->run->dt,
+                                       .value = "u",
+                                       .carried = "û",
+                                       .section = all ? "û + v̂ⱼ = 0 where the node arrives"
+                                                  : any
+                                                      ? "ûⱼ₋₁ + ûⱼ + ûⱼ₊₁ = 0, or û + v̂ⱼ = 0 where it arrives"
+                                                      : "ûⱼ₋₁ + ûⱼ + ûⱼ₊₁ = 0"};
+    gm_draw_clock(picture, lanes, count);
+    if (made) {
+        gm_draw_moving_frame(picture, lanes, count, made, &look);
+    }
+}
+
+/* Why evolution and projection makes no step. */
+static void tell_failure(const struct gm_view *view, char *text, size_t size)
+{
+    const struct gm_line *line = &view->problem->line;
+    const struct gm_kdv *kdv = gm_kdv_of(view->problem);
+    double steepest = 0;
+    for (size_t i = 0; i < line->points; i++) {
+        const size_t right = i + 1 < line->points ? i + 1 : 0;
+        steepest = fmax(steepest, kdv->eta * fabs(view->state[right] - view->state[i]) / line->dx);
+    }
+    text[0] = '\0';
+    if (gm_kdv_solves(view->scheme) && steepest * fabs(view->dt) >= 2) {
+        snprintf(text, size,
+                 "neighbours that move with the wave meet within a step: eta |u_x| dt = %.3g is not below 2",
+                 steepest * fabs(view->dt));
+    }
+}
+
 static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_picture *picture)
 {
     const struct scene *scene = lanes[0]->parameters;
+    if (scene->show == SHOW_FRAME) {
+        draw_frame(lanes, count, picture);
+        return;
+    }
     static const char *const titles[] = {"A soliton of the Korteweg-de Vries equation",
                                          "One Korteweg-de Vries soliton overtakes another",
                                          "A cosine breaks up into Korteweg-de Vries solitons"};
@@ -168,7 +321,11 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     const double highest = cosine                             ? 2.5
                            : scene->kdv.initial == GM_KDV_TWO ? 5 * scene->kdv.mu / scene->kdv.eta
                                                               : 3.2 * scene->kdv.velocity / scene->kdv.eta;
-    const struct gm_field_look look = {.value = gm_field_u,
+    bool boosted = false;
+    for (size_t i = 0; i < count; i++) {
+        boosted |= gm_kdv_of(&lanes[i]->problem)->lambda != 0;
+    }
+    const struct gm_field_look look = {.value = at_rest,
                                        .exact = cosine ? NULL : exact,
                                        .name = "u",
                                        .low = cosine ? -1 : 0,
@@ -177,6 +334,9 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
                                        .show = scene->show,
                                        .content = "mass"};
     picture->title = titles[scene->kdv.initial];
+    if (boosted) {
+        picture->title = gm_picture_text(picture, "%s, drawn at rest", picture->title);
+    }
     picture->subtitle = gm_picture_text(picture, "η = %g,  μ = %.3g,  %ld points%s", scene->kdv.eta,
                                         scene->kdv.mu, scene->points, gm_shared_step(picture, lanes, count));
     const struct gm_graph graphs[] = {
@@ -191,8 +351,18 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     gm_draw_field(picture, lanes, count, &look, cosine ? graphs + 1 : graphs, cosine ? 1 : 2);
 }
 
-static const char *const schemes[] = {"box",       "zabusky-kruskal", "fourier-rk4",
-                                      "euler-box", "midpoint-box",    NULL};
+static const char *const schemes[] = {
+    "box",          "zabusky-kruskal",           "fourier-rk4",          "euler-box",
+    "midpoint-box", "zabusky-kruskal-invariant", "evolution-projection", NULL};
+
+/* Of the laws and of frames, those that have any. */
+static const struct gm_preference preferences[] = {
+    {"show=energy-law", {"box"}},
+    {"show=momentum-law", {"box"}},
+    {"show=mass-law", {"box"}},
+    {"show=frame", {"evolution-projection"}},
+    {NULL, {NULL}},
+};
 
 /* The error of the mesh hides that of the step, and the other way round: both are refined. */
 static const double mesh_points[] = {101, 201, 401, 801};
@@ -236,16 +406,18 @@ const struct gm_scene gm_scene_kdv = {
     .blurb =
         "One soliton, two, or Zabusky's and Kruskal's cosine, by the multisymplectic box and by leapfrog, whose step "
         "is bound by 0.385 Δx³/μ; the Euler box and the midpoint box are explicit and multisymplectic, bound by "
-        "Δx³/4μ and Δx³/μ.",
+        "Δx³/4μ and Δx³/μ. Two schemes step in a moving frame, and give the same whatever lambda is.",
     .watch =
         "Watch what a step costs: at Δx = 0.2 leapfrog blows up beyond Δt = 0.003, the box runs with 0.05; at "
         "equal Δt and Δx its error is the larger one, by a factor of 1.5, so the box gains its step and nothing else. The "
-        "Fourier method has a hundredth of its error with Δt = 0.025, and blows up with 0.05, where the box goes on.",
+        "Fourier method has a hundredth of its error with Δt = 0.025, and blows up with 0.05, where the box goes on. From "
+        "a frame of velocity 4 leapfrog's error is six times that at rest; the invariant one has the same to round-off.",
     .time = "that in which the equation has η and μ as given",
     .size = sizeof(struct scene),
     .parameters = parameters,
     .parameter_count = GM_COUNT(parameters),
     .schemes = schemes,
+    .preferences = preferences,
     .lanes = "scheme=box,zabusky-kruskal dt=0.05,0.0025 points=501 zip=yes",
     .observables = observables,
     .observable_count = GM_COUNT(observables),
@@ -256,6 +428,7 @@ const struct gm_scene gm_scene_kdv = {
     .settle = settle,
     .setup = setup,
     .start = start,
+    .failure = tell_failure,
     .draw = draw,
     .point = point,
 };

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/field/families/collocation_laws.h"
-#include "core/field/families/dispersive_form.h"
+#include "core/field/families/dispersive/form.h"
 #include "core/field/families/families.h"
-#include "core/field/families/wave_laws.h"
+#include "core/field/families/laws/form.h"
+#include "core/field/families/laws/wave.h"
 
 static bool residuals(const struct gm_view *view, enum gm_local_law law, double *residual)
 {
@@ -18,7 +18,7 @@ static bool residuals(const struct gm_view *view, enum gm_local_law law, double 
     if (gm_field_of(view->problem)->form->hessians) {
         return gm_form_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
     }
-    return view->scheme->family == &gm_family_box &&
+    return view->scheme->family == &gm_family_preissmann &&
            gm_dispersive_laws(view->problem, view->scheme, view->dt, view->state, law, residual);
 }
 
@@ -58,11 +58,11 @@ void gm_surface_record_shown(const struct gm_view *view, int show,
         gm_surface_record(view, value, entry);
         return;
     }
-    const size_t points = view->problem->line.points, columns = gm_surface_width(view);
-    double *residual = malloc(points * sizeof *residual);
+    const size_t seen = gm_line_seen(&view->problem->line), columns = gm_surface_width(view);
+    double *residual = malloc(view->problem->line.points * sizeof *residual);
     const bool known = residual && residuals(view, (enum gm_local_law)(show - 1), residual);
     for (size_t k = 0; k < columns; k++) {
-        entry[k] = known ? residual[k * points / columns] : NAN;
+        entry[k] = known ? residual[k * seen / columns] : NAN;
     }
     free(residual);
 }

@@ -93,11 +93,12 @@ static void draw_values(struct gm_picture *picture, const struct gm_lane *const 
     struct gm_panel *panel =
         carried ? add(picture, "the same values, carried", "x̂ / h", look->carried)
                 : add(picture, "the values there, from each frame", "(x − xⱼ) / h", look->value);
-    panel->x.low = -MIDDLE;
-    panel->x.high = MIDDLE;
+    gm_range_add(&panel->x.low, &panel->x.high, -MIDDLE);
+    gm_range_add(&panel->x.low, &panel->x.high, MIDDLE);
     for (size_t i = 0; i < count; i++) {
         const struct gm_event *events = carried ? stencils[i].carried : stencils[i].seen;
         for (size_t e = 0; stencils[i].known && e < GM_STENCIL; e++) {
+            gm_range_add(&panel->x.low, &panel->x.high, events[e].x / look->h);
             gm_range_add(&panel->y.low, &panel->y.high, events[e].u);
         }
     }

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/field/families/collocation_laws.h"
+#include "core/field/families/laws/form.h"
 #include "core/field/own/form.h"
 #include "core/field/own/potential.h"
 #include "core/formula/equations.h"
@@ -30,6 +30,7 @@ enum {
     POINTS,
     SPACE /* of an evolution */,
     SHOW = SPACE /* of others */,
+    BOUNDARY, /* but of a form */
     COMMON_ROWS
 };
 enum { MOST_DENSITIES = 32, MOST_PREFERRED = 32, COMMON = 8, MOST_GRAPHS = 3 };
@@ -63,7 +64,8 @@ struct lane {
     double half_length;
     long points;
     int space; /* enum gm_derivatives */
-    int show;  /* what the surfaces hold: scenes/field/local_laws.h */
+    int walls;
+    int show; /* what the surfaces hold: scenes/field/local_laws.h */
     double values[];
 };
 
@@ -131,7 +133,8 @@ static void close_problem(struct gm_problem *problem)
 static bool open_problem(const struct lane *lane, struct gm_problem *problem, const double *values)
 {
     const struct own_field *own = lane->own;
-    const struct gm_line line = gm_ring(lane->half_length, lane->points);
+    const struct gm_line line = lane->walls ? gm_between_walls(lane->half_length, lane->points)
+                                            : gm_ring(lane->half_length, lane->points);
     if (own->evolves) {
         return gm_own_evolution_open(problem, &own->evolution, values, &line,
                                      (enum gm_derivatives)lane->space);
@@ -200,27 +203,33 @@ static double exact(const struct gm_view *view, double x)
     return exact_component(view, 0, x);
 }
 
+/* Of all components; of potentials but for their constant, which is free. */
 static double solution_error(const struct gm_view *view)
 {
     const struct own_field *own = field_of(view);
     const struct gm_line *line = &view->problem->line;
-    double largest = gm_field_error(view, exact);
-    for (size_t i = line->points; (own->evolves || own->is_form) && i < view->problem->n; i++) {
-        const double x = gm_line_node(line, i % line->points),
-                     error = fabs(view->state[i] - exact_component(view, i / line->points, x));
-        largest = error > largest || isnan(error) ? error : largest;
+    const size_t components = own->evolves || own->is_form ? view->problem->n / line->points : 1;
+    double largest = 0;
+    for (size_t c = 0; c < components; c++) {
+        const double *u = view->state + c * line->points;
+        const bool is_free = own->is_form && gm_own_form_is_potential(view->problem, c);
+        const double constant = is_free ? u[0] - exact_component(view, c, gm_line_node(line, 0)) : 0;
+        for (size_t i = 0; i < gm_line_seen(line); i++) {
+            const double error = fabs(u[i] - constant - exact_component(view, c, gm_line_node(line, i)));
+            largest = error > largest || isnan(error) ? error : largest;
+        }
     }
     return largest;
 }
 
 static double form_energy(const struct gm_view *view)
 {
-    return gm_form_energy(view->problem, view->state);
+    return gm_form_energy(view->problem, view->scheme, view->state);
 }
 
 static double form_momentum(const struct gm_view *view)
 {
-    return gm_form_momentum(view->problem, view->state);
+    return gm_form_momentum(view->problem, view->scheme, view->state);
 }
 
 /* What linear theory says about the state, before a step beyond it blows up. */
@@ -237,7 +246,7 @@ static double crest(const struct gm_view *view)
     const double *u = view->state;
     const size_t points = line->points;
     size_t top = 0;
-    for (size_t i = 1; i < points; i++) {
+    for (size_t i = 1; i < gm_line_seen(line); i++) {
         top = u[i] > u[top] ? i : top;
     }
     const double left = u[top > 0 ? top - 1 : points - 1], right = u[top + 1 < points ? top + 1 : 0],
@@ -280,7 +289,7 @@ static double integral(const struct gm_view *view)
     }
     const double *u = view->state, *other = u + line->points, gap = other[line->points];
     double *values = values_of(view->parameters, NULL), sum = values ? 0 : NAN, density;
-    for (size_t i = 0; values && i < line->points; i++) {
+    for (size_t i = 0; values && i < gm_line_seen(line); i++) {
         const size_t right = i + 1 < line->points ? i + 1 : 0, left = i > 0 ? i - 1 : line->points - 1;
         const double jump = right == 0 || i == 0 ? line->jump : 0;
         values[0] = (u[i] + other[i]) / 2;
@@ -289,7 +298,7 @@ static double integral(const struct gm_view *view)
         values[system->velocities + 1] =
             ((u[right] + other[right] - u[left] - other[left]) / 2 + jump) / (2 * line->dx);
         gm_tape_values(&own->densities[number], values, &density, 1);
-        sum += density;
+        sum += gm_line_share(line, i) * density;
     }
     free(values);
     return sum * line->dx;
@@ -342,7 +351,7 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
     /* components of a form swing to both sides, though the start may show one of them */
     const bool crosses = own->is_form || own->low < -0.2 * own->high;
     const double most = fmax(fabs(own->low), fabs(own->high)), margin = 0.1 * (own->high - own->low);
-    const struct gm_field_look look = {
+    struct gm_field_look look = {
         .value = gm_field_u,
         .exact = own->solved ? exact : NULL,
         .name = own->system.variables[0].name,
@@ -351,6 +360,15 @@ static void draw(const struct gm_lane *const *lanes, size_t count, struct gm_pic
         .map = crosses ? GM_MAP_DIVERGING : GM_MAP_SEQUENTIAL,
         .show = lane->show,
     };
+    for (size_t i = 0; i < count && lanes[i]->problem.line.walls && lane->show == GM_SHOW_FIELD; i++) {
+        /* a kink that comes back from a wall leads to other values than it came from */
+        const struct gm_entries *rows = &lanes[i]->entries[0];
+        for (size_t k = 0; k < rows->count * rows->width; k++) {
+            if (fabs(rows->values[k]) <= 5 * most) {
+                gm_range_add(&look.low, &look.high, rows->values[k]);
+            }
+        }
+    }
     const char *beyond = "";
     for (size_t i = 0; i < count; i++) {
         const struct gm_view view = gm_lane_view(lanes[i]);
@@ -417,7 +435,7 @@ static bool make_rows(struct own_field *own)
 {
     const struct gm_own_system *system = &own->system;
     const size_t parameters = system->velocities - system->parameters;
-    own->values = COMMON_ROWS;
+    own->values = own->is_form ? BOUNDARY : COMMON_ROWS;
     own->row_count = own->values + parameters;
     own->rows = calloc(own->row_count, sizeof *own->rows);
     own->initial = calloc(1, sizeof *own->initial + parameters * (sizeof(double) + 1));
@@ -444,6 +462,11 @@ static bool make_rows(struct own_field *own)
         [POINTS] = GM_POINTS(struct lane, points, number_text(own, points), least, "of the grid"),
         [SHOW] = GM_LAW_ROW(struct lane, show, shown),
     };
+    static const char *const boundaries[] = {"ring", "walls", NULL};
+    const char *boundary = system->texts[GM_WORD_BOUNDARY];
+    common[BOUNDARY] = (struct gm_parameter)GM_CHOICE_ROW(
+        struct lane, walls, "boundary", boundary ? boundary : boundaries[0], boundaries,
+        "a ring, or walls that reflect: u_x = 0 at both ends");
     if (own->evolves) {
         common[SPACE] = (struct gm_parameter)GM_CHOICE_ROW(
             struct lane, space, "space", space ? space : spaces[0], spaces,
@@ -605,6 +628,12 @@ static bool make(struct own_field *own, const char *name, const char *const *wor
     gm_refuse(sentence, "not enough memory");
     own->evolves = system->kind == GM_EVOLUTION;
     own->is_form = system->kind == GM_MATRICES;
+    if (own->is_form && system->texts[GM_WORD_BOUNDARY] &&
+        strcmp(system->texts[GM_WORD_BOUNDARY], "walls") == 0) {
+        return gm_refuse(sentence,
+                         "an equation by matrices is one on a ring: what its components are in the mirror "
+                         "of a wall is not told");
+    }
     if (!(own->evolves   ? gm_own_evolution_derive(&own->evolution, system)
           : own->is_form ? gm_own_form_derive(&own->form, system)
                          : gm_own_wave_derive(&own->wave, system)) ||

@@ -13,7 +13,7 @@
    cell along exact waves, and the rank of the system. */
 #include <math.h>
 
-#include "core/field/families/wave_laws.h"
+#include "core/field/families/laws/wave.h"
 #include "core/field/problems/wave.h"
 #include "scenes/field/field.h"
 

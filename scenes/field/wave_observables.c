@@ -4,21 +4,27 @@
 
 #include <math.h>
 
-#include "core/field/families/wave_laws.h"
+#include "core/field/families/laws/wave.h"
+
+/* Between walls half of the ring's, whose other half is the mirror image. */
+static double seen(const struct gm_view *view, double of_ring)
+{
+    return view->problem->line.walls ? of_ring / 2 : of_ring;
+}
 
 double gm_view_energy(const struct gm_view *view)
 {
-    return gm_wave_energy(view->problem, view->state);
+    return seen(view, gm_wave_energy(view->problem, view->state));
 }
 
 double gm_view_own_energy(const struct gm_view *view)
 {
-    return gm_wave_own_energy(view->problem, view->scheme, view->state);
+    return seen(view, gm_wave_own_energy(view->problem, view->scheme, view->state));
 }
 
 double gm_view_momentum(const struct gm_view *view)
 {
-    return gm_wave_momentum(view->problem, view->state);
+    return view->problem->line.walls ? NAN : gm_wave_momentum(view->problem, view->state);
 }
 
 double gm_view_amplitude(const struct gm_view *view)

@@ -18,7 +18,8 @@ double gm_unit_momentum(const void *parameters);
     GM_KEPT_OBSERVABLE("own_energy_error", gm_view_own_energy, "H", "error of the scheme’s own energy",      \
                        .missing = "the scheme has no energy of its own"),                                    \
     GM_KEPT_OBSERVABLE("momentum_error", gm_view_momentum, "P", "momentum error",                            \
-                       .scale = gm_unit_momentum, .scale_text = "1")
+                       .scale = gm_unit_momentum, .scale_text = "1",                                         \
+                       .missing = "walls take up momentum")
 #define GM_WAVE_LAWS                                                                                         \
     GM_OBSERVABLE("amplitude", gm_view_amplitude, "largest |u|"),                                            \
     GM_LOCAL_LAWS,                                                                                           \

@@ -168,6 +168,12 @@ struct gm_scene {
     const struct gm_parameter *parameters;
     size_t parameter_count;
     const char *const *schemes; /* in preferred order, NULL-terminated; further ones may fit */
+    /* Those that are shown in the place of the first of them where such a word is typed and no scheme:
+       "show=frame", of schemes that have one; ends with a NULL. NULL: none. */
+    const struct gm_preference {
+        const char *word;
+        const char *schemes[4]; /* ends with a NULL */
+    } * preferences;
     /* What is shown where nothing is asked for: key=value with lists, by blanks; NULL: the first schemes. */
     const char *lanes;
     const struct gm_observable *observables;

@@ -324,8 +324,8 @@ const struct gm_scene gm_scene_kepler = {
     .watch =
         "Watch the energy: RK4 starts out more accurate than the symplectic methods and loses, because its error "
         "grows and theirs does not. Steps of equal length turn the axis, but for wisdom-holman2, which without "
-        "perturbation is exact; it stands under logh2 and levi-civita, which step in a fictitious time and err in "
-        "nothing but time, and nearly so where steps follow the motion and the order is high.",
+        "perturbation is exact; it stands under logh2, what is composed of it and levi-civita, which step in a "
+        "fictitious time and err in nothing but time, and nearly so where steps follow the motion and the order is high.",
     .time = "1/2π of the unperturbed orbit’s period, whatever its eccentricity",
     .size = sizeof(struct kepler),
     .parameters = parameters,

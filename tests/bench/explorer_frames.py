@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Frames a second of the explorer, bytes a frame, and the processor time of all that takes part, at 160x45.
-Usage: explorer_frames.py GEOMINT [tmux|plain] [SECONDS] [SCENE key=value ... [, SCENE ...]]
+Usage: explorer_frames.py GEOMINT [tmux|plain] [SECONDS] [SCENE key=value ... [,, SCENE ...]]
 
 In tmux the explorer runs in a pane of a server of its own, to which a client is attached that this program reads;
 plain, this program is the terminal: it reads all and answers that it has read it."""

@@ -95,7 +95,7 @@ static void waves(size_t points, double half_length, double dt, long steps, doub
     static const struct gm_sine_gordon breather = {.initial = GM_BREATHER, .frequency = 0.5};
     struct gm_problem problem = gm_problem_sine_gordon;
     problem.parameters = &breather;
-    problem.line = (struct gm_line){points, 2 * half_length / (double)points, -half_length, 0};
+    problem.line = (struct gm_line){points, 2 * half_length / (double)points, -half_length, 0, false};
     problem.n = gm_wave_size(points);
     double *y = malloc(problem.n * sizeof *y);
     gm_sine_gordon_levels(&problem, 0, dt, y);
@@ -149,7 +149,7 @@ static void boxes(size_t points, double half_length, long steps)
     static const struct gm_nls bright = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
     static const double ratios[] = {0.5, 2, 10, 20, 40};
     enum { COUNT = GM_COUNT(ratios) };
-    const struct gm_line line = {points, 2 * half_length / (double)points, -half_length, 0};
+    const struct gm_line line = {points, 2 * half_length / (double)points, -half_length, 0, false};
     struct gm_problem problem = gm_problem_sine_gordon;
     problem.parameters = &breather;
     problem.line = line;
@@ -220,7 +220,7 @@ static void typed(size_t points)
         struct gm_own_form form;
         struct gm_problem problem;
         struct gm_fault fault;
-        const struct gm_line line = {points, 40 / (double)points, -20, 0};
+        const struct gm_line line = {points, 40 / (double)points, -20, 0, false};
         if (!gm_equations_open(&system, rows[i].text, strlen(rows[i].text), NULL, 0, &fault) ||
             !gm_own_form_derive(&form, &system)) {
             printf("%s\n", fault.sentence);

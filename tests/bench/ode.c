@@ -323,6 +323,8 @@ static void kepler_to_eight_digits(double eccentricity)
         {"blanes-moan-nystrom6", {.scheme = "blanes-moan-nystrom6"}},
         {"controlled-blanes-moan-nystrom6", {.scheme = "controlled-blanes-moan-nystrom6"}},
         {"controlled-kahan-li8", {.scheme = "controlled-kahan-li8"}},
+        {"logh-kahan-li8", {.scheme = "logh-kahan-li8"}},
+        {"logh-sofroniou-spaletta10", {.scheme = "logh-sofroniou-spaletta10"}},
         {"poincare-gauss8", {.scheme = "poincare-gauss8"}},
         {"GSL rk8pd", {.theirs = by_gsl}},
 #ifdef GM_HAVE_BOOST
@@ -332,7 +334,7 @@ static void kepler_to_eight_digits(double eccentricity)
     printf("Kepler to 1e-8 after 100 periods, e = %g\n", eccentricity);
     for (size_t i = 0; i < GM_COUNT(lines); i++) {
         const struct way *way = &lines[i].way;
-        double steps = way->scheme ? 20 : 1e8, took[ROUNDS], spent, error;
+        double steps = way->scheme ? 5 : 1e8, took[ROUNDS], spent, error;
         const double most = way->scheme ? 1e6 : 1e15;
         while ((error = go(way, eccentricity, steps, &spent)) > 1e-8 && steps < most) {
             steps = ceil(steps * (way->scheme ? 1.05 : 1.5));

@@ -22,10 +22,11 @@ static double measure(const struct gm_request *request, long steps, const char *
     char message[GM_MESSAGE] = "";
     struct gm_drive drive = {.lane = gm_request_open_lane(request, 0, message), .request = request};
     const double start = gm_clock_processor_seconds();
-    struct gm_save *save = drive.lane && path ? gm_save_open(path, 1, false, message) : NULL;
+    struct gm_save *save = drive.lane && path ? gm_save_open(path, 1, false, false, message) : NULL;
     const struct gm_run *run = drive.lane ? drive.lane->run : NULL;
-    bool good = run && (!path ||
-                        (save && gm_save_begin(save, 0, run, 0, message) && gm_save_row(save, run, message)));
+    const uint64_t expected = run ? gm_rows_expected(&rows, run, steps) : 0;
+    bool good = run && (!path || (save && gm_save_begin(save, 0, run, 0, expected, message) &&
+                                  gm_save_row(save, run, message)));
     while (good && gm_drive_goes_on(&drive, steps)) {
         const double before = run->t;
         good = gm_drive_to(&drive, save ? gm_rows_next(&rows, run) : run->steps + 1, false, message) &&

@@ -249,6 +249,16 @@ ssize_t pread(int descriptor, void *bytes, size_t size, off_t offset)
     return NO_FILE_HERE ? refuse(EIO) : syscall(SYS_pread64, descriptor, bytes, size, offset);
 }
 
+ssize_t pwrite(int descriptor, const void *bytes, size_t size, off_t offset)
+{
+    return NO_FILE_HERE ? refuse(ENOSPC) : syscall(SYS_pwrite64, descriptor, bytes, size, offset);
+}
+
+int ftruncate(int descriptor, off_t size)
+{
+    return NO_FILE_HERE ? refuse(EIO) : (int)syscall(SYS_ftruncate, descriptor, size);
+}
+
 int fsync(int descriptor)
 {
     return NO_FILE_HERE ? refuse(EIO) : (int)syscall(SYS_fsync, descriptor);
@@ -273,6 +283,11 @@ int close(int descriptor)
 int rename(const char *from, const char *to)
 {
     return NO_FILE_HERE ? refuse(ENOSPC) : (int)syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0);
+}
+
+int renameat(int folder, const char *from, int other, const char *to)
+{
+    return NO_FILE_HERE ? refuse(ENOSPC) : (int)syscall(SYS_renameat2, folder, from, other, to, 0);
 }
 
 int mkdir(const char *path, mode_t mode)

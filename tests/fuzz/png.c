@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "app/output/provenance.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "render/cells/text.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

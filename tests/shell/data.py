@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 import xml.etree.ElementTree
+import zipfile
 
 from with_numpy import numpy
 
@@ -304,6 +305,7 @@ def memory():
         return int(subprocess.run([sys.executable, "-c", script, GEOMINT] + words, capture_output=True, text=True,
                                   check=True).stdout)
     few, many = peak(100000), peak(1000000)
+    check(zipfile.ZipFile("m.npz").testzip() is None, "the checksums of a million rows")
     check(many - few < 2048, f"memory of a million rows: {many} KiB, of a tenth of them {few}")
 
 
@@ -392,7 +394,7 @@ def interrupted():
     """SIGINT: what is there is complete."""
     process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --every 1000 --save i.npz".split(),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while not os.path.exists("i.npz.part/column-0-0"):
+    while not os.path.exists("i.npz.part/lane-0"):
         time.sleep(0.01)
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
@@ -400,6 +402,67 @@ def interrupted():
     with numpy.load("i.npz") as saved:
         check(len(saved["t"]) == len(saved["q1"]) > 2, "rows of an interrupted save")
         check(json.loads(str(saved["meta"]))["status"] == "interrupted", "its status")
+
+
+def no_room_for(size):
+    """No file may be longer, which stands for a full disk."""
+    return lambda: (signal.signal(signal.SIGXFSZ, signal.SIG_IGN), resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+
+
+def full():
+    """Without room for all rows those that fit are there; a run with a checkpoint goes on when there is room."""
+    words = "run kepler scheme=verlet steps=20000 --save"
+    geomint(f"{words} whole.npz")
+    geomint(f"{words} whole.csv")
+    geomint("run kepler scheme=controlled-verlet2 dt=.01 until=200 --save adaptive.npz")
+    for path in ("full.npz", "adaptive-full.npz"):
+        whole, asked = ("whole.npz", words) if path == "full.npz" else ("adaptive.npz", "run kepler scheme=controlled-verlet2 dt=.01 until=200 --save")
+        done = geomint(f"{asked} {path}", 3, preexec_fn=no_room_for(300000))
+        told = re.fullmatch(f"geomint: {path} ends after ([0-9]+) rows: File too large\n", done.stderr)
+        check(told is not None, f"no room for all rows: {done.stderr}")
+        with numpy.load(path, allow_pickle=False) as saved, numpy.load(whole, allow_pickle=False) as all_rows:
+            count = len(saved["t"])
+            check(told and count == int(told[1]) and 1000 < count < len(all_rows["t"]), f"{count} rows of {path}")
+            check(all(same(saved[name], all_rows[name][:count]) for name in ("t", "q1", "q2", "p1", "p2")),
+                  f"the rows of {path} that fit")
+            check(json.loads(str(saved["meta"]))["status"] == "interrupted", "what a file without all rows says")
+        check(zipfile.ZipFile(path).testzip() is None, f"the checksums of {path}")
+        check(not os.path.exists(f"{path}.part"), "no room: nothing else stays")
+    done = geomint(f"{words} full.csv", 3, preexec_fn=no_room_for(300000))
+    told = re.fullmatch("geomint: full.csv ends after ([0-9]+) rows: File too large\n", done.stderr)
+    table = bytes_of("full.csv")
+    check(told and table.count(b"\n") == int(told[1]) + 1 and table.endswith(b"\n"), f"rows of a table: {done.stderr}")
+    check(len(table) > 290000 and bytes_of("whole.csv").startswith(table), "the rows of a table that fit")
+    done = geomint("run kepler scheme=verlet,rk4 steps=5000 --save lanes.npz", 3, preexec_fn=no_room_for(300000))
+    check("the first 1 of 2 lanes" in done.stderr and len(numbers_of("lanes.npz")["lane0/t"]) == 8 * 5001, "lanes that fit")
+    geomint(f"{words} on.npz --checkpoint on.check", 3, preexec_fn=no_room_for(300000))
+    check(not os.path.exists("on.npz") and os.path.isdir("on.npz.part"), "no room, with a checkpoint")
+
+
+def pipes():
+    """Named pipes wait for a reader, as those of other programs do; Ctrl-C ends the waiting."""
+    for words, path in (("run kepler steps=3 --csv", "pipe.csv"), ("render kepler until=1 -o", "pipe.svg")):
+        os.mkfifo(path)
+        process = subprocess.Popen([GEOMINT] + f"{words} {path}".split(), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        with open(path, "rb") as reader:
+            check(len(reader.read()) > 100, f"{words} to a pipe")
+        check(process.wait() == 0, f"{words} to a pipe that is read")
+        process = subprocess.Popen([GEOMINT] + f"{words} {path}".split(), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        for _ in range(100):  # until it waits, where the system tells: earlier the signal stops the run, with 130 too
+            with open(f"/proc/{process.pid}/wchan") as place:
+                if "partner" in place.read():
+                    break
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=60)[1]
+        check(process.returncode == 130, f"{words} to a pipe without a reader: {process.returncode}, {said}")
+        check("Traceback" not in said and len(said.splitlines()) <= 2, f"{words} to a pipe: {said}")
+        os.remove(path)
+    os.mkfifo("pipe.npz")
+    check("no file that can be replaced" in geomint("run kepler steps=3 --save pipe.npz", 3).stderr, "states to a pipe")
+    os.remove("pipe.npz")
 
 
 def refusals():
@@ -410,15 +473,13 @@ def refusals():
     geomint("run kepler steps=3 --save file/k.npz", 3)
     check(not os.path.exists("k.hdf5"), "nothing is written")
     for ending in ("npz", "csv", "pvd"):
-        limit = lambda: (signal.signal(signal.SIGXFSZ, signal.SIG_IGN),
-                         resource.setrlimit(resource.RLIMIT_FSIZE, (10000, 10000)))
-        done = geomint(f"run sine-gordon points=401 steps=40 --save full.{ending}", 3, preexec_fn=limit)
-        check(len(done.stderr.splitlines()) == 1, f"a full disk: {done.stderr}")
-        check(not os.path.exists(f"full.{ending}.part"), "a full disk: nothing stays")
-        check(ending == "pvd" or not os.path.exists(f"full.{ending}"), "a full disk: no half file")
+        done = geomint(f"run sine-gordon points=401 steps=40 --save none.{ending}", 3, preexec_fn=no_room_for(2000))
+        check(len(done.stderr.splitlines()) == 1, f"no room for a row: {done.stderr}")
+        check(not os.path.exists(f"none.{ending}.part"), "no room for a row: nothing stays")
+        check(ending == "pvd" or not os.path.exists(f"none.{ending}"), "no room for a row: no half file")
     process = subprocess.Popen([GEOMINT] + "run kepler steps=1e12 --every 1000 --save two.npz".split(),
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while not os.path.exists("two.npz.part/column-0-0"):
+    while not os.path.exists("two.npz.part/lane-0"):
         time.sleep(0.01)
     check("a run by gsl-rk4 cannot be gone on with" in
           geomint("run kepler scheme=verlet,gsl-rk4 steps=3 --checkpoint g.check", 1).stderr, "a scheme that has no way back")
@@ -435,7 +496,7 @@ def refusals():
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for part in (rows_equal_states, shapes, flows, vtk, warm, tables, rows, profiles, tracks, memory, continued, killed, interrupted,
-                 refusals):
+                 full, pipes, refusals):
         if sys.argv[2:] == ["few"] and part in (memory, killed):  # where a sanitizer watches: they are long
             continue
         if sys.argv[2:] in ([], ["few"]) or part.__name__ in sys.argv[2:]:

@@ -62,6 +62,33 @@ done
 entries=$(ls "$XDG_CACHE_HOME/geomint" | wc -l)
 [ "$entries" = 1 ] || fail "$entries files in the cache, not 1, after others"
 
+# nor does it matter that somebody empties the cache all the while: who loses its entry is interpreted, and told
+numbers interpreted figure-eight until=21 scheme=yoshida4 >interpreted21
+{ while [ ! -e done ]; do "$geomint" cache --clear >/dev/null; done; } &
+clearing=$!
+for i in 1 2 3 4; do
+    numbers native figure-eight until=21 scheme=yoshida4 >native21
+    cmp -s interpreted21 native21 || fail "while the cache is emptied the numbers differ"
+    [ ! -s err ] || grep -q interpreted: err || fail "while the cache is emptied: $(cat err)"
+done
+touch done
+wait "$clearing"
+status 0 cache --clear
+status 0 run figure-eight until=21 scheme=yoshida4 --engine native --json
+
+# another build has entries of its own in the same cache
+cp "$geomint" other_build
+here=$geomint
+geomint=$folder/other_build
+numbers native figure-eight until=21 scheme=yoshida4 >native21
+geomint=$here
+grep -q '"engine":"native"' out || fail "another build is not native: $(cat err)"
+cmp -s interpreted21 native21 || fail "another build's numbers differ"
+entries=$(ls "$XDG_CACHE_HOME/geomint" | wc -l)
+[ "$entries" = 2 ] || fail "$entries files in the cache of two builds, not 2"
+status 0 cache --clear
+status 0 run figure-eight until=21 scheme=yoshida4 --engine native --json
+
 status 0 cache
 grep -q '^1 kernel of [0-9]* bytes in ' out || fail "cache tells $(cat out)"
 status 0 cache --clear

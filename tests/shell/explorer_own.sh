@@ -42,7 +42,6 @@ for size in 80x24 160x45; do
     wait_for 'Type to search'
     keys own
     wait_for '▸ your own system'
-    wait_for 'rigid-body' # the systems that have a name
     keys Enter
     wait_for 'H=p\^2/2 - cos\(q\)▏ q=2 p=0'
     wait_for 'That is right'
@@ -224,6 +223,40 @@ wait_for 'p=▏'
 tm resize-window -t "$pane" -x 80 -y 24
 keys 1
 wait_for 'That is right'
+keys Enter
+wait_for 'SCHEMES'
+keys q
+wait_for 'left 0'
+
+# the list of what there is has the systems of one's own folder; one that is wrong says why, and a pipe is no file
+mkdir -p "$folder/config/geomint"
+printf 'title: a spring of mine\ncoordinates: q\nH: p_q^2/2 + q^2\nstart: q = 1, p_q = 0\n' \
+    >"$folder/config/geomint/mine.system"
+printf 'title: a broken spring\ncoordinates: q\nH: p_q^2/2 + qq\nstart: q = 1, p_q = 0\n' \
+    >"$folder/config/geomint/broken.system"
+mkfifo "$folder/config/geomint/pipe.system"
+start 80x24 TERM=tmux-256color GEOMINT_COLOURS=truecolor XDG_CONFIG_HOME="$folder/config"
+open
+wait_for 'Type to search'
+keys rigid
+wait_for '▸ rigid-body'
+wait_for 'A free rigid body, by'
+keys Escape
+keys pipe
+wait_for 'it is a pipe, and no file'
+keys Enter
+wait_for '▸ pipe'
+keys broken
+wait_for 'there is no name qq'
+caret qq
+keys Enter
+wait_for '▸ broken'
+keys mine
+wait_for 'a spring of mine, by'
+keys Enter
+wait_for 'SCHEMES'
+keys l
+wait_for '▸ mine'
 keys Enter
 wait_for 'SCHEMES'
 keys q

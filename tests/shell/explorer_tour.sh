@@ -98,6 +98,8 @@ keys Tab
 wait_for '▸ area'
 wait_for '7\. +What area cannot tell'
 keys Tab
+wait_for '▸ argon'
+keys Tab
 wait_for '▸ disc'
 keys train # a word of what a tour is about
 wait_for 'search: train_'
@@ -123,9 +125,11 @@ settled | grep -q 'Moving with the flow' && fail "the tour is not over"
 keys l
 wait_for '▸ disc'
 keys End
-wait_for '▸ turns'
-for tour in steps noether made flat worth; do
-    keys Up
+wait_for '▸ toda'
+keys Home Tab
+wait_for '▸ area'
+for tour in energy chaos space-time mesh galilei room worth; do
+    keys Down
     wait_for "▸ $tour"
 done
 keys Enter

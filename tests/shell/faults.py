@@ -43,6 +43,7 @@ COMMANDS = [
     ("run oscillator scheme=variational-midpoint steps=5 --json", {}),
     ("run sine-gordon points=101 steps=3 --json", {}),
     ("run kepler steps=5 --save OUT/a.npz", {}),
+    ("run kepler scheme=verlet,controlled-verlet2 dt=.01 steps=5000 --save OUT/a.npz", {}),
     ("run abc steps=5 --save OUT/a.csv --checkpoint OUT/a.checkpoint", {}),
     ("run henon-heiles until=20 --save-tracks OUT/a.npz", {}),
     ("run kdv points=101 steps=3 --json --state", {}),

@@ -26,7 +26,7 @@ forbid library '(app/(commands|explorer)|tests)/'
 
 # the floors of app: a room sees none above it, and the words of a command line stay with the commands
 above='commands|explorer'
-for floor in tours 'lanes studies figures data' output 'request cores' native; do
+for floor in tours 'lanes studies figures data' output 'request cores' 'own native'; do
     for room in $floor; do
         forbid "app/$room" "app/($above)/"
     done

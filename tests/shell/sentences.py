@@ -41,11 +41,14 @@ def expect(good, sentence, numbers):
 
 def kepler():
     listed, (exact, fictitious) = told("kepler", "Steps of equal length turn the axis, but for (.*?), which without "
-                                                 "perturbation is exact; it stands under (.*?), which .*, and nearly "
+                                                 "perturbation is exact; it stands under (.*?), which step.*, and nearly "
                                                  "so where steps follow the motion and the order is high")
     schemes = listed["schemes"]
     keep = names(schemes, fictitious + " " + exact)
     good = expect(len(keep) == 3, "three schemes are named", keep)
+    composed = {scheme for scheme in schemes if scheme.startswith("logh-")}
+    good &= expect(len(composed) == 4 and "what is composed of it" in fictitious, "and what is composed of logh2", composed)
+    keep |= composed
     orbits = {}
     for some in (schemes[:40], schemes[40:]):  # a list has at most 64 words
         orbits |= run("kepler", "scheme=" + ",".join(some), "eccentricity=0.6", "dt=pi/100", "until=20*pi")

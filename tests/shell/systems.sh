@@ -102,6 +102,10 @@ misplaced '4:14: there is no function ln; did you mean log' 'observe: r = ln(x)'
 misplaced '4:10: the monitor is -1 at the start: how dense steps are is a number above 0' 'monitor: x - 2'
 misplaced '4:10: a monitor holds coordinates, momenta and parameters alone' 'monitor: 1 + t'
 refused 1 'does not fit scene system: it needs a monitor, the density of steps; geomint list' run system H='p^2/2 + q^2/2' q=1 p=0 scheme=controlled-verlet2
+refused 1 'it needs a potential V(q) < 0 of a Hamiltonian T(p) + V(q)' run system H='p^2/2 + q^2' q=1 p=0 scheme=logh2
+"$geomint" run system H='p^2/2 - cos(q)' q=0 p=1.9 scheme=logh2 dt=.01 until=10 >out
+[ $? = 2 ] || fail "a potential that is not negative is no failure"
+grep -q 'the potential, which has to be negative, is -0.119' out || fail "no word of the potential: $(cat out)"
 printf 'coordinates: x\nH: p_x^2/2 + x^2/2\nstart: x = 1, p_x = 0\nmonitor: x - 0.5\ndt: 0.001\nuntil: 9\n' >falls.system
 "$geomint" run ./falls.system scheme=controlled-verlet2 >out 2>err
 [ $? = 2 ] || fail "a monitor that falls to 0 is no failure"
@@ -401,6 +405,33 @@ grep -q "$(printf '\033')" out && fail 'an escape of a file reached the terminal
     fail 'stability does not tell its unit'
 "$geomint" complete run doub | grep -q '^double-pendulum' || fail 'systems are not completed'
 "$geomint" complete run lorenz rh | grep -q '^rho=' || fail 'keys of systems are not completed'
+
+# a solitary wave of Serre's equations comes around the ring in its exact shape, to order 2; by midpoint the momentum is
+# kept, by averages along the step the energy too; two that meet stand higher than both together
+length='30/sqrt(1.3)'
+for steps in 66 132; do
+    "$geomint" run serre scheme=midpoint N=$((30 * steps / 66)) "dt=$length/$steps" "until=$length" --json >wave$steps.json
+done
+"$geomint" run serre scheme=avf2 N=20 until=10 --json >wave.json
+"$geomint" run serre scheme=midpoint B=0.3 s=7 dt=0.1 until=6.3 --json --state >meeting.json
+python3 -c '
+import json, math
+def observed(name):
+    return json.load(open(name))["observables"]
+coarse, fine, kept = observed("wave66.json"), observed("wave132.json"), observed("wave.json")
+assert 0.011 < fine["shape_error"] < 0.012 and 1.85 < math.log2(coarse["shape_error"] / fine["shape_error"]) < 2.1
+assert fine["momentum_error"] < 1e-14 and 1e-9 < fine["energy_error"] < 1e-6
+assert kept["momentum_error"] < 1e-14 and kept["energy_error"] < 1e-14
+x = json.load(open("meeting.json"))["state"][:60]
+# the water above the depth of two waves A/cosh(kx)^2, A/k tanh(kx) of it from the crest on
+k, D = math.sqrt(0.9 / 1.3) / 2, 0.5
+def above(i):
+    place = -15 + i * D
+    return 0.3 / k * (math.tanh(k * (place + 7)) + math.tanh(k * (place - 7)))
+heights = [(D + above(i + 1) - above(i)) / (x[i + 1] - x[i]) - 1 for i in range(59)]
+assert 0.6 < max(heights) < 0.68, max(heights)
+print(coarse, fine, kept, max(heights))
+' >out 2>&1 || fail "waves of Serre: $(cat out)"
 
 # the camera
 cat >space.system <<'END'

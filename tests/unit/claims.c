@@ -11,8 +11,8 @@
 #include "core/certify.h"
 #include "core/count.h"
 #include "core/field/families/families.h"
-#include "core/field/families/lobatto.h"
 #include "core/field/families/two_step.h"
+#include "core/field/families/waves/lobatto.h"
 #include "core/field/problems/burgers.h"
 #include "core/flow/families/families.h"
 #include "core/mesh/families/control.h"
@@ -128,6 +128,8 @@ static void properties_that_are_false(void **unused)
         {"tao2", GM_KEEPS_QUADRATIC},
         {"energy-conserving", GM_MULTISYMPLECTIC},
         {"heat-ftcs", GM_EQUIVARIANT},
+        {"zabusky-kruskal", GM_EQUIVARIANT},
+        {"evolution-projection", GM_KEEPS_LINEAR},
         {"leapfrog", GM_KEEPS_ENERGY},
         {"box", GM_KEEPS_ENERGY},
         {"gauss-box2", GM_KEEPS_ENERGY},
@@ -599,7 +601,7 @@ static void a_fictitious_time_gone_wrong(void **unused)
 {
     (void)unused;
     fictitious_step *const one_drift = half_drifts_as_one, *const aside = kick_aside;
-    struct gm_scheme wrong = changed("logh2");
+    struct gm_scheme wrong = changed("levi-civita");
     wrong.order = 1;
     wrong.coefficients = &one_drift;
     struct gm_certificate certificate = gm_certify(&wrong);
@@ -612,6 +614,17 @@ static void a_fictitious_time_gone_wrong(void **unused)
     certificate = gm_certify(&wrong);
     assert_true(certificate.claims[12].measured && certificate.claims[12].defect > 1e-9);
     assert_false(certificate.claims[12].holds);
+    static const char *const composed[] = {"logh-suzuki4", "logh-kahan-li6", "logh-kahan-li8",
+                                           "logh-sofroniou-spaletta10"};
+    for (size_t i = 0; i < GM_COUNT(composed); i++) {
+        wrong = changed(composed[i]);
+        struct gm_composition digit = *(const struct gm_composition *)wrong.coefficients;
+        digit.gammas[1] += 1e-4;
+        wrong.coefficients = &digit;
+        certificate = gm_certify(&wrong);
+        assert_false(certificate.order_holds);
+        assert_true(certificate.claims[1].holds && certificate.claims[12].holds);
+    }
 }
 
 /* The midpoint rule of a uniform mesh with its stage a little late: no discrete Lagrangian has it. */

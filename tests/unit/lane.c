@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
+#include "app/own/system.h"
 #include "app/request/request.h"
-#include "app/request/system.h"
 #include "core/count.h"
 #include "core/flow/flow.h"
 #include "core/memory.h"

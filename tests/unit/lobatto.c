@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/field/families/lobatto.h"
+#include "core/field/families/waves/lobatto.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/wave.h"
 #include "core/run.h"
@@ -200,7 +200,7 @@ static void the_law_holds(void **unused)
 static void steps_are_bound_as_told(void **unused)
 {
     (void)unused;
-    static const char *const names[] = {"lobatto-box2", "lobatto-box4"};
+    static const char *const names[] = {"lobatto-box2", "lobatto-box4", "lobatto-nystrom4"};
     for (size_t s = 0; s < GM_COUNT(names); s++) {
         const struct gm_scheme *scheme = gm_scheme_find(names[s]);
         for (int above = 0; above < 2; above++) {

@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -371,6 +372,32 @@ static void refused(const char *why)
     gm_lane_close(wanted);
 }
 
+/* Whether a process of its own, which has loaded nothing yet, steps that as the interpreter does: natively or,
+   where a word is given, interpreted with a sentence that holds it. */
+static bool is_stepped_elsewhere(const char *words, const char *says)
+{
+    int how = 0;
+    const pid_t process = fork();
+    if (process == 0) {
+        char message[GM_MESSAGE];
+        struct gm_lane *lane = try_lane(words, "rk4", GM_ENGINE_NATIVE, message);
+        struct gm_lane *wanted = try_lane(words, "rk4", GM_ENGINE_INTERPRETED, message);
+        bool good = lane && wanted && strcmp(gm_engine_of(lane), says ? "interpreted" : "native") == 0 &&
+                    (!says || strstr(heard, says));
+        if (good) {
+            gm_run_advance(lane->run, STEPS);
+            gm_run_advance(wanted->run, STEPS);
+            good = memcmp(gm_run_state(lane->run), gm_run_state(wanted->run),
+                          lane->problem.n * sizeof(double)) == 0;
+        }
+        if (!good) {
+            print_error("%s: %s\n", words, heard);
+        }
+        _exit(!good);
+    }
+    return process > 0 && waitpid(process, &how, 0) == process && how == 0;
+}
+
 /* A compiler that is a script. */
 static void with_compiler(const char *script)
 {
@@ -408,6 +435,40 @@ static void compilers_fail(void **state)
     /* loops whose numbers are others */
     with_compiler("#!/bin/sh\nPATH=/usr/bin:/bin; exec cc -Dsin=cos \"$@\"\n");
     refused("bit by bit");
+}
+
+/* What is in the cache under the right key, whole, but lacks a symbol: it is refused, goes, and the next start
+   makes it anew. Each start is a process of its own, as one remembers what it has loaded. */
+static void entries_lack_symbols(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *source, *says;
+    } lacking[] = {
+        {"int nothing;", "it holds no loops"},
+        {"int gone(void); int gm_loops_own_native(void) { return gone(); }", "undefined symbol: gone"},
+    };
+    char cache[GM_CACHE_PATH], aside[GM_CACHE_PATH + 8], command[2 * GM_CACHE_PATH], message[GM_MESSAGE];
+    assert_true(gm_cache_folder(cache, message));
+    snprintf(aside, sizeof aside, "%s/aside", cache);
+    for (size_t i = 0; i < GM_COUNT(lacking); i++) {
+        const char *words = fresh();
+        struct gm_cache_entry *entries = NULL;
+        size_t count = 0;
+        assert_true(is_stepped_elsewhere(words, NULL));
+        assert_true(gm_cache_list(cache, &entries, &count));
+        assert_int_equal(count, 1);
+        snprintf(command, sizeof command, "echo '%s' | cc -shared -fPIC -o '%s' -x c -", lacking[i].source,
+                 aside);
+        assert_int_equal(system(command), 0);
+        assert_true(gm_cache_keep(cache, aside, &entries[0].key));
+        free(entries);
+        assert_true(is_stepped_elsewhere(words, lacking[i].says));
+        assert_true(gm_cache_list(cache, &entries, &count));
+        assert_int_equal(count, 0);
+        assert_true(is_stepped_elsewhere(words, NULL));
+        assert_int_equal(gm_cache_clear(cache), 1);
+    }
 }
 
 static void compilers_hang(void **state)
@@ -533,6 +594,7 @@ int main(int argc, char *argv[])
         cmocka_unit_test_setup_teardown(entries_are_whole, begin, end),
         cmocka_unit_test_setup_teardown(caches_are_bounded, begin, end),
         cmocka_unit_test_setup_teardown(caches_fail, begin, end),
+        cmocka_unit_test_setup_teardown(entries_lack_symbols, begin, end),
         cmocka_unit_test_setup_teardown(compilers_fail, begin, end),
         cmocka_unit_test_setup_teardown(compilers_hang, begin, end),
         cmocka_unit_test_setup_teardown(engines_agree, begin, end),

@@ -45,7 +45,7 @@ static void open_typed(struct typed *typed, const char *text)
     double *values = gm_equations_start(&typed->system, NULL);
     assert_true(gm_own_wave_open(&typed->problem, &typed->wave, values));
     free(values);
-    typed->problem.line = (struct gm_line){POINTS, 2 * HALF / POINTS, -HALF, 0};
+    typed->problem.line = (struct gm_line){POINTS, 2 * HALF / POINTS, -HALF, 0, false};
     typed->problem.n = SIZE;
 }
 

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/field/families/collocation_laws.h"
+#include "core/field/families/laws/form.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/own/form.h"
 #include "core/field/problems/dirac.h"
@@ -68,7 +68,7 @@ static void open_typed(struct typed *typed, const char *text, size_t points, dou
     }
     assert_true(gm_own_form_derive(&typed->form, &typed->system));
     double *values = gm_equations_start(&typed->system, NULL);
-    const struct gm_line line = {points, length / (double)points, -length / 2, 0};
+    const struct gm_line line = {points, length / (double)points, -length / 2, 0, false};
     assert_true(gm_own_form_open(&typed->problem, &typed->form, values, &line));
     if (!gm_own_form_closes(&typed->problem, sentence, sizeof sentence)) {
         fail_msg("%s: %s", text, sentence);
@@ -204,7 +204,7 @@ static void friction_breaks_it(void **unused)
     m[0] += 0.01;
     problem.facets = &facets;
     problem.parameters = &standing;
-    problem.line = (struct gm_line){NODES, 0.4, -20.2, 0};
+    problem.line = (struct gm_line){NODES, 0.4, -20.2, 0, false};
     problem.n = 4 * NODES;
     for (size_t i = 0; i < NODES; i++) {
         double s[4];
@@ -266,19 +266,56 @@ static void local_laws_err_by_the_second_order(void **unused)
     }
 }
 
-/* The energy of Korteweg and de Vries' equation holds its potential, whose constant is free: it may not wander. */
+/* The energy of Korteweg and de Vries' equation holds its potential, whose constant is free: it may not wander. It errs
+   by the order of the scheme, of which boxes of several stages have more than means in cells show. */
 static void the_constant_of_a_potential_stays(void **unused)
 {
     (void)unused;
+    static const double most[] = {3e-3, 3e-3, 3e-4, 3e-5};
     for (size_t s = 0; s < GM_COUNT(boxes); s++) {
         struct typed typed;
         open_typed(&typed, KDV, POINTS, 40);
+        const struct gm_scheme *scheme = gm_scheme_find_for(boxes[s], &typed.problem);
         struct gm_run *run = run_of(&typed.problem, boxes[s], 0.05, typed.y);
-        const double before = gm_form_energy(&typed.problem, typed.y);
+        const double before = gm_form_energy(&typed.problem, scheme, typed.y);
         assert_int_equal(gm_run_advance(run, 200), GM_OK);
-        const double change = fabs(gm_form_energy(&typed.problem, gm_run_state(run)) / before - 1);
-        if (!(change < 3e-3)) {
+        const double change = fabs(gm_form_energy(&typed.problem, scheme, gm_run_state(run)) / before - 1);
+        if (!(change < most[s])) {
             fail_msg("%s: %.2e", boxes[s], change);
+        }
+        gm_run_close(run);
+        close_typed(&typed);
+    }
+}
+
+/* w of Korteweg and de Vries' equation has no rate of its own, and is u/2 of a soliton. What waves too fast for a step
+   have of the start may not add up in it, however short steps are, nor rounding over dt keep one from being solved. */
+static void a_component_without_a_rate_stays_what_the_equations_say(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *scheme;
+        double dt;
+        long steps;
+        double error;
+    } runs[] = {{"gauss-box3", 0.05, 40, 3e-4},
+                {"gauss-box3", 0.005, 200, 3e-4},
+                {"gauss-box3", 0.0005, 20, 3e-4},
+                {"gauss-box4", 0.005, 100, 1e-4},
+                {"gauss-box4", 0.0005, 10, 1e-4}};
+    for (size_t k = 0; k < GM_COUNT(runs); k++) {
+        struct typed typed;
+        open_typed(&typed, KDV, POINTS, 40);
+        struct gm_run *run = run_of(&typed.problem, runs[k].scheme, runs[k].dt, typed.y);
+        assert_int_equal(gm_run_advance(run, runs[k].steps), GM_OK);
+        const double *w = gm_run_state(run) + 3 * POINTS, t = (double)runs[k].steps * runs[k].dt;
+        double apart = 0;
+        for (size_t i = 0; i < POINTS; i++) {
+            const double x = gm_line_node(&typed.problem.line, i) + 5 - t;
+            apart = fmax(apart, fabs(w[i] - 1.5 / pow(cosh(x / 2), 2)));
+        }
+        if (!(apart < runs[k].error)) {
+            fail_msg("%s, dt = %g: w is %.2e off", runs[k].scheme, runs[k].dt, apart);
         }
         gm_run_close(run);
         close_typed(&typed);
@@ -366,6 +403,8 @@ static void a_start_that_does_not_close_is_refused(void **unused)
          "u at the start does not close"},
         {SINE_GORDON "start: u = x/10, v = 0, w = 0.1\njump: u = 4\n", "does not repeat after the jumps"},
         {SINE_GORDON "start: u = 1/x, v = 0, w = 0\n", "u at the start is not finite where x = 0"},
+        {KDV "jump: phi = 5\n",
+         "phi gains 12 around the ring, which follows from the others at the start, and not 5"},
         {"components: u v\nK-matrix: 0, -1 | 1, 0\nL-matrix: 0, 0 | 0, 0\nS: u^2 + v^2\nstart: u = 0, v = 0\n",
          "L is 0 with these values, and nothing changes in space"},
     };
@@ -374,7 +413,7 @@ static void a_start_that_does_not_close_is_refused(void **unused)
         struct gm_own_form form;
         struct gm_problem problem;
         struct gm_fault fault;
-        const struct gm_line line = {100, 0.4, -20, 0};
+        const struct gm_line line = {100, 0.4, -20, 0, false};
         char sentence[400] = "";
         assert_true(gm_equations_open(&system, starts[i].text, strlen(starts[i].text), NULL, 0, &fault));
         assert_true(gm_own_form_derive(&form, &system));
@@ -398,6 +437,7 @@ int main(void)
         cmocka_unit_test(friction_breaks_it),
         cmocka_unit_test(local_laws_err_by_the_second_order),
         cmocka_unit_test(the_constant_of_a_potential_stays),
+        cmocka_unit_test(a_component_without_a_rate_stays_what_the_equations_say),
         cmocka_unit_test(what_alternates_is_left_out),
         cmocka_unit_test(what_is_wrong_is_said),
         cmocka_unit_test(a_start_that_does_not_close_is_refused),

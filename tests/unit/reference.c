@@ -178,7 +178,7 @@ static void schemes_that_choose_their_step_agree(void **unused)
         gm_run_close(run);
         found++;
     }
-    assert_int_equal(found, 13);
+    assert_int_equal(found, 17);
 }
 
 /* Unperturbed, half a step turns the eccentric anomaly by 4 atan(ds sqrt(B/8)/2), B = 1/(2a); the time that

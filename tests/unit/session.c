@@ -20,7 +20,7 @@
 #include "app/explorer/view/studies.h"
 #include "app/lanes/session.h"
 #include "app/lanes/slider.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "app/request/drive.h"
 #include "core/count.h"
 #include "core/schemes.h"

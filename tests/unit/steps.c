@@ -75,7 +75,8 @@ static void energy_over_a_thousand_periods(void **unused)
                  {"controlled-blanes-moan4", 0, 1e-6},
                  {"controlled-gauss4", 0, 1e-6},
                  {"poincare-midpoint2", 0, 1e-4},
-                 {"poincare-gauss4", 0, 1e-6}};
+                 {"poincare-gauss4", 0, 1e-6},
+                 {"logh-kahan-li8", 0, 1e-10}};
     double start[4];
     nearest_point(0.9, start);
     for (size_t i = 0; i < GM_COUNT(lines); i++) {
@@ -100,6 +101,8 @@ static void extended_map(const char *name, const double *from, double *to)
     memcpy(memory, gm_run_memory(run), sizeof memory);
     if (strncmp(name, "poincare", strlen("poincare")) == 0) {
         memory[0] = from[5];
+    } else if (strncmp(name, "logh", strlen("logh")) == 0) {
+        memory[0] = -from[5];
     }
     gm_run_set_state(run, from, memory);
     assert_int_equal(gm_run_advance(run, 5), GM_OK);
@@ -145,8 +148,9 @@ static double symplectic_defect(const char *name)
 static void symplectic_in_the_extended_phase_space(void **unused)
 {
     (void)unused;
-    static const char *const symplectic[] = {"poincare-midpoint2", "poincare-gauss4", "poincare-gauss6",
-                                             "poincare-gauss8"};
+    static const char *const symplectic[] = {
+        "poincare-midpoint2", "poincare-gauss4", "poincare-gauss6", "poincare-gauss8",          "logh2",
+        "logh-suzuki4",       "logh-kahan-li6",  "logh-kahan-li8",  "logh-sofroniou-spaletta10"};
     for (size_t i = 0; i < GM_COUNT(symplectic); i++) {
         const double defect = symplectic_defect(symplectic[i]);
         if (!(defect < 1e-7)) {
@@ -203,6 +207,45 @@ static void a_typed_monitor(void **unused)
     untype(&typed);
 }
 
+/* The logarithmic Hamiltonian of whatever attracts: masses change nothing, and a place where V is not negative
+   is one that no step leads to. */
+static void a_typed_attraction(void **unused)
+{
+    (void)unused;
+    static const char *const texts[] = {
+        "coordinates: x y\nparameter: m = 1\nH: (p_x^2 + p_y^2)/(2*m) - 1/r\nlet: r = sqrt(x^2 + y^2)\n"
+        "start: x = 0.5, y = 0, p_x = 0, p_y = sqrt(3)\n",
+        "coordinates: x y\nL: (v_x^2 + v_y^2)/2 + 1/sqrt(x^2 + y^2)\n"
+        "start: x = 0.5, y = 0, p_x = 0, p_y = sqrt(3)\n"};
+    struct typed typed;
+    for (size_t i = 0; i < GM_COUNT(texts); i++) {
+        type(&typed, texts[i]);
+        struct gm_run *own = open_run(&typed.problem, "logh-kahan-li6", 0.1, typed.start);
+        struct gm_run *built_in = open_run(&gm_problem_kepler, "logh-kahan-li6", 0.1, typed.start);
+        assert_int_equal(gm_run_advance(own, 500), GM_OK);
+        assert_int_equal(gm_run_advance(built_in, 500), GM_OK);
+        assert_float_equal(own->t, built_in->t, 1e-11);
+        for (size_t c = 0; c < 4; c++) {
+            assert_float_equal(gm_run_state(own)[c], gm_run_state(built_in)[c], 1e-11);
+        }
+        gm_run_close(own);
+        gm_run_close(built_in);
+        untype(&typed);
+    }
+    type(&typed, "coordinates: x\nH: p_x^2/2 + x^4/4\nstart: x = 1, p_x = 0\n");
+    const struct gm_scheme *scheme = gm_scheme_find_for("logh2", &typed.problem);
+    assert_false(gm_scheme_fits(scheme, &typed.problem));
+    assert_string_equal(gm_scheme_lacks(scheme, &typed.problem),
+                        "a potential V(q) < 0 of a Hamiltonian T(p) + V(q)");
+    untype(&typed);
+    type(&typed, "coordinates: x\nH: p_x^2/2 - cos(x)\nstart: x = 0, p_x = 1.9\n");
+    struct gm_run *run = open_run(&typed.problem, "logh-kahan-li8", 0.01, typed.start);
+    assert_int_equal(gm_run_until(run, 100), GM_STEP_COLLAPSE);
+    assert_true(fabs(gm_run_state(run)[0]) < M_PI / 2 && run->t < 2);
+    gm_run_close(run);
+    untype(&typed);
+}
+
 /* The last step is the one that reaches the time, whether steps are made together or one by one. */
 static void where_they_end(void **unused)
 {
@@ -237,6 +280,7 @@ int main(void)
         cmocka_unit_test(energy_over_a_thousand_periods),
         cmocka_unit_test(symplectic_in_the_extended_phase_space),
         cmocka_unit_test(a_typed_monitor),
+        cmocka_unit_test(a_typed_attraction),
         cmocka_unit_test(where_they_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

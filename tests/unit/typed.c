@@ -9,8 +9,10 @@
 
 #include <cmocka.h>
 
+#include "app/own/now.h"
+#include "app/own/replacing.h"
+#include "app/own/system.h"
 #include "app/request/request.h"
-#include "app/request/system.h"
 #include "app/request/typed.h"
 #include "core/run.h"
 
@@ -117,7 +119,7 @@ static void formulas(void **unused)
 {
     (void)unused;
     struct gm_arguments found = {0};
-    assert_true(gm_system_formulas(
+    assert_true(gm_replacing_words(
         "title: H: no\nH: p^2/2 # kinetic\n  + q^2/2\nrate: x = -x\n  # alone\nstart: q = 1\n", &found));
     assert_int_equal(found.count, 2);
     assert_string_equal(found.words[0], "H=p^2/2 + q^2/2");
@@ -137,7 +139,7 @@ static void saved(void **unused)
     struct gm_request request;
     assert_true(gm_system_recall("lists", text));
     assert_true(gm_request_parse(&request, 4, words, 1, message));
-    char *now = gm_system_text(request.scene, request.lanes[0].parameters);
+    char *now = gm_system_now(request.scene, request.lanes[0].parameters);
     assert_non_null(now);
     assert_non_null(strstr(now, "parameter: k[1..3] = 1, 5, 3; 0 .. 10\n"));
     assert_non_null(strstr(now, "q[1] = 1, q[2] = 2, q[3] = 7,\n"));
@@ -159,7 +161,7 @@ static void saved(void **unused)
     /* of a system in words, too, how it runs */
     char *typed[] = {"system", "H=p^2/2 + q^4/4", "q=1", "p=0", "dt=0.05", "until=7", "members=9"};
     assert_true(gm_request_parse(&request, 7, typed, 1, message));
-    now = gm_system_text(request.scene, request.lanes[0].parameters);
+    now = gm_system_now(request.scene, request.lanes[0].parameters);
     assert_non_null(now);
     assert_non_null(strstr(now, "\ndt: 0.05\n"));
     assert_non_null(strstr(now, "\nuntil: 7\n"));

@@ -167,7 +167,7 @@ static void the_box_takes_large_steps(void **unused)
         const double dt = steps[s];
         struct gm_problem problem = gm_problem_sine_gordon;
         problem.parameters = &breather;
-        problem.line = (struct gm_line){POINTS, 40.0 / POINTS, -20, 0};
+        problem.line = (struct gm_line){POINTS, 40.0 / POINTS, -20, 0, false};
         problem.n = gm_wave_size(POINTS);
         double y[2 * POINTS + 1], levels[3][POINTS];
         gm_sine_gordon_levels(&problem, 0, dt, y);

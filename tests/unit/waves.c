@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "core/count.h"
-#include "core/field/families/wave_laws.h"
+#include "core/field/families/laws/wave.h"
 #include "core/field/multisymplectic.h"
 #include "core/field/problems/dispersive.h"
 #include "core/field/problems/sine_gordon.h"
@@ -47,7 +47,7 @@ static void expect_level(const double *u, const double *expected, double toleran
 static struct gm_problem wave_problem(size_t points, double half_length, double jump)
 {
     struct gm_problem problem = gm_problem_sine_gordon;
-    problem.line = (struct gm_line){points, 2 * half_length / (double)points, -half_length, jump};
+    problem.line = (struct gm_line){points, 2 * half_length / (double)points, -half_length, jump, false};
     problem.n = gm_wave_size(points);
     return problem;
 }
@@ -425,7 +425,7 @@ static void dispersive_levels_agree(void **unused)
 
     const struct gm_kdv cosine = {.initial = GM_KDV_COSINE, .eta = 1, .mu = 0.022 * 0.022};
     problem.parameters = &cosine;
-    problem.line = (struct gm_line){REFERENCE_POINTS, 2.0 / REFERENCE_POINTS, 0, 0};
+    problem.line = (struct gm_line){REFERENCE_POINTS, 2.0 / REFERENCE_POINTS, 0, 0, false};
     gm_kdv_levels(&problem, 1e-3, y);
     expect_level(y + REFERENCE_POINTS, level("kdv_cosine_level_1"), 1e-15, "second level of the cosine");
     memcpy(y, level("kdv_cosine_level_0"), bytes);
@@ -514,7 +514,7 @@ static double derivative(double (*u)(double x, double t), double x, double t, in
 static double two_kdv_solitons(double x, double t)
 {
     static const struct gm_kdv two = {.initial = GM_KDV_TWO, .eta = 1, .mu = 1};
-    static const struct gm_line ring = {1000, 0.1, -50, 0};
+    static const struct gm_line ring = {1000, 0.1, -50, 0, false};
     return gm_kdv_exact(&two, &ring, x, t);
 }
 
@@ -576,7 +576,7 @@ static void waves_meet_again_on_the_ring(void **unused)
 static void short_rings_have_no_exact_waves(void **unused)
 {
     (void)unused;
-    const struct gm_line wide = {100, 0.4, -20, 0}, narrow = {100, 0.1, -5, 0};
+    const struct gm_line wide = {100, 0.4, -20, 0, false}, narrow = {100, 0.1, -5, 0, false};
     const struct gm_kdv one = {.initial = GM_KDV_SOLITON, .eta = 1, .mu = 1, .velocity = 1};
     const struct gm_nls bright_one = {.initial = GM_NLS_SOLITON, .amplitude = 1, .velocity = 1};
     assert_true(gm_kdv_is_known(&one, &wide, 1) && !gm_kdv_is_known(&one, &narrow, 1));

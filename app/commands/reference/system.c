@@ -11,7 +11,7 @@
 #include "app/output/json.h"
 #include "app/output/say.h"
 #include "app/output/wrapped.h"
-#include "app/request/system.h"
+#include "app/own/system.h"
 #include "core/count.h"
 #include "core/field/own/form.h"
 #include "core/field/own/potential.h"

@@ -14,7 +14,7 @@
 #include "app/commands/reference/version.h"
 #include "app/native/compiler.h"
 #include "app/output/say.h"
-#include "app/request/share.h"
+#include "app/own/share.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
 #include "render/vector/pdf.h"

@@ -14,7 +14,7 @@
 #include "app/explorer/background/job.h"
 #include "app/output/chart.h"
 #include "app/output/folder.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 #include "app/studies/kinds/study.h"
 #include "render/clock.h"
 

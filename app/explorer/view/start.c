@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The start: the scenes with a live look at the chosen one, and the tours. */
+/* The start: scenes, tours, and what there is in files, with a live look at the chosen one. */
 #include "app/explorer/view/start.h"
 
 #include <stdio.h>
@@ -7,67 +7,82 @@
 
 #include "app/explorer/view/own.h"
 #include "app/explorer/view/pages.h"
-#include "app/request/room.h"
-#include "app/request/system.h"
 #include "core/count.h"
 #include "render/cells/text.h"
 
 enum {
-    NAME_COLUMNS = 17,
+    NAME_COLUMNS = 17, /* before a title */
+    LONGEST_NAME = 22, /* of a list without titles */
     TITLE_COLUMNS = 38,
     LOOK_FROM_COLUMNS = 64,
     LOOK_FROM_ROWS = 14,
-    TITLES_FROM = 120,
-    NAMES = 512
+    TITLES_FROM = 120
 };
 
-static const char *name_of(const struct gm_start_entry *entry)
+static const char *const headings[GM_START_GROUPS] = {NULL, "TOURS", "SYSTEMS", "ROOMS"};
+static const char *const group_names[GM_START_GROUPS] = {"scenes", "tours", "systems", "rooms"};
+
+bool gm_start_is_own(const struct gm_start_entry *entry)
 {
-    return entry->tour ? entry->tour->name : entry->scene ? entry->scene->name : GM_START_OWN;
+    return entry->group == GM_START_SCENES && !entry->scene;
 }
 
-static const char *title_of(const struct gm_start_entry *entry)
+size_t gm_start_next_group(const struct gm_start *start)
 {
-    return entry->tour    ? entry->tour->title
-           : entry->scene ? entry->scene->title
-                          : "A formula that you type, or a file";
+    size_t next = start->choice;
+    while (next < start->count && start->found[next].group == start->found[start->choice].group) {
+        next++;
+    }
+    const bool last = next == start->count,
+               alone = last && start->found[0].group == start->found[next - 1].group;
+    return alone ? start->choice : last ? 0 : next;
 }
 
 static void draw_entry(const struct gm_sheet *sheet, int row, const struct gm_start_entry *entry,
                        size_t index, bool chosen, bool titles)
 {
     gm_sheet_text(sheet, 0, row, chosen ? "▸" : " ", GM_LANE, true);
-    gm_sheet_text(sheet, 2, row, name_of(entry), chosen ? GM_LANE : GM_INK, chosen);
+    const int columns = gm_sheet_text(sheet, 2, row, entry->name, chosen ? GM_LANE : GM_INK, chosen);
     if (titles) {
-        gm_sheet_text(sheet, NAME_COLUMNS + 1, row, title_of(entry), GM_SECONDARY, chosen);
+        const int behind = columns + 3 > NAME_COLUMNS + 1 ? columns + 3 : NAME_COLUMNS + 1;
+        gm_sheet_text(sheet, behind, row, entry->title, GM_SECONDARY, chosen);
     }
     gm_sheet_hit(sheet, 0, row, sheet->width, (struct gm_hit){.kind = GM_HIT_SCENE, .index = index});
 }
 
-/* The scenes, and below a heading the tours. */
+/* The lines above an entry that belong to its group: a free one, but at the top, and the heading. */
+static int lines_above(const struct gm_start *start, size_t i)
+{
+    const enum gm_start_group group = start->found[i].group;
+    const bool begins = i == 0 || start->found[i - 1].group != group;
+    return begins && headings[group] ? 1 + (i > 0) : 0;
+}
+
 static void draw_list(const struct gm_sheet *sheet, const struct gm_start *start, bool titles)
 {
-    const int scenes = (int)start->scenes, count = (int)start->count, choice = (int)start->choice;
-    if (count == 0) {
+    if (start->count == 0) {
         gm_sheet_text(sheet, 2, 0, "nothing found", GM_SECONDARY, false);
         return;
     }
-    const bool tours = count > scenes;
-    const int gap = tours && scenes > 0 && count + 2 <= sheet->height, heading = scenes + gap,
-              behind = gap + tours, lines = count + behind;
-    const int chosen = choice < scenes ? choice : choice + behind;
+    int lines = 0, chosen = 0;
+    for (size_t i = 0; i < start->count; i++) {
+        lines += lines_above(start, i) + 1;
+        chosen = i == start->choice ? lines - 1 : chosen;
+    }
     /* the chosen one in the middle, where the list is longer than the sheet */
     int first = chosen - sheet->height / 2;
     first = first > lines - sheet->height ? lines - sheet->height : first;
     first = first < 0 ? 0 : first;
-    for (int i = 0; i < count; i++) {
-        const int row = (i < scenes ? i : i + behind) - first;
-        if (row >= 0 && row < sheet->height) {
-            draw_entry(sheet, row, &start->found[i], (size_t)i, i == choice, titles);
+    int row = -first;
+    for (size_t i = 0; i < start->count; i++, row++) {
+        const int above = lines_above(start, i);
+        row += above;
+        if (above > 0 && row > 0 && row <= sheet->height) {
+            gm_sheet_text(sheet, 2, row - 1, headings[start->found[i].group], GM_SECONDARY, true);
         }
-    }
-    if (tours && heading >= first) {
-        gm_sheet_text(sheet, 2, heading - first, "TOURS", GM_SECONDARY, true);
+        if (row >= 0 && row < sheet->height) {
+            draw_entry(sheet, row, &start->found[i], i, i == start->choice, titles);
+        }
     }
     if (first > 0) {
         gm_sheet_text(sheet, sheet->width - 1, 0, "↑", GM_SECONDARY, true);
@@ -84,19 +99,36 @@ static int wrapped_rows(const struct gm_sheet *sheet, const char *text)
     return gm_sheet_wrapped(&nothing, 0, 0, 100, text, GM_INK);
 }
 
-/* The chosen scene: what it is, a live look, and what to watch. */
-static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet, const struct gm_scene *scene,
-                      const struct gm_shot *shot, const char *said)
+/* A sentence, and below it the line that it is about with a caret, which keep their columns. */
+static void draw_fault(const struct gm_sheet *sheet, int row, int rows, const char *said)
+{
+    const char *line = said + strcspn(said, "\n");
+    char text[GM_MESSAGE];
+    snprintf(text, sizeof text, "%.*s", (int)(line - said), said);
+    row += gm_sheet_wrapped(sheet, 0, row, rows, text, GM_INITIAL);
+    for (; *line == '\n' && row < sheet->height; row++) {
+        const char *end = line + 1 + strcspn(line + 1, "\n");
+        snprintf(text, sizeof text, "%.*s", (int)(end - line - 1), line + 1);
+        gm_sheet_text(sheet, 0, row, text, GM_INK, false);
+        line = end;
+    }
+}
+
+/* The chosen one: what it is, a live look, and what to watch, as far as its scene is made. */
+static void draw_look(struct gm_screen *screen, const struct gm_sheet *sheet,
+                      const struct gm_start_entry *entry, const struct gm_shot *shot, const char *said)
 {
     int row = 0, rows = sheet->height;
-    const char *watch = scene->watch ? scene->watch : "", *blurb = scene->blurb ? scene->blurb : "";
-    gm_sheet_text(sheet, 0, row++, scene->title, GM_INK, true);
+    const struct gm_scene *scene = entry->scene ? entry->scene : shot ? shot->scene : NULL;
+    const char *watch = scene && scene->watch ? scene->watch : "",
+               *blurb = scene && scene->blurb ? scene->blurb : "";
+    gm_sheet_text(sheet, 0, row++, entry->title, GM_INK, true);
     if (rows >= 30) {
         row += gm_sheet_wrapped(sheet, 0, row, 4, blurb, GM_SECONDARY) + 1;
     }
     int below = wrapped_rows(sheet, watch), picture = rows - row - below - (rows >= 30);
     if (said[0]) {
-        gm_sheet_wrapped(sheet, 0, row + 1, picture, said, GM_INITIAL);
+        draw_fault(sheet, row + 1, picture, said);
     } else if (shot && picture >= 4) {
         const struct gm_sheet look = gm_sheet_part(sheet, 0, row, sheet->width, picture);
         gm_screen_picture(screen, &look, shot);
@@ -123,17 +155,9 @@ static void draw_tour(const struct gm_sheet *sheet, const struct gm_tour *tour)
                      "enter begins it. A step may ask for a prediction before it shows.", GM_SECONDARY);
 }
 
-static void add_name(const char *name, const void *data)
-{
-    char *names = *(char *const *)data;
-    const size_t used = strlen(names);
-    snprintf(names + used, NAMES - used, "%s%s", used ? ", " : "", name);
-}
-
 /* A system of one's own: what can be typed. */
 static void draw_own(const struct gm_sheet *sheet)
 {
-    char names[NAMES] = "", *list = names;
     static const char *const examples[][2] = {
         {"H=p^2/2 - cos(q) q=2 p=0", "a Hamiltonian, and where it starts"},
         {"H=p^2/2 + q^4/4 - k*q^2 q=1.5 p=0 k=0.5", "with a parameter: each is a slider"},
@@ -151,13 +175,6 @@ static void draw_own(const struct gm_sheet *sheet)
     for (size_t i = 0; i < GM_COUNT(examples); i++) {
         row += gm_sheet_wrapped(sheet, 0, row, 2, examples[i][0], GM_INK);
         row += gm_sheet_wrapped(sheet, 2, row, 1, examples[i][1], GM_SECONDARY);
-    }
-    gm_system_each(add_name, &list);
-    gm_room_each(add_name, &list);
-    if (names[0]) {
-        gm_text_tame(names);
-        row += gm_sheet_wrapped(sheet, 0, row + 1, 1, "Or by name:", GM_SECONDARY) + 1;
-        row += gm_sheet_wrapped(sheet, 0, row, 7, names, GM_INK);
     }
     gm_sheet_wrapped(sheet, 0, row + 1, 2, "enter opens the line to type in.", GM_SECONDARY);
 }
@@ -178,8 +195,9 @@ static void draw_keys(const struct gm_sheet *sheet, const struct gm_start *start
     }
     hints[count++] = (struct gm_hint){"enter", "open", '\n'};
     hints[count++] = (struct gm_hint){"↑↓", "choose", 0};
-    if (start->scenes > 0 && start->scenes < start->count) {
-        hints[count++] = (struct gm_hint){"tab", start->choice < start->scenes ? "tours" : "scenes", '\t'};
+    const size_t next = gm_start_next_group(start);
+    if (next != start->choice) {
+        hints[count++] = (struct gm_hint){"tab", group_names[start->found[next].group], '\t'};
     }
     hints[count++] =
         start->typed[0] ? (struct gm_hint){"esc", "all", 27} : (struct gm_hint){"q", "quit", 'q'};
@@ -210,7 +228,7 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
     }
     bool look = whole.width >= LOOK_FROM_COLUMNS && whole.height >= LOOK_FROM_ROWS;
     bool titles = !look || whole.width >= TITLES_FROM;
-    int list = look && !titles ? NAME_COLUMNS + 1 : look ? NAME_COLUMNS + TITLE_COLUMNS : whole.width - 2;
+    int list = look && !titles ? LONGEST_NAME + 1 : look ? NAME_COLUMNS + TITLE_COLUMNS : whole.width - 2;
     const struct gm_sheet left = gm_sheet_part(&whole, 1, at, list, rows - at);
     draw_list(&left, start, titles);
     if (look && start->choice < start->count) {
@@ -218,10 +236,10 @@ void gm_screen_draw_start(struct gm_screen *screen, struct gm_face *face, const 
         const struct gm_sheet right = gm_sheet_part(&whole, list + 3, at, whole.width - list - 4, rows - at);
         if (chosen->tour) {
             draw_tour(&right, chosen->tour);
-        } else if (!chosen->scene) {
+        } else if (gm_start_is_own(chosen)) {
             draw_own(&right);
         } else {
-            draw_look(screen, &right, chosen->scene, shot, said);
+            draw_look(screen, &right, chosen, shot, said);
         }
     }
     if (asked) {

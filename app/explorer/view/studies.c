@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "app/explorer/surface/keystroke.h"
-#include "app/request/arguments.h"
+#include "app/own/arguments.h"
 
 /* 0: a tour alone shows it */
 static const char keys[GM_STUDY_COUNT] = {

@@ -10,8 +10,8 @@
 
 #include "app/output/folder.h"
 #include "app/output/still.h"
-#include "app/request/arguments.h"
-#include "app/request/system.h"
+#include "app/own/arguments.h"
+#include "app/own/now.h"
 #include "render/clock.h"
 
 /* 300 dots an inch on 32 cm, 600 on the 16 cm of a text column. */
@@ -45,7 +45,7 @@ void gm_capture_save_system(struct gm_play *play)
     if (!session->scene->text) {
         return;
     }
-    char *text = gm_system_text(session->scene, gm_session_owner(session, play->selected, false));
+    char *text = gm_system_now(session->scene, gm_session_owner(session, play->selected, false));
     gm_folder_free_file(session->scene->name, ".system", path, sizeof path);
     FILE *file = text ? fopen(path, "wx") : NULL;
     bool good = file && fputs(text, file) >= 0;

@@ -32,7 +32,7 @@ struct gm_worker {
     struct gm_shot shots[2];
 
     /* the thread's own */
-    const struct gm_scene *scene; /* to be opened with so many schemes; NULL: the session was */
+    char *name; /* of the scene that is to be opened with so many schemes; NULL: the session was */
     size_t schemes;
     struct gm_play play;
     struct gm_capture capture;
@@ -96,8 +96,7 @@ static void rest(struct gm_worker *worker)
 static bool open_named(struct gm_worker *worker, char *message)
 {
     struct gm_request request;
-    char *words[] = {(char *)worker->scene->name};
-    if (!gm_request_parse_for(&request, worker->scene, 1, words, worker->schemes, message)) {
+    if (!gm_request_parse(&request, 1, &worker->name, worker->schemes, message)) {
         return false;
     }
     bool ok = gm_session_open(&worker->play.session, &request, message);
@@ -113,6 +112,7 @@ static void release(struct gm_worker *worker)
     gm_session_close(&worker->play.session);
     gm_shot_close(&worker->shots[0]);
     gm_shot_close(&worker->shots[1]);
+    free(worker->name);
     free(worker);
 }
 
@@ -148,7 +148,7 @@ static void *work(void *self)
 {
     struct gm_worker *worker = self;
     bool ok = true;
-    if (worker->scene) {
+    if (worker->name) {
         char message[GM_MESSAGE] = "";
         ok = open_named(worker, message);
         if (ok) {
@@ -230,14 +230,19 @@ struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, con
     return start(worker, message);
 }
 
-struct gm_worker *gm_worker_open_scene(const struct gm_scene *scene, size_t schemes, bool preview, int wake,
+struct gm_worker *gm_worker_open_named(const char *name, size_t schemes, bool preview, int wake,
                                        char *message)
 {
     struct gm_worker *worker = make(wake, message);
     if (!worker) {
         return NULL;
     }
-    worker->scene = scene;
+    worker->name = strdup(name);
+    if (!worker->name) {
+        gm_refuse(message, "There is not enough memory.");
+        release(worker);
+        return NULL;
+    }
     worker->schemes = schemes;
     worker->play.preview = preview;
     return start(worker, message);

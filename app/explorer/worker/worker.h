@@ -17,9 +17,9 @@ struct gm_worker *gm_worker_open(const struct gm_request *request, int wake, con
 /* Finishes a movie that is being made; `parting` (GM_MESSAGE bytes) tells of it, or is empty. */
 void gm_worker_close(struct gm_worker *worker, char *parting);
 
-/* The same for a scene by its name, with its first `schemes` schemes, that the thread opens itself: this
-   never waits. A preview stops at the scene's own end. */
-struct gm_worker *gm_worker_open_scene(const struct gm_scene *scene, size_t schemes, bool preview, int wake,
+/* The same for a scene by its name, or that of a system or a room, with its first `schemes` schemes, that the
+   thread makes and opens itself: this never waits. A preview stops at the scene's own end. */
+struct gm_worker *gm_worker_open_named(const char *name, size_t schemes, bool preview, int wake,
                                        char *message);
 /* Whether opening failed; then with a sentence. */
 bool gm_worker_failed(struct gm_worker *worker, char *message);

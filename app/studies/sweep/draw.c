@@ -11,6 +11,7 @@
 #include "app/studies/sweep.h"
 #include "core/schemes.h"
 #include "scenes/frame/graph.h"
+#include "scenes/frame/symbol.h"
 
 enum {
     GRAPH_BINS = 1024, /* across */
@@ -288,7 +289,7 @@ static const char *key_label(const struct gm_sweep_chart *chart, size_t axis, st
     const char *key = chart->sweep->words.list[chart->keys[axis]].key;
     const struct gm_parameter *row = gm_scene_parameter(chart->sweep->scene, key);
     const char *unit = row ? row->unit : "";
-    return gm_picture_text(picture, "%s%s%s", strcmp(key, "dt") == 0 ? "Δt" : key, unit[0] ? ", " : "", unit);
+    return gm_picture_text(picture, "%s%s%s", gm_key_symbol(key), unit[0] ? ", " : "", unit);
 }
 
 static const char *title_of(const struct gm_sweep_chart *chart, size_t observable, struct gm_picture *picture)
@@ -497,8 +498,8 @@ static const char *fixed_words(const struct gm_sweep *sweep, struct gm_picture *
     for (size_t i = 0; i < sweep->words.count; i++) {
         const struct gm_word *word = &sweep->words.list[i];
         if (word->count == 1 && strcmp(word->key, "scheme") != 0) {
-            text = gm_picture_text(picture, "%s,  %s = %s", text,
-                                   strcmp(word->key, "dt") == 0 ? "Δt" : word->key, word->pieces[0].text);
+            text = gm_picture_text(picture, "%s,  %s = %s", text, gm_key_symbol(word->key),
+                                   word->pieces[0].text);
         }
     }
     return text;

@@ -6,23 +6,60 @@
 
 #include "core/field/families/burgers.h"
 #include "core/field/families/heat.h"
+#include "core/field/families/kdv_frames.h"
 #include "core/field/problems/burgers.h"
 #include "core/run.h"
 
 static void grid(const struct gm_run *run, double *values)
 {
     const struct gm_line *line = &run->problem->line;
-    for (size_t i = 0; i < line->points; i++) {
+    for (size_t i = 0; i < gm_line_seen(line); i++) {
         values[i] = gm_line_node(line, i);
+    }
+}
+
+/* The velocity of the frame that an equation is seen from, and since when; false where there is none. */
+static bool find_frame(const struct gm_problem *problem, double *lambda, double *t0)
+{
+    *t0 = 0;
+    switch (gm_field_of(problem)->equation) {
+    case GM_NEEDS_HEAT:
+        *lambda = gm_heat_of(problem)->lambda;
+        return true;
+    case GM_NEEDS_KDV:
+        *lambda = gm_kdv_of(problem)->lambda;
+        return true;
+    case GM_NEEDS_BURGERS:
+        *lambda = gm_burgers_of(problem)->lambda;
+        *t0 = gm_burgers_t0(gm_burgers_of(problem));
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool moves(const struct gm_run *run)
+{
+    const struct gm_problem *problem = run->problem;
+    double lambda = 0, t0 = 0;
+    if (!find_frame(problem, &lambda, &t0) || lambda == 0) {
+        return false;
+    }
+    switch (gm_field_of(problem)->equation) {
+    case GM_NEEDS_HEAT:
+        return !gm_heat_fixed(gm_heat_of(problem), run->scheme);
+    case GM_NEEDS_KDV:
+        return !gm_kdv_fixed(gm_kdv_of(problem), run->scheme);
+    default:
+        return !gm_burgers_fixed(gm_burgers_of(problem), run->scheme);
     }
 }
 
 /* Where the nodes are by now that move with a frame. */
 static void places(const struct gm_run *run, double *values)
 {
-    const bool heat = gm_field_of(run->problem)->equation == GM_NEEDS_HEAT;
-    const double lambda = heat ? gm_heat_of(run->problem)->lambda : gm_burgers_of(run->problem)->lambda;
-    const double t0 = heat ? 0 : gm_burgers_t0(gm_burgers_of(run->problem));
+    double lambda = 0, t0 = 0;
+    find_frame(run->problem, &lambda, &t0);
     grid(run, values);
     for (size_t i = 0; i < run->problem->line.points; i++) {
         values[i] += lambda * (run->t - t0);
@@ -41,13 +78,11 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
 {
     const struct gm_problem *problem = run->problem;
     const struct gm_field *field = gm_field_of(problem);
-    const size_t points = problem->line.points;
+    const size_t points = problem->line.points, seen = gm_line_seen(&problem->line);
     const bool burgers = field->equation == GM_NEEDS_BURGERS;
     const bool companion = burgers && gm_burgers_of(problem)->lambda != 0;
-    const struct gm_heat *heat = field->equation == GM_NEEDS_HEAT ? gm_heat_of(problem) : NULL;
-    const bool moving = (companion && !gm_burgers_fixed(gm_burgers_of(problem), run->scheme)) ||
-                        (heat && heat->lambda != 0 && !gm_heat_fixed(heat, run->scheme));
-    struct gm_quantity *end = add(quantities, moving ? "x" : "grid", GM_ON_NODES, points, 0);
+    const bool moving = moves(run);
+    struct gm_quantity *end = add(quantities, moving ? "x" : "grid", GM_ON_NODES, seen, 0);
     quantities->axis = 1;
     quantities->fixed = !moving;
     quantities->derive = moving ? places : grid;
@@ -59,13 +94,13 @@ size_t gm_field_quantities(const struct gm_run *run, struct gm_quantity *quantit
         end = add(end, "psi_re", GM_ON_NODES, points, 0);
         end = add(end, "psi_im", GM_ON_NODES, points, points);
     } else {
-        end = add(end, "u", GM_ON_NODES, points, 0);
+        end = add(end, "u", GM_ON_NODES, seen, 0);
     }
     if (companion) {
         end = add(end, "u_companion", GM_ON_NODES, points, points);
     }
     if (problem->n == gm_wave_size(points) && !burgers) {
-        end = add(end, "u_other", GM_ON_NODES, points, points);
+        end = add(end, "u_other", GM_ON_NODES, seen, points);
         end = add(end, "other_time", GM_ON_RUN, 1, 2 * points);
     }
     return (size_t)(end - quantities);

@@ -30,6 +30,9 @@ void gm_own_form_start(const struct gm_problem *problem, double *y);
    gradient of S is the same further by the jumps. A sentence if not. */
 bool gm_own_form_closes(const struct gm_problem *problem, char *sentence, size_t size);
 
+/* Whether a component follows from the others but for a constant (gm_form). */
+bool gm_own_form_is_potential(const struct gm_problem *problem, size_t component);
+
 /* A component of the exact solution as the file tells it; NaN where it does not. */
 double gm_own_form_exact(const struct gm_problem *problem, size_t component, double x, double t);
 

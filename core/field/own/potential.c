@@ -300,7 +300,12 @@ bool gm_own_wave_closes(const struct gm_problem *problem, const char *name, char
         high = fmax(high, rates[0]);
     }
     const double left = near_start(own, line->first, 0), right = near_start(own, -line->first, 0);
-    if (!(fabs(right - left - line->jump) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
+    if (line->walls && line->jump != 0) {
+        snprintf(sentence, size, "a field between walls has no jump");
+        return false;
+    }
+    if (!line->walls &&
+        !(fabs(right - left - line->jump) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
         snprintf(sentence, size,
                  "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other "
                  "(jump: tells by how much they differ)",

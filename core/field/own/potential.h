@@ -32,8 +32,8 @@ double gm_own_wave_exact(const struct gm_problem *problem, double x, double t);
 void gm_own_wave_levels(const struct gm_problem *problem, double gap, double *y);
 
 /* Whether the field closes on the problem's line: it is finite everywhere; u at one end is that at the other,
-   further by the jump, but for a thousandth of its range; and V' is the same further by the jump. A sentence
-   if not. */
+   further by the jump, but for a thousandth of its range; and V' is the same further by the jump. Between walls nothing
+   closes, and there is no jump. A sentence if not. */
 bool gm_own_wave_closes(const struct gm_problem *problem, const char *name, char *sentence, size_t size);
 
 #endif

@@ -5,8 +5,11 @@
 #define GM_CORE_FIELD_PROBLEMS_DISPERSIVE_H
 
 #include "core/field/field.h"
+#include "core/field/problems/frames.h"
 
-/* Korteweg-de Vries, u_t + eta u u_x + mu u_xxx = 0, with the state of a wave problem. */
+/* Korteweg-de Vries, u_t + eta u u_x + mu u_xxx = 0, with the state of a wave problem, and its frames of
+   reference,
+       (t, x, u) -> (t, x + lambda t, u + lambda/eta) */
 enum gm_kdv_initial {
     /* u = 3 c/eta sech^2(sqrt(c/mu)/2 (x - x0 - c t)) */
     GM_KDV_SOLITON,
@@ -20,19 +23,21 @@ enum gm_kdv_initial {
 struct gm_kdv {
     int initial;
     double eta, mu, velocity, position;
+    double lambda;
+    int frame; /* enum gm_frame_nodes */
 };
 static inline const struct gm_kdv *gm_kdv_of(const struct gm_problem *problem)
 {
     return problem->parameters;
 }
-/* NaN for the cosine at t > 0. */
+/* At the place x of the frame, NaN for the cosine at t > 0; the formulas above are those for lambda = 0. */
 double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t);
 /* Whether that solves the equation on the ring too, but for tails of a thousandth of a soliton's height. */
 bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, double t);
-/* The levels 0 and dt, and dt; for the cosine the second is an Euler step with exact derivatives. */
+/* The levels 0 and dt on nodes at rest in the frame, and dt; for the cosine the second is an Euler step with exact derivatives. */
 void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y);
 
-/* dx sum u;  dx sum (A u)^2;  dx sum [mu (D u)^2 / 2 - eta (A u)^3 / 6] */
+/* Of the original frame:  dx sum u;  dx sum (A u)^2;  dx sum [mu (D u)^2 / 2 - eta (A u)^3 / 6] */
 double gm_kdv_mass(const struct gm_problem *problem, const double *y);
 double gm_kdv_square(const struct gm_problem *problem, const double *y);
 double gm_kdv_energy(const struct gm_problem *problem, const double *y);

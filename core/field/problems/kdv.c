@@ -189,7 +189,8 @@ static double two_solitons_around(const struct gm_kdv *kdv, const struct gm_line
     return sum;
 }
 
-double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
+/* lambda = 0 */
+static double unboosted(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
 {
     if (kdv->initial == GM_KDV_COSINE) {
         return t == 0 ? cos(M_PI * x) : NAN;
@@ -200,6 +201,11 @@ double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double
     const double c = kdv->velocity, away = around(line, x - kdv->position - c * t);
     const double sech = 1 / cosh(sqrt(c / kdv->mu) / 2 * away);
     return 3 * c / kdv->eta * sech * sech;
+}
+
+double gm_kdv_exact(const struct gm_kdv *kdv, const struct gm_line *line, double x, double t)
+{
+    return unboosted(kdv, line, x - kdv->lambda * t, t) + kdv->lambda / kdv->eta;
 }
 
 bool gm_kdv_is_known(const struct gm_kdv *kdv, const struct gm_line *line, double t)
@@ -226,11 +232,18 @@ void gm_kdv_levels(const struct gm_problem *problem, double dt, double *y)
     y[2 * line->points] = dt;
 }
 
+/* What the original frame sees 0 as. */
+static double level_of(const struct gm_problem *problem)
+{
+    return gm_kdv_of(problem)->lambda / gm_kdv_of(problem)->eta;
+}
+
 double gm_kdv_mass(const struct gm_problem *problem, const double *y)
 {
+    const double level = level_of(problem);
     double sum = 0;
     for (size_t i = 0; i < problem->line.points; i++) {
-        sum += y[i];
+        sum += y[i] - level;
     }
     return problem->line.dx * sum;
 }
@@ -238,9 +251,10 @@ double gm_kdv_mass(const struct gm_problem *problem, const double *y)
 double gm_kdv_square(const struct gm_problem *problem, const double *y)
 {
     const size_t points = problem->line.points;
+    const double level = level_of(problem);
     double sum = 0;
     for (size_t i = 0; i < points; i++) {
-        const double mean = (y[i] + y[i + 1 < points ? i + 1 : 0]) / 2;
+        const double mean = (y[i] + y[i + 1 < points ? i + 1 : 0]) / 2 - level;
         sum += mean * mean;
     }
     return problem->line.dx * sum;
@@ -249,10 +263,11 @@ double gm_kdv_square(const struct gm_problem *problem, const double *y)
 double gm_kdv_energy(const struct gm_problem *problem, const double *y)
 {
     const size_t points = problem->line.points;
+    const double level = level_of(problem);
     double sum = 0;
     for (size_t i = 0; i < points; i++) {
         const double right = y[i + 1 < points ? i + 1 : 0];
-        const double mean = (y[i] + right) / 2, slope = (right - y[i]) / problem->line.dx;
+        const double mean = (y[i] + right) / 2 - level, slope = (right - y[i]) / problem->line.dx;
         sum += gm_kdv_of(problem)->mu * slope * slope / 2 - gm_kdv_of(problem)->eta * mean * mean * mean / 6;
     }
     return problem->line.dx * sum;

@@ -34,8 +34,10 @@ static unsigned facets(const struct gm_problem *problem)
     const bool action = gm_has_action(problem);
     return (split ? GM_NEEDS_SPLIT : 0) | (hamiltonian ? GM_NEEDS_HAMILTONIAN : 0) |
            (ode->lagrangian ? GM_NEEDS_LAGRANGIAN : 0) | (ode->fast_linear ? GM_NEEDS_FAST_LINEAR : 0) |
-           (ode->kepler_split ? GM_NEEDS_KEPLER_SPLIT : 0) | (ode->volume ? GM_NEEDS_VOLUME : 0) |
-           (ode->quadratic ? GM_NEEDS_QUADRATIC : 0) | (split && split->nystrom ? GM_NEEDS_NYSTROM : 0) |
+           (ode->kepler_split ? GM_NEEDS_KEPLER_SPLIT : 0) |
+           (ode->kepler_split || (split && split->attracts) ? GM_NEEDS_ATTRACTION : 0) |
+           (ode->volume ? GM_NEEDS_VOLUME : 0) | (ode->quadratic ? GM_NEEDS_QUADRATIC : 0) |
+           (split && split->nystrom ? GM_NEEDS_NYSTROM : 0) |
            (hamiltonian && !split ? GM_NEEDS_INSEPARABLE : 0) |
            (hamiltonian && !hamiltonian->partial ? GM_NEEDS_ENERGY : 0) |
            (action && !held ? GM_NEEDS_ACTION : 0) | (action && held ? GM_NEEDS_CONSTRAINTS : 0) |
@@ -64,6 +66,8 @@ static const struct gm_facet_words words[] = {
      "Lagrangian systems, and Hamiltonian ones of quadratic kinetic energy T(p)"},
     {GM_NEEDS_VOLUME, "parts without divergence that can be solved", "fields without divergence, in pieces"},
     {GM_NEEDS_KEPLER_SPLIT, "a Kepler part with a perturbation", "perturbed Kepler problems"},
+    {GM_NEEDS_ATTRACTION, "a potential V(q) < 0 of a Hamiltonian T(p) + V(q)",
+     "motions in a negative potential V(q)"},
     {GM_NEEDS_FAST_LINEAR, "a stiff part that is linear", "systems with a stiff linear part"},
     {GM_NEEDS_SEMILINEAR, "a linear part that is the same at every point of a ring",
      "fields on a ring, with a linear part"},

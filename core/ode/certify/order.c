@@ -139,11 +139,12 @@ double gm_measure_order(const struct gm_subject *subject, const struct gm_scheme
     /* of the highest orders that is where steps are large */
     for (int i = scheme->order > 8 ? -COARSER : 0; i < GM_LADDER - COARSER; i++) {
         const long before = between;
-        between = lround((own_time ? 8 : span) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE));
-        if (between == before) {
+        const double finer = (own_time ? 8 : span) / TIMES * pow(2, 1 + (double)i / PER_OCTAVE);
+        between = lround(finer);
+        if (!own_time && between == before) {
             continue;
         }
-        const double dt = until / (double)(TIMES * between);
+        const double dt = until / (TIMES * (own_time ? finer : (double)between));
         const struct gm_settings settings = {
             .compensated = 1, .binding = 5, .tau0 = dt, .newmark_beta = 0.15};
         const double error = own_time ? error_at_own_time(subject, scheme, &settings, dt, until)

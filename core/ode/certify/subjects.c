@@ -153,7 +153,7 @@ static const struct {
      &perturbation,
      {.start = {0.8, 0.1, -0.2, 1.2},
       .dt = 0.3,
-      .only = GM_NEEDS_KEPLER_SPLIT,
+      .only = GM_NEEDS_KEPLER_SPLIT | GM_NEEDS_ATTRACTION,
       .hamiltonian = true,
       .quadratic = {angular_momentum},
       .bilinear = {angular_momentum}}},

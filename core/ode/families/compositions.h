@@ -7,7 +7,7 @@
 #ifndef GM_CORE_ODE_FAMILIES_COMPOSITIONS_H
 #define GM_CORE_ODE_FAMILIES_COMPOSITIONS_H
 
-enum { GM_COMPOSITION_STEPS = 31, GM_COMPOSITION_HALF = (GM_COMPOSITION_STEPS + 1) / 2 };
+enum { GM_COMPOSITION_STEPS = 35, GM_COMPOSITION_HALF = (GM_COMPOSITION_STEPS + 1) / 2 };
 
 /* A row of gammas. */
 struct gm_composition {
@@ -25,6 +25,6 @@ static inline double gm_composition_fraction(const struct gm_composition *compos
 /* The first is the method itself; the names of the others end in their order. */
 extern const struct gm_composition gm_composition_none, gm_composition_yoshida4, gm_composition_suzuki4,
     gm_composition_mclachlan4, gm_composition_yoshida6, gm_composition_kahan_li6,
-    gm_composition_suzuki_umeno8, gm_composition_kahan_li8;
+    gm_composition_suzuki_umeno8, gm_composition_kahan_li8, gm_composition_sofroniou_spaletta10;
 
 #endif

@@ -11,13 +11,13 @@
 struct gm_members *gm_members_open(const struct gm_problem *problem, size_t remembered, size_t scratch)
 {
     struct gm_members *members =
-        calloc(1, sizeof *members + (problem->n + remembered + scratch) * sizeof(double));
+        calloc(1, sizeof *members + (2 * problem->n + remembered + scratch) * sizeof(double));
     if (members) {
         members->n = problem->n;
         members->remembered = remembered;
         members->y = members->room;
         members->memory = members->y + problem->n;
-        members->scratch = members->memory + remembered;
+        members->scratch = members->memory + remembered + problem->n; /* a carry between */
     }
     return members;
 }
@@ -52,10 +52,14 @@ struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step
     const size_t n = members->n, m = task->problem->m;
     const bool own_time = task->scheme->family->own_time;
     struct gm_progress progress = {.done = task->steps, .status = GM_OK, .t = task->t};
+    members->carry = task->carry ? members->memory + members->remembered : NULL;
     for (size_t member = 0; member < m; member++) {
         gather(task->y, members->y, n, m, member);
         if (members->remembered > 0) {
             gather(task->memory, members->memory, members->remembered, m, member);
+        }
+        if (members->carry) {
+            gather(task->carry, members->carry, n, m, member);
         }
         for (long done = 0; done < progress.done; done++) {
             enum gm_status status = step(task, members, &progress);
@@ -72,6 +76,9 @@ struct gm_progress gm_members_advance(const struct gm_task *task, gm_member_step
         scatter(members->y, task->out, n, m, member);
         if (members->remembered > 0) {
             scatter(members->memory, task->memory_out, members->remembered, m, member);
+        }
+        if (members->carry) {
+            scatter(members->carry, task->carry_out, n, m, member);
         }
     }
     return progress;

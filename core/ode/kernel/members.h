@@ -15,6 +15,7 @@ struct gm_members {
     size_t n, remembered;
     double *y;       /* n */
     double *memory;  /* remembered */
+    double *carry;   /* n, what compensated summation carries over; NULL: plain */
     double *scratch; /* as many doubles as were asked for */
     void *own;       /* the family's, who closes it; NULL */
     double room[];

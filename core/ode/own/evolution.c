@@ -39,6 +39,9 @@ struct own {
     size_t fields, inputs;
     char *names; /* "u[] v[]" */
     bool massive;
+    double mirrored
+        [GM_MOST_FIELDS]; /* between walls: 1 of a field that its mirror image goes on with, -1 of one whose
+                                        negative does; 0: of none */
     bool needed[ORDERS * GM_MOST_FIELDS]; /* which derivatives occur */
     struct gm_tape rates, rests, starts, exact, *densities;
     double complex *symbols; /* of L, [mode][row][column] */
@@ -347,6 +350,49 @@ static bool make_symbols(struct own *own, const double *values)
     return true;
 }
 
+/* Whether a mirrored field, of those signs, has the mirrored rate, at places that are as good as any. */
+static bool is_mirrored(const struct own *own, const double *signs)
+{
+    enum { TRIALS = 5 };
+    const size_t n = own->fields;
+    double here[MOST_INPUTS], there[MOST_INPUTS], rate[GM_MOST_FIELDS], other[GM_MOST_FIELDS];
+    for (size_t trial = 0; trial < TRIALS; trial++) {
+        for (size_t k = 0; k < own->inputs; k++) {
+            const double sign = k < n * ORDERS ? signs[k % n] * (k / n % 2 ? -1 : 1) : 1;
+            here[k] = 0.6 + 0.35 * sin(1 + 7 * (double)k + 2.3 * (double)trial);
+            there[k] = sign * here[k];
+        }
+        gm_tape_values(&own->rates, here, rate, 1);
+        gm_tape_values(&own->rates, there, other, 1);
+        for (size_t i = 0; i < n; i++) {
+            if (!(fabs(other[i] - signs[i] * rate[i]) <= 1e-9 * fmax(1, fabs(rate[i])))) {
+                return false;
+            }
+        }
+    }
+    for (size_t i = 0; i < gm_modes_half(own->line.points) * n; i++) {
+        if (fabs(cimag(own->masses[i])) > 1e-9 * cabs(own->masses[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Of each field the sign of its mirror image: 1 of the first where it can be, then of the second .. */
+static void find_mirror(struct own *own)
+{
+    for (size_t odd = 0; odd < (size_t)1 << own->fields; odd++) {
+        double signs[GM_MOST_FIELDS];
+        for (size_t i = 0; i < own->fields; i++) {
+            signs[i] = odd >> (own->fields - 1 - i) & 1 ? -1 : 1;
+        }
+        if (is_mirrored(own, signs)) {
+            memcpy(own->mirrored, signs, sizeof signs);
+            return;
+        }
+    }
+}
+
 /* Which derivatives the rates and densities hold. */
 static bool find_needed(struct own *own)
 {
@@ -432,6 +478,9 @@ bool gm_own_evolution_open(struct gm_problem *problem, const struct gm_own_evolu
     const bool good = ordered && open_tapes(own, ordered) && make_symbols(own, ordered) && find_needed(own) &&
                       name_fields(own);
     free(ordered);
+    if (good && line->walls) {
+        find_mirror(own);
+    }
     own->semilinear = (struct gm_semilinear){own->fields, symbol, nonlinear};
     own->loops = (struct gm_loops){.field = field};
     own->facets = (struct gm_ode){
@@ -478,7 +527,8 @@ void gm_own_evolution_start(const struct gm_problem *problem, double *y)
     const struct own *own = own_of(problem);
     for (size_t i = 0; i < problem->n; i++) {
         const size_t points = own->line.points;
-        y[i] = start_of(own, i / points, gm_line_node(&own->line, i % points));
+        const double sign = i % points < gm_line_seen(&own->line) ? 1 : own->mirrored[i / points];
+        y[i] = sign * start_of(own, i / points, gm_line_node(&own->line, i % points));
     }
 }
 
@@ -506,8 +556,8 @@ double gm_own_evolution_integral(const struct gm_problem *problem, size_t densit
     derive(own, room, y);
     gm_tape_block(&own->densities[density], room->inputs, points, room->rates, points, points);
     double sum = 0;
-    for (size_t i = 0; i < points; i++) {
-        sum += room->rates[i];
+    for (size_t i = 0; i < gm_line_seen(&own->line); i++) {
+        sum += gm_line_share(&own->line, i) * room->rates[i];
     }
     give_back(own, room);
     return sum * own->line.dx;
@@ -528,7 +578,17 @@ static bool field_closes(const struct own *own, size_t field, char *sentence, si
         high = fmax(high, value);
     }
     const double left = start_of(own, field, line->first), right = start_of(own, field, -line->first);
-    if (!(fabs(right - left) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
+    if (line->walls && own->mirrored[field] < 0 &&
+        !(fabs(left) + fabs(right) <= 1e-3 * fmax(fabs(low), fabs(high)))) {
+        snprintf(
+            sentence, size,
+            "%.60s is 0 at walls, where it changes its sign in the mirror, and at the start it is %.6g at one and "
+            "%.6g at the other",
+            name, left, right);
+        return false;
+    }
+    if (!line->walls &&
+        !(fabs(right - left) <= 1e-3 * fmax(high - low, 1e-12 * fmax(fabs(low), fabs(high))))) {
         snprintf(sentence, size,
                  "%.60s at the start does not close on the ring: it is %.6g at one end and %.6g at the other",
                  name, left, right);
@@ -540,6 +600,13 @@ static bool field_closes(const struct own *own, size_t field, char *sentence, si
 bool gm_own_evolution_closes(const struct gm_problem *problem, char *sentence, size_t size)
 {
     const struct own *own = own_of(problem);
+    if (own->line.walls && own->mirrored[0] == 0) {
+        snprintf(
+            sentence, size,
+            "there are no walls for these rates: a mirrored field has other ones, as odd derivatives (u_x, u_xxx) "
+            "change their sign in the mirror");
+        return false;
+    }
     for (size_t i = 0; i < own->fields; i++) {
         if (!field_closes(own, i, sentence, size)) {
             return false;

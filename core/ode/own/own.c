@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/formula/equations.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/kernel/members.h"
 #include "core/ode/own/kernel.h"
@@ -562,6 +563,18 @@ static bool open_tapes(struct own *own, const double *values)
     return good;
 }
 
+/* Whether V, the energy of rest, is negative where the system says that it starts. */
+static bool attracts(const struct gm_problem *problem)
+{
+    double *start = gm_equations_start(own_of(problem)->model->system, NULL);
+    for (size_t c = problem->n / 2; start && c < problem->n; c++) {
+        start[c] = 0;
+    }
+    const bool negative = start && gm_energy(problem, start) < 0;
+    free(start);
+    return negative;
+}
+
 bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *model, const double *values)
 {
     const struct gm_own_system *system = model->system;
@@ -615,6 +628,7 @@ bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *
         !open_monitor(own, values) || !open_poisson(own, problem, values)) {
         return false;
     }
+    own->split.attracts = own->ode.split && own->ode.hamiltonian && attracts(problem);
     own->constants[GM_KERNEL_FIELD] = own->field.constants;
     own->constants[GM_KERNEL_VELOCITY] = own->velocity.constants;
     own->constants[GM_KERNEL_FORCE] = own->force.constants;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "scenes/frame/graph.h"
+#include "scenes/frame/symbol.h"
 #include "scenes/ode/system/draw.h"
 #include "scenes/ode/system/space.h"
 
@@ -42,21 +43,6 @@ static const char *small_letter(char letter, bool above)
     return NULL;
 }
 
-static const char *greek(const char *name, size_t length)
-{
-    static const char *const letters[][2] = {
-        {"alpha", "α"}, {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"},  {"eps", "ε"},  {"epsilon", "ε"},
-        {"eta", "η"},   {"theta", "θ"}, {"kappa", "κ"}, {"lambda", "λ"}, {"mu", "μ"},   {"nu", "ν"},
-        {"xi", "ξ"},    {"rho", "ρ"},   {"sigma", "σ"}, {"tau", "τ"},    {"phi", "φ"},  {"chi", "χ"},
-        {"psi", "ψ"},   {"omega", "ω"}, {"pi", "π"},    {"Omega", "Ω"},  {"Delta", "Δ"}};
-    for (size_t i = 0; i < GM_COUNT(letters); i++) {
-        if (strlen(letters[i][0]) == length && memcmp(letters[i][0], name, length) == 0) {
-            return letters[i][1];
-        }
-    }
-    return NULL;
-}
-
 /* Names with Greek letters and indices below, powers above, a true minus: "p_x^2" as "pₓ²". */
 static const char *typeset(struct gm_picture *picture, const char *text)
 {
@@ -70,7 +56,7 @@ static const char *typeset(struct gm_picture *picture, const char *text)
         while (isalpha((unsigned char)at[letters])) {
             letters++;
         }
-        const char *put = letters > 0 ? greek(at, letters) : NULL;
+        const char *put = letters > 0 ? gm_greek(at, letters) : NULL;
         size_t taken = letters > 0 ? letters : 1;
         const bool behind = at > text && (isalnum((unsigned char)at[-1]) || at[-1] == ']');
         if (letters == 0 && (at[0] == '^' || (at[0] == '_' && behind)) &&

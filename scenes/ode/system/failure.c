@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 #include "scenes/ode/system/look.h"
 
 /* A formula that is no number: "log(x) is not finite where x = -0.3". */
@@ -113,6 +114,15 @@ static void tell_monitor(const struct gm_view *view, const double *slope, double
     }
 }
 
+/* Of a step whose length the potential decided: V, the energy of rest. */
+static void tell_potential(const struct gm_view *view, double *rest, char *text, size_t size)
+{
+    const size_t half = view->problem->n / 2;
+    memcpy(rest, view->state, half * sizeof *rest);
+    memset(rest + half, 0, half * sizeof *rest);
+    snprintf(text, size, "the potential, which has to be negative, is %.3g", gm_energy(view->problem, rest));
+}
+
 void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
 {
     const struct gm_system_scene *own = gm_system_scene_of(view);
@@ -140,6 +150,9 @@ void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
     }
     if (!text[0] && (view->scheme->needs & GM_NEEDS_MONITOR)) {
         tell_monitor(view, slope, ahead, text, size);
+    }
+    if (!text[0] && (view->scheme->needs & GM_NEEDS_ATTRACTION)) {
+        tell_potential(view, ahead, text, size);
     }
     free(slope);
 }

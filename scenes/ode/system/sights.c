@@ -94,10 +94,34 @@ static bool find_fixed(const struct gm_own_system *system, struct gm_sight *sigh
     return moves != NULL;
 }
 
-/* Axes of a plane have names where its one body tells them, and clicks there are starts; those of space are x, y
-   and z where the first body does not tell others. */
-static void name_axes(const struct gm_own_system *system, struct gm_sight *sight)
+/* What axis k of space is called where bodies are members of lists, x[1], x[2]: x, the name of all. NULL: they have no
+   name in common, or there is no memory for it. */
+static const char *common_name(struct gm_system_scene *own, size_t k)
 {
+    const struct gm_own_system *system = &own->system;
+    const char *common = NULL;
+    size_t length = 0;
+    const struct gm_system_item *item;
+    for (size_t i = 0; (item = gm_system_item_of(system, GM_WORD_VIEW, i)); i++) {
+        const struct gm_node *at = &system->graph.nodes[item->nodes[k]];
+        if (at->operation != GM_VARIABLE || at->a >= system->n) {
+            continue;
+        }
+        const char *name = system->variables[at->a].name;
+        if (common && (strcspn(name, "[") != length || strncmp(name, common, length) != 0)) {
+            return NULL;
+        }
+        common = name;
+        length = strcspn(name, "[");
+    }
+    return common ? gm_kept_texts_add(&own->texts, strndup(common, length)) : NULL;
+}
+
+/* Axes of a plane have names where its one body tells them, and clicks there are starts; those of space are x, y
+   and z where the first body does not tell others, or several tell different ones. */
+static void name_axes(struct gm_system_scene *own, struct gm_sight *sight)
+{
+    const struct gm_own_system *system = &own->system;
     static const char *const usual[] = {"x", "y", "z"};
     const struct gm_system_item *first = gm_system_item_of(system, GM_WORD_VIEW, 0);
     const bool in_space = sight->dimensions == 3;
@@ -106,7 +130,9 @@ static void name_axes(const struct gm_own_system *system, struct gm_sight *sight
         const struct gm_node *at = &system->graph.nodes[first->nodes[k]];
         told = at->operation == GM_VARIABLE && at->a < system->n;
         if (told) {
-            sight->labels[k] = system->variables[at->a].name;
+            const bool several = in_space && sight->bodies > 1;
+            const char *common = several ? common_name(own, k) : system->variables[at->a].name;
+            sight->labels[k] = common ? common : usual[k];
             sight->components[k % 2] = in_space ? -1 : (long)at->a;
         }
     }
@@ -140,7 +166,7 @@ static bool open_view(struct gm_system_scene *own, struct gm_sight *sight)
         copy_nodes(system, GM_WORD_ROD, copy_nodes(system, GM_WORD_VIEW, nodes));
         good = find_fixed(system, sight, nodes) &&
                gm_system_open_tape(own, &sight->tape, nodes, gm_sight_numbers(sight));
-        name_axes(system, sight);
+        name_axes(own, sight);
     }
     free(nodes);
     return good;

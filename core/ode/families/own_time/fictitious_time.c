@@ -1,13 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Kepler problem in a fictitious time s, whose step ds is the run's dt: H = |p|^2/2 + V(q), V = -1/|q| +
-   W(q) < 0, F = -grad V, F_W = -grad W, B = -H at the start. A step is half a drift, a kick, half a drift.
-   The memory is B. For W = 0 every point of both schemes lies on the exact orbit; only the time errs.
-
-   logh2: leapfrog for the logarithmic Hamiltonian ln(|p|^2/2 + B) - ln(-V(q)), dt = ds / (|p|^2/2 + B):
-       drift   d = (ds/2) / (|p|^2/2 + B),   q += d p,   t += d
-       kick    p += ds F(q) / (-V(q))
-   S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; M. Preto & S. Tremaine, Astron. J. 118
-   (1999) 2532.
+   W(q) < 0, F_W = -grad W, B = -H at the start. A step is half a drift, a kick, half a drift. The memory is
+   B. For W = 0 every point lies on the exact orbit; only the time errs.
 
    levi-civita: with q = u^2 and w = 2 conj(u) p as complex numbers and dt = |q| ds,
        |q| (H + B) = |w|^2/8 + B |u|^2 - 1 + |u|^2 W(u^2),
@@ -29,27 +23,6 @@
 /* One step of the state (q1, q2, p1, p2) and of the time; it evaluates the force once. */
 typedef void fictitious_step(const struct gm_problem *problem, double ds, double binding, double *y,
                              double *t);
-
-static void drift_by_logarithm(double ds, double binding, double *y, double *t)
-{
-    const double d = ds / ((y[2] * y[2] + y[3] * y[3]) / 2 + binding);
-    y[0] += d * y[2];
-    y[1] += d * y[3];
-    *t += d;
-}
-
-static void logarithmic_hamiltonian(const struct gm_problem *problem, double ds, double binding, double *y,
-                                    double *t)
-{
-    double f[4], potential;
-    drift_by_logarithm(ds / 2, binding, y, t);
-    gm_field(problem, y, f, 1);
-    gm_ode_of(problem)->kepler_split->potential(problem, y, &potential, 1);
-    for (int c = 0; c < 2; c++) {
-        y[2 + c] -= ds * f[2 + c] / potential;
-    }
-    drift_by_logarithm(ds / 2, binding, y, t);
-}
 
 static double square(double complex z)
 {
@@ -126,19 +99,6 @@ static void *workspace_open(const struct gm_problem *problem, const struct gm_sc
 }
 
 static const struct gm_scheme schemes[] = {
-    {
-        .name = "logh2",
-        .title = "logarithmic Hamiltonian",
-        .formula = "drift q += d p, t += d, d = (ds/2)/(|p|²/2 + B);  kick p += ds F(q)/(−V(q));  drift\n"
-                   "B = −H(0);  dt is the step ds of the fictitious time",
-        .reference = "S. Mikkola & K. Tanikawa, Celest. Mech. Dyn. Astron. 74 (1999) 287; "
-                     "M. Preto & S. Tremaine, Astron. J. 118 (1999) 2532",
-        .family = &gm_family_fictitious_time,
-        .coefficients = &(fictitious_step *const){logarithmic_hamiltonian},
-        .order = 2,
-        .needs = GM_NEEDS_KEPLER_SPLIT,
-        .claims = GM_SYMMETRIC | GM_REVERSIBLE | GM_KEEPS_BILINEAR,
-    },
     {
         .name = "levi-civita",
         .title = "Levi-Civita",

@@ -29,6 +29,7 @@
 #include "core/count.h"
 #include "core/ode/families/families.h"
 #include "core/ode/kernel/members.h"
+#include "core/ode/kernel/tiles.h"
 #include "core/ode/variational/manifold.h"
 
 enum { ITERATIONS = 50, HALVINGS = 20 };
@@ -237,6 +238,25 @@ static double assemble(const struct step *step, const double *unknowns, struct g
     return size;
 }
 
+/* The last change is one of the multipliers too, and so of what the momenta gain by them. */
+static void correct_impulse(const struct step *step)
+{
+    const struct gm_manifold *manifold = &step->manifold;
+    const size_t half = step->half, degree = step->rule->degree;
+    for (size_t j = 0; j < degree && step->constraints > 0; j++) {
+        for (size_t a = 0; a < half; a++) {
+            manifold->at[a] = step->q[a] + (j > 0 ? step->solution[(j - 1) * half + a] : 0);
+        }
+        gm_manifold_constrain(manifold, manifold->at);
+        for (size_t k = 0; k < step->constraints; k++) {
+            const double change = step->change[degree * half + j * step->constraints + k];
+            for (size_t a = 0; a < half; a++) {
+                step->impulse[a] -= step->rule->b[j] * manifold->slopes[k * half + a] * change;
+            }
+        }
+    }
+}
+
 /* Newton's method from rest, where the first step is the Legendre transform; shortened where a whole step
    leads further away. */
 static bool solve(const struct step *step, struct gm_progress *progress)
@@ -269,6 +289,7 @@ static bool solve(const struct step *step, struct gm_progress *progress)
             for (size_t i = 0; i < all; i++) {
                 step->solution[i] -= step->change[i];
             }
+            correct_impulse(step);
             return true;
         }
         double factor = 1, there = NAN;
@@ -337,10 +358,10 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     if (!solve(&step, progress)) {
         return GM_NO_CONVERGENCE;
     }
-    for (size_t a = 0; a < half; a++) {
-        y[a] += step.solution[(rule->degree - 1) * half + a];
-        y[half + a] = step.p[a] + step.impulse[a];
-    }
+    double *carry = members->carry;
+    memcpy(y + half, step.p, half * sizeof *y);
+    gm_tile_add(y, 1, step.solution + (rule->degree - 1) * half, carry, half);
+    gm_tile_add(y + half, 1, step.impulse, carry ? carry + half : NULL, half);
     if (problem->n > 2 * half) {
         y[2 * half] += task->dt;
     }
@@ -534,6 +555,7 @@ const struct gm_family gm_family_discrete_lagrangian = {
     .title = "variational, with fixed step",
     .schemes = schemes,
     .count = GM_COUNT(schemes),
+    .parameters = gm_settings_of_sums,
     .loop = gm_variational_loop,
     .workspace_open = gm_variational_workspace,
     .workspace_close = free,

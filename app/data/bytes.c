@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bytes at places of open files. */
+#include "app/data/bytes.h"
+
+#include <errno.h>
+#include <libdeflate.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+enum { BLOCK = 1 << 18 };
+
+bool gm_bytes_write(int file, const void *bytes, size_t size, uint64_t place)
+{
+    const char *from = bytes;
+    while (size > 0) {
+        const ssize_t done = pwrite(file, from, size, (off_t)place);
+        if (done < 0 && errno == EINTR) {
+            continue;
+        }
+        if (done <= 0) {
+            return false;
+        }
+        from += done;
+        size -= (size_t)done;
+        place += (uint64_t)done;
+    }
+    return true;
+}
+
+bool gm_bytes_read(int file, void *bytes, size_t size, uint64_t place)
+{
+    char *to = bytes;
+    while (size > 0) {
+        const ssize_t done = pread(file, to, size, (off_t)place);
+        if (done < 0 && errno == EINTR) {
+            continue;
+        }
+        if (done <= 0) {
+            errno = done == 0 ? EIO : errno;
+            return false;
+        }
+        to += done;
+        size -= (size_t)done;
+        place += (uint64_t)done;
+    }
+    return true;
+}
+
+/* `to` < 0: they are only looked at. */
+static bool pass(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc)
+{
+    unsigned char *block = malloc(BLOCK);
+    bool good = block != NULL;
+    errno = good ? errno : ENOMEM;
+    for (uint64_t at = 0; at < size && good;) {
+        const size_t part = size - at < BLOCK ? (size_t)(size - at) : BLOCK;
+        good = gm_bytes_read(from, block, part, place + at) &&
+               (to < 0 || gm_bytes_write(to, block, part, there + at));
+        *crc = libdeflate_crc32(*crc, block, part);
+        at += part;
+    }
+    free(block);
+    return good;
+}
+
+bool gm_bytes_check(int file, uint64_t place, uint64_t size, uint32_t *crc)
+{
+    return pass(file, place, size, -1, 0, crc);
+}
+
+bool gm_bytes_copy(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc)
+{
+    return pass(from, place, size, to, there, crc);
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_DATA_BYTES_H
+#define GM_APP_DATA_BYTES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Bytes at places of open files, all of them or none: false with errno, of a file that is too short EIO. */
+
+bool gm_bytes_write(int file, const void *bytes, size_t size, uint64_t place);
+bool gm_bytes_read(int file, void *bytes, size_t size, uint64_t place);
+
+/* Goes on with the checksum (CRC-32) of bytes that lie in a file. */
+bool gm_bytes_check(int file, uint64_t place, uint64_t size, uint32_t *crc);
+/* ... and copies them to another file. */
+bool gm_bytes_copy(int from, uint64_t place, uint64_t size, int to, uint64_t there, uint32_t *crc);
+
+#endif

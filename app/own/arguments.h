@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OWN_ARGUMENTS_H
+#define GM_APP_OWN_ARGUMENTS_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Words as they were typed, or as a text holds them: a scene and its key=value, or the words of a command. */
+
+struct gm_scene;
+
+struct gm_arguments { /* {0} is an empty list */
+    char **words;     /* its own copies */
+    int count;
+};
+void gm_arguments_close(struct gm_arguments *arguments);
+
+/* Adds one word, or the words of a text: separated by blanks, with a backslash before a blank or backslash
+   that belongs to a word. False when memory is short; the list is then to be closed as always. */
+bool gm_arguments_add(struct gm_arguments *arguments, const char *word);
+bool gm_arguments_split(struct gm_arguments *arguments, const char *text);
+
+/* Puts a NULL behind the last word, which it does not count. */
+bool gm_arguments_end(struct gm_arguments *arguments);
+
+/* Whether one of the words sets the key that `word` sets: "dt=" or "dt=0.1". */
+bool gm_arguments_have(const struct gm_arguments *arguments, const char *word);
+
+/* Fills an empty list with the first word that was typed, a scene; the words of the text `usual` that set no
+   key that was typed; and the other words typed. False when memory is short. */
+bool gm_arguments_complete(struct gm_arguments *arguments, const struct gm_arguments *typed,
+                           const char *usual);
+
+/* Writes one word as gm_arguments_split reads it. */
+void gm_arguments_put(FILE *stream, const char *word);
+/* Writes one word as a shell reads it: quotes are where they are needed. */
+void gm_arguments_put_shell(FILE *stream, const char *word);
+/* Writes a scene as the first word, or as those that it was made of. */
+void gm_arguments_put_scene(FILE *stream, const struct gm_scene *scene);
+/* The same as a shell reads it, as far as `text` has room. */
+void gm_arguments_tell_scene(const struct gm_scene *scene, char *text, size_t size);
+/* "FRONT word word"; malloc'ed, NULL when memory is short. */
+char *gm_arguments_join(const char *front, const struct gm_arguments *arguments);
+
+#endif

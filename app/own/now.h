@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OWN_NOW_H
+#define GM_APP_OWN_NOW_H
+
+struct gm_scene;
+
+/* The text of a system's scene with these values of its parameters and its start; malloc'ed, NULL: no
+   memory. */
+char *gm_system_now(const struct gm_scene *scene, const void *parameters);
+
+#endif

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef GM_APP_OWN_WORDED_H
+#define GM_APP_OWN_WORDED_H
+
+#include <stdbool.h>
+
+#include "app/own/lines.h"
+
+extern const char *const gm_worded_keys[]; /* H L rate coordinates momenta, and NULL */
+
+/* Writes the lines of the file that "system H=... key=value ..." would be: coordinates that are not said are q, or
+   q1, q2 and so on, names of the state have their values at the start, others are parameters. False with a
+   sentence, and a place where it has one. */
+bool gm_worded_write(struct gm_system_lines *written, int count, char *const words[],
+                     struct gm_word_place *place, char *message);
+
+#endif

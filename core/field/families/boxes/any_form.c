@@ -1,0 +1,412 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The boxes of every order for any M s_t + K s_x = grad S(s) whose state is s at the nodes: Gauss-Legendre collocation
+   in space and time (collocation.c),
+       r = 1   M D_t A_x s + K A_t D_x s = grad S(A_t A_x s),   A f = (f_i + f_{i+1})/2,   D f = (f_{i+1} - f_i)/dx
+   S. Reich, J. Comput. Phys. 157 (2000) 473; T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184. The memory is s
+   at the stages of the cells, and the stages of three steps, of which the next step's are guessed. What the form
+   calls M and K are the K and L of a system's file, and of the formulas that users read.
+
+   Values at the nodes are found of those at the stages, and the other way round at the start: of one stage they are
+   means, so that on an odd number of cells a step is the box's of nodes to the last digits. On an even number no mean
+   shows the part that alternates from node to node; it is left out. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/field/families/boxes/collocation.h"
+#include "core/field/families/families.h"
+#include "core/field/multisymplectic.h"
+#include "core/linear/differences.h"
+
+static const struct gm_collocation_tableau midpoint = {1, {{0.5}}, {1}, {0.5}};
+
+#define ROOT3 1.7320508075688772935
+static const struct gm_collocation_tableau gauss4 = {
+    2,
+    {{0.25, 0.25 - ROOT3 / 6}, {0.25 + ROOT3 / 6, 0.25}},
+    {0.5, 0.5},
+    {0.5 - ROOT3 / 6, 0.5 + ROOT3 / 6},
+};
+
+#define ROOT15 3.8729833462074168852
+static const struct gm_collocation_tableau gauss6 = {
+    3,
+    {{5.0 / 36, 2.0 / 9 - ROOT15 / 15, 5.0 / 36 - ROOT15 / 30},
+     {5.0 / 36 + ROOT15 / 24, 2.0 / 9, 5.0 / 36 - ROOT15 / 24},
+     {5.0 / 36 + ROOT15 / 30, 2.0 / 9 + ROOT15 / 15, 5.0 / 36}},
+    {5.0 / 18, 4.0 / 9, 5.0 / 18},
+    {0.5 - ROOT15 / 10, 0.5, 0.5 + ROOT15 / 10},
+};
+
+/* What is remembered: how many steps' stages there are, + 1 (0: nothing yet), whether Newton's method was needed, s at
+   the stages of the level, and the stages and sides of the last steps. */
+enum { KNOWN, NEWTON, ARRAYS };
+
+static size_t of_level(const struct gm_collocation *work)
+{
+    return work->d * work->r * work->points;
+}
+
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const size_t r = ((const struct gm_collocation_tableau *)scheme->coefficients)->r,
+                 d = gm_field_of(problem)->form->dimension;
+    /* sides of full rank, at most */
+    return ARRAYS + (d * r + GM_COLLOCATION_PAST * (d * r * r + d * r)) * problem->line.points;
+}
+
+/* Copies between the memory and the workspace. */
+static void exchange_memory(struct gm_collocation *work, double *to, const double *from)
+{
+    struct {
+        double *array;
+        size_t size;
+    } arrays[1 + 2 * GM_COLLOCATION_PAST] = {{work->low, of_level(work)}};
+    for (size_t k = 0; k < GM_COLLOCATION_PAST; k++) {
+        arrays[1 + 2 * k].array = work->past_z[k];
+        arrays[1 + 2 * k].size = work->stages * work->points;
+        arrays[2 + 2 * k].array = work->past_y[k];
+        arrays[2 + 2 * k].size = work->sides * work->points;
+    }
+    for (size_t i = 0, at = ARRAYS; i < GM_COUNT(arrays); at += arrays[i++].size) {
+        if (to) {
+            memcpy(to + at, arrays[i].array, arrays[i].size * sizeof *to);
+        } else {
+            memcpy(arrays[i].array, from + at, arrays[i].size * sizeof *from);
+        }
+    }
+}
+
+static void remember(struct gm_collocation *work, size_t known, double *memory)
+{
+    memory[KNOWN] = (double)known;
+    memory[NEWTON] = work->needs_newton;
+    exchange_memory(work, memory, NULL);
+}
+
+static size_t recall(struct gm_collocation *work, const double *memory)
+{
+    work->needs_newton = memory[NEWTON] != 0;
+    exchange_memory(work, NULL, memory);
+    return (size_t)memory[KNOWN];
+}
+
+/* Potentials from their slopes, cell after cell by collocation, as the stages of every step have them: from values at
+   the nodes they would differ by an error of the grid, which would change its sign from step to step for ever. */
+static void integrate_potentials(struct gm_collocation *work)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const struct gm_collocation_tableau *tableau = work->tableau;
+    const size_t points = work->points, r = work->r, d = work->d;
+    const double dx = work->problem->line.dx;
+    form->gradients(work->problem->parameters, work->low, work->gradient, r * points);
+    for (size_t p = 0; p < form->potential_count; p++) {
+        const size_t component = form->potentials[p].component, row = form->potentials[p].row;
+        const double *slope = work->gradient + row * r * points, over = 1 / form->k[row * d + component];
+        double *to = work->low + component * r * points, left = 0;
+        for (size_t k = 0; k < work->rank; k++) {
+            left += work->basis[component][k] * work->y[k * points];
+        }
+        for (size_t i = 0; i < points; i++) {
+            double rise = 0;
+            for (size_t m = 0; m < r; m++) {
+                to[m * points + i] = left;
+                for (size_t l = 0; l < r; l++) {
+                    to[m * points + i] += dx * tableau->a[m][l] * over * slope[l * points + i];
+                }
+                rise += dx * tableau->b[m] * over * slope[m * points + i];
+            }
+            left += rise;
+        }
+    }
+}
+
+/* The polynomial through the past values, at the step to come. */
+static void extrapolate(double *const *past, size_t steps, double *to, size_t count)
+{
+    static const double weights[GM_COLLOCATION_PAST][GM_COLLOCATION_PAST] = {{1}, {2, -1}, {3, -3, 1}};
+    const double *w = weights[steps - 1];
+    for (size_t i = 0; i < count; i++) {
+        to[i] = w[0] * past[0][i] + w[1] * past[1][i] + w[2] * past[2][i];
+    }
+}
+
+/* Nothing determines the constant of a potential: on the first side it stays what it was. */
+static void anchor(struct gm_collocation *work)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const size_t points = work->points, r = work->r;
+    for (size_t at = 0; at < form->potential_count * work->sides; at++) {
+        const size_t c = form->potentials[at / work->sides].component, side = at % work->sides;
+        const double part = work->basis[c][side % work->rank];
+        double *y = work->y + side * points, *z = work->z + (c * r + side / work->rank) * r * points;
+        const double by = part != 0 ? work->past_y[0][side * points] - y[0] : 0;
+        for (size_t i = 0; i < points && by != 0; i++) {
+            y[i] += by;
+        }
+        for (size_t i = 0; i < r * points && by != 0; i++) {
+            z[i] += by * part;
+        }
+    }
+}
+
+/* z and y of the step to come, from those of `known` - 1 before. */
+static void guess(struct gm_collocation *work, size_t known)
+{
+    const size_t points = work->points, r = work->r, steps = known > 1 ? known - 1 : 1;
+    extrapolate(work->past_y, steps, work->y, work->sides * points);
+    extrapolate(work->past_z, steps, work->z, work->stages * points);
+    for (size_t at = 0; at < work->d * r * r && known == 1; at++) {
+        memcpy(work->z + at * points, work->low + (at / (r * r) * r + at % r) * points,
+               points * sizeof(double));
+    }
+    anchor(work);
+}
+
+/* Where a potential ties components without a rate to rates of others, waves of the branches that no smooth field has
+   are too fast for a step: two stages leave them where they are, three turn them around, and such a component is 1/dt
+   of them, which two stages add up step after step. What the start has of them goes here: the stages of a step there
+   and of one back have next to nothing of it, and the polynomial through both, even in time, is s at the start but for
+   dt^(2 r). */
+static void settle(struct gm_collocation *work, double dt)
+{
+    const size_t points = work->points, r = work->r;
+    const double *c = work->tableau->c;
+    double *sum = work->past_z[1]; /* there are no steps before */
+    memset(sum, 0, of_level(work) * sizeof *sum);
+    for (int way = -1; way <= 1; way += 2) {
+        struct gm_progress uncounted = {.status = GM_OK};
+        guess(work, 1);
+        if (gm_collocation_step(work, way * dt, &uncounted) != GM_OK) {
+            return;
+        }
+        for (size_t j = 0; j < r; j++) {
+            double weight = 0.5;
+            for (size_t k = 0; k < r; k++) {
+                weight *= k == j ? 1 : c[k] * c[k] / (c[k] * c[k] - c[j] * c[j]);
+            }
+            for (size_t at = 0; at < work->d * r; at++) {
+                const double *stage = work->z + ((at / r * r + j) * r + at % r) * points;
+                for (size_t i = 0; i < points; i++) {
+                    sum[at * points + i] += weight * stage[i];
+                }
+            }
+        }
+    }
+    memcpy(work->low, sum, of_level(work) * sizeof *sum);
+}
+
+/* s at the stages, once; for another dt the steps before are forgotten. */
+static enum gm_status start(const struct gm_task *task)
+{
+    struct gm_collocation *work = task->workspace;
+    if (task->memory_out[KNOWN] > 0) {
+        task->memory_out[KNOWN] = 1;
+        task->memory_out[NEWTON] = 0;
+        return GM_OK;
+    }
+    work->needs_newton = false;
+    gm_collocation_to_stages(work, task->y, work->low);
+    gm_collocation_guess_sides(work, task->y);
+    integrate_potentials(work);
+    memcpy(work->past_y[0], work->y, work->sides * work->points * sizeof(double));
+    if (work->r > 1 && gm_field_of(work->problem)->form->potential_count > 0) {
+        settle(work, task->dt);
+    }
+    remember(work, 1, task->memory_out);
+    return GM_OK;
+}
+
+/* The solution becomes the first of the past ones. */
+static void shift(double **now, double **past)
+{
+    double *oldest = past[GM_COLLOCATION_PAST - 1];
+    for (size_t k = GM_COLLOCATION_PAST - 1; k > 0; k--) {
+        past[k] = past[k - 1];
+    }
+    past[0] = *now;
+    *now = oldest;
+}
+
+static struct gm_progress advance(const struct gm_task *task)
+{
+    struct gm_collocation *work = task->workspace;
+    struct gm_progress progress = {.status = GM_OK};
+    size_t known = recall(work, task->memory);
+    for (long k = 0; k < task->steps; k++) {
+        guess(work, known);
+        progress.status = gm_collocation_step(work, task->dt, &progress);
+        if (progress.status == GM_OK && !gm_field_within(work->high, of_level(work), task->limit)) {
+            progress.status = GM_BLOW_UP;
+        }
+        if (progress.status != GM_OK) {
+            return progress;
+        }
+        double *low = work->low;
+        work->low = work->high;
+        work->high = low;
+        shift(&work->z, work->past_z);
+        shift(&work->y, work->past_y);
+        known = known <= GM_COLLOCATION_PAST ? known + 1 : known;
+        progress.done++;
+    }
+    remember(work, known, task->memory_out);
+    gm_collocation_to_nodes(work, work->low, task->out);
+    return progress;
+}
+
+/* ---- the discrete multisymplectic law ---- */
+
+struct base {
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    double dt;
+    struct gm_collocation *work;
+    const double *y;
+    const double *memory;
+};
+
+/* gm_map: s at the stages to s at those behind a step. */
+static bool one_step(const void *context, const double *from, double *to)
+{
+    const struct base *base = context;
+    const size_t n = base->problem->n, size = memory(base->problem, base->scheme), low = of_level(base->work);
+    double *room = malloc((n + 2 * size) * sizeof *room);
+    if (!room) {
+        return false;
+    }
+    double *given = room + n, *made = given + size;
+    memcpy(given, base->memory, size * sizeof *given);
+    memcpy(given + ARRAYS, from, low * sizeof *given);
+    const struct gm_task task = {
+        .problem = base->problem,
+        .scheme = base->scheme,
+        .dt = base->dt,
+        .steps = 1,
+        .limit = INFINITY,
+        .y = base->y,
+        .out = room,
+        .memory = given,
+        .memory_out = made,
+        .workspace = base->work,
+    };
+    const bool good = base->scheme->family->loop(&task).status == GM_OK;
+    memcpy(to, made + ARRAYS, low * sizeof *to);
+    free(room);
+    return good;
+}
+
+/* From [component][stage][cell] to faces. */
+static void to_face(const struct gm_collocation *work, const double *stages, double *face)
+{
+    const size_t r = work->r, d = work->d, points = work->points;
+    for (size_t i = 0; i < points; i++) {
+        for (size_t m = 0; m < r; m++) {
+            for (size_t c = 0; c < d; c++) {
+                face[(i * r + m) * d + c] = stages[(c * r + m) * points + i];
+            }
+        }
+    }
+}
+
+/* Advances a tangent from s at the stages and finds its faces. */
+static bool advance_tangent(const struct base *base, bool by_differences, const double *tangent, double *next,
+                            struct gm_faces *faces)
+{
+    struct gm_collocation *work = base->work;
+    const size_t low = of_level(work), points = work->points, d = work->d, r = work->r;
+    const bool good =
+        !by_differences || gm_differentiate(one_step, base, low, base->memory + ARRAYS, tangent, low, next);
+    struct gm_progress uncounted = {.status = GM_OK};
+    guess(work, recall(work, base->memory));
+    if (!good || gm_collocation_step(work, base->dt, &uncounted) != GM_OK ||
+        !gm_collocation_linearise(work, base->dt)) {
+        return false;
+    }
+    memcpy(work->low, tangent, low * sizeof *tangent);
+    gm_collocation_tangent(work, base->dt);
+    to_face(work, tangent, faces->lower);
+    to_face(work, by_differences ? next : work->high, faces->upper);
+    for (size_t i = 0; i <= points; i++) {
+        for (size_t j = 0; j < r; j++) {
+            double *side = faces->sides + (i * r + j) * d;
+            for (size_t c = 0; c < d; c++) {
+                side[c] = 0;
+                for (size_t a = 0; a < work->rank; a++) {
+                    side[c] +=
+                        work->basis[c][a] * work->y[(j * work->rank + a) * points + (i < points ? i : 0)];
+                }
+            }
+        }
+    }
+    return true;
+}
+
+static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                   const double *y, const double *remembered, bool by_differences)
+{
+    const struct gm_form *field = gm_field_of(problem)->form;
+    const struct gm_collocation_tableau *tableau = scheme->coefficients;
+    const size_t points = problem->line.points, r = tableau->r, d = field->dimension;
+    const struct gm_lattice cells = {points, r, r, tableau->b, tableau->b, problem->line.dx, dt};
+    struct gm_collocation *work = gm_collocation_open(problem, scheme);
+    struct gm_faces faces[2] = {{0}};
+    double *tangent = malloc(2 * d * r * points * sizeof *tangent), residual = NAN;
+    bool good = work && tangent;
+    for (size_t t = 0; t < 2 && good; t++) {
+        good = gm_faces_open(&faces[t], field, &cells);
+    }
+    const struct base base = {problem, scheme, dt, work, y, remembered};
+    for (size_t t = 0; t < 2 && good; t++) {
+        const double waves = 2 + (double)t;
+        for (size_t at = 0; at < d * r; at++) {
+            gm_tangent_start(tangent + at * points, points, waves,
+                             0.3 + 0.4 * (double)t + (double)(at / r) +
+                                 2 * M_PI * waves * tableau->c[at % r] / (double)points);
+        }
+        good = advance_tangent(&base, by_differences, tangent, tangent + d * r * points, &faces[t]);
+    }
+    if (good) {
+        residual = gm_lattice_law(field, &cells, &faces[0], &faces[1]);
+    }
+    gm_faces_close(&faces[0]);
+    gm_faces_close(&faces[1]);
+    free(tangent);
+    if (work) {
+        gm_collocation_close(work);
+    }
+    return residual;
+}
+
+#define BOX(name_, title_, formula_, reference_, tableau_, order_)                                           \
+    {                                                                                                        \
+        .name = name_, .title = title_, .formula = formula_, .reference = reference_,                        \
+        .family = &gm_family_any_form, .coefficients = tableau_, .order = order_, .needs = GM_NEEDS_ALL,     \
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC, .in_cells = true,                                       \
+    }
+
+static const struct gm_scheme schemes[] = {
+    BOX("box", "box", "K DₜAₓz + L AₜDₓz = ∇S(AₜAₓz),  A f = (fᵢ + fᵢ₊₁)/2,  D f = (fᵢ₊₁ − fᵢ)/Δx",
+        "A. Preissmann (1961); T.J. Bridges & S. Reich, Phys. Lett. A 284 (2001) 184: all components",
+        &midpoint, 2),
+    BOX("gauss-box2", "Gauss box, r = s = 1", "K T + L X = ∇S(Z),  the midpoint rule in x and t",
+        "S. Reich, J. Comput. Phys. 157 (2000) 473: the box", &midpoint, 2),
+    BOX("gauss-box3", "Gauss box, r = s = 2", "K T + L X = ∇S(Z),  two stages of Gauss in x and t",
+        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss4, 3),
+    BOX("gauss-box4", "Gauss box, r = s = 3", "K T + L X = ∇S(Z),  three stages of Gauss in x and t",
+        "S. Reich, J. Comput. Phys. 157 (2000) 473; the order is that of the stages", &gauss6, 4),
+};
+
+const struct gm_family gm_family_any_form = {
+    .kind = &gm_kind_field,
+    .title = "multisymplectic boxes of all components",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .loop = advance,
+    .memory = memory,
+    .start = start,
+    .workspace_open = gm_collocation_open,
+    .workspace_close = gm_collocation_close,
+    .form = form,
+};

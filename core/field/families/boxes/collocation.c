@@ -1,0 +1,881 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gauss-Legendre collocation on a ring of cells for M s_t + K s_x = grad S(s), M and K skew, of any rank. With the
+   tableau (A, b, c) of r stages across a cell and as many across a step, s = Z_jm at stage j in time and m in space,
+       M T_jm + K X_jm = grad S(Z_jm)
+       T_jm = sum_k (A^-1)_jk (Z_km - s_m)/dt       X_jm = sum_l (A^-1)_ml (Z_jl - y_j)/dx
+       s_m+ = (1 - rho) s_m + sum_k w_k Z_km        y_j+ = (1 - rho) y_j + sum_l w_l Z_jl
+       w = b' A^-1,   rho = b' A^-1 1
+   s_m before and s_m+ behind the step, y_j on the left side of the cell and y_j+ on its right one, which is the left
+   one of the next. Of s only M s counts, of y only K y, so that y is kept in a basis of the range of K.
+
+   The unknowns of a cell, Z, are eliminated from its equations with exchanges of rows, which leave equations between
+   the y of neighbours: a block for the left and one for the right side, folded to a band. Where S'' = S''(0) this is
+   the same in every cell, and made once; with it the equations are iterated, and by Newton's method where that is
+   slow. */
+#include "core/field/families/boxes/collocation.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clones.h"
+#include "core/scheme.h"
+
+/* ---- the workspace ---- */
+
+static void close_factors(struct gm_collocation_factors *factors)
+{
+    if (factors->opened) {
+        gm_ring_band_close(&factors->sides);
+    }
+    free(factors->cells);
+    free(factors->pivots);
+    free(factors->scales);
+    *factors = (struct gm_collocation_factors){0};
+}
+
+static bool open_factors(const struct gm_collocation *work, struct gm_collocation_factors *factors,
+                         bool shared)
+{
+    const size_t rows = work->stages + work->sides, columns = rows + work->sides;
+    const size_t cells = shared ? 1 : work->points;
+    if (factors->opened) {
+        return true;
+    }
+    *factors = (struct gm_collocation_factors){
+        .cells = malloc(cells * rows * columns * sizeof(double)),
+        .pivots = malloc(cells * work->stages * sizeof(size_t)),
+        .scales = malloc(cells * work->sides * sizeof(double)),
+        .shared = shared,
+    };
+    factors->opened = factors->cells && factors->pivots && factors->scales &&
+                      gm_ring_band_open(&factors->sides, work->points, work->sides, 1);
+    if (!factors->opened) {
+        close_factors(factors);
+    }
+    return factors->opened;
+}
+
+void gm_collocation_close(void *workspace)
+{
+    struct gm_collocation *work = workspace;
+    if (work->fourier) {
+        gm_fourier_close(work->fourier);
+    }
+    close_factors(&work->constant);
+    close_factors(&work->newton);
+    free(work->waves);
+    free(work->memory);
+    free(work);
+}
+
+/* An orthonormal basis of the range of K, from its longest rows on, by Gram and Schmidt; potentials come first, each by itself. */
+static void find_range(struct gm_collocation *work, const struct gm_form *form)
+{
+    const size_t d = work->d;
+    const double *k = form->k;
+    double rows[GM_MOST_OF_FORM][GM_MOST_OF_FORM], largest = 0;
+    bool first[GM_MOST_OF_FORM] = {false};
+    for (size_t p = 0; p < form->potential_count; p++) {
+        first[form->potentials[p].row] = true;
+    }
+    for (size_t i = 0; i < d; i++) {
+        for (size_t j = 0; j < d; j++) {
+            rows[i][j] = k[i * d + j];
+            largest = fmax(largest, fabs(rows[i][j]));
+        }
+    }
+    for (work->rank = 0; work->rank < d; work->rank++) {
+        size_t longest = 0;
+        double square = 0;
+        for (size_t i = 0; i < 2 * d; i++) {
+            double sum = 0;
+            for (size_t j = 0; j < d; j++) {
+                sum += rows[i % d][j] * rows[i % d][j];
+            }
+            if (first[i % d] == (i < d) && sum > square && (i < d || square <= 1e-24 * largest * largest)) {
+                longest = i % d;
+                square = sum;
+            }
+        }
+        if (!(sqrt(square) > 1e-12 * largest)) {
+            break;
+        }
+        double unit[GM_MOST_OF_FORM];
+        for (size_t j = 0; j < d; j++) {
+            unit[j] = rows[longest][j] / sqrt(square);
+            work->basis[j][work->rank] = unit[j];
+        }
+        for (size_t i = 0; i < d; i++) {
+            double along = 0;
+            for (size_t j = 0; j < d; j++) {
+                along += rows[i][j] * unit[j];
+            }
+            for (size_t j = 0; j < d; j++) {
+                rows[i][j] -= along * unit[j];
+            }
+        }
+    }
+    for (size_t i = 0; i < d; i++) {
+        for (size_t a = 0; a < work->rank; a++) {
+            for (size_t j = 0; j < d; j++) {
+                work->slopes[i][a] += k[i * d + j] * work->basis[j][a];
+            }
+        }
+    }
+}
+
+/* A^-1 by Gauss and Jordan, without exchanges: the minors of A are those of a positive quadrature. */
+static void invert(struct gm_collocation *work)
+{
+    const size_t r = work->r;
+    double a[GM_COLLOCATION_STAGES][2 * GM_COLLOCATION_STAGES] = {{0}};
+    for (size_t i = 0; i < r; i++) {
+        memcpy(a[i], work->tableau->a[i], r * sizeof(double));
+        a[i][r + i] = 1;
+    }
+    for (size_t p = 0; p < r; p++) {
+        const double over = 1 / a[p][p];
+        for (size_t j = 0; j < 2 * r; j++) {
+            a[p][j] *= over;
+        }
+        for (size_t i = 0; i < r; i++) {
+            const double factor = i == p ? 0 : a[i][p];
+            for (size_t j = 0; j < 2 * r; j++) {
+                a[i][j] -= factor * a[p][j];
+            }
+        }
+    }
+    work->rest = 1;
+    for (size_t i = 0; i < r; i++) {
+        for (size_t j = 0; j < r; j++) {
+            work->inverse[i][j] = a[i][r + j];
+            work->sums[i] += a[i][r + j];
+            work->weights[j] += work->tableau->b[i] * a[i][r + j];
+            work->rest -= work->tableau->b[i] * a[i][r + j];
+        }
+    }
+    /* 1 - rho is (-1)^r, and has to be that to the last digit */
+    work->rest = round(work->rest);
+}
+
+void *gm_collocation_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct gm_form *form = gm_field_of(problem)->form;
+    struct gm_collocation *work = calloc(1, sizeof *work);
+    if (!work) {
+        return NULL;
+    }
+    const size_t d = form->dimension, points = problem->line.points;
+    work->problem = problem;
+    work->tableau = scheme->coefficients;
+    work->points = points;
+    work->d = d;
+    work->r = work->tableau->r;
+    find_range(work, form);
+    invert(work);
+    const size_t q = work->r * work->r;
+    work->stages = d * q;
+    work->sides = work->r * work->rank;
+    struct {
+        double **array;
+        size_t numbers;
+    } arrays[] = {
+        {&work->low, d * work->r},
+        {&work->high, d * work->r},
+        {&work->z, work->stages},
+        {&work->past_z[0], work->stages},
+        {&work->past_z[1], work->stages},
+        {&work->past_z[2], work->stages},
+        {&work->first_z, work->stages},
+        {&work->gradient, work->stages},
+        {&work->hessian, d * work->stages},
+        {&work->right, work->stages + work->sides},
+        {&work->y, work->sides},
+        {&work->past_y[0], work->sides},
+        {&work->past_y[1], work->sides},
+        {&work->past_y[2], work->sides},
+        {&work->first_y, work->sides},
+        {&work->scratch, work->sides + 2},
+    };
+    size_t numbers = 0;
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        numbers += arrays[i].numbers;
+    }
+    work->memory = calloc(numbers * points, sizeof(double));
+    work->waves = malloc(work->r * points * sizeof *work->waves);
+    work->fourier = gm_fourier_open(points);
+    if (!work->memory || !work->waves || !work->fourier) {
+        gm_collocation_close(work);
+        return NULL;
+    }
+    numbers = 0;
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        *arrays[i].array = work->memory + numbers * points;
+        numbers += arrays[i].numbers;
+    }
+    return work;
+}
+
+/* ---- the equations ---- */
+
+/* to += factor from */
+GM_CLONES static void add(double *restrict to, const double *restrict from, double factor, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        to[i] += factor * from[i];
+    }
+}
+
+/* to += factor times what is in the next cell, which of the last is the first, further by the jump */
+static void add_next(double *restrict to, const double *restrict from, double factor, double jump,
+                     size_t points)
+{
+    add(to, from + 1, factor, points - 1);
+    to[points - 1] += factor * (from[0] + jump);
+}
+
+static const double *stage_of(const struct gm_collocation *work, const double *z, size_t c, size_t j,
+                              size_t m)
+{
+    return z + ((c * work->r + j) * work->r + m) * work->points;
+}
+
+static double *row_of(const struct gm_collocation *work, size_t c, size_t j, size_t m)
+{
+    return work->right + ((c * work->r + j) * work->r + m) * work->points;
+}
+
+/* What equations of sides are multiplied by, so that they are as large as those of stages. */
+static double weight_of_sides(const struct gm_collocation *work)
+{
+    return 1 / work->problem->line.dx;
+}
+
+static double jump_of(const struct gm_collocation *work, size_t a)
+{
+    const double *jump = gm_field_of(work->problem)->form->jump;
+    double sum = 0;
+    for (size_t c = 0; jump && c < work->d; c++) {
+        sum += work->basis[c][a] * jump[c];
+    }
+    return sum;
+}
+
+/* right := grad S - M T - K X, and what closes the sides; with work->gradient as the gradient. */
+static void find_right(struct gm_collocation *work, double dt, bool tangent)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const size_t points = work->points, d = work->d, r = work->r;
+    const double dx = work->problem->line.dx;
+    memcpy(work->right, work->gradient, work->stages * points * sizeof(double));
+    for (size_t c = 0; c < d; c++) {
+        for (size_t row = 0; row < r * r; row++) {
+            const size_t j = row / r, m = row % r;
+            double *to = row_of(work, c, j, m);
+            for (size_t e = 0; e < d; e++) {
+                const double in_time = form->m[c * d + e] / dt, in_space = form->k[c * d + e] / dx;
+                for (size_t k = 0; k < r && in_time != 0; k++) {
+                    add(to, stage_of(work, work->z, e, k, m), -in_time * work->inverse[j][k], points);
+                }
+                if (in_time != 0) {
+                    add(to, work->low + (e * r + m) * points, in_time * work->sums[j], points);
+                }
+                for (size_t l = 0; l < r && in_space != 0; l++) {
+                    add(to, stage_of(work, work->z, e, j, l), -in_space * work->inverse[m][l], points);
+                }
+            }
+            for (size_t a = 0; a < work->rank; a++) {
+                if (work->slopes[c][a] != 0) {
+                    add(to, work->y + (j * work->rank + a) * points, work->slopes[c][a] * work->sums[m] / dx,
+                        points);
+                }
+            }
+        }
+    }
+    const double weight = weight_of_sides(work);
+    for (size_t j = 0; j < r; j++) {
+        for (size_t a = 0; a < work->rank; a++) {
+            const double *y = work->y + (j * work->rank + a) * points;
+            double *to = work->right + (work->stages + j * work->rank + a) * points;
+            memset(to, 0, points * sizeof *to);
+            add_next(to, y, -weight, tangent ? 0 : jump_of(work, a), points);
+            add(to, y, weight * work->rest, points);
+            for (size_t c = 0; c < d; c++) {
+                for (size_t l = 0; l < r && work->basis[c][a] != 0; l++) {
+                    add(to, stage_of(work, work->z, c, j, l), weight * work->weights[l] * work->basis[c][a],
+                        points);
+                }
+            }
+        }
+    }
+}
+
+/* The matrix of a cell's equations, rows as those of `right`, columns its stages, the left y, the right y. */
+static void cell_matrix(const struct gm_collocation *work, double dt, const double *hessian, size_t apart,
+                        double *matrix)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const size_t d = work->d, r = work->r, q = r * r, rank = work->rank, stages = work->stages;
+    const size_t columns = stages + 2 * work->sides;
+    const double dx = work->problem->line.dx, weight = weight_of_sides(work);
+    memset(matrix, 0, (stages + work->sides) * columns * sizeof *matrix);
+    for (size_t c = 0; c < d; c++) {
+        for (size_t at = 0; at < q; at++) {
+            const size_t j = at / r, m = at % r;
+            double *row = matrix + (c * q + at) * columns;
+            for (size_t e = 0; e < d; e++) {
+                for (size_t k = 0; k < r; k++) {
+                    row[e * q + k * r + m] += form->m[c * d + e] * work->inverse[j][k] / dt;
+                    row[e * q + j * r + k] += form->k[c * d + e] * work->inverse[m][k] / dx;
+                }
+                row[e * q + at] -= hessian[((c * d + e) * q + at) * apart];
+            }
+            for (size_t a = 0; a < rank; a++) {
+                row[stages + j * rank + a] = -work->slopes[c][a] * work->sums[m] / dx;
+            }
+        }
+    }
+    for (size_t j = 0; j < r; j++) {
+        for (size_t a = 0; a < rank; a++) {
+            double *row = matrix + (stages + j * rank + a) * columns;
+            row[stages + work->sides + j * rank + a] = weight;
+            row[stages + j * rank + a] = -weight * work->rest;
+            for (size_t c = 0; c < d; c++) {
+                for (size_t l = 0; l < r; l++) {
+                    row[c * q + j * r + l] = -weight * work->weights[l] * work->basis[c][a];
+                }
+            }
+        }
+    }
+}
+
+/* The number in the basis of a potential, which stands there by itself. */
+static size_t place_of(const struct gm_collocation *work, size_t component)
+{
+    size_t place = 0;
+    for (size_t a = 0; a < work->rank; a++) {
+        place = fabs(work->basis[component][a]) > fabs(work->basis[component][place]) ? a : place;
+    }
+    return place;
+}
+
+/* The constant of a potential is free, and that it closes around the ring follows from the other equations: in its
+   place, in the last cell, its first side is what the guess says. */
+static void hold_potentials(const struct gm_collocation *work, double *matrix)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const size_t columns = work->stages + 2 * work->sides;
+    for (size_t p = 0; p < form->potential_count; p++) {
+        for (size_t j = 0; j < work->r; j++) {
+            const size_t side = j * work->rank + place_of(work, form->potentials[p].component);
+            double *row = matrix + (work->stages + side) * columns;
+            memset(row, 0, columns * sizeof *row);
+            row[work->stages + work->sides + side] = weight_of_sides(work);
+        }
+    }
+}
+
+static void hold_right(struct gm_collocation *work)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    for (size_t p = 0; p < form->potential_count; p++) {
+        for (size_t j = 0; j < work->r; j++) {
+            const size_t side = j * work->rank + place_of(work, form->potentials[p].component);
+            work->right[(work->stages + side) * work->points + work->points - 1] = 0;
+        }
+    }
+}
+
+/* Eliminates the stages in place, factors below the diagonal; false where they are not determined. */
+static bool eliminate(const struct gm_collocation *work, double *matrix, size_t *pivots)
+{
+    const size_t rows = work->stages + work->sides, columns = rows + work->sides;
+    for (size_t p = 0; p < work->stages; p++) {
+        size_t best = p;
+        for (size_t i = p + 1; i < rows; i++) {
+            best = fabs(matrix[i * columns + p]) > fabs(matrix[best * columns + p]) ? i : best;
+        }
+        double *pivot = matrix + p * columns;
+        pivots[p] = best;
+        for (size_t j = p; j < columns && best != p; j++) { /* factors stay in the order of their exchanges */
+            const double held = pivot[j];
+            pivot[j] = matrix[best * columns + j];
+            matrix[best * columns + j] = held;
+        }
+        if (!isfinite(pivot[p]) || pivot[p] == 0) {
+            return false;
+        }
+        for (size_t i = p + 1; i < rows; i++) {
+            double *row = matrix + i * columns;
+            if (row[p] != 0) {
+                const double factor = row[p] /= pivot[p];
+                for (size_t j = p + 1; j < columns; j++) {
+                    row[j] -= factor * pivot[j];
+                }
+            }
+        }
+    }
+    return true;
+}
+
+/* The blocks of the sides as recursions; false where they are better solved as a band. */
+static bool make_blocks(const struct gm_collocation *work, struct gm_collocation_factors *factors)
+{
+    const size_t sides = work->sides, columns = work->stages + 2 * sides;
+    double left[GM_RING_BLOCKS_MOST * GM_RING_BLOCKS_MOST], right[GM_RING_BLOCKS_MOST * GM_RING_BLOCKS_MOST];
+    if (sides > GM_RING_BLOCKS_MOST) {
+        return false;
+    }
+    for (size_t a = 0; a < sides; a++) {
+        const double *row = factors->cells + (work->stages + a) * columns + work->stages;
+        for (size_t b = 0; b < sides; b++) {
+            left[a * sides + b] = factors->scales[a] * row[b];
+            right[a * sides + b] = factors->scales[a] * row[sides + b];
+        }
+    }
+    return gm_ring_blocks_make(&factors->blocks, work->points, sides, left, right);
+}
+
+/* S'' at all stages is in work->hessian; of `shared` ones at one point. */
+static bool factor(struct gm_collocation *work, struct gm_collocation_factors *factors, bool shared,
+                   double dt)
+{
+    const size_t rows = work->stages + work->sides, columns = rows + work->sides;
+    if (!open_factors(work, factors, shared)) {
+        return false;
+    }
+    gm_ring_band_clear(&factors->sides);
+    factors->good = true;
+    for (size_t i = 0; i < work->points && factors->good; i++) {
+        const size_t place = shared ? 0 : i;
+        double *matrix = factors->cells + place * rows * columns;
+        if (!shared || i == 0) {
+            cell_matrix(work, dt, work->hessian + place, work->points, matrix);
+            if (!shared && i + 1 == work->points) {
+                hold_potentials(work, matrix);
+            }
+            factors->good = eliminate(work, matrix, factors->pivots + place * work->stages);
+        }
+        for (size_t a = 0; a < work->sides && factors->good; a++) {
+            const double *row = matrix + (work->stages + a) * columns + work->stages;
+            double most = 0;
+            for (size_t b = 0; b < 2 * work->sides; b++) {
+                most = fmax(most, fabs(row[b]));
+            }
+            const double scale = factors->scales[place * work->sides + a] = most > 0 ? 1 / most : 1;
+            for (size_t b = 0; b < work->sides; b++) {
+                gm_ring_band_add(&factors->sides, i, a, 0, b, scale * row[b]);
+                gm_ring_band_add(&factors->sides, i, a, 1, b, scale * row[work->sides + b]);
+            }
+        }
+    }
+    factors->recursive = shared && factors->good && make_blocks(work, factors);
+    factors->good = factors->good && (factors->recursive || gm_ring_band_factor(&factors->sides));
+    return factors->good;
+}
+
+GM_CLONES static void exchange(double *restrict a, double *restrict b, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double held = a[i];
+        a[i] = b[i];
+        b[i] = held;
+    }
+}
+
+/* right := the changes of stages and of sides; all cells have one matrix */
+static void solve_shared(struct gm_collocation *work, struct gm_collocation_factors *factors)
+{
+    const size_t points = work->points, stages = work->stages, sides = work->sides;
+    const size_t rows = stages + sides, columns = rows + sides;
+    double *const right = work->right, *const y = right + stages * points;
+    for (size_t p = 0; p < stages; p++) {
+        if (factors->pivots[p] != p) {
+            exchange(right + p * points, right + factors->pivots[p] * points, points);
+        }
+        for (size_t i = p + 1; i < rows; i++) {
+            if (factors->cells[i * columns + p] != 0) {
+                add(right + i * points, right + p * points, -factors->cells[i * columns + p], points);
+            }
+        }
+    }
+    for (size_t a = 0; a < sides; a++) {
+        for (size_t i = 0; i < points; i++) {
+            y[a * points + i] *= factors->scales[a];
+        }
+    }
+    if (factors->recursive) {
+        gm_ring_blocks_solve(&factors->blocks, y, work->scratch);
+    } else {
+        gm_ring_band_solve(&factors->sides, y);
+    }
+    for (size_t p = stages; p-- > 0;) {
+        const double *row = factors->cells + p * columns, over = 1 / row[p];
+        double *to = right + p * points;
+        for (size_t e = p + 1; e < stages; e++) {
+            if (row[e] != 0) {
+                add(to, right + e * points, -row[e], points);
+            }
+        }
+        for (size_t b = 0; b < sides; b++) {
+            if (row[stages + b] != 0) {
+                add(to, y + b * points, -row[stages + b], points);
+            }
+            if (row[rows + b] != 0) {
+                add_next(to, y + b * points, -row[rows + b], 0, points);
+            }
+        }
+        for (size_t i = 0; i < points; i++) {
+            to[i] *= over;
+        }
+    }
+}
+
+static void solve_each(struct gm_collocation *work, struct gm_collocation_factors *factors)
+{
+    const size_t points = work->points, stages = work->stages, sides = work->sides;
+    const size_t rows = stages + sides, columns = rows + sides;
+    double *const right = work->right, *const y = right + stages * points;
+    hold_right(work);
+    for (size_t i = 0; i < points; i++) {
+        const double *matrix = factors->cells + i * rows * columns;
+        for (size_t p = 0; p < stages; p++) {
+            const size_t other = factors->pivots[i * stages + p];
+            const double value = right[other * points + i];
+            right[other * points + i] = right[p * points + i];
+            right[p * points + i] = value;
+            for (size_t k = p + 1; k < rows; k++) {
+                right[k * points + i] -= matrix[k * columns + p] * value;
+            }
+        }
+        for (size_t a = 0; a < sides; a++) {
+            y[a * points + i] *= factors->scales[i * sides + a];
+        }
+    }
+    gm_ring_band_solve(&factors->sides, y);
+    for (size_t i = 0; i < points; i++) {
+        const double *matrix = factors->cells + i * rows * columns;
+        const size_t next = i + 1 < points ? i + 1 : 0;
+        for (size_t p = stages; p-- > 0;) {
+            const double *row = matrix + p * columns;
+            double value = right[p * points + i];
+            for (size_t e = p + 1; e < stages; e++) {
+                value -= row[e] * right[e * points + i];
+            }
+            for (size_t b = 0; b < sides; b++) {
+                value -= row[stages + b] * y[b * points + i] + row[rows + b] * y[b * points + next];
+            }
+            right[p * points + i] = value / row[p];
+        }
+    }
+}
+
+/* The largest magnitude; NAN where one is not finite. */
+GM_CLONES static double largest(const double *values, size_t count)
+{
+    double most[8] = {0}, none[8] = {0};
+    size_t i = 0;
+    for (; i + 8 <= count; i += 8) {
+        for (size_t k = 0; k < 8; k++) {
+            const double size = fabs(values[i + k]);
+            none[k] += size * 0;
+            most[k] = size > most[k] ? size : most[k];
+        }
+    }
+    for (; i < count; i++) {
+        none[0] += values[i] * 0;
+        most[0] = fmax(most[0], fabs(values[i]));
+    }
+    for (size_t k = 1; k < 8; k++) {
+        none[0] += none[k];
+        most[0] = fmax(most[0], most[k]);
+    }
+    return none[0] == 0 ? most[0] : NAN;
+}
+
+/* ---- a step ---- */
+
+/* S''(0), which all cells share */
+static bool make_constant(struct gm_collocation *work, double dt)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const size_t d = work->d, q = work->r * work->r;
+    const double zero[GM_MOST_OF_FORM] = {0};
+    double hessian[GM_MOST_OF_FORM * GM_MOST_OF_FORM];
+    if (work->constant_dt != dt) {
+        work->constant_dt = dt;
+        /* the last cell of a potential is not as the others */
+        work->constant.good = form->potential_count == 0;
+        form->hessians(work->problem->parameters, zero, hessian, 1);
+        for (size_t i = 0; i < d * d; i++) {
+            work->constant.good &= isfinite(hessian[i]);
+            for (size_t at = 0; at < q; at++) {
+                work->hessian[(i * q + at) * work->points] = hessian[i];
+            }
+        }
+        work->constant.good = work->constant.good && factor(work, &work->constant, true, dt);
+    }
+    return work->constant.good;
+}
+
+/* One iteration; the largest change of a stage, NAN where one is not finite. */
+static double iterate(struct gm_collocation *work, double dt, bool newton, bool anew, double *left,
+                      struct gm_progress *progress)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    const size_t points = work->points, q = work->r * work->r;
+    const void *parameters = work->problem->parameters;
+    form->gradients(parameters, work->z, work->gradient, q * points);
+    find_right(work, dt, false);
+    progress->evaluations++;
+    progress->iterations++;
+    progress->solves++;
+    if (left) {
+        *left = largest(work->right, (work->stages + work->sides) * points);
+    }
+    if (newton) {
+        if (anew) {
+            form->hessians(parameters, work->z, work->hessian, q * points);
+            if (!factor(work, &work->newton, false, dt)) {
+                return NAN;
+            }
+        }
+        solve_each(work, &work->newton);
+    } else {
+        solve_shared(work, &work->constant);
+    }
+    add(work->z, work->right, 1, work->stages * points);
+    add(work->y, work->right + work->stages * points, 1, work->sides * points);
+    return largest(work->right, work->stages * points);
+}
+
+/* Iterates with S''(0), or by Newton's method, whose matrix stays as long as it serves. */
+static enum gm_status solve(struct gm_collocation *work, double dt, bool newton, struct gm_progress *progress)
+{
+    enum { MOST = 60 };
+    const size_t count = work->stages * work->points;
+    const double least = 1e-3, dx = work->problem->line.dx;
+    const double size = fmax(largest(work->z, count), least), terms = size * (1 / fabs(dt) + 1 / dx);
+    double last = INFINITY, left = 0;
+    bool anew = true;
+    for (int k = 0; k < MOST; k++) {
+        const bool near = last <= 1e-7 * size;
+        const double change = iterate(work, dt, newton, anew, near ? &left : NULL, progress);
+        if (!isfinite(change)) {
+            return GM_NO_CONVERGENCE;
+        }
+        /* what further iterations would change, which contract as the last one did */
+        const double rate = change / last, rest = k > 0 && rate < 0.5 ? change * rate / (1 - rate) : INFINITY;
+        /* or what is left of the equations is rounding: a component without a rate still moves by 1/dt of that */
+        const bool still = change >= last / 4 && (change <= 1e-11 * size || (near && left <= 1e-13 * terms));
+        if (rest <= 5e-17 * size || still) {
+            /* a potential that does not close leaves the equation in whose place its constant was held */
+            return near && left > 1e-5 * terms ? GM_NO_CONVERGENCE : GM_OK;
+        }
+        if ((!newton && change > last / 4) || (k > 20 && change > last)) {
+            return GM_NO_CONVERGENCE;
+        }
+        anew = change > last / 16;
+        last = change;
+    }
+    return GM_NO_CONVERGENCE;
+}
+
+enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struct gm_progress *progress)
+{
+    const size_t points = work->points, r = work->r, z_size = work->stages * points * sizeof(double),
+                 y_size = work->sides * points * sizeof(double);
+    enum gm_status status = GM_NO_CONVERGENCE;
+    if (!work->needs_newton && make_constant(work, dt)) {
+        memcpy(work->first_z, work->z, z_size);
+        memcpy(work->first_y, work->y, y_size);
+        status = solve(work, dt, false, progress);
+        if (status != GM_OK) {
+            memcpy(work->z, work->first_z, z_size);
+            memcpy(work->y, work->first_y, y_size);
+        }
+    }
+    if (status != GM_OK) {
+        work->needs_newton = true;
+        status = solve(work, dt, true, progress);
+    }
+    for (size_t at = 0; at < work->d * r && status == GM_OK; at++) {
+        const double *low = work->low + at * points;
+        double *high = work->high + at * points;
+        memset(high, 0, points * sizeof *high);
+        add(high, low, work->rest, points);
+        for (size_t k = 0; k < r; k++) {
+            add(high, stage_of(work, work->z, at / r, k, at % r), work->weights[k], points);
+        }
+    }
+    return status;
+}
+
+bool gm_collocation_linearise(struct gm_collocation *work, double dt)
+{
+    const struct gm_form *form = gm_field_of(work->problem)->form;
+    form->hessians(work->problem->parameters, work->z, work->hessian, work->r * work->r * work->points);
+    return factor(work, &work->newton, false, dt);
+}
+
+void gm_collocation_tangent(struct gm_collocation *work, double dt)
+{
+    const size_t points = work->points, r = work->r, q = r * r, d = work->d, count = q * points;
+    memset(work->z, 0, work->stages * points * sizeof(double));
+    memset(work->y, 0, work->sides * points * sizeof(double));
+    for (int again = 0; again < 3; again++) {
+        /* solved again for what rounding leaves */
+        for (size_t c = 0; c < d; c++) {
+            double *gradient = work->gradient + c * count;
+            memset(gradient, 0, count * sizeof *gradient);
+            for (size_t e = 0; e < d; e++) {
+                const double *bend = work->hessian + (c * d + e) * count, *z = work->z + e * count;
+                for (size_t i = 0; i < count; i++) {
+                    gradient[i] += bend[i] * z[i];
+                }
+            }
+        }
+        find_right(work, dt, true);
+        solve_each(work, &work->newton);
+        add(work->z, work->right, 1, work->stages * points);
+        add(work->y, work->right + work->stages * points, 1, work->sides * points);
+    }
+    for (size_t at = 0; at < d * r; at++) {
+        double *high = work->high + at * points;
+        memset(high, 0, points * sizeof *high);
+        add(high, work->low + at * points, work->rest, points);
+        for (size_t k = 0; k < r; k++) {
+            add(high, stage_of(work, work->z, at / r, k, at % r), work->weights[k], points);
+        }
+    }
+}
+
+/* ---- nodes and stages ---- */
+
+static double jump_at(const struct gm_collocation *work, size_t c)
+{
+    const double *jump = gm_field_of(work->problem)->form->jump;
+    return jump ? jump[c] : 0;
+}
+
+/* s - jump x / length is periodic; that of a place `part` of a cell behind node i. */
+static double slant(const struct gm_collocation *work, size_t c, size_t i, double part)
+{
+    return jump_at(work, c) * ((double)i + part) / (double)work->points;
+}
+
+static double angle_of(size_t mode, size_t points)
+{
+    const double turns = (double)mode / (double)points;
+    return 2 * M_PI * (2 * mode > points ? turns - 1 : turns);
+}
+
+void gm_collocation_guess_sides(struct gm_collocation *work, const double *nodes)
+{
+    memset(work->y, 0, work->sides * work->points * sizeof(double));
+    for (size_t at = 0; at < work->sides; at++) {
+        for (size_t c = 0; c < work->d; c++) {
+            add(work->y + at * work->points, nodes + c * work->points, work->basis[c][at % work->rank],
+                work->points);
+        }
+    }
+}
+
+/* One stage is the mean of both ends of a cell; of several the wave through the nodes has its values. */
+void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, double *stages)
+{
+    const size_t points = work->points, r = work->r;
+    for (size_t c = 0; c < work->d; c++) {
+        const double *from = nodes + c * points;
+        double *to = stages + c * r * points;
+        if (r == 1) {
+            for (size_t i = 0; i < points; i++) {
+                to[i] = (from[i] + (i + 1 < points ? from[i + 1] : from[0] + jump_at(work, c))) / 2;
+            }
+            continue;
+        }
+        for (size_t m = 0; m < r; m++) {
+            const double part = work->tableau->c[m];
+            for (size_t i = 0; i < points; i++) {
+                work->waves[i] = from[i] - slant(work, c, i, 0);
+            }
+            gm_fourier_forward(work->fourier, work->waves);
+            for (size_t mode = 0; mode < points; mode++) {
+                work->waves[mode] *=
+                    2 * mode == points ? cos(M_PI * part) : cexp(I * angle_of(mode, points) * part);
+            }
+            gm_fourier_inverse(work->fourier, work->waves);
+            for (size_t i = 0; i < points; i++) {
+                to[m * points + i] = creal(work->waves[i]) + slant(work, c, i, part);
+            }
+        }
+    }
+}
+
+/* The weights that make of stage values of waves that the nodes do not tell apart the value at the node: the waves
+   of the angles angle, angle -+ 2 pi .. are 1 there. Of the alternating wave there are two. */
+static void node_weights(const struct gm_collocation *work, size_t mode, double complex *weights)
+{
+    const size_t points = work->points, r = work->r;
+    const double angle = angle_of(mode, points), *c = work->tableau->c;
+    for (size_t m = 0; m < r; m++) {
+        weights[m] = 0;
+    }
+    if (r == 1) {
+        weights[0] = 2 * mode == points ? 0 : 2 / (cexp(I * angle) + 1);
+        return;
+    }
+    if (mode == 0 && r == 2) {
+        weights[0] = weights[1] = 0.5;
+        return;
+    }
+    const size_t waves = 2 * mode == points ? 2 : r, apart = waves == 2 && r == 3 ? 2 : 1;
+    const double turn = angle > 0 ? -2 * M_PI : 2 * M_PI, angles[] = {angle, angle + turn, angle - turn};
+    double complex matrix[GM_COLLOCATION_STAGES][GM_COLLOCATION_STAGES + 1];
+    for (size_t k = 0; k < waves; k++) {
+        for (size_t m = 0; m < waves; m++) {
+            matrix[k][m] = cexp(I * angles[k] * c[m * apart]);
+        }
+        matrix[k][waves] = 1;
+    }
+    for (size_t p = 0; p < waves; p++) {
+        for (size_t k = 0; k < waves; k++) {
+            const double complex factor = k == p ? 0 : matrix[k][p] / matrix[p][p];
+            for (size_t m = p; m <= waves; m++) {
+                matrix[k][m] -= factor * matrix[p][m];
+            }
+        }
+    }
+    for (size_t m = 0; m < waves; m++) {
+        weights[m * apart] = matrix[m][waves] / matrix[m][m];
+    }
+}
+
+void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, double *nodes)
+{
+    const size_t points = work->points, r = work->r;
+    for (size_t c = 0; c < work->d; c++) {
+        const double *from = stages + c * r * points;
+        for (size_t m = 0; m < r; m++) {
+            double complex *waves = work->waves + m * points;
+            for (size_t i = 0; i < points; i++) {
+                waves[i] = from[m * points + i] - slant(work, c, i, work->tableau->c[m]);
+            }
+            gm_fourier_forward(work->fourier, waves);
+        }
+        for (size_t mode = 0; mode < points; mode++) {
+            double complex weights[GM_COLLOCATION_STAGES], sum = 0;
+            node_weights(work, mode, weights);
+            for (size_t m = 0; m < r; m++) {
+                sum += weights[m] * work->waves[m * points + mode];
+            }
+            work->waves[mode] = sum;
+        }
+        gm_fourier_inverse(work->fourier, work->waves);
+        for (size_t i = 0; i < points; i++) {
+            nodes[c * points + i] = creal(work->waves[i]) + slant(work, c, i, 0);
+        }
+    }
+}

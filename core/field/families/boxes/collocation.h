@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step of Gauss-Legendre collocation in space and time for any M s_t + K s_x = grad S(s) whose state is s. */
+#ifndef GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
+#define GM_CORE_FIELD_FAMILIES_BOXES_COLLOCATION_H
+
+#include "core/field/field.h"
+#include "core/linear/fourier.h"
+#include "core/linear/ring.h"
+#include "core/linear/ring_blocks.h"
+
+enum { GM_COLLOCATION_STAGES = 3, GM_COLLOCATION_PAST = 3 };
+
+struct gm_collocation_tableau {
+    size_t r;
+    double a[GM_COLLOCATION_STAGES][GM_COLLOCATION_STAGES], b[GM_COLLOCATION_STAGES],
+        c[GM_COLLOCATION_STAGES];
+};
+
+/* Where the equations of a step are linear: the equations of a cell solved for its stages, as factors, and
+   those between the sides of cells. The cells have the same where the coefficients are constant. */
+struct gm_collocation_factors {
+    double *cells;  /* [cell][row][column], rows and columns of a cell */
+    size_t *pivots; /* [cell][column] */
+    double *
+        scales; /* [cell][row]: what the equations of sides are multiplied by, so that their entries are at most 1 */
+    struct gm_ring_band sides;
+    bool opened, shared, good; /* shared: there is one cell's for all */
+    bool recursive;            /* and its sides are solved by recursions, */
+    struct gm_ring_blocks blocks;
+};
+
+/* Arrays lie as they are said to: every `points` numbers are of one thing in all cells. */
+struct gm_collocation {
+    const struct gm_problem *problem;
+    const struct gm_collocation_tableau *tableau;
+    size_t points, d, r, rank; /* of K */
+    size_t stages, sides;      /* numbers of a cell: d r r and r rank */
+    double basis[GM_MOST_OF_FORM]
+                [GM_MOST_OF_FORM]; /* [component][k], k < rank: of the range of K, orthonormal */
+    double slopes[GM_MOST_OF_FORM][GM_MOST_OF_FORM]; /* K basis */
+    double inverse[GM_COLLOCATION_STAGES][GM_COLLOCATION_STAGES],
+        sums[GM_COLLOCATION_STAGES];             /* A^-1, A^-1 1 */
+    double weights[GM_COLLOCATION_STAGES], rest; /* b' A^-1, and 1 - b' A^-1 1 */
+    double *low, *high; /* s at the stages of the cells, before and behind a step: [component][space stage] */
+    double *z;          /* s at all stages: [component][time stage][space stage] */
+    double *y;          /* basis' s at the left sides of the cells: [time stage][k] */
+    double *past_z[GM_COLLOCATION_PAST],
+        *past_y[GM_COLLOCATION_PAST]; /* those of steps before, the last one first */
+    double *first_z, *first_y;        /* where an iteration began */
+    double *gradient, *hessian;       /* [component][stage]; [row][column][stage] */
+    double *right;                    /* [row]: what is left of the equations of a cell, then what changes */
+    double _Complex *waves;           /* r * points */
+    struct gm_fourier *fourier;
+    struct gm_collocation_factors constant, newton; /* S'' at s = 0; at z */
+    double constant_dt;                             /* 0: `constant` is not made */
+    bool needs_newton; /* `constant` did not serve a step; for steps of their own memory */
+    double *scratch;   /* [side], and two more */
+    double *memory;
+};
+
+/* As the family's workspace; NULL when memory is short. */
+void *gm_collocation_open(const struct gm_problem *problem, const struct gm_scheme *scheme);
+void gm_collocation_close(void *workspace);
+
+/* One step from `low` to `high`, with the guess in z and y, which become the solution. GM_NO_CONVERGENCE. */
+enum gm_status gm_collocation_step(struct gm_collocation *work, double dt, struct gm_progress *progress);
+
+/* Makes the equations of a tangent at z; then from `low` of a tangent to `high`, z and y of it. False where
+   they are singular, or memory is short. */
+bool gm_collocation_linearise(struct gm_collocation *work, double dt);
+void gm_collocation_tangent(struct gm_collocation *work, double dt);
+
+/* Values at the nodes, [component * points + node], to those at the stages of cells, and back. */
+void gm_collocation_to_stages(struct gm_collocation *work, const double *nodes, double *stages);
+void gm_collocation_to_nodes(struct gm_collocation *work, const double *stages, double *nodes);
+/* basis' s at the nodes, as a guess of y. */
+void gm_collocation_guess_sides(struct gm_collocation *work, const double *nodes);
+
+#endif

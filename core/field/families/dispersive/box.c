@@ -1,0 +1,328 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The box scheme, all but the field eliminated, for equations of first order in time,
+       a A^p (f^{n+1} - f^n)/dt + b D^p (f^{n+1} + f^n)/2 + Q g(A (f^{n+1} + f^n)/2) = 0,
+   A f = (f_i + f_{i+1})/2, D f = (f_{i+1} - f_i)/dx:
+                               p   a   b    Q     g             points
+       Korteweg-de Vries       3   1   mu   A D   eta u^2/2     8
+       Schroedinger            2   i   1    A     |psi|^2 psi   6
+   U. Ascher & R.I. McLachlan, Appl. Numer. Math. 48 (2004) 255; A.L. Islas, D.A. Karpeev & C.M. Schober,
+   J. Comput. Phys. 173 (2001) 116. The linear part is circulant and inverted by recursions; the rest is
+   iterated to round-off, and where that is slow or diverges solved by Newton's method. */
+#include "core/field/families/dispersive/box.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/field/families/two_step.h"
+
+/* Arrays of real parts, each followed by its imaginary parts; the first member is the one that closes. */
+static double *array(const struct gm_two_step_work *work, size_t which)
+{
+    return work->memory + 2 * which * work->points;
+}
+
+enum { NOW, NEXT, RIGHT, MEAN, FORCE, GUESS, SLOPES, ARRAYS = SLOPES + 2 };
+
+static size_t parts_of(const struct gm_dispersive *equation)
+{
+    return equation->complex_valued ? 2 : 1;
+}
+
+void *gm_dispersive_open(const struct gm_problem *problem)
+{
+    struct gm_two_step_work *work = calloc(1, sizeof *work);
+    double *memory = calloc(2 * ARRAYS * problem->line.points, sizeof *memory);
+    if (!work || !memory) {
+        free(work);
+        free(memory);
+        return NULL;
+    }
+    work->points = problem->line.points;
+    work->memory = memory;
+    /* The equation of node i, which reaches from i to i + power, is row i + 1: so the band has equally much
+       on both sides, or one point more on the right. */
+    if (!gm_ring_newton_open(&work->newton, work->points, parts_of(gm_field_of(problem)->dispersive),
+                             (size_t)gm_field_of(problem)->dispersive->power - 1)) {
+        gm_two_step_close(work);
+        return NULL;
+    }
+    return work;
+}
+
+/* binomial(p, k) sign^(p - k) */
+static double power_weight(int power, int k, double sign)
+{
+    static const double binomial[4][4] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
+    return binomial[power][k] * ((power - k) % 2 ? sign : 1);
+}
+
+/* out += (c0 + i c1) sum_k binomial(p, k) sign^(p - k) f_{i+k}, around the ring */
+static void add_power(double *out, const double *f, size_t points, int power, double sign, double c0,
+                      double c1)
+{
+    double weight[4];
+    for (int k = 0; k <= power; k++) {
+        weight[k] = power_weight(power, k, sign);
+    }
+    for (size_t i = 0; i < points; i++) {
+        double re = 0, im = 0;
+        size_t at = i;
+        for (int k = 0; k <= power; k++) {
+            re += weight[k] * f[at];
+            im += weight[k] * f[points + at];
+            at = at + 1 < points ? at + 1 : 0;
+        }
+        out[i] += c0 * re - c1 * im;
+        out[points + i] += c0 * im + c1 * re;
+    }
+}
+
+/* The equations of a step, or of one of the linearised scheme: a A^p f/dt + b D^p f/2 + Q g = right. */
+struct equations {
+    const struct gm_two_step_work *work;
+    const struct gm_problem *problem;
+    double mean[2], difference; /* a/(2^p dt), real and imaginary part, and b/(2 dx^p) */
+    const double *base; /* means of a solution in the cells: the scheme linearised there; NULL: the scheme */
+};
+
+static struct equations equations_of(const struct gm_two_step_work *work, const struct gm_problem *problem,
+                                     double dt, const double *base)
+{
+    const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
+    const double half = pow(0.5, equation->power) / dt;
+    return (struct equations){
+        .work = work,
+        .problem = problem,
+        .mean = {half * equation->factor[0], half * equation->factor[1]},
+        .difference = equation->dispersion(problem) / (2 * pow(problem->line.dx, equation->power)),
+        .base = base,
+    };
+}
+
+/* MEAN := RIGHT - Q g at the means of NOW and `next`, which overwrites FORCE. */
+static void explicit_part(const struct equations *equations, const double *next)
+{
+    const struct gm_two_step_work *work = equations->work;
+    const struct gm_problem *problem = equations->problem;
+    const size_t points = work->points;
+    double *mean = array(work, MEAN), *force = array(work, FORCE);
+    memset(mean, 0, 2 * points * sizeof *mean);
+    add_power(mean, array(work, NOW), points, 1, 1, 0.25, 0);
+    add_power(mean, next, points, 1, 1, 0.25, 0);
+    if (equations->base) {
+        gm_field_of(problem)->dispersive->linearised(problem, equations->base, mean, force, points);
+    } else {
+        gm_field_of(problem)->dispersive->nonlinear(problem, mean, mean + points, force, force + points,
+                                                    points);
+    }
+    memcpy(mean, array(work, RIGHT), 2 * points * sizeof *mean);
+    if (gm_field_of(problem)->dispersive->derivative) {
+        /* A D: (f_{i+2} - f_i) / (2 dx) */
+        const double over = -0.5 / problem->line.dx;
+        add_power(mean, force, points, 2, 1, over, 0);
+        add_power(mean, force, points, 1, 1, -2 * over, 0);
+    } else {
+        add_power(mean, force, points, 1, 1, -0.5, 0);
+    }
+}
+
+/* gm_ring_equations: row i + 1 is the equation of node i, and of a real field there is no imaginary part. */
+static void residual_at(void *context, const double *u, double *residual)
+{
+    const struct equations *equations = context;
+    const struct gm_two_step_work *work = equations->work;
+    const struct gm_dispersive *equation = gm_field_of(equations->problem)->dispersive;
+    const size_t points = work->points, parts = parts_of(equation);
+    double *next = array(work, NEXT), *rest = array(work, MEAN);
+    memcpy(next, u, parts * points * sizeof *u);
+    memset(next + parts * points, 0, (2 - parts) * points * sizeof *u);
+    explicit_part(equations, next);
+    add_power(rest, next, points, equation->power, 1, -equations->mean[0], -equations->mean[1]);
+    add_power(rest, next, points, equation->power, -1, -equations->difference, 0);
+    for (size_t part = 0; part < parts; part++) {
+        memcpy(residual + part * points + 1, rest + part * points, (points - 1) * sizeof *residual);
+        residual[part * points] = rest[part * points + points - 1];
+    }
+}
+
+/* Adds `weight` times the derivative of g in cell i + k, slopes[column][part * points + cell], to row i + 1:
+   g depends on the mean of both ends of a cell, half of which is at the next level. */
+static void add_slope(const struct equations *equations, struct gm_ring_band *matrix, size_t i, size_t k,
+                      double weight, double *const slopes[2])
+{
+    const size_t points = equations->work->points,
+                 parts = parts_of(gm_field_of(equations->problem)->dispersive);
+    const size_t cell = (i + k) % points, row = i + 1 < points ? i + 1 : 0;
+    for (size_t part = 0; part < parts; part++) {
+        for (size_t column = 0; column < parts; column++) {
+            const double entry = weight / 4 * slopes[column][part * points + cell];
+            gm_ring_band_add(matrix, row, part, (long)k - 1, column, entry);
+            gm_ring_band_add(matrix, row, part, (long)k, column, entry);
+        }
+    }
+}
+
+static void jacobian(void *context, struct gm_ring_band *matrix)
+{
+    const struct equations *equations = context;
+    const struct gm_two_step_work *work = equations->work;
+    const struct gm_problem *problem = equations->problem;
+    const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
+    const size_t points = work->points, parts = parts_of(equation);
+    const int p = equation->power;
+    double *at = array(work, MEAN), *unit = array(work, FORCE);
+    double *const slopes[2] = {array(work, SLOPES), array(work, SLOPES + 1)};
+    if (equations->base) {
+        memcpy(at, equations->base, 2 * points * sizeof *at);
+    } else {
+        memset(at, 0, 2 * points * sizeof *at);
+        add_power(at, array(work, NOW), points, 1, 1, 0.25, 0);
+        add_power(at, array(work, NEXT), points, 1, 1, 0.25, 0);
+    }
+    for (size_t part = 0; part < parts; part++) {
+        memset(unit, 0, 2 * points * sizeof *unit);
+        for (size_t i = 0; i < points; i++) {
+            unit[part * points + i] = 1;
+        }
+        equation->linearised(problem, at, unit, slopes[part], points);
+    }
+    for (size_t i = 0; i < points; i++) {
+        const size_t row = i + 1 < points ? i + 1 : 0;
+        for (int k = 0; k <= p; k++) {
+            const double re =
+                power_weight(p, k, 1) * equations->mean[0] + power_weight(p, k, -1) * equations->difference;
+            const double im = power_weight(p, k, 1) * equations->mean[1];
+            for (size_t part = 0; part < parts; part++) {
+                gm_ring_band_add(matrix, row, part, k - 1, part, re);
+                if (parts == 2) {
+                    gm_ring_band_add(matrix, row, part, k - 1, 1 - part, part == 0 ? -im : im);
+                }
+            }
+        }
+        if (equation->derivative) {
+            const double over = 0.5 / problem->line.dx;
+            add_slope(equations, matrix, i, 2, over, slopes);
+            add_slope(equations, matrix, i, 0, -over, slopes);
+        } else {
+            add_slope(equations, matrix, i, 0, 0.5, slopes);
+            add_slope(equations, matrix, i, 1, 0.5, slopes);
+        }
+    }
+}
+
+/* One step from NOW to NEXT; with `base`, means of a solution in the cells, of the linearised scheme. */
+static enum gm_status make_step(struct gm_two_step_work *work, const struct gm_problem *problem,
+                                const struct gm_ring_roots *ring, double dt, const double *base,
+                                struct gm_progress *progress)
+{
+    enum { MOST = 40 }; /* Newton's method costs about 25 of them for a real field, 80 for a complex one */
+    const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
+    const size_t points = work->points, count = 2 * points;
+    const int p = equation->power;
+    struct equations own = equations_of(work, problem, dt, base);
+    double *now = array(work, NOW), *next = array(work, NEXT), *right = array(work, RIGHT);
+    double *mean = array(work, MEAN);
+    memset(right, 0, count * sizeof *right);
+    add_power(right, now, points, p, 1, own.mean[0], own.mean[1]);
+    add_power(right, now, points, p, -1, -own.difference, 0);
+    memcpy(next, now, count * sizeof *next);
+    double last = INFINITY;
+    for (int k = 0; k < MOST; k++) {
+        explicit_part(&own, next);
+        gm_ring_roots_solve(ring, mean, mean + points, array(work, FORCE));
+        double change = 0, largest = 0;
+        for (size_t i = 0; i < count; i++) {
+            const double size = fabs(mean[i] - next[i]);
+            change = size > change || isnan(size) ? size : change;
+            largest = fmax(largest, fabs(mean[i]));
+        }
+        progress->evaluations++;
+        progress->solves++;
+        progress->iterations++;
+        if (!isfinite(change) || (change >= last && change > 1e-12 * fmax(largest, 1e-3))) {
+            memcpy(next, now, count * sizeof *next); /* the iteration diverges, not the solution */
+            break;
+        }
+        memcpy(next, mean, count * sizeof *next);
+        if (change <= 1e-16 * largest || change >= last) {
+            return GM_OK;
+        }
+        last = change;
+    }
+    const size_t size = parts_of(equation) * points * sizeof *next;
+    const struct gm_ring_equations equations = {&own, residual_at, jacobian};
+    double *guess = array(work, GUESS);
+    memcpy(guess, next, size);
+    const enum gm_status status = gm_ring_newton_solve(&work->newton, &equations, guess, progress);
+    memset(next, 0, count * sizeof *next);
+    memcpy(next, guess, size);
+    return status;
+}
+
+/* The circulant part of the scheme. */
+static bool make_ring(struct gm_ring_roots *ring, const struct gm_problem *problem, double dt)
+{
+    const struct gm_dispersive *equation = gm_field_of(problem)->dispersive;
+    return gm_ring_roots_make(ring, problem->line.points, equation->power,
+                              (equation->factor[0] + I * equation->factor[1]) / dt,
+                              equation->dispersion(problem) / 2, problem->line.dx);
+}
+
+enum gm_status gm_dispersive_tangent(struct gm_two_step_work *work, const struct gm_problem *problem,
+                                     double dt, const double *base, const double *now, double *next)
+{
+    const size_t size = 2 * work->points * sizeof(double);
+    struct gm_ring_roots ring;
+    struct gm_progress progress = {.status = GM_OK};
+    if (!make_ring(&ring, problem, dt)) {
+        return GM_NO_CONVERGENCE;
+    }
+    memcpy(array(work, NOW), now, size);
+    const enum gm_status status = make_step(work, problem, &ring, dt, base, &progress);
+    memcpy(next, array(work, NEXT), size);
+    return status;
+}
+
+struct gm_progress gm_dispersive_advance(const struct gm_task *task)
+{
+    struct gm_two_step_work *work = task->workspace;
+    const struct gm_dispersive *equation = gm_field_of(task->problem)->dispersive;
+    const size_t points = work->points, size = points * sizeof(double);
+    struct gm_progress progress = {.status = GM_OK};
+    double *now = array(work, NOW), *next = array(work, NEXT);
+    struct gm_ring_roots ring;
+    if (!make_ring(&ring, task->problem, task->dt)) {
+        progress.status = GM_NO_CONVERGENCE;
+        return progress;
+    }
+    memcpy(next, task->y, size);
+    memset(next + points, 0, size);
+    if (equation->complex_valued) {
+        memcpy(next + points, task->y + points, size);
+    }
+    for (long k = 0; k < task->steps; k++) {
+        memcpy(now, next, 2 * size);
+        progress.status = make_step(work, task->problem, &ring, task->dt, NULL, &progress);
+        if (!equation->complex_valued) {
+            /* what rounding leaves of an imaginary part */
+            memset(next + points, 0, size);
+        }
+        if (progress.status == GM_OK && !gm_field_within(next, 2 * points, task->limit)) {
+            progress.status = GM_BLOW_UP;
+        }
+        if (progress.status != GM_OK) {
+            return progress;
+        }
+        progress.done++;
+    }
+    memcpy(task->out, next, size);
+    if (equation->complex_valued) {
+        memcpy(task->out + points, next + points, size);
+    } else {
+        memcpy(task->out + points, now, size);
+        task->out[2 * points] = -task->dt;
+    }
+    return progress;
+}

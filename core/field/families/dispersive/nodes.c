@@ -1,0 +1,459 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The multisymplectic schemes of nodes for equations of first order in time, all but the field eliminated
+   (D_+, D_-, D_0 forward, backward and centred differences in x, d2 = D_+ D_-).
+
+   Korteweg-de Vries, f = mu d2 u + eta u^2/2, centred f = mu D_0^2 u + eta u^2/2:
+       Euler box   (u_i^{n+1} - u_i^n + u_{i+1}^n - u_{i+1}^{n-1}) / (2 dt) + D_+ f_i = 0
+                   where dt < 0 the triangles the other way round, and with them x;
+                   stable for dt < dx^3/(4 mu)
+       midpoint    (u^{n+1} - u^{n-1}) / (2 dt) + D_0 f = 0
+                   stable for dt < dx^3/mu
+   Nonlinear Schroedinger, psi = p + i q, the state p^{n-1} and q^n:
+       Euler box   (p^n - p^{n-1})/dt + d2 q^n + (p^n p^n + q^n q^n) q^n = 0,   a quadratic equation for p^n
+                   (q^{n+1} - q^n)/dt - d2 p^n - (p^n p^n + q^n q^n) p^n = 0
+                   stable for dt < dx^2/2
+   B. Moore & S. Reich, Numer. Math. 95 (2003) 625; Razafindralandy et al. (2018). There is no midpoint scheme
+   for Schroedinger's equation: its second solution, of alternating sign in time, grows, and a soliton of
+   amplitude 1 on 400 points blows up at t = 34 with dt = 0.4 dx^2, where 1 dx^2 is the limit of linear
+   theory. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
+#include "core/field/multisymplectic.h"
+#include "core/field/problems/dispersive.h"
+#include "core/linear/differences.h"
+
+static size_t shifted(size_t i, long by, size_t points)
+{
+    return (i + (size_t)((long)points + by)) % points;
+}
+
+static double second(const double *u, size_t i, long reach, const struct gm_line *line)
+{
+    const double step = (double)reach * line->dx;
+    return (u[shifted(i, reach, line->points)] - 2 * u[i] + u[shifted(i, -reach, line->points)]) /
+           (step * step);
+}
+
+/* f, or with `base` its derivative there along u. */
+static void find_flux(const struct gm_problem *problem, long reach, const double *base, const double *u,
+                      double *flux)
+{
+    const struct gm_kdv *kdv = gm_kdv_of(problem);
+    for (size_t i = 0; i < problem->line.points; i++) {
+        flux[i] =
+            kdv->mu * second(u, i, reach, &problem->line) + kdv->eta * u[i] * (base ? base[i] : u[i] / 2);
+    }
+}
+
+/* Korteweg-de Vries: the level at t + dt from those at t and t - dt; with `base`, a level of a solution at t,
+   of the linearised scheme. All arrays have `points` numbers; flux is scratch. */
+static void kdv_nodes_step(const struct gm_problem *problem, bool centred, double dt, const double *base,
+                           const double *past, const double *now, double *next, double *flux)
+{
+    const size_t points = problem->line.points;
+    const double dx = problem->line.dx;
+    const long ahead = dt > 0 ? 1 : -1;
+    find_flux(problem, centred ? 2 : 1, base, now, flux);
+    for (size_t i = 0; i < points; i++) {
+        const size_t right = shifted(i, ahead, points), left = shifted(i, -ahead, points);
+        next[i] = centred ? past[i] - fabs(dt) / dx * (flux[right] - flux[left])
+                          : now[i] - now[right] + past[right] - 2 * fabs(dt) / dx * (flux[right] - flux[i]);
+    }
+}
+
+static enum gm_status kdv_step(struct gm_two_step_work *work, const struct gm_problem *problem, bool centred,
+                               double dt, const double *past, const double *now, double *next,
+                               struct gm_progress *progress)
+{
+    kdv_nodes_step(problem, centred, dt, NULL, past, now, next, work->force);
+    progress->evaluations++;
+    return GM_OK;
+}
+
+static enum gm_status kdv_euler(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                                const double *past, const double *now, double *next,
+                                struct gm_progress *progress)
+{
+    return kdv_step(work, problem, false, dt, past, now, next, progress);
+}
+
+static enum gm_status kdv_centred(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                                  const double *past, const double *now, double *next,
+                                  struct gm_progress *progress)
+{
+    return kdv_step(work, problem, true, dt, past, now, next, progress);
+}
+
+/* An Euler step: once, so that the order stays 2. */
+static void kdv_start(struct gm_two_step_work *work, const struct gm_problem *problem, double dt, double gap,
+                      const double *now, const double *other, double *next)
+{
+    (void)gap;
+    (void)other;
+    const size_t points = problem->line.points;
+    find_flux(problem, 1, NULL, now, work->force);
+    for (size_t i = 0; i < points; i++) {
+        next[i] = now[i] - dt / (2 * problem->line.dx) *
+                               (work->force[shifted(i, 1, points)] - work->force[shifted(i, -1, points)]);
+    }
+}
+
+/* p := p - dt [d2 q + (p'^2 + q^2) q] with the new p' inside; false where no real p' is left. */
+static bool nls_first(const struct gm_line *line, double dt, double *p, const double *q)
+{
+    for (size_t i = 0; i < line->points; i++) {
+        const double free = p[i] - dt * (second(q, i, 1, line) + q[i] * q[i] * q[i]);
+        const double discriminant = 1 + 4 * dt * q[i] * free;
+        if (discriminant < 0) {
+            return false;
+        }
+        p[i] = 2 * free / (1 + sqrt(discriminant));
+    }
+    return true;
+}
+
+static void nls_second(const struct gm_line *line, double dt, const double *p, double *q)
+{
+    for (size_t i = 0; i < line->points; i++) {
+        q[i] += dt * (second(p, i, 1, line) + (p[i] * p[i] + q[i] * q[i]) * p[i]);
+    }
+}
+
+/* Schroedinger: a tangent of the solution p^{n-1}, q^n becomes that of p^n, q^{n+1}. */
+static void nls_nodes_tangent(const struct gm_problem *problem, double dt, const double *p_new,
+                              const double *q, double *tangent_p, double *tangent_q)
+{
+    const struct gm_line *line = &problem->line;
+    for (size_t i = 0; i < line->points; i++) {
+        const double p = p_new[i];
+        tangent_p[i] =
+            (tangent_p[i] - dt * (second(tangent_q, i, 1, line) + (p * p + 3 * q[i] * q[i]) * tangent_q[i])) /
+            (1 + 2 * dt * q[i] * p);
+    }
+    for (size_t i = 0; i < line->points; i++) {
+        const double p = p_new[i];
+        tangent_q[i] += dt * (second(tangent_p, i, 1, line) + (3 * p * p + q[i] * q[i]) * tangent_p[i] +
+                              2 * q[i] * p * tangent_q[i]);
+    }
+}
+
+static struct gm_progress nls_advance(const struct gm_task *task)
+{
+    const struct gm_line *line = &task->problem->line;
+    double *p = task->out, *q = p + line->points;
+    struct gm_progress progress = {.status = GM_OK};
+    memcpy(p, task->y, 2 * line->points * sizeof *p);
+    for (long k = 0; k < task->steps; k++) {
+        progress.iterations++;
+        if (!nls_first(line, task->dt, p, q)) {
+            progress.status = GM_NO_CONVERGENCE;
+            return progress;
+        }
+        nls_second(line, task->dt, p, q);
+        progress.evaluations++;
+        if (!gm_field_within(p, 2 * line->points, task->limit)) {
+            progress.status = GM_BLOW_UP;
+            return progress;
+        }
+        progress.done++;
+    }
+    return progress;
+}
+
+static struct gm_progress advance(const struct gm_task *task)
+{
+    return gm_field_of(task->problem)->equation == GM_NEEDS_KDV ? gm_two_step_advance(task)
+                                                                : nls_advance(task);
+}
+
+static const struct gm_two_step_row kdv_rows[] = {
+    {.step = kdv_euler, .start = kdv_start, .law = GM_LAW_NODES},
+    {.step = kdv_centred, .start = kdv_start, .law = GM_LAW_CENTRED},
+};
+
+/* The multisymplectic law of the schemes of nodes for equations of first order in time: two tangents are
+   advanced by a step, and what elimination left out follows from the other equations, linearised at the
+   solution m:
+       Korteweg-de Vries   D_- phi = u,   v = mu D_- u,   w = D_t^- phi/2 + D_+ v + eta m u
+       Schroedinger        v = D_- p,   w = D_- q
+   with centred differences for the midpoint scheme. phi of every level is free up to a constant, which its
+   differences do not see; the tangents have no mean, so that it is periodic. */
+
+struct base {
+    const struct gm_problem *problem;
+    const struct gm_scheme *scheme;
+    double dt;
+    bool centred;
+    void *work;
+    const double *past, *now; /* of Schroedinger's equation p^{n-1} and q^n */
+};
+
+/* A tangent at three levels: u and phi, or of Schroedinger's equation p, p, - and -, q, q. */
+struct tangent {
+    const struct base *base;
+    double *first[3], *second[3];
+};
+
+/* gm_map: u at two levels, the present one first, to the next; or p, q to p, q. */
+static bool one_step(const void *context, const double *from, double *to)
+{
+    const struct base *base = context;
+    const size_t points = base->problem->line.points, size = gm_wave_size(points);
+    double *y = malloc(2 * size * sizeof *y);
+    if (!y) {
+        return false;
+    }
+    memcpy(y, from, 2 * points * sizeof *y);
+    y[2 * points] = -base->dt;
+    const struct gm_task task = {
+        .problem = base->problem,
+        .scheme = base->scheme,
+        .dt = base->dt,
+        .steps = 1,
+        .limit = INFINITY,
+        .y = y,
+        .out = y + size,
+        .workspace = base->work,
+    };
+    const bool good = base->scheme->family->loop(&task).status == GM_OK;
+    memcpy(to, task.out,
+           (gm_field_of(base->problem)->equation == GM_NEEDS_KDV ? 1 : 2) * points * sizeof *to);
+    free(y);
+    return good;
+}
+
+/* `direction` and `slope` have two arrays each, as one_step has. */
+static bool by_own_steps(const struct base *base, const double *from, const double *direction, double *slope)
+{
+    const size_t points = base->problem->line.points;
+    return gm_differentiate(one_step, base, 2 * points, from, direction,
+                            (gm_field_of(base->problem)->equation == GM_NEEDS_KDV ? 1 : 2) * points, slope);
+}
+
+/* phi from D u = ..., around the ring, or both rings of every other node. */
+static void integrate(const struct base *base, const double *u, double *phi)
+{
+    const struct gm_line *line = &base->problem->line;
+    const size_t points = line->points, stride = base->centred ? 2 : 1;
+    const size_t rings = base->centred && points % 2 == 0 ? 2 : 1;
+    for (size_t ring = 0; ring < rings; ring++) {
+        size_t at = ring;
+        phi[at] = 0;
+        for (size_t k = 1; k < points / rings; k++) {
+            const size_t next = (at + stride) % points, slope = base->centred ? (at + 1) % points : next;
+            phi[next] = phi[at] + (double)stride * line->dx * u[slope];
+            at = next;
+        }
+    }
+}
+
+static bool advance_kdv(const struct base *base, bool by_differences, double phase, double waves,
+                        const struct tangent *a)
+{
+    const size_t points = base->problem->line.points, size = points * sizeof(double);
+    double *const *u = a->first, *const *phi = a->second;
+    bool good = true;
+    gm_tangent_start(u[0], points, waves, phase);
+    gm_tangent_start(u[1], points, waves, 2 * phase - M_PI / 2);
+    if (by_differences) {
+        double *from = malloc(4 * size);
+        good = from != NULL;
+        if (good) {
+            double *direction = from + 2 * points;
+            memcpy(from, base->now, size);
+            memcpy(from + points, base->past, size);
+            memcpy(direction, u[1], size);
+            memcpy(direction + points, u[0], size);
+            good = by_own_steps(base, from, direction, u[2]);
+        }
+        free(from);
+    } else {
+        kdv_nodes_step(base->problem, base->centred, base->dt, base->now, u[0], u[1], u[2], phi[0]);
+    }
+    for (size_t n = 0; n < 3; n++) {
+        integrate(base, u[n], phi[n]);
+    }
+    return good;
+}
+
+static void complete_kdv(const void *tangent, size_t node, double *levels)
+{
+    enum { PHI, U, V, W, DIMENSION };
+    const struct tangent *a = tangent;
+    const struct gm_problem *problem = a->base->problem;
+    const struct gm_kdv *kdv = gm_kdv_of(problem);
+    const bool centred = a->base->centred;
+    const size_t points = problem->line.points, r = (node + 1) % points, l = (node + points - 1) % points;
+    const double dx = problem->line.dx, dt = a->base->dt;
+    const double *u = a->first[1];
+    for (size_t n = 0; n < 3; n++) {
+        levels[n * DIMENSION + PHI] = a->second[n][node];
+        levels[n * DIMENSION + U] = a->first[n][node];
+        levels[n * DIMENSION + V] = levels[n * DIMENSION + W] = 0; /* needed at the middle level alone */
+    }
+    const double rise = a->second[centred ? 2 : 1][node] - a->second[0][node];
+    const size_t l2 = (l + points - 1) % points, r2 = (r + 1) % points;
+    const double bend =
+        centred ? (u[r2] - 2 * u[node] + u[l2]) / (4 * dx * dx) : (u[r] - 2 * u[node] + u[l]) / (dx * dx);
+    levels[DIMENSION + V] = kdv->mu * (centred ? (u[r] - u[l]) / (2 * dx) : (u[node] - u[l]) / dx);
+    levels[DIMENSION + W] =
+        rise / ((centred ? 4 : 2) * dt) + kdv->mu * bend + kdv->eta * a->base->now[node] * u[node];
+}
+
+static bool advance_nls(const struct base *base, bool by_differences, double phase, double waves,
+                        const struct tangent *a)
+{
+    const size_t points = base->problem->line.points, size = points * sizeof(double);
+    double *memory = malloc(6 * size);
+    if (!memory) {
+        return false;
+    }
+    double *from = memory, *direction = memory + 2 * points, *made = memory + 4 * points;
+    memcpy(from, base->past, size);
+    memcpy(from + points, base->now, size);
+    gm_tangent_start(direction, points, waves, phase);
+    gm_tangent_start(direction + points, points, waves, phase + 1);
+    memcpy(a->first[0], direction, size);
+    memcpy(a->second[1], direction + points, size);
+    bool good = one_step(base, from, made); /* p^n comes first */
+    if (good && by_differences) {
+        good = by_own_steps(base, from, direction, made);
+        memcpy(direction, made, 2 * size);
+    } else if (good) {
+        nls_nodes_tangent(base->problem, base->dt, made, base->now, direction, direction + points);
+    }
+    memcpy(a->first[1], direction, size);
+    memcpy(a->second[2], direction + points, size);
+    free(memory);
+    return good;
+}
+
+static void complete_nls(const void *tangent, size_t node, double *levels)
+{
+    enum { P, Q, V, W, DIMENSION };
+    const struct tangent *a = tangent;
+    const size_t points = a->base->problem->line.points, l = (node + points - 1) % points;
+    const double dx = a->base->problem->line.dx, *p = a->first[1], *q = a->second[1];
+    memset(levels, 0, 3 * DIMENSION * sizeof *levels);
+    levels[P] = a->first[0][node];
+    levels[DIMENSION + P] = p[node];
+    levels[DIMENSION + Q] = q[node];
+    levels[DIMENSION + V] = (p[node] - p[l]) / dx;
+    levels[DIMENSION + W] = (q[node] - q[l]) / dx;
+    levels[2 * DIMENSION + Q] = a->second[2][node];
+}
+
+/* Backwards in time the schemes are those forwards in the mirror. */
+static void mirror(double *u, size_t points)
+{
+    for (size_t i = 0; i < points / 2; i++) {
+        const double held = u[i];
+        u[i] = u[points - 1 - i];
+        u[points - 1 - i] = held;
+    }
+}
+
+static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                   const double *y, const double *memory, bool by_differences)
+{
+    (void)memory;
+    enum { ARRAYS = 14 };
+    const size_t points = problem->line.points, size = points * sizeof *y;
+    const bool kdv = gm_field_of(problem)->equation == GM_NEEDS_KDV;
+    const struct gm_two_step_row *row = scheme->coefficients;
+    if (kdv && fabs(y[2 * points]) != fabs(dt)) {
+        return NAN; /* no level of the scheme lies before or after */
+    }
+    double *arrays = calloc(ARRAYS, size), residual = NAN;
+    struct base base = {
+        .problem = problem,
+        .scheme = scheme,
+        .dt = kdv ? fabs(dt) : dt,
+        .centred = kdv && row->law == GM_LAW_CENTRED,
+        .work = scheme->family->workspace_open(problem, scheme),
+    };
+    if (arrays && base.work) {
+        struct tangent tangents[2] = {{.base = &base}, {.base = &base}};
+        for (size_t t = 0; t < 2; t++) {
+            for (size_t k = 0; k < 3; k++) {
+                tangents[t].first[k] = arrays + (2 + 2 * k + t) * points;
+                tangents[t].second[k] = arrays + (8 + 2 * k + t) * points;
+            }
+        }
+        double *past = arrays, *now = arrays + points;
+        const bool ahead = kdv && y[2 * points] == -dt;
+        memcpy(past, ahead ? y + points : y, size);
+        memcpy(now, ahead ? y : y + points, size);
+        if (kdv && dt < 0) {
+            mirror(past, points);
+            mirror(now, points);
+        }
+        base.past = past;
+        base.now = now;
+        bool good = true;
+        for (size_t t = 0; good && t < 2; t++) {
+            const double waves = 2 + (double)t, phase = 0.3 + 0.4 * (double)t;
+            good = (kdv ? advance_kdv : advance_nls)(&base, by_differences, phase, waves, &tangents[t]);
+        }
+        if (good) {
+            residual = gm_nodes_law(gm_field_of(problem)->form, base.centred, points, problem->line.dx,
+                                    base.dt, kdv ? complete_kdv : complete_nls, &tangents[0], &tangents[1]);
+        }
+    }
+    if (base.work) {
+        scheme->family->workspace_close(base.work);
+    }
+    free(arrays);
+    return residual;
+}
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "euler-box",
+        .title = "Euler box",
+        .formula = "(uᵢⁿ⁺¹ − uᵢⁿ + uᵢ₊₁ⁿ − uᵢ₊₁ⁿ⁻¹)/2Δt + Dₓ⁺[μ Dₓ⁺Dₓ⁻u + ηu²/2] = 0,  Δt < Δx³/4μ",
+        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
+        .family = &gm_family_nodes,
+        .coefficients = &kdv_rows[0],
+        .order = 2,
+        .needs = GM_NEEDS_FORM | GM_NEEDS_KDV,
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
+    },
+    {
+        .name = "midpoint-box",
+        .title = "midpoint box",
+        .formula = "(uⁿ⁺¹ − uⁿ⁻¹)/2Δt + Dₓ⁰[μ Dₓ⁰Dₓ⁰u + ηu²/2] = 0,  Δt < Δx³/μ",
+        .reference = "Razafindralandy et al. (2018), multisymplectic midpoint scheme",
+        .family = &gm_family_nodes,
+        .coefficients = &kdv_rows[1],
+        .order = 2,
+        .needs = GM_NEEDS_FORM | GM_NEEDS_KDV,
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC | GM_KEEPS_LINEAR,
+    },
+    {
+        .name = "euler-box",
+        .title = "Euler box",
+        .formula = "Dₜ⁻p + Dₓ⁺Dₓ⁻q + |ψ|²q = 0,  Dₜ⁺q − Dₓ⁺Dₓ⁻p − |ψ|²p = 0,  Δt < Δx²/2",
+        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
+        .family = &gm_family_nodes,
+        .order = 1,
+        .needs = GM_NEEDS_FORM | GM_NEEDS_NLS,
+        .claims = GM_MULTISYMPLECTIC,
+    },
+};
+
+const struct gm_family gm_family_nodes = {
+    .kind = &gm_kind_field,
+    .title = "multisymplectic schemes of nodes",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .loop = advance,
+    .workspace_open = gm_two_step_open,
+    .workspace_close = gm_two_step_close,
+    .form = form,
+};

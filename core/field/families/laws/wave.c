@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Energy and momentum of u_tt - u_xx + V'(u) = 0 on a grid, and by how much a scheme's step fails their local
+   laws. */
+#include "core/field/families/laws/wave.h"
+
+#include <math.h>
+
+#include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
+#include "core/field/families/waves/levels.h"
+
+/* Node i + by of a level, around the ring. */
+static double at(const struct gm_line *line, const double *level, size_t i, int by)
+{
+    if (by > 0 && i + 1 == line->points) {
+        return level[0] + line->jump;
+    }
+    if (by < 0 && i == 0) {
+        return level[line->points - 1] - line->jump;
+    }
+    return by > 0 ? level[i + 1] : by < 0 ? level[i - 1] : level[i];
+}
+
+static double d2(const struct gm_line *line, const double *level, size_t i)
+{
+    return (at(line, level, i, 1) - 2 * level[i] + at(line, level, i, -1)) / (line->dx * line->dx);
+}
+
+/* Adds a term to a sum and keeps what rounding would lose (Neumaier 1974): invariants are looked at to the
+   last digit. */
+struct exact_sum {
+    double sum, lost;
+};
+
+static void add(struct exact_sum *total, double term)
+{
+    const double sum = total->sum + term;
+    total->lost += fabs(total->sum) >= fabs(term) ? (total->sum - sum) + term : (term - sum) + total->sum;
+    total->sum = sum;
+}
+
+double gm_wave_energy(const struct gm_problem *problem, const double *y)
+{
+    const struct gm_line *line = &problem->line;
+    const double *u = y, *o = y + line->points, gap = y[2 * line->points];
+    const double zero = gm_field_of(problem)->wave->potential(problem, 0);
+    struct exact_sum total = {0};
+    for (size_t i = 0; i < line->points; i++) {
+        const double rate = (u[i] - o[i]) / gap;
+        const double slope = (at(line, u, i, 1) - u[i]) * (at(line, o, i, 1) - o[i]) / (line->dx * line->dx);
+        add(&total,
+            (rate * rate + slope) / 2 + (gm_field_of(problem)->wave->potential(problem, u[i]) - zero +
+                                         gm_field_of(problem)->wave->potential(problem, o[i]) - zero) /
+                                            2);
+    }
+    return line->dx * (total.sum + total.lost);
+}
+
+double gm_wave_cell_energy(const struct gm_problem *problem, const double *y)
+{
+    const struct gm_line *line = &problem->line;
+    const double *u = y, *o = y + line->points, gap = y[2 * line->points];
+    const double zero = gm_field_of(problem)->wave->potential(problem, 0);
+    double sum = 0;
+    for (size_t i = 0; i < line->points; i++) {
+        const double u_next = at(line, u, i, 1), o_next = at(line, o, i, 1);
+        const double rate = (u[i] + u_next - o[i] - o_next) / (2 * gap);
+        const double slope = (u_next - u[i] + o_next - o[i]) / (2 * line->dx);
+        sum += (rate * rate + slope * slope) / 2 +
+               (gm_field_of(problem)->wave->potential(problem, (u[i] + u_next + o[i] + o_next) / 4) - zero);
+    }
+    return line->dx * sum;
+}
+
+/* GM_LAW_NONE for schemes of other families. */
+static enum gm_wave_law law_of(const struct gm_scheme *scheme)
+{
+    const struct gm_two_step_row *row = scheme->coefficients;
+    const struct gm_scheme *rows = scheme->family->schemes;
+    const bool has_row = rows == gm_family_leapfrog.schemes || rows == gm_family_preissmann.schemes ||
+                         rows == gm_family_midpoint_box.schemes;
+    return has_row ? row->law : GM_LAW_NONE;
+}
+
+double gm_wave_own_energy(const struct gm_problem *problem, const struct gm_scheme *scheme, const double *y)
+{
+    return law_of(scheme) == GM_LAW_CELLS ? gm_wave_cell_energy(problem, y) : gm_wave_energy(problem, y);
+}
+
+double gm_wave_momentum(const struct gm_problem *problem, const double *y)
+{
+    const struct gm_line *line = &problem->line;
+    const double *u = y, *o = y + line->points, gap = y[2 * line->points];
+    double sum = 0;
+    for (size_t i = 0; i < line->points; i++) {
+        /* gap is the other time minus the present one */
+        sum += (o[i] - u[i]) / gap *
+               (at(line, u, i, 1) - at(line, u, i, -1) + at(line, o, i, 1) - at(line, o, i, -1)) / 4;
+    }
+    return -sum;
+}
+
+/* u_tt - d2 u + [V(a) - V(b)] / (a - b): what multiplies u_t in the law of energy, u_x in that of momentum */
+static double node_law(const struct gm_problem *problem, const struct gm_levels *levels, double dt, size_t i,
+                       double a, double b)
+{
+    return (levels->next[i] - 2 * levels->now[i] + levels->past[i]) / (dt * dt) -
+           d2(&problem->line, levels->now, i) + gm_field_of(problem)->wave->quotient(problem, a, b);
+}
+
+static double cell_law(const struct gm_problem *problem, double a, double b, double step)
+{
+    const struct gm_wave *wave = gm_field_of(problem)->wave;
+    return (b - a) / step * (wave->quotient(problem, a, b) - wave->slope(problem, (a + b) / 2));
+}
+
+static void cell_laws(const struct gm_problem *problem, double dt, const double *y, enum gm_local_law law,
+                      double *residual)
+{
+    const struct gm_line *line = &problem->line;
+    const double *u = y, *o = y + line->points;
+    for (size_t i = 0; i < line->points; i++) {
+        if (law == GM_LAW_OF_ENERGY) {
+            const double a = (o[i] + at(line, o, i, 1)) / 2, b = (u[i] + at(line, u, i, 1)) / 2;
+            residual[i] = cell_law(problem, a, b, dt);
+        } else {
+            const double a = (o[i] + u[i]) / 2, b = (at(line, o, i, 1) + at(line, u, i, 1)) / 2;
+            residual[i] = cell_law(problem, a, b, line->dx);
+        }
+    }
+}
+
+bool gm_wave_laws(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                  const double *y, enum gm_local_law law, double *residual)
+{
+    const enum gm_wave_law kind = law_of(scheme);
+    const struct gm_line *line = &problem->line;
+    struct gm_levels levels;
+    if (kind == GM_LAW_CELLS) {
+        cell_laws(problem, dt, y, law, residual);
+        return true;
+    }
+    if (kind != GM_LAW_NODES || !gm_levels_open(&levels, problem, scheme, dt, y, NULL)) {
+        return false;
+    }
+    for (size_t i = 0; i < line->points; i++) {
+        if (law == GM_LAW_OF_ENERGY) {
+            const double rate = (levels.next[i] - levels.past[i]) / (2 * dt);
+            residual[i] = rate * node_law(problem, &levels, dt, i, levels.next[i], levels.past[i]);
+        } else {
+            const double a = at(line, levels.now, i, 1), b = at(line, levels.now, i, -1);
+            residual[i] = (a - b) / (2 * line->dx) * node_law(problem, &levels, dt, i, a, b);
+        }
+    }
+    gm_levels_close(&levels);
+    return true;
+}

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Schemes of two steps, on nodes, for u_tt - u_xx + V'(u) = 0, d2 u = (u_{i+1} - 2 u_i + u_{i-1}) / dx^2:
+       leapfrog            (u^{n+1} - 2 u^n + u^{n-1}) / dt^2 = d2 u^n - V'(u^n)
+       energy-conserving   (u^{n+1} - 2 u^n + u^{n-1}) / dt^2 = d2 u^n - [V(u^{n+1}) - V(u^{n-1})]
+                                                                         / (u^{n+1} - u^{n-1})
+       Euler box           M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s)
+   In the Euler box M = M+ - M+', K = K+ - K+' are split into triangles; with v and w eliminated it is
+   leapfrog, so leapfrog is multisymplectic as well. B. Moore & S. Reich, Numer. Math. 95 (2003) 625.
+   Energy-conserving: W. Strauss & L. Vazquez, J. Comput. Phys. 28 (1978) 271. Stable where, with V'' at the
+   solution,
+       leapfrog            4/dt^2        >= 4/dx^2 + V''
+       energy-conserving   4/dt^2 + V''  >= 4/dx^2 */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clones.h"
+#include "core/count.h"
+#include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
+#include "core/field/families/waves/form.h"
+
+GM_CLONES static void explicit_step(const double *restrict past, const double *restrict now,
+                                    const double *restrict force, double *restrict next, size_t points,
+                                    double ratio, double square)
+{
+    for (size_t i = 1; i <= points; i++) {
+        const double curvature = now[i + 1] - 2 * now[i] + now[i - 1];
+        next[i] = 2 * now[i] - past[i] + ratio * curvature - square * force[i];
+    }
+}
+
+static enum gm_status leapfrog(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                               const double *past, const double *now, double *next,
+                               struct gm_progress *progress)
+{
+    const double dx = problem->line.dx;
+    gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
+    explicit_step(past - 1, now - 1, work->force - 1, next - 1, work->points, dt * dt / (dx * dx), dt * dt);
+    progress->evaluations++;
+    return GM_OK;
+}
+
+/* c + dt^2 Q(now + c, past) = right, from the guess c; NaN if Newton's method does not settle */
+static double solve_node(const struct gm_problem *problem, double square, double past, double now,
+                         double right, double c, unsigned long *iterations)
+{
+    enum { MOST = 50 };
+    const struct gm_wave *wave = gm_field_of(problem)->wave;
+    double last = INFINITY;
+    for (int k = 0; k < MOST; k++) {
+        const double x = now + c;
+        const double change = (c + square * wave->quotient(problem, x, past) - right) /
+                              (1 + square * wave->quotient_slope(problem, x, past));
+        const double size = fabs(change);
+        ++*iterations;
+        if (size >= last && size <= 1e-14 * fmax(1, fabs(x))) {
+            return c;
+        }
+        c -= change;
+        if (!(size > 1e-17 * fabs(x))) {
+            return c;
+        }
+        last = size;
+    }
+    return NAN;
+}
+
+/* Solved for the change from level to level, which is kept apart from the levels: there it would be rounded
+   as they are, and the energy would wander twenty times as far. */
+static enum gm_status energy_conserving(struct gm_two_step_work *work, const struct gm_problem *problem,
+                                        double dt, const double *past, const double *now, double *next,
+                                        struct gm_progress *progress)
+{
+    const double square = dt * dt, ratio = square / (problem->line.dx * problem->line.dx);
+    for (size_t i = 0; i < work->points; i++) {
+        const double before = work->change[i];
+        const double curvature = ((now + i)[1] - now[i]) - (now[i] - (now + i)[-1]);
+        const double right = before + ratio * curvature;
+        work->change[i] = solve_node(problem, square, past[i], now[i], right, before, &progress->iterations);
+        next[i] = now[i] + work->change[i];
+        if (isnan(next[i])) {
+            return isfinite(right) ? GM_NO_CONVERGENCE : GM_BLOW_UP;
+        }
+    }
+    progress->evaluations++;
+    return GM_OK;
+}
+
+/* M+ D_t^+ s - M+' D_t^- s + K+ D_x^+ s - K+' D_x^- s = grad S(s) with the upper triangles M+, K+: here
+       v = D_t^- u,   w = D_x^- u,   -D_t^+ v + D_x^+ w = V'(u) */
+static enum gm_status euler_box(struct gm_two_step_work *work, const struct gm_problem *problem, double dt,
+                                const double *past, const double *now, double *next,
+                                struct gm_progress *progress)
+{
+    const double dx = problem->line.dx;
+    double *v = work->right, *w = work->guess;
+    gm_field_of(problem)->wave->slopes(problem, now, work->force, work->points);
+    for (size_t i = 0; i <= work->points; i++) {
+        w[i] = (now[i] - (now + i)[-1]) / dx;
+    }
+    for (size_t i = 0; i < work->points; i++) {
+        v[i] = (now[i] - past[i]) / dt;
+        next[i] = now[i] + dt * (v[i] + dt * ((w[i + 1] - w[i]) / dx - work->force[i]));
+    }
+    progress->evaluations++;
+    return GM_OK;
+}
+
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    const struct gm_two_step_row *row = scheme->coefficients;
+    return row->keeps_change ? problem->line.points : 0;
+}
+
+/* Of no use to a first step that is none of the scheme's own, which begins the change anew. */
+static enum gm_status start(const struct gm_task *task)
+{
+    const size_t points = task->problem->line.points;
+    if (memory(task->problem, task->scheme) > 0) {
+        for (size_t i = 0; i < points; i++) {
+            task->memory_out[i] = task->y[i] - task->y[points + i];
+        }
+    }
+    return GM_OK;
+}
+
+static const struct gm_two_step_row rows[] = {
+    {.step = leapfrog, .start = gm_wave_start, .law = GM_LAW_NODES},
+    {.step = energy_conserving,
+     .start = gm_wave_start,
+     .law = GM_LAW_NODES,
+     .average = true,
+     .keeps_change = true},
+    {.step = euler_box, .start = gm_wave_start, .law = GM_LAW_NODES},
+};
+
+/* 4/dt^2 >= 4/dx^2 + V'' wherever u is */
+static double longest_explicit(const struct gm_problem *problem, const double *y)
+{
+    const struct gm_line *line = &problem->line;
+    const struct gm_wave *wave = gm_field_of(problem)->wave;
+    double most = 0;
+    for (size_t i = 0; i < line->points; i++) {
+        most = fmax(most, wave->curvature(problem, y[i]));
+    }
+    return 2 / sqrt(4 / (line->dx * line->dx) + most);
+}
+
+static const struct gm_step_limit explicit_limit = {"4/dt^2 >= 4/dx^2 + V''", longest_explicit};
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "leapfrog",
+        .title = "leapfrog",
+        .formula = "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − V′(uⁿ)",
+        .reference =
+            "multisymplectic Euler scheme with the triangular splitting: Moore & Reich, Numer. Math. 95 (2003) "
+            "625; Razafindralandy et al. (2018) call it not multisymplectic, which it is",
+        .family = &gm_family_leapfrog,
+        .coefficients = &rows[0],
+        .order = 2,
+        .needs = GM_NEEDS_WAVE,
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        .limit = &explicit_limit,
+    },
+    {
+        .name = "energy-conserving",
+        .title = "energy-conserving",
+        .formula = "(uⁿ⁺¹ − 2uⁿ + uⁿ⁻¹)/Δt² = (uᵢ₊₁ − 2uᵢ + uᵢ₋₁)/Δx² − [V(uⁿ⁺¹) − V(uⁿ⁻¹)]/(uⁿ⁺¹ − uⁿ⁻¹)",
+        .reference = "W. Strauss & L. Vázquez, J. Comput. Phys. 28 (1978) 271",
+        .family = &gm_family_leapfrog,
+        .coefficients = &rows[1],
+        .order = 2,
+        .needs = GM_NEEDS_WAVE,
+        .claims = GM_KEEPS_ENERGY | GM_SYMMETRIC,
+    },
+    {
+        .name = "euler-box",
+        .title = "Euler box",
+        .formula =
+            "M₊Dₜ⁺s + M₋Dₜ⁻s + K₊Dₓ⁺s + K₋Dₓ⁻s = ∇S(s),  M₊, K₊ the upper triangles:  leapfrog in (u, v, w)",
+        .reference = "B. Moore & S. Reich, Numer. Math. 95 (2003) 625",
+        .family = &gm_family_leapfrog,
+        .coefficients = &rows[2],
+        .order = 2,
+        .needs = GM_NEEDS_WAVE,
+        .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC,
+        .limit = &explicit_limit,
+    },
+};
+
+const struct gm_family gm_family_leapfrog = {
+    .kind = &gm_kind_field,
+    .title = "two-step wave schemes",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .loop = gm_two_step_advance,
+    .memory = memory,
+    .start = start,
+    .workspace_open = gm_two_step_open,
+    .workspace_close = gm_two_step_close,
+    .form = gm_wave_form,
+};

@@ -1,0 +1,471 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Multisymplectic partitioned Runge-Kutta methods for u_tt - u_xx + V'(u) = 0. In space, across an element of
+   two cells, D = 2 dx, the three stages of Lobatto IIIA for u and of Lobatto IIIB for w = u_x; the end of an
+   element is the first stage of the next, which leaves
+       f = L u - V'(u)
+       L u = (u_{i-1} - 2 u_i + u_{i+1}) 4/D^2                                          in the middle
+       L u = (-u_{i-2} + 8 u_{i-1} - 14 u_i + 8 u_{i+1} - u_{i+2}) / D^2                at the ends
+       w   = (u_{i+2} - u_i)/D - D [(L u)_i/6 + (L u)_{i+1}/3]                          at an element's left end
+   of fourth order in dx. In time u'' = f with
+       two stages of Lobatto IIIA-IIIB, which is Verlet's scheme
+       three stages     u_h = u + dt v/2 + dt^2 (f/12 + f_h/24)     solved by iteration, for dt < 2 dx
+                        u_1 = u + dt v + dt^2 (f/6 + f_h/3),   v_1 = v + dt (f + 4 f_h + f_1)/6
+       a symplectic Nystrom method: Verlet five times, c, c, 1 - 4 c, c, c, with c = 1/(4 - 4^(1/3)).
+   With their weights b in space and time the sums of du ^ dv and of du ^ dw obey the multisymplectic law:
+   B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847; R.I. McLachlan, B.N. Ryland &
+   Y. Sun, SIAM J. Sci. Comput. 36 (2014) A2199; M. Suzuki, Phys. Lett. A 146 (1990) 319. Stable where, w the
+   fastest frequency of f, w^2 = 6/dx^2 + V'', w dt is below 2 (Verlet), 2 sqrt 2 (three stages).
+
+   The memory is u, v and a number, 1 when they are filled: v so that a step over the gap leads from one level
+   of the state to the other. */
+#include "core/field/families/waves/lobatto.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/field/families/families.h"
+#include "core/field/multisymplectic.h"
+#include "core/larger.h"
+#include "core/linear/differences.h"
+
+enum { STAGES = 3 };
+
+struct work {
+    size_t points;
+    double *u, *v, *force;           /* points each; force is that of u where it is `fresh` */
+    double *before;                  /* u before the last step */
+    double *stage[GM_LOBATTO_KICKS]; /* u at the kicks of the last step */
+    double *last;                    /* what an iteration changes */
+    bool fresh;
+    double *memory;
+};
+
+static void workspace_close(void *workspace)
+{
+    struct work *work = workspace;
+    free(work->memory);
+    free(work);
+}
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    const size_t points = problem->line.points;
+    struct work *work = calloc(1, sizeof *work);
+    double *memory = calloc((5 + GM_LOBATTO_KICKS) * points, sizeof *memory);
+    if (!work || !memory) {
+        free(work);
+        free(memory);
+        return NULL;
+    }
+    work->points = points;
+    work->memory = memory;
+    double **const arrays[] = {&work->u, &work->v, &work->force, &work->before, &work->last};
+    for (size_t i = 0; i < GM_COUNT(arrays); i++) {
+        *arrays[i] = memory + i * points;
+    }
+    for (size_t i = 0; i < GM_LOBATTO_KICKS; i++) {
+        work->stage[i] = memory + (GM_COUNT(arrays) + i) * points;
+    }
+    return work;
+}
+
+/* L of a level that gains `jump` around the ring. */
+static void bend(const struct gm_line *line, double jump, const double *u, double *second)
+{
+    const size_t points = line->points;
+    const double over = 1 / (line->dx * line->dx);
+    for (size_t i = 0; i < points; i += 2) {
+        const double left = i >= 2 ? u[i - 2] : u[points - 2] - jump;
+        const double near = i >= 2 ? u[i - 1] : u[points - 1] - jump;
+        const double end = i + 2 < points ? u[i + 2] : u[0] + jump;
+        second[i] = over / 4 * (8 * (near + u[i + 1]) - 14 * u[i] - left - end);
+        second[i + 1] = over * (u[i] - 2 * u[i + 1] + end);
+    }
+}
+
+/* f; with the `curvature` V'' that of a tangent. */
+static void find_force(const struct gm_problem *problem, const double *curvature, const double *u,
+                       double *slope, double *force)
+{
+    const size_t points = problem->line.points;
+    bend(&problem->line, curvature ? 0 : problem->line.jump, u, force);
+    if (curvature) {
+        for (size_t i = 0; i < points; i++) {
+            force[i] -= curvature[i] * u[i];
+        }
+        return;
+    }
+    gm_field_of(problem)->wave->slopes(problem, u, slope, points);
+    for (size_t i = 0; i < points; i++) {
+        force[i] -= slope[i];
+    }
+}
+
+static void kick(struct work *work, double step)
+{
+    for (size_t i = 0; i < work->points; i++) {
+        work->v[i] += step * work->force[i];
+    }
+}
+
+/* The stage in the middle, in stage[1], and its f in `force`; the f of the start is in stage[2]. */
+static enum gm_status middle_stage(struct work *work, const struct gm_problem *problem, double dt,
+                                   const double *curvature, struct gm_progress *progress)
+{
+    enum { MOST = 200 };
+    const size_t points = work->points;
+    const double *first = work->stage[2];
+    double *half = work->stage[1], last = INFINITY;
+    for (size_t i = 0; i < points; i++) {
+        half[i] = work->u[i] + dt / 2 * work->v[i] + dt * dt / 8 * first[i];
+    }
+    for (int round = 0; round < MOST; round++) {
+        find_force(problem, curvature, half, work->last, work->force);
+        progress->evaluations++;
+        progress->iterations++;
+        double change = 0, largest = 1;
+        for (size_t i = 0; i < points; i++) {
+            const double next =
+                work->u[i] + dt / 2 * work->v[i] + dt * dt * (first[i] / 12 + work->force[i] / 24);
+            change = gm_larger(change, fabs(next - half[i]));
+            largest = fmax(largest, fabs(next));
+            half[i] = next;
+        }
+        if (!isfinite(change)) {
+            return GM_BLOW_UP;
+        }
+        if (change <= 1e-16 * largest || (change >= last && change <= 1e-13 * largest)) {
+            return GM_OK;
+        }
+        last = change;
+    }
+    return GM_NO_CONVERGENCE;
+}
+
+/* One step of u and v; with `curvature`, kicks * points values of V'', that of a tangent. */
+static enum gm_status make_step(struct work *work, const struct gm_lobatto_row *row,
+                                const struct gm_problem *problem, double dt, const double *curvature,
+                                struct gm_progress *progress)
+{
+    const size_t points = work->points, size = points * sizeof(double);
+    memcpy(work->before, work->u, size);
+    if (!work->fresh) {
+        find_force(problem, curvature, work->u, work->last, work->force);
+        progress->evaluations++;
+    }
+    work->fresh = false;
+    memcpy(work->stage[0], work->u, size);
+    if (row->collocated) {
+        double *first = work->stage[2];
+        memcpy(first, work->force, size);
+        const enum gm_status status =
+            middle_stage(work, problem, dt, curvature ? curvature + points : NULL, progress);
+        if (status != GM_OK) {
+            return status;
+        }
+        for (size_t i = 0; i < points; i++) {
+            const double drift = dt * work->v[i] + dt * dt * (first[i] / 6 + work->force[i] / 3);
+            work->v[i] += dt * (row->kick[0] * first[i] + row->kick[1] * work->force[i]);
+            work->u[i] += drift;
+        }
+        find_force(problem, curvature ? curvature + 2 * points : NULL, work->u, work->last, work->force);
+        progress->evaluations++;
+        kick(work, row->kick[2] * dt);
+        memcpy(work->stage[2], work->u, size);
+    } else {
+        kick(work, row->kick[0] * dt);
+        for (size_t k = 1; k < row->kicks; k++) {
+            for (size_t i = 0; i < points; i++) {
+                work->u[i] += row->drift[k - 1] * dt * work->v[i];
+            }
+            memcpy(work->stage[k], work->u, size);
+            find_force(problem, curvature ? curvature + k * points : NULL, work->u, work->last, work->force);
+            progress->evaluations++;
+            kick(work, row->kick[k] * dt);
+        }
+    }
+    work->fresh = !curvature;
+    return GM_OK;
+}
+
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return 2 * problem->line.points + 1;
+}
+
+static enum gm_status start(const struct gm_task *task)
+{
+    enum { TIMES = 12 };
+    const double far =
+        1e6; /* near the limit of stability noise begins farther off than it is large, and stays */
+    const struct gm_problem *problem = task->problem;
+    struct work *work = task->workspace;
+    const size_t points = work->points, size = points * sizeof(double);
+    const double gap = task->y[2 * points], *other = task->y + points;
+    double *u = task->memory_out, *v = u + points, *filled = v + points;
+    struct gm_progress uncounted = {.status = GM_OK};
+    if (*filled == 1) {
+        return GM_OK;
+    }
+    memcpy(u, task->y, size);
+    for (size_t i = 0; i < points; i++) {
+        v[i] = (other[i] - u[i]) / gap;
+    }
+    for (int k = 0; k < TIMES; k++) {
+        memcpy(work->u, u, size);
+        memcpy(work->v, v, size);
+        work->fresh = false;
+        const enum gm_status status =
+            make_step(work, task->scheme->coefficients, problem, gap, NULL, &uncounted);
+        double miss = 0, most = 1;
+        for (size_t i = 0; i < points; i++) {
+            miss = gm_larger(miss, fabs(other[i] - work->u[i]));
+            most = fmax(most, fabs(other[i]));
+            v[i] += (other[i] - work->u[i]) / gap;
+        }
+        if (status != GM_OK || !(miss <= far * most)) {
+            return status != GM_OK ? status : GM_NO_CONVERGENCE;
+        }
+    }
+    *filled = 1;
+    return GM_OK;
+}
+
+static struct gm_progress advance(const struct gm_task *task)
+{
+    struct work *work = task->workspace;
+    const size_t points = work->points, size = points * sizeof(double);
+    struct gm_progress progress = {.status = GM_OK};
+    memcpy(work->u, task->memory, size);
+    memcpy(work->v, task->memory + points, size);
+    work->fresh = false;
+    for (long k = 0; k < task->steps; k++) {
+        progress.status =
+            make_step(work, task->scheme->coefficients, task->problem, task->dt, NULL, &progress);
+        if (progress.status == GM_OK && !gm_field_within(work->u, points, task->limit)) {
+            progress.status = GM_BLOW_UP;
+        }
+        if (progress.status != GM_OK) {
+            return progress;
+        }
+        progress.done++;
+    }
+    memcpy(task->memory_out, work->u, size);
+    memcpy(task->memory_out + points, work->v, size);
+    task->memory_out[2 * points] = 1;
+    memcpy(task->out, work->u, size);
+    memcpy(task->out + points, work->before, size);
+    task->out[2 * points] = -task->dt;
+    return progress;
+}
+
+/* The discrete multisymplectic law: two tangents of a step, with their faces in time and space. */
+
+struct base {
+    const struct gm_problem *problem;
+    const struct gm_lobatto_row *row;
+    double dt;
+    struct work *work;
+};
+
+/* gm_map: u and v to the same a step later. */
+static bool one_step(const void *context, const double *from, double *to)
+{
+    const struct base *base = context;
+    struct work *work = base->work;
+    const size_t points = work->points, size = points * sizeof *to;
+    struct gm_progress uncounted = {.status = GM_OK};
+    memcpy(work->u, from, size);
+    memcpy(work->v, from + points, size);
+    work->fresh = false;
+    if (make_step(work, base->row, base->problem, base->dt, NULL, &uncounted) != GM_OK) {
+        return false;
+    }
+    memcpy(to, work->u, size);
+    memcpy(to + points, work->v, size);
+    return true;
+}
+
+/* Advances the tangent `start` (u, then v) to `end`, and finds its faces. */
+static bool advance_tangent(const struct base *base, const double *state, const double *curvature,
+                            bool by_differences, const double *start, double *end, struct gm_faces *faces)
+{
+    enum { U, V, W, DIMENSION };
+    struct work *work = base->work;
+    const size_t points = work->points, size = points * sizeof *end, kicks = base->row->kicks;
+    const double length = 2 * base->problem->line.dx;
+    struct gm_progress uncounted = {.status = GM_OK};
+    if (by_differences && !gm_differentiate(one_step, base, 2 * points, state, start, 2 * points, end)) {
+        return false;
+    }
+    memcpy(work->u, start, size);
+    memcpy(work->v, start + points, size);
+    work->fresh = false;
+    if (make_step(work, base->row, base->problem, base->dt, curvature, &uncounted) != GM_OK) {
+        return false;
+    }
+    if (!by_differences) {
+        memcpy(end, work->u, size);
+        memcpy(end + points, work->v, size);
+    }
+    for (size_t i = 0; i < points; i += 2) {
+        for (size_t m = 0; m < STAGES; m++) {
+            const size_t at = (i + m) % points, face = (i / 2 * STAGES + m) * DIMENSION;
+            faces->lower[face + U] = start[at];
+            faces->lower[face + V] = start[points + at];
+            faces->upper[face + U] = end[at];
+            faces->upper[face + V] = end[points + at];
+        }
+    }
+    for (size_t k = 0; k < kicks; k++) {
+        const double *u = work->stage[k];
+        double *second = work->last;
+        bend(&base->problem->line, 0, u, second);
+        for (size_t i = 0; i <= points; i += 2) {
+            const size_t at = i % points, end_at = (i + 2) % points;
+            double *side = faces->sides + (i / 2 * kicks + k) * DIMENSION;
+            side[U] = u[at];
+            side[W] = (u[end_at] - u[at]) / length - length * (second[at] / 6 + second[at + 1] / 3);
+        }
+    }
+    return true;
+}
+
+static double form(const struct gm_problem *problem, const struct gm_scheme *scheme, double dt,
+                   const double *y, const double *memory, bool by_differences)
+{
+    (void)y;
+    static const double space[STAGES] = {1. / 6, 4. / 6, 1. / 6};
+    const struct gm_lobatto_row *row = scheme->coefficients;
+    const size_t points = problem->line.points;
+    const struct gm_lattice elements = {points / 2,           STAGES, row->kicks, space, row->kick,
+                                        2 * problem->line.dx, dt};
+    struct work *work = workspace_open(problem, scheme);
+    struct gm_faces faces[2] = {{0}};
+    double *arrays = malloc((row->kicks + 4) * points * sizeof *arrays), residual = NAN;
+    const struct base base = {problem, row, dt, work};
+    bool good = work && arrays;
+    for (size_t k = 0; k < 2; k++) {
+        good &= gm_faces_open(&faces[k], gm_field_of(problem)->form, &elements);
+    }
+    if (good) {
+        double *curvature = arrays, *tangent = arrays + row->kicks * points, *end = tangent + 2 * points;
+        good = one_step(&base, memory, end);
+        for (size_t at = 0; at < row->kicks * points; at++) {
+            curvature[at] =
+                gm_field_of(problem)->wave->curvature(problem, work->stage[at / points][at % points]);
+        }
+        for (size_t k = 0; good && k < 2; k++) {
+            gm_tangent_start(tangent, points, 2 + (double)k, 0.3 + 0.4 * (double)k);
+            gm_tangent_start(tangent + points, points, 2 + (double)k, 1.3 + 0.4 * (double)k);
+            good = advance_tangent(&base, memory, curvature, by_differences, tangent, end, &faces[k]);
+        }
+        if (good) {
+            residual = gm_lattice_law(gm_field_of(problem)->form, &elements, &faces[0], &faces[1]);
+        }
+    }
+    gm_faces_close(&faces[0]);
+    gm_faces_close(&faces[1]);
+    free(arrays);
+    if (work) {
+        workspace_close(work);
+    }
+    return residual;
+}
+
+#define OUTER 0.41449077179437573714 /* 1/(4 - 4^(1/3)) */
+#define INNER (1 - 4 * OUTER)
+
+static const struct gm_lobatto_row rows[] = {
+    {.kicks = 2, .kick = {0.5, 0.5}, .drift = {1}},
+    {.kicks = 3, .kick = {1. / 6, 4. / 6, 1. / 6}, .collocated = true},
+    {.kicks = 6,
+     .kick = {OUTER / 2, OUTER, (OUTER + INNER) / 2, (OUTER + INNER) / 2, OUTER, OUTER / 2},
+     .drift = {OUTER, OUTER, INNER, OUTER, OUTER}},
+};
+
+/* The longest step, (w dt)^2 = square, with w^2 = 6/dx^2 + V'' wherever u is */
+static double longest(const struct gm_problem *problem, const double *y, double square)
+{
+    const struct gm_line *line = &problem->line;
+    double most = 0;
+    for (size_t i = 0; i < line->points; i++) {
+        most = fmax(most, gm_field_of(problem)->wave->curvature(problem, y[i]));
+    }
+    return sqrt(square / (6 / (line->dx * line->dx) + most));
+}
+static double longest_of_verlet(const struct gm_problem *problem, const double *y)
+{
+    return longest(problem, y, 4);
+}
+static double longest_of_three(const struct gm_problem *problem, const double *y)
+{
+    return longest(problem, y, 8);
+}
+/* Suzuki's composition: where the trace of its step of u'' = -w^2 u leaves [-2, 2] first. */
+static double longest_of_suzuki(const struct gm_problem *problem, const double *y)
+{
+    return longest(problem, y, 7.403702439);
+}
+static const struct gm_step_limit suzuki_limit = {"7.4037/dt^2 >= 6/dx^2 + V''", longest_of_suzuki};
+static const struct gm_step_limit verlet_limit = {"4/dt^2 >= 6/dx^2 + V''", longest_of_verlet};
+static const struct gm_step_limit three_limit = {"8/dt^2 >= 6/dx^2 + V''", longest_of_three};
+
+#define IN_SPACE "Lu = 4(uᵢ₋₁ − 2uᵢ + uᵢ₊₁)/D², (−uᵢ₋₂ + 8uᵢ₋₁ − 14uᵢ + 8uᵢ₊₁ − uᵢ₊₂)/D² in turn, D = 2Δx\n"
+#define LOBATTO                                                                                              \
+    .family = &gm_family_lobatto, .needs = GM_NEEDS_WAVE | GM_NEEDS_PAIRS,                                   \
+    .claims = GM_MULTISYMPLECTIC | GM_SYMMETRIC
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "lobatto-box2",
+        .title = "Lobatto box, r = 3, s = 2",
+        .formula = IN_SPACE "u″ = Lu − V′(u) by Verlet: Lobatto IIIA-IIIB with three stages in x, two in t",
+        .reference = "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847",
+        .coefficients = &rows[0],
+        .order = 2,
+        .limit = &verlet_limit,
+        LOBATTO,
+    },
+    {
+        .name = "lobatto-box4",
+        .title = "Lobatto box, r = s = 3",
+        .formula = IN_SPACE
+        "u″ = Lu − V′(u) = f:  uₕ = u + Δt v/2 + Δt²(f/12 + fₕ/24),  u₁ = u + Δt v + Δt²(f/6 + fₕ/3)\n"
+        "v₁ = v + Δt(f + 4fₕ + f₁)/6:  Lobatto IIIA-IIIB with three stages in x and t",
+        .reference = "R.I. McLachlan, B.N. Ryland & Y. Sun, SIAM J. Sci. Comput. 36 (2014) A2199",
+        .coefficients = &rows[1],
+        .order = 4,
+        .limit = &three_limit,
+        LOBATTO,
+    },
+    {
+        .name = "lobatto-nystrom4",
+        .title = "Lobatto in x, Nyström in t",
+        .formula = IN_SPACE "u″ = Lu − V′(u) by Verlet with c, c, 1 − 4c, c, c times Δt,  c = 1/(4 − 4^⅓)",
+        .reference =
+            "B.N. Ryland, R.I. McLachlan & J. Frank, Int. J. Comput. Math. 84 (2007) 847; M. Suzuki, Phys. "
+            "Lett. A 146 (1990) 319",
+        .coefficients = &rows[2],
+        .order = 4,
+        .limit = &suzuki_limit,
+        LOBATTO,
+    },
+};
+
+const struct gm_family gm_family_lobatto = {
+    .kind = &gm_kind_field,
+    .title = "multisymplectic Lobatto collocation",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .loop = advance,
+    .memory = memory,
+    .start = start,
+    .workspace_open = workspace_open,
+    .workspace_close = workspace_close,
+    .form = form,
+};

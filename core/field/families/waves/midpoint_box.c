@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Centred differences in time and space for M s_t + K s_x = grad S(s),
+       M (s^{n+1} - s^{n-1})/(2 dt) + K (s_{i+1} - s_{i-1})/(2 dx) = grad S(s),
+   which for u_tt - u_xx + V'(u) = 0 are, with D0 f = (f_{i+1} - f_{i-1})/(2 dx),
+       u^{n+1} = u^{n-1} + 2 dt v^n
+       w^n     = D0 u^n
+       v^{n+1} = v^{n-1} + 2 dt [D0 w^n - V'(u^n)]
+   With v and w eliminated these are four leapfrogs on the grid of steps (2 dt, 2 dx) that know nothing of
+   each other: the solution splits into a checkerboard. Stable for dt <= dx. The memory is v at the two levels
+   of the state. Razafindralandy et al. (2018), the multisymplectic midpoint scheme. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/count.h"
+#include "core/field/families/families.h"
+#include "core/field/families/two_step.h"
+#include "core/field/families/waves/form.h"
+
+struct work {
+    size_t points;
+    double *u[3], *v[3], *force; /* past, present, next */
+};
+
+static void *workspace_open(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    const size_t points = problem->line.points;
+    struct work *work = malloc(sizeof *work + 7 * points * sizeof(double));
+    if (!work) {
+        return NULL;
+    }
+    double *memory = (double *)(void *)(work + 1);
+    work->points = points;
+    for (size_t k = 0; k < 3; k++) {
+        work->u[k] = memory + 2 * k * points;
+        work->v[k] = memory + (2 * k + 1) * points;
+    }
+    work->force = memory + 6 * points;
+    return work;
+}
+
+static size_t memory(const struct gm_problem *problem, const struct gm_scheme *scheme)
+{
+    (void)scheme;
+    return 2 * problem->line.points;
+}
+
+/* A node that may lie beyond an end. */
+static double at(const struct gm_line *line, const double *u, size_t i, long by)
+{
+    const long n = (long)line->points, place = (long)i + by;
+    const long turns = place >= n ? 1 : place < 0 ? -1 : 0;
+    return u[place - turns * n] + (double)turns * line->jump;
+}
+
+/* u_tt: by centred differences twice over, or the usual ones */
+static double acceleration(const struct gm_problem *problem, const double *u, size_t i, long reach,
+                           double slope)
+{
+    const struct gm_line *line = &problem->line;
+    const double step = (double)reach * line->dx;
+    return (at(line, u, i, reach) - 2 * u[i] + at(line, u, i, -reach)) / (step * step) - slope;
+}
+
+/* v at both levels of the state, to second order, from their difference and the accelerations there. */
+static enum gm_status start(const struct gm_task *task)
+{
+    const struct gm_problem *problem = task->problem;
+    const size_t points = problem->line.points;
+    const double *u = task->y, *other = task->y + points, gap = task->y[2 * points];
+    for (size_t i = 0; i < points; i++) {
+        const double quotient = (other[i] - u[i]) / gap;
+        task->memory_out[i] =
+            quotient -
+            gap / 2 * acceleration(problem, u, i, 1, gm_field_of(problem)->wave->slope(problem, u[i]));
+        task->memory_out[points + i] =
+            quotient +
+            gap / 2 *
+                acceleration(problem, other, i, 1, gm_field_of(problem)->wave->slope(problem, other[i]));
+    }
+    return GM_OK;
+}
+
+/* The first level after a change of the step: Heun's method, once. */
+static void first_level(struct work *work, const struct gm_problem *problem, double dt)
+{
+    double *const *u = work->u, *const *v = work->v;
+    gm_field_of(problem)->wave->slopes(problem, u[1], work->force, work->points);
+    for (size_t i = 0; i < work->points; i++) {
+        v[2][i] = acceleration(problem, u[1], i, 1, work->force[i]);
+        u[2][i] = u[1][i] + dt * (v[1][i] + dt / 2 * v[2][i]);
+    }
+    gm_field_of(problem)->wave->slopes(problem, u[2], work->force, work->points);
+    for (size_t i = 0; i < work->points; i++) {
+        v[2][i] = v[1][i] + dt / 2 * (v[2][i] + acceleration(problem, u[2], i, 1, work->force[i]));
+    }
+}
+
+static void centred_step(struct work *work, const struct gm_problem *problem, double dt)
+{
+    double *const *u = work->u, *const *v = work->v;
+    gm_field_of(problem)->wave->slopes(problem, u[1], work->force, work->points);
+    for (size_t i = 0; i < work->points; i++) {
+        u[2][i] = u[0][i] + 2 * dt * v[1][i];
+        v[2][i] = v[0][i] + 2 * dt * acceleration(problem, u[1], i, 2, work->force[i]);
+    }
+}
+
+static void rotate(double *level[3])
+{
+    double *past = level[0];
+    level[0] = level[1];
+    level[1] = level[2];
+    level[2] = past;
+}
+
+static struct gm_progress advance(const struct gm_task *task)
+{
+    struct work *work = task->workspace;
+    const size_t points = work->points, size = points * sizeof(double);
+    const double gap = task->y[2 * points];
+    struct gm_progress progress = {.status = GM_OK};
+    memcpy(work->u[1], task->y, size);
+    memcpy(work->u[0], task->y + points, size);
+    memcpy(work->v[1], task->memory, size);
+    memcpy(work->v[0], task->memory + points, size);
+    for (long k = 0; k < task->steps; k++) {
+        if (k > 0 || gap == -task->dt) {
+            centred_step(work, task->problem, task->dt);
+            progress.evaluations++;
+        } else if (gap == task->dt) {
+            memcpy(work->u[2], work->u[0], size);
+            memcpy(work->v[2], work->v[0], size);
+        } else {
+            first_level(work, task->problem, task->dt);
+            progress.evaluations += 2;
+        }
+        if (!gm_field_within(work->u[2], points, task->limit)) {
+            progress.status = GM_BLOW_UP;
+            return progress;
+        }
+        rotate(work->u);
+        rotate(work->v);
+        progress.done++;
+    }
+    memcpy(task->out, work->u[1], size);
+    memcpy(task->out + points, work->u[0], size);
+    task->out[2 * points] = -task->dt;
+    memcpy(task->memory_out, work->v[1], size);
+    memcpy(task->memory_out + points, work->v[0], size);
+    return progress;
+}
+
+static const struct gm_two_step_row row = {.law = GM_LAW_CENTRED};
+
+static const struct gm_scheme schemes[] = {
+    {
+        .name = "midpoint-box",
+        .title = "midpoint box",
+        .formula = "M (sⁿ⁺¹ − sⁿ⁻¹)/2Δt + K (sᵢ₊₁ − sᵢ₋₁)/2Δx = ∇S(s)",
+        .reference =
+            "Razafindralandy et al. (2018), multisymplectic midpoint scheme: four leapfrogs on (2Δt, 2Δx)",
+        .family = &gm_family_midpoint_box,
+        .coefficients = &row,
+        .order = 2,
+        .needs = GM_NEEDS_WAVE,
+        .claims = GM_MULTISYMPLECTIC,
+    },
+};
+
+const struct gm_family gm_family_midpoint_box = {
+    .kind = &gm_kind_field,
+    .title = "multisymplectic midpoint",
+    .schemes = schemes,
+    .count = GM_COUNT(schemes),
+    .loop = advance,
+    .memory = memory,
+    .start = start,
+    .workspace_open = workspace_open,
+    .workspace_close = free,
+    .form = gm_wave_form,
+};
