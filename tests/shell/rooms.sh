@@ -210,10 +210,12 @@ wrong 'two of the room.s names lead to the observable a_b_scalar' 'probe: a-b x 
 wrong 'at most 128 observables' "$(for i in $(seq 70); do printf 'probe: p%s x = 1 y = 1\\n' "$i"; done)"
 # the scalar moves beside the flow where there is another core: no bit depends on it
 for cores in 0 0-1; do
-    taskset -c $cores "$geomint" run room rows=34 columns=46 steps=5 tracers=0 --state --json |
-        sed 's/"seconds":[^,]*,//' >cores$cores
-done 2>/dev/null
-[ ! -s cores0-1 ] || cmp -s cores0 cores0-1 || fail 'bits depend on the number of cores'
+    taskset -c $cores "$geomint" run room rows=40 columns=52 steps=5 tracers=0 --state --json |
+        sed "s|\"seconds\":[^,]*,||" >cores$cores
+done
+if taskset -c 0-1 true; then
+    [ "$(wc -c <cores0)" -gt 10000 ] && cmp -s cores0 cores0-1 || fail "bits depend on the number of cores"
+fi
 # balanced, but for round-off
 printf '%s\n' 'mesh: hole.msh' 'viscosity: 0.01' 'inlet: door flow = 0.3' 'outlet: window flow = 0.1' \
     'outlet: vent flow = 0.2' 'outlet: hatch' >even.room
