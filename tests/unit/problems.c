@@ -51,6 +51,73 @@ static struct gm_problem problem_of(size_t i)
     return problem;
 }
 
+/* Of the problems whose energy stands in a file, the same in C, in the order of its operations. */
+static double energy_by_hand(size_t which, const double *y)
+{
+    const double q1 = y[0], q2 = y[1], p1 = y[2], p2 = y[3], d = q1 - q2, n = 1 + (q1 * q1 + q2 * q2);
+    switch (which) {
+    case 0:
+        return (p1 * p1 + p2 * p2 + q1 * q1 + q2 * q2) / 2 + q1 * q1 * q2 - q2 * q2 * q2 / 3;
+    case 1:
+        return 0.5 * q2 * q2 - cos(q1);
+    case 2:
+        return 0.5 * q2 * q2 + 0.5 * q1 * q1;
+    case 3:
+        return 0.5 * y[3] * y[3] - cos(q1);
+    case 4:
+        return 0.5 * y[3] * y[3] + 0.5 * q1 * q1;
+    case 5:
+        return 0.5 * (1 + q1 * q1) * (1 + q2 * q2);
+    case 6:
+        return n * n * (p1 * p1 + p2 * p2) / 8;
+    case 7:
+        return p1 * p1 / 2 + p2 * p2 / 6 + d * d / 2 + d * d * d * d / 4 +
+               strength * (q1 * q1 * q1 * q1 + q2 * q2 * q2 * q2) / 4;
+    default:
+        return (y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) / 2 + y[2];
+    }
+}
+
+/* Bit for bit, of one member and of three; and a potential with its derivatives. */
+static void energies_are_those_by_hand(void **unused)
+{
+    (void)unused;
+    static const struct gm_problem *const problems[] = {
+        &gm_problem_henon_heiles,     &gm_problem_pendulum,           &gm_problem_oscillator,
+        &gm_problem_pendulum_tangent, &gm_problem_oscillator_tangent, &gm_problem_product,
+        &gm_problem_fish_eye,         &gm_problem_particles,          &gm_problem_spherical_pendulum,
+    };
+    uint64_t seed = 1;
+    for (size_t which = 0; which < GM_COUNT(problems); which++) {
+        struct gm_problem problem = *problems[which];
+        problem.parameters = &strength;
+        for (int trial = 0; trial < 10000; trial++) {
+            double state[3][6] = {{0}}, y[18], energy[3], alone;
+            for (size_t i = 0; i < 3; i++) {
+                for (size_t c = 0; c < problem.n; c++) {
+                    seed = seed * 6364136223846793005u + 1442695040888963407u;
+                    state[i][c] = y[3 * c + i] = ((double)(seed >> 11) * 0x1p-53 - 0.5) * 8;
+                }
+            }
+            gm_ode_of(&problem)->hamiltonian->energy(&problem, y, energy, 3);
+            for (size_t i = 0; i < 3; i++) {
+                const double expected = energy_by_hand(which, state[i]);
+                gm_ode_of(&problem)->hamiltonian->energy(&problem, state[i], &alone, 1);
+                assert_memory_equal(&energy[i], &expected, sizeof expected);
+                assert_memory_equal(&alone, &expected, sizeof expected);
+            }
+        }
+    }
+    for (double q = -4; q < 4; q += 0.01) {
+        const double pendulum[3] = {-cos(q), sin(q), cos(q)}, oscillator[3] = {q * q / 2, q, 1};
+        double values[3];
+        gm_ode_of(&gm_problem_pendulum)->lagrangian->potential(&gm_problem_pendulum, q, values);
+        assert_memory_equal(values, pendulum, sizeof values);
+        gm_ode_of(&gm_problem_oscillator)->lagrangian->potential(&gm_problem_oscillator, q, values);
+        assert_memory_equal(values, oscillator, sizeof values);
+    }
+}
+
 static void jacobians_are_derivatives(void **unused)
 {
     (void)unused;
@@ -284,6 +351,7 @@ static void kepler_motion(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(energies_are_those_by_hand),
         cmocka_unit_test(jacobians_are_derivatives),
         cmocka_unit_test(fields_are_hamiltonian),
         cmocka_unit_test(parts_make_the_whole),

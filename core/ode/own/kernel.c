@@ -18,11 +18,14 @@ enum { INLINED = 150, MOST = 4000 };
 static const struct {
     const char *name, *arguments;
     bool momenta; /* its array begins with them */
+    bool alone;   /* for a double, not for registers */
 } functions[GM_KERNEL_FUNCTIONS] = {
-    [GM_KERNEL_FIELD] = {"K(field)", "const real *y, real *f", false},
-    [GM_KERNEL_VELOCITY] = {"K(velocity)", "const real *y, real *f", true},
-    [GM_KERNEL_FORCE] = {"K(force)", "const real *y, real *f", false},
-    [GM_KERNEL_JACOBIAN] = {"K(jacobian)", "const double *y, double f[][GM_COMPONENTS]", false},
+    [GM_KERNEL_FIELD] = {"K(field)", "const real *y, real *f", false, false},
+    [GM_KERNEL_VELOCITY] = {"K(velocity)", "const real *y, real *f", true, false},
+    [GM_KERNEL_FORCE] = {"K(force)", "const real *y, real *f", false, false},
+    [GM_KERNEL_JACOBIAN] = {"K(jacobian)", "const double *y, double f[][GM_COMPONENTS]", false, true},
+    [GM_KERNEL_ENERGY] = {"K(energy)", "const double *y, double *f", false, true},
+    [GM_KERNEL_POTENTIAL] = {"K(potential)", "const double *y, double *f", false, true},
 };
 
 /* Of an operation: what stands before, between and behind its operands. */
@@ -170,15 +173,15 @@ static bool put_function(FILE *out, const struct gm_kernel_source *source, enum 
                          size_t *made)
 {
     const struct gm_tape *tape = source->tapes[which];
-    const bool is_jacobian = which == GM_KERNEL_JACOBIAN, large = statements_of(tape) > INLINED;
+    const bool is_jacobian = which == GM_KERNEL_JACOBIAN, alone = functions[which].alone,
+               large = statements_of(tape) > INLINED;
     struct writing writing = {.out = out,
                               .tape = tape,
                               .parameters = source->written_out ? source->parameters : SIZE_MAX,
                               .first = functions[which].momenta ? source->components / 2 : 0,
                               .made = made};
     const size_t results = tape->inputs + tape->constant_count;
-    fprintf(out, "%s\n%s void %s(%s, const void *parameters)\n{\n",
-            is_jacobian ? "\n#ifdef GM_PASS_SCALAR" : "",
+    fprintf(out, "%s\n%s void %s(%s, const void *parameters)\n{\n", alone ? "\n#ifdef GM_PASS_SCALAR" : "",
             large || is_jacobian ? "static __attribute__((noinline, unused))" : "GM_INLINE",
             functions[which].name, functions[which].arguments);
     put_constants(out, source, which);
@@ -196,7 +199,7 @@ static bool put_function(FILE *out, const struct gm_kernel_source *source, enum 
         put_register(&writing, (uint32_t)(results + k));
         fputs(";\n", out);
     }
-    fprintf(out, "}\n%s", is_jacobian ? "#endif\n" : "");
+    fprintf(out, "}\n%s", alone ? "#endif\n" : "");
     return good;
 }
 
@@ -245,7 +248,14 @@ char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
 {
     /* what moves with the time is a field to these loops, as it is to the interpreter's */
     const bool separable = source->tapes[GM_KERNEL_FORCE] && source->components % 2 == 0;
-    const bool wanted[] = {!separable, separable, separable, source->tapes[GM_KERNEL_JACOBIAN] != NULL};
+    const bool wanted[GM_KERNEL_FUNCTIONS] = {
+        [GM_KERNEL_FIELD] = !separable,
+        [GM_KERNEL_VELOCITY] = separable,
+        [GM_KERNEL_FORCE] = separable,
+        [GM_KERNEL_JACOBIAN] = source->tapes[GM_KERNEL_JACOBIAN] != NULL,
+        [GM_KERNEL_ENERGY] = source->tapes[GM_KERNEL_ENERGY] != NULL,
+        [GM_KERNEL_POTENTIAL] = source->tapes[GM_KERNEL_POTENTIAL] != NULL,
+    };
     size_t registers = 0, length = 0, size = 0;
     *lacks = NULL;
     for (int k = 0; k < GM_KERNEL_FUNCTIONS; k++) {
@@ -266,8 +276,10 @@ char *gm_kernel_text(const struct gm_kernel_source *source, const char **lacks)
     FILE *out = made ? open_memstream(&text, &size) : NULL;
     bool good = out != NULL, known = true;
     if (good) {
-        fprintf(out, "#define GM_COMPONENTS %zu\n%s#include \"core/ode/kernel/formula.h\"\n",
-                source->components, separable ? "#define GM_SEPARABLE\n" : "");
+        fprintf(out, "#define GM_COMPONENTS %zu\n%s%s%s#include \"core/ode/kernel/formula.h\"\n",
+                source->components, separable ? "#define GM_SEPARABLE\n" : "",
+                wanted[GM_KERNEL_ENERGY] ? "#define GM_WITH_ENERGY\n" : "",
+                wanted[GM_KERNEL_POTENTIAL] ? "#define GM_WITH_POTENTIAL\n" : "");
         put_layout(out);
         for (int k = 0; k < GM_KERNEL_FUNCTIONS; k++) {
             known = known && (!wanted[k] || put_function(out, source, (enum gm_kernel_function)k, made));

@@ -12,13 +12,15 @@ enum gm_kernel_function {
     GM_KERNEL_VELOCITY,
     GM_KERNEL_FORCE,
     GM_KERNEL_JACOBIAN,
+    GM_KERNEL_ENERGY,
+    GM_KERNEL_POTENTIAL, /* V, V', V'' */
     GM_KERNEL_FUNCTIONS
 };
 
 struct gm_kernel_source {
     size_t components;
-    const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS]; /* of all components; NULL: there is none */
-    const struct gm_sparse *jacobian;                 /* what the last one's outputs are */
+    const struct gm_tape *tapes[GM_KERNEL_FUNCTIONS]; /* NULL: there is none */
+    const struct gm_sparse *jacobian;                 /* what the Jacobian's outputs are */
     /* Where constants are written out, and not led to by as many pointers as there are functions, problems
        lead by `parameters` to numbers: those inputs of the tapes from this one on. */
     bool written_out;

@@ -6,21 +6,7 @@
 #include "core/ode/problems/problems.h"
 
 GM_LOOPS_DECLARE(fish_eye)
-
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
-{
-    (void)problem;
-    for (size_t i = 0; i < m; i++) {
-        const double q1 = y[i], q2 = y[m + i], p1 = y[2 * m + i], p2 = y[3 * m + i];
-        const double n = 1 + (q1 * q1 + q2 * q2);
-        value[i] = n * n * (p1 * p1 + p2 * p2) / 8;
-    }
-}
-
-static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
-{
-    return gm_hamiltonian_read(problem, "(1 + q1^2 + q2^2)^2*(p1^2 + p2^2)/8", graph, node);
-}
+GM_ENERGY_DECLARE(fish_eye)
 
 const struct gm_problem gm_problem_fish_eye = {
     .name = "fish-eye",
@@ -30,7 +16,8 @@ const struct gm_problem gm_problem_fish_eye = {
     .facets =
         &(const struct gm_ode){
             .components = "q1 q2 p1 p2",
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},
+            .hamiltonian =
+                &(const struct gm_hamiltonian){.energy = gm_energy_fish_eye, .formula = gm_formula_fish_eye},
             .loops = GM_LOOPS(fish_eye),
         },
 };

@@ -6,28 +6,8 @@
 
 GM_LOOPS_DECLARE(oscillator)
 GM_LOOPS_DECLARE(oscillator_tangent)
-
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
-{
-    const double *momentum = y + problem->n / 2 * m;
-    for (size_t i = 0; i < m; i++) {
-        const double q = y[i], p = momentum[i];
-        value[i] = 0.5 * p * p + 0.5 * q * q;
-    }
-}
-
-static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
-{
-    return gm_hamiltonian_read(problem, "(p^2 + q^2)/2", graph, node);
-}
-
-static void potential(const struct gm_problem *problem, double q, double values[3])
-{
-    (void)problem;
-    values[0] = q * q / 2;
-    values[1] = q;
-    values[2] = 1;
-}
+GM_ENERGY_DECLARE(oscillator)
+GM_ENERGY_DECLARE(oscillator_tangent)
 
 const struct gm_problem gm_problem_oscillator = {
     .name = "oscillator",
@@ -39,8 +19,9 @@ const struct gm_problem gm_problem_oscillator = {
             .components = "q p",
             .quadratic = true,
             .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},
-            .lagrangian = &(const struct gm_lagrangian){.potential = potential},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_oscillator,
+                                                          .formula = gm_formula_oscillator},
+            .lagrangian = &(const struct gm_lagrangian){.potential = gm_potential_oscillator},
             .loops = GM_LOOPS(oscillator),
         },
 };
@@ -55,8 +36,9 @@ const struct gm_problem gm_problem_oscillator_tangent = {
             .components = "q xi1 xi2 p eta1 eta2",
             .quadratic = true,
             .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian =
-                &(const struct gm_hamiltonian){.energy = energy, .partial = true, .formula = formula},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_oscillator_tangent,
+                                                          .partial = true,
+                                                          .formula = gm_formula_oscillator_tangent},
             .loops = GM_LOOPS(oscillator_tangent),
         },
 };

@@ -3,20 +3,12 @@
        H = p1^2/2 + p2^2/6 + d^2/2 + d^4/4 + a (q1^4 + q2^4)/4,   d = q1 - q2,
    a = *(const double *)parameters, and a monitor 1 + d^2 of steps that shorten with the distance.
    Masses that differ catch a scheme that takes p for the velocity. */
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
 GM_LOOPS_DECLARE(particles)
-
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
-{
-    const double well = *(const double *)problem->parameters;
-    for (size_t i = 0; i < m; i++) {
-        const double q1 = y[i], q2 = y[m + i], p1 = y[2 * m + i], p2 = y[3 * m + i], d = q1 - q2;
-        value[i] = p1 * p1 / 2 + p2 * p2 / 6 + d * d / 2 + d * d * d * d / 4 +
-                   well * (q1 * q1 * q1 * q1 + q2 * q2 * q2 * q2) / 4;
-    }
-}
+GM_ENERGY_DECLARE(particles)
 
 static void density(const struct gm_problem *problem, const double *y, double *value, double *gradient)
 {
@@ -37,7 +29,7 @@ const struct gm_problem gm_problem_particles = {
         &(const struct gm_ode){
             .components = "q1 q2 p1 p2",
             .split = &(const struct gm_split){.nystrom = true},
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_particles},
             .monitor = &(const struct gm_monitor){.density = density},
             .loops = GM_LOOPS(particles),
         },

@@ -6,19 +6,7 @@
 #include "core/ode/problems/problems.h"
 
 GM_LOOPS_DECLARE(product)
-
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
-{
-    (void)problem;
-    for (size_t i = 0; i < m; i++) {
-        value[i] = 0.5 * (1 + y[i] * y[i]) * (1 + y[m + i] * y[m + i]);
-    }
-}
-
-static bool formula(const struct gm_problem *problem, struct gm_formula *graph, gm_node_id *node)
-{
-    return gm_hamiltonian_read(problem, "(1 + q^2)*(1 + p^2)/2", graph, node);
-}
+GM_ENERGY_DECLARE(product)
 
 const struct gm_problem gm_problem_product = {
     .name = "product",
@@ -28,7 +16,8 @@ const struct gm_problem gm_problem_product = {
     .facets =
         &(const struct gm_ode){
             .components = "q p",
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy, .formula = formula},
+            .hamiltonian =
+                &(const struct gm_hamiltonian){.energy = gm_energy_product, .formula = gm_formula_product},
             .loops = GM_LOOPS(product),
         },
 };

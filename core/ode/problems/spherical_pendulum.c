@@ -3,19 +3,12 @@
    spherical_pendulum.system. */
 #include <string.h>
 
+#include "core/ode/hamiltonian.h"
 #include "core/ode/kernel/loops.h"
 #include "core/ode/problems/problems.h"
 
 GM_LOOPS_DECLARE(spherical_pendulum)
-
-static void energy(const struct gm_problem *problem, const double *y, double *value, size_t m)
-{
-    (void)problem;
-    for (size_t i = 0; i < m; i++) {
-        const double *p = y + 3 * m + i;
-        value[i] = (p[0] * p[0] + p[m] * p[m] + p[2 * m] * p[2 * m]) / 2 + y[2 * m + i];
-    }
-}
+GM_ENERGY_DECLARE(spherical_pendulum)
 
 /* L = |v|^2/2 - z */
 static void motion(const struct gm_problem *problem, const double *at, const struct gm_motion *motion)
@@ -51,7 +44,7 @@ const struct gm_problem gm_problem_spherical_pendulum = {
     .facets =
         &(const struct gm_ode){
             .components = "x y z p_x p_y p_z",
-            .hamiltonian = &(const struct gm_hamiltonian){.energy = energy},
+            .hamiltonian = &(const struct gm_hamiltonian){.energy = gm_energy_spherical_pendulum},
             .action = &(const struct gm_action){.motion = motion, .constraints = 1, .constrain = constrain},
             .loops = GM_LOOPS(spherical_pendulum),
         },
