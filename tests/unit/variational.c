@@ -418,6 +418,24 @@ static void no_root(void **unused)
     untype(&typed);
 }
 
+/* Compensated, the time that a state holds is that of the run, as its coordinates and momenta are. */
+static void time_of_the_state(void **unused)
+{
+    (void)unused;
+    static const struct gm_settings compensated = {.compensated = 1};
+    struct typed typed;
+    type(&typed, "coordinates: q\nL: v_q^2/2 - q^2/2 + q*cos(t)\nstart: q = 1, v_q = 0\n");
+    assert_int_equal(typed.problem.n, 3);
+    struct gm_run *run = gm_run_open(&typed.problem, fitting("variational-midpoint2", &typed.problem),
+                                     &compensated, 0, 0.1, typed.start);
+    assert_non_null(run);
+    assert_int_equal(gm_run_advance(run, 10000), GM_OK);
+    assert_float_equal(gm_run_state(run)[2], run->t,
+                       0x1p-42); /* 1000, to a few roundings; plain sums: 1e-10 */
+    gm_run_close(run);
+    untype(&typed);
+}
+
 /* What the schemes need, and what they are refused for. */
 static void what_does_not_fit(void **unused)
 {
@@ -455,6 +473,7 @@ int main(int count, char **words)
         cmocka_unit_test(constraints_are_kept),
         cmocka_unit_test(a_chain),
         cmocka_unit_test(no_root),
+        cmocka_unit_test(time_of_the_state),
         cmocka_unit_test(what_does_not_fit),
     };
     const struct CMUnitTest long_ones[] = {cmocka_unit_test(momentum_maps)};

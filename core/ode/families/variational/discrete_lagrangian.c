@@ -363,7 +363,7 @@ static enum gm_status make_step(const struct gm_task *task, struct gm_members *m
     gm_tile_add(y, 1, step.solution + (rule->degree - 1) * half, carry, half);
     gm_tile_add(y + half, 1, step.impulse, carry ? carry + half : NULL, half);
     if (problem->n > 2 * half) {
-        y[2 * half] += task->dt;
+        gm_tile_add(y + 2 * half, 1, &task->dt, carry ? carry + 2 * half : NULL, 1);
     }
     if (step.constraints > 0 && !end_on_manifold(&step, y)) {
         return GM_NO_CONVERGENCE;
