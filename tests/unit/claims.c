@@ -23,6 +23,7 @@
 #include "core/ode/families/splitting.h"
 #include "core/ode/families/variational/discrete_lagrangian.h"
 #include "core/ode/kernel/loops.h"
+#include "core/ode/kernel/members.h"
 #include "core/ode/problems/problems.h"
 #include "core/schemes.h"
 
@@ -597,6 +598,61 @@ static void kick_aside(const struct gm_problem *problem, double ds, double bindi
 typedef void fictitious_step(const struct gm_problem *problem, double ds, double binding, double *y,
                              double *t);
 
+/* A step of logh2's family that is made in one of these ways; its memory begins with B. */
+static enum gm_status make_wrong(fictitious_step *made, const struct gm_task *task,
+                                 struct gm_members *members, struct gm_progress *progress)
+{
+    double passed = 0;
+    made(task->problem, task->dt, members->memory[0], members->y, &passed);
+    progress->t += passed;
+    progress->evaluations++;
+    return passed * task->dt > 0 ? GM_OK : GM_STEP_COLLAPSE;
+}
+
+static enum gm_status make_one_drift(const struct gm_task *task, struct gm_members *members,
+                                     struct gm_progress *progress)
+{
+    return make_wrong(half_drifts_as_one, task, members, progress);
+}
+
+static enum gm_status make_aside(const struct gm_task *task, struct gm_members *members,
+                                 struct gm_progress *progress)
+{
+    return make_wrong(kick_aside, task, members, progress);
+}
+
+static struct gm_progress advance_one_drift(const struct gm_task *task)
+{
+    return gm_members_advance(task, make_one_drift);
+}
+
+static struct gm_progress advance_aside(const struct gm_task *task)
+{
+    return gm_members_advance(task, make_aside);
+}
+
+static void a_logarithmic_hamiltonian_gone_wrong(void **unused)
+{
+    (void)unused;
+    struct gm_scheme wrong = changed("logh2");
+    struct gm_family family = *wrong.family;
+    wrong.family = &family;
+    wrong.order = 1;
+    family.loop = advance_one_drift;
+    struct gm_certificate certificate = gm_certify(&wrong);
+    assert_true(certificate.order_holds);
+    assert_true(certificate.claims[12].holds);                                          /* bilinear */
+    assert_true(certificate.claims[1].measured && certificate.claims[1].defect > 1e-6); /* symmetric */
+    assert_false(certificate.claims[1].holds);
+    assert_true(certificate.claims[2].measured); /* reversible */
+    assert_false(certificate.claims[2].holds);
+    family.loop = advance_aside;
+    certificate = gm_certify(&wrong);
+    assert_true(certificate.claims[12].measured && certificate.claims[12].defect > 1e-9);
+    assert_false(certificate.claims[12].holds);
+    assert_false(certificate.claims[1].holds || certificate.claims[2].holds);
+}
+
 static void a_fictitious_time_gone_wrong(void **unused)
 {
     (void)unused;
@@ -671,6 +727,7 @@ int main(void)
         cmocka_unit_test(names_find_the_row_that_fits),
         cmocka_unit_test(a_wave_with_friction),
         cmocka_unit_test(the_law_of_another_scheme),
+        cmocka_unit_test(a_logarithmic_hamiltonian_gone_wrong),
         cmocka_unit_test(a_fictitious_time_gone_wrong),
         cmocka_unit_test(a_stage_that_is_late),
     };
