@@ -96,7 +96,9 @@ static enum gm_status step(const struct gm_task *task, struct gm_members *member
     }
     good = drift(&at, last / 2) && good;
     moving(&at);
-    progress->evaluations += (unsigned long)composition->steps;
+    const int drifts =
+        gm_ode_of(at.problem)->split->unit_mass ? 0 : composition->steps + 1; /* with a field */
+    progress->evaluations += (unsigned long)(composition->steps + drifts);
     const double before = progress->t, whole = memory[TIME_CARRY] + at.time;
     if (!good || !isfinite(at.time) || !(at.time * task->dt > 0) || before + whole == before) {
         return GM_STEP_COLLAPSE;
