@@ -47,7 +47,9 @@ const char *gm_scheme_lacks(const struct gm_scheme *scheme, const struct gm_prob
         return gm_scheme_problems(scheme);
     }
     const struct gm_facet_words *words = words_of(problem->kind, scheme->needs & ~facets_of(problem));
-    return words ? words->structure : NULL;
+    const char *alone =
+        scheme->family->own_time && problem->m > 1 ? "a single member, for its time is its own" : NULL;
+    return words ? words->structure : alone;
 }
 
 const char *gm_scheme_problems(const struct gm_scheme *scheme)

@@ -232,6 +232,13 @@ static double overshoot(const struct gm_drive *drive)
     return run->status != GM_OK || there || gm_lane_stopped(drive->lane) ? 0 : run->t - until;
 }
 
+/* By more than half of the way to it. */
+static bool is_far_beyond(const struct gm_drive *drive)
+{
+    const double over = overshoot(drive);
+    return over > 0 && over > (drive->request->lanes[drive->index].until - drive->lane->run->t0) / 2;
+}
+
 void gm_drive_message(const struct gm_drive *drive, char *text, size_t size)
 {
     gm_failure_sentence(drive->lane, text, size);
@@ -249,6 +256,10 @@ void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size)
         snprintf(text, size,
                  "the run ends at t = %.10g and not at until = %.10g: that is no whole number of steps",
                  drive->lane->run->t, drive->request->lanes[drive->index].until);
+    }
+    if (drive->lane->scheme->family->own_time && is_far_beyond(drive)) {
+        snprintf(text, size, "the last step leads far beyond until = %.10g, to t = %.10g: dt is too long",
+                 drive->request->lanes[drive->index].until, drive->lane->run->t);
     }
 }
 

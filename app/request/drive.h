@@ -39,8 +39,8 @@ void gm_failure_sentence(const struct gm_lane *lane, char *text, size_t size);
    to its end, which is after the until asked for; empty if there is nothing to say. */
 void gm_drive_message(const struct gm_drive *drive, char *text, size_t size);
 
-/* Writes that a run at its end is not at the until asked for, which is no whole number of steps; empty if it
-   is. */
+/* Writes that a run at its end is not at the until asked for, which is no whole number of steps or, where the
+   scheme chooses them, lies far behind; empty if it is. */
 void gm_drive_other_end(const struct gm_drive *drive, char *text, size_t size);
 
 /* Writes what is wrong with a run that is not failed: gm_lane_warning and gm_drive_other_end; empty if there

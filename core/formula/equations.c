@@ -641,25 +641,25 @@ double *gm_equations_start(const struct gm_own_system *system, const double *giv
     return variables;
 }
 
-static bool check_legendre(struct gm_own_system *system, double *start, double *values,
-                           struct gm_fault *fault)
+bool gm_equations_check_legendre(const struct gm_own_system *system, double *start, struct gm_fault *fault)
 {
     const size_t half = system->n / 2;
     struct gm_mass mass = {0};
-    double *room = malloc(2 * half * sizeof *room);
-    bool regular = true;
-    if (room && gm_mass_open(&mass, half)) {
+    double *room = malloc(2 * half * sizeof *room),
+           *values = malloc((system->graph.count + (size_t)1) * sizeof *values);
+    const bool opened = room && values && gm_mass_open(&mass, half);
+    bool regular = false;
+    if (opened) {
         struct transform transform = {system, start, values, NULL, system->graph.count, NULL};
         memcpy(room, start + system->velocities, half * sizeof *room);
         momenta_at(&transform, room, room + half, &mass);
         regular = gm_mass_factor(&mass, 1e-14);
-    } else {
-        system->graph.failed = true;
     }
     gm_mass_close(&mass);
+    free(values);
     free(room);
-    if (regular) {
-        return true;
+    if (!opened || regular) {
+        return opened;
     }
     char where[120] = "";
     size_t length = 0;
@@ -834,7 +834,7 @@ static bool check_sizes(struct gm_own_system *system, const double *values, stru
 static bool check_start(struct gm_own_system *system, struct gm_fault *fault)
 {
     double *start = gm_equations_start(system, NULL), *values = start ? values_for(system, start) : NULL;
-    bool good = !values || system->kind != GM_LAGRANGIAN || check_legendre(system, start, values, fault);
+    bool good = !values || system->kind != GM_LAGRANGIAN || gm_equations_check_legendre(system, start, fault);
     for (size_t i = 0; values && good && i < system->n; i++) {
         good = isfinite(start[i]) ||
                gm_fail(fault, 0, "%.60s is not finite at the start", system->variables[i].name);

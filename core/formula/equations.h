@@ -18,6 +18,9 @@ bool gm_equations_open(struct gm_own_system *system, const char *text, size_t le
    that, NaN where nothing does; NULL: nowhere. What needs itself is NaN. malloc'ed; NULL where memory is
    short. */
 double *gm_equations_start(const struct gm_own_system *system, const double *given);
+/* Of a Lagrangian: whether momenta determine velocities at these values of all variables (gm_equations_start),
+   which it leaves as they are. False with a fault, whose sentence is untouched where memory was refused. */
+bool gm_equations_check_legendre(const struct gm_own_system *system, double *start, struct gm_fault *fault);
 
 /* The field of an evolution that a mass is of; system->n where it is of none, or of several, or memory was
    refused. */

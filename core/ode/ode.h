@@ -18,7 +18,7 @@ enum gm_isa { GM_ISA_BASELINE, GM_ISA_AVX2, GM_ISA_AVX512, GM_ISA_COUNT };
 struct gm_split {
     bool nystrom;   /* T is quadratic, */
     bool unit_mass; /* q' = p even: it need not be asked for */
-    bool attracts;  /* V = H at p = 0 is negative at the start, and T(0) = 0 */
+    bool attracts;  /* H at p = 0 is negative where it starts */
 };
 
 /* q' = w dH/dp, p' = -w dH/dq with q the first n / 2 components and w = weight(problem) (NULL: 1). So the

@@ -189,6 +189,16 @@ static bool starts_on_manifold(const struct gm_system_lane *lane, const struct g
                      defects.constraint, defects.hidden);
 }
 
+/* Whether momenta determine velocities where this lane starts: the file's start is checked when it is read. */
+static bool has_velocities(const struct gm_system_lane *lane, char *sentence)
+{
+    double *values = gm_system_start_values(lane, NULL);
+    struct gm_fault fault = {.sentence = "not enough memory"};
+    const bool good = values && gm_equations_check_legendre(&lane->own->system, values, &fault);
+    free(values);
+    return good || gm_refuse(sentence, "%s", fault.sentence);
+}
+
 /* Whether the surfaces have sizes. */
 static bool has_surfaces(const struct gm_system_lane *lane, char *sentence)
 {
@@ -213,13 +223,10 @@ static bool setup(const void *parameters, struct gm_problem *problem, char *sent
     if (own->surfaces.outputs > 0 && !has_surfaces(lane, sentence)) {
         return false;
     }
-    double *values = malloc(own->system.variable_count * sizeof *values);
-    for (size_t i = 0; values && i < own->system.variable_count; i++) {
-        values[i] = own->system.variables[i].value;
+    if (own->system.kind == GM_LAGRANGIAN && !has_velocities(lane, sentence)) {
+        return false;
     }
-    for (size_t row = GM_SYSTEM_ROWS; values && row < own->first_start; row++) {
-        values[own->variables[row]] = lane->values[row - GM_SYSTEM_ROWS];
-    }
+    double *values = gm_system_start_values(lane, NULL);
     const bool good = values && gm_own_problem_open(problem, &own->model, values);
     free(values);
     if (!good) {

@@ -103,9 +103,21 @@ misplaced '4:10: the monitor is -1 at the start: how dense steps are is a number
 misplaced '4:10: a monitor holds coordinates, momenta and parameters alone' 'monitor: 1 + t'
 refused 1 'does not fit scene system: it needs a monitor, the density of steps; geomint list' run system H='p^2/2 + q^2/2' q=1 p=0 scheme=controlled-verlet2
 refused 1 'it needs a potential V(q) < 0 of a Hamiltonian T(p) + V(q)' run system H='p^2/2 + q^2' q=1 p=0 scheme=logh2
+# where this run starts counts, not where the file does
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 - cos(q)\nstart: q = 3, p = 0\n' >top.system
+refused 1 'it needs a potential V(q) < 0 of a Hamiltonian T(p) + V(q), T(0) = 0' run ./top.system scheme=logh2
+"$geomint" run ./top.system q=0 p=1 scheme=logh2 until=1 >out || fail 'what attracts at the start of the run alone'
+printf 'coordinates: q\nmomenta: p\nH: p^2/2 - cos(q)\nstart: q = 0, p = 1\n' >bottom.system
+refused 1 'it needs a potential V(q) < 0' run ./bottom.system q=3 p=0 scheme=logh2
+refused 1 'it needs a potential V(q) < 0 .*, T(0) = 0' run system H='cosh(p1)+cosh(p2)-1/sqrt(q1^2+q2^2)' q1=1 q2=0 p1=0 p2=1 scheme=logh2
+refused 1 'scheme logh2 .*it needs a single member, for its time is its own' run ./bottom.system members=10 scheme=logh2
+"$geomint" run outer-planets scheme=logh2 --json >out || fail "the outer planets in another time"
+grep -q '"warning":"the last step leads far beyond until = ' out || fail "a step far beyond the end: $(cat out)"
+"$geomint" run kepler scheme=logh2 --json >out || fail "Kepler in another time"
+grep -q '"warning":""' out || fail "a step a little beyond the end: $(cat out)"
 "$geomint" run system H='p^2/2 - cos(q)' q=0 p=1.9 scheme=logh2 dt=.01 until=10 >out
 [ $? = 2 ] || fail "a potential that is not negative is no failure"
-grep -q 'the potential, which has to be negative, is -0.119' out || fail "no word of the potential: $(cat out)"
+grep -q 'the energy at rest, which has to be negative, is -0.119, and 0.0' out || fail "no word of the potential: $(cat out)"
 printf 'coordinates: x\nH: p_x^2/2 + x^2/2\nstart: x = 1, p_x = 0\nmonitor: x - 0.5\ndt: 0.001\nuntil: 9\n' >falls.system
 "$geomint" run ./falls.system scheme=controlled-verlet2 >out 2>err
 [ $? = 2 ] || fail "a monitor that falls to 0 is no failure"
@@ -340,6 +352,14 @@ printf 'bracket: x y = z, y z = x, z x = y\nH: (x^2 + 2*y^2)/2\nstart: x = 1, y 
 printf 'coordinates: q\nmomenta: p\nH: (p^2 + q^2)/2\nstart: q = pi/2, p = 1\nstop: cos(q)\n' >edge.system
 "$geomint" run edge.system scheme=gauss8 dt=0.01 until=20 --json >out || fail edge
 value out t | grep -q '^1.133' || fail "cos(pi/2) is 0 but for round-off: $(cat out)"
+# momenta determine velocities at the start of this run too, whatever the file says of its own
+printf 'coordinates: x y\nL: (x*v_x^2 + v_y^2)/2 - x^2\nstart: x = 1, y = 0, v_x = 0, v_y = 1\n' >mass.system
+for scheme in variational-midpoint2 rk4; do
+    refused 1 'L is singular at the start, x = 0, y = 0: momenta do not determine velocities' run ./mass.system x=0 scheme=$scheme
+done
+printf 'coordinates: x\nparameter: m = 1\nL: m*v_x^2/2 - x^2\nstart: x = 1, v_x = 0\n' >weight.system
+refused 1 'L is singular at the start, x = 1: momenta do not determine velocities' run ./weight.system m=0 scheme=variational-midpoint2
+"$geomint" run ./weight.system m=0.5 scheme=variational-midpoint2 >out || fail 'a mass of a half'
 printf 'coordinates: a b\nL: (v_a^2 + sin(a)^2*v_b^2)/2\nstart: a = 1, b = 0, v_a = -1, v_b = 0\n' >pole.system
 "$geomint" run pole.system dt=0.5 until=5 scheme=rk4 --json >out
 [ $? = 2 ] || fail 'a singular transform, and no failure'

@@ -236,7 +236,7 @@ static void a_typed_attraction(void **unused)
     const struct gm_scheme *scheme = gm_scheme_find_for("logh2", &typed.problem);
     assert_false(gm_scheme_fits(scheme, &typed.problem));
     assert_string_equal(gm_scheme_lacks(scheme, &typed.problem),
-                        "a potential V(q) < 0 of a Hamiltonian T(p) + V(q)");
+                        "a potential V(q) < 0 of a Hamiltonian T(p) + V(q), T(0) = 0");
     untype(&typed);
     type(&typed, "coordinates: x\nH: p_x^2/2 - cos(x)\nstart: x = 0, p_x = 1.9\n");
     struct gm_run *run = open_run(&typed.problem, "logh-kahan-li8", 0.01, typed.start);

@@ -66,7 +66,7 @@ static const struct gm_facet_words words[] = {
      "Lagrangian systems, and Hamiltonian ones of quadratic kinetic energy T(p)"},
     {GM_NEEDS_VOLUME, "parts without divergence that can be solved", "fields without divergence, in pieces"},
     {GM_NEEDS_KEPLER_SPLIT, "a Kepler part with a perturbation", "perturbed Kepler problems"},
-    {GM_NEEDS_ATTRACTION, "a potential V(q) < 0 of a Hamiltonian T(p) + V(q)",
+    {GM_NEEDS_ATTRACTION, "a potential V(q) < 0 of a Hamiltonian T(p) + V(q), T(0) = 0",
      "motions in a negative potential V(q)"},
     {GM_NEEDS_FAST_LINEAR, "a stiff part that is linear", "systems with a stiff linear part"},
     {GM_NEEDS_SEMILINEAR, "a linear part that is the same at every point of a ring",

@@ -563,15 +563,15 @@ static bool open_tapes(struct own *own, const double *values)
     return good;
 }
 
-/* Whether V, the energy of rest, is negative where the system says that it starts. */
-static bool attracts(const struct gm_problem *problem)
+/* Whether the energy of rest is negative where these values of all variables have it start. */
+static bool attracts(const struct gm_problem *problem, const double *values)
 {
-    double *start = gm_equations_start(own_of(problem)->model->system, NULL);
-    for (size_t c = problem->n / 2; start && c < problem->n; c++) {
-        start[c] = 0;
+    double *rest = calloc(problem->n, sizeof *rest);
+    for (size_t c = 0; rest && c < problem->n / 2; c++) {
+        rest[c] = values[c];
     }
-    const bool negative = start && gm_energy(problem, start) < 0;
-    free(start);
+    const bool negative = rest && gm_energy(problem, rest) < 0;
+    free(rest);
     return negative;
 }
 
@@ -628,7 +628,7 @@ bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *
         !open_monitor(own, values) || !open_poisson(own, problem, values)) {
         return false;
     }
-    own->split.attracts = own->ode.split && own->ode.hamiltonian && attracts(problem);
+    own->split.attracts = own->ode.split && own->ode.hamiltonian && attracts(problem, values);
     own->constants[GM_KERNEL_FIELD] = own->field.constants;
     own->constants[GM_KERNEL_VELOCITY] = own->velocity.constants;
     own->constants[GM_KERNEL_FORCE] = own->force.constants;

@@ -97,30 +97,62 @@ static bool tell_velocities(const struct gm_system_scene *own, const struct gm_v
     return true;
 }
 
+/* What decides the length of steps, dt divided by it, in a state that it may change: a number above 0. */
+typedef double density_at(const struct gm_problem *problem, double *y);
+
+static double density_of_monitor(const struct gm_problem *problem, double *y)
+{
+    double value;
+    gm_ode_of(problem)->monitor->density(problem, y, &value, NULL);
+    return value;
+}
+
+static double depth_at_rest(const struct gm_problem *problem, double *y)
+{
+    memset(y + problem->n / 2, 0, problem->n / 2 * sizeof *y);
+    return -gm_energy(problem, y);
+}
+
+/* The density here, and where it is first not above 0 in the line of the next two steps. */
+static void look_ahead(const struct gm_view *view, const double *slope, density_at *density, double *y,
+                       double *here, double *there)
+{
+    enum { PARTS = 16, STEPS = 2 };
+    const struct gm_problem *problem = view->problem;
+    memcpy(y, view->state, problem->n * sizeof *y);
+    *here = *there = density(problem, y);
+    for (int part = 1; part <= STEPS * PARTS && *there > 0; part++) {
+        for (size_t i = 0; i < problem->n; i++) {
+            y[i] = view->state[i] + view->dt / *here * part / PARTS * slope[i];
+        }
+        *there = density(problem, y);
+    }
+}
+
 /* Of a step whose length the monitor decided: how fast that falls. */
 static void tell_monitor(const struct gm_view *view, const double *slope, double *ahead, char *text,
                          size_t size)
 {
-    const struct gm_monitor *monitor = gm_ode_of(view->problem)->monitor;
     double here, there;
-    monitor->density(view->problem, view->state, &here, NULL);
-    for (size_t i = 0; i < view->problem->n; i++) {
-        ahead[i] = view->state[i] + view->dt / here * slope[i];
-    }
-    monitor->density(view->problem, ahead, &there, NULL);
-    if (!(there >= here)) {
-        snprintf(text, size, "the monitor, how dense steps are to be, is %.3g, and %.3g a step further", here,
-                 there);
+    look_ahead(view, slope, density_of_monitor, ahead, &here, &there);
+    if (!(there > 0)) {
+        snprintf(text, size, "the monitor, how dense steps are to be, is %.3g, and %.3g where the step leads",
+                 here, there);
     }
 }
 
-/* Of a step whose length the potential decided: V, the energy of rest. */
-static void tell_potential(const struct gm_view *view, double *rest, char *text, size_t size)
+/* Of a step whose length the energy of rest decided: where that is not negative. */
+static void tell_rest(const struct gm_view *view, const double *slope, double *ahead, char *text, size_t size)
 {
-    const size_t half = view->problem->n / 2;
-    memcpy(rest, view->state, half * sizeof *rest);
-    memset(rest + half, 0, half * sizeof *rest);
-    snprintf(text, size, "the potential, which has to be negative, is %.3g", gm_energy(view->problem, rest));
+    double here, there;
+    look_ahead(view, slope, depth_at_rest, ahead, &here, &there);
+    if (!(here > 0)) {
+        snprintf(text, size, "the energy at rest, which has to be negative, is %.3g", -here);
+    } else if (!(there > 0)) {
+        snprintf(text, size,
+                 "the energy at rest, which has to be negative, is %.3g, and %.3g where the step leads",
+                 -here, -there);
+    }
 }
 
 void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
@@ -152,7 +184,7 @@ void gm_system_tell_failure(const struct gm_view *view, char *text, size_t size)
         tell_monitor(view, slope, ahead, text, size);
     }
     if (!text[0] && (view->scheme->needs & GM_NEEDS_ATTRACTION)) {
-        tell_potential(view, ahead, text, size);
+        tell_rest(view, slope, ahead, text, size);
     }
     free(slope);
 }
