@@ -12,9 +12,9 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/reference/version.h"
+#include "app/ground/share.h"
 #include "app/output/say.h"
 #include "app/request/interrupt.h"
-#include "app/share.h"
 #include "core/formula/nearest.h"
 #include "core/memory.h"
 #include "render/address_space.h"

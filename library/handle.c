@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
 #include "app/data/meta.h"
+#include "app/ground/arguments.h"
 #include "app/output/json.h"
 #include "core/memory.h"
 #include "core/schemes.h"

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
 #include "app/commands/commands.h"
+#include "app/ground/arguments.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"
 #include "app/output/still.h"

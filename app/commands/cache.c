@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "app/commands/commands.h"
-#include "app/exit.h"
+#include "app/ground/exit.h"
 #include "app/native/cache.h"
 #include "app/output/say.h"
 #include "core/memory.h"

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "app/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/reference/catalogue.h"
+#include "app/ground/arguments.h"
 #include "app/output/say.h"
 #include "app/own/found.h"
 #include "app/own/replacing.h"

@@ -3,7 +3,7 @@
 #ifndef GM_APP_COMMANDS_OPTIONS_H
 #define GM_APP_COMMANDS_OPTIONS_H
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/native/engine.h"
 #include "app/output/press.h"
 #include "app/request/request.h"

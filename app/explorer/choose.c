@@ -8,9 +8,9 @@
 
 #include "app/explorer/surface/search.h"
 #include "app/explorer/view/pages.h"
+#include "app/ground/share.h"
 #include "app/own/found.h"
 #include "app/own/room.h"
-#include "app/share.h"
 #include "render/cells/text.h"
 #include "render/clock.h"
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/output/still.h"
 #include "app/request/drive.h"
 #include "app/request/interrupt.h"

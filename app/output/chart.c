@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/request/request.h"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/request/drive.h"
 
 static bool take(struct gm_provenance *provenance, const char *key, char *text)

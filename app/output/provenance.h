@@ -2,7 +2,7 @@
 #ifndef GM_APP_OUTPUT_PROVENANCE_H
 #define GM_APP_OUTPUT_PROVENANCE_H
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/request/request.h"
 #include "render/files/png.h"
 #include "render/layout/appearance.h"

@@ -2,7 +2,7 @@
 #ifndef GM_APP_OUTPUT_SAY_H
 #define GM_APP_OUTPUT_SAY_H
 
-#include "app/exit.h"
+#include "app/ground/exit.h"
 
 /* What commands say, line by line. */
 

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
+#include "app/ground/share.h"
 #include "app/own/room.h"
-#include "app/share.h"
 #include "core/formula/nearest.h"
 #include "core/formula/reader.h"
 #include "scenes/frame/scene.h"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/exit.h"
+#include "app/ground/exit.h"
 #include "core/formula/reader.h"
 #include "core/formula/system.h"
 #include "render/files/regular_file.h"

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "app/place.h"
+#include "app/ground/place.h"
 
 struct gm_fault;
 

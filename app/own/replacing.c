@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 
 const char *const gm_replacing_keys[] = {"H", "L", "V", "rate", "bracket", "S", "K-matrix", "L-matrix", NULL};
 

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/exit.h"
-#include "app/place.h"
-#include "app/share.h"
+#include "app/ground/exit.h"
+#include "app/ground/place.h"
+#include "app/ground/share.h"
 #include "core/formula/reader.h"
 #include "core/memory.h"
 #include "render/files/regular_file.h"

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "app/exit.h"
-#include "app/place.h"
+#include "app/ground/exit.h"
+#include "app/ground/place.h"
 #include "core/formula/nearest.h"
 #include "core/formula/reader.h"
 #include "core/memory.h"

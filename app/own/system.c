@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
-#include "app/exit.h"
+#include "app/ground/arguments.h"
+#include "app/ground/exit.h"
 #include "app/own/found.h"
 #include "app/own/lines.h"
 #include "app/own/replacing.h"

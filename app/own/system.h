@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "app/place.h"
+#include "app/ground/place.h"
 
 struct gm_own_system;
 struct gm_scene;

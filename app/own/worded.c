@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/place.h"
+#include "app/ground/place.h"
 #include "core/count.h"
 #include "core/formula/reader.h"
 #include "render/message.h"

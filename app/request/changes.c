@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/own/scheme.h"
 #include "app/request/request.h"
 #include "core/schemes.h"

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/native/engine.h"
 #include "app/own/found.h"
 #include "app/own/scheme.h"

@@ -2,7 +2,7 @@
 #ifndef GM_APP_REQUEST_REQUEST_H
 #define GM_APP_REQUEST_REQUEST_H
 
-#include "app/exit.h"
+#include "app/ground/exit.h"
 #include "render/message.h"
 #include "scenes/frame/lane.h"
 

@@ -2,7 +2,7 @@
 #ifndef GM_APP_REQUEST_TYPED_H
 #define GM_APP_REQUEST_TYPED_H
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/request/request.h"
 
 /* A line that is typed where there is no shell: the words of a command line. A blank ends a key's word where

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "core/count.h"
 #include "core/formula/nearest.h"
 #include "core/schemes.h"

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/request/request.h"
 
 struct kept {

@@ -2,7 +2,7 @@
 #ifndef GM_APP_STUDIES_SWEEP_H
 #define GM_APP_STUDIES_SWEEP_H
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/request/chosen.h"
 #include "app/request/request.h"
 #include "app/request/words.h"

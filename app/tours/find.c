@@ -7,7 +7,7 @@
 #include <strings.h>
 #include <unistd.h>
 
-#include "app/share.h"
+#include "app/ground/share.h"
 #include "app/tours/tour.h"
 #include "core/formula/nearest.h"
 

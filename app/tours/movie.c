@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/output/folder.h"
 #include "app/output/provenance.h"
 #include "app/output/say.h"

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/own/scheme.h"
 #include "app/tours/tour.h"
 #include "core/count.h"

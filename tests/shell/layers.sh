@@ -25,17 +25,13 @@ forbid scenes 'render/(gl|drawing|vector|cells|layout|clock|files/[^r])'
 forbid app '(library|tests)/'
 forbid library '(app/(commands|explorer)|tests)/'
 
-# the ground of app, on which all its rooms stand, sees none of them; and its floors: a room sees none above it, and the words of a command line stay with the commands
+# the floors of app: a room sees none above it, and the words of a command line stay with the commands
 floors="tours
 lanes studies figures data
 output
 request cores
-own native"
-ground='arguments place exit share'
-for file in $ground; do
-    found=$(grep -nE "${include}\"app/" app/$file.[ch] | grep -v "\"app/$file.h\"")
-    [ -z "$found" ] || { printf 'the ground of app sees a room:\n%s\n' "$found"; status=1; }
-done
+own native
+ground"
 known=" commands explorer completion $(echo $floors) "
 for room in app/*/; do
     room=$(basename "$room")

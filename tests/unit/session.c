@@ -15,10 +15,10 @@
 
 #include <cmocka.h>
 
-#include "app/arguments.h"
 #include "app/explorer/surface/search.h"
 #include "app/explorer/view/prompt.h"
 #include "app/explorer/view/studies.h"
+#include "app/ground/arguments.h"
 #include "app/lanes/session.h"
 #include "app/lanes/slider.h"
 #include "app/request/drive.h"

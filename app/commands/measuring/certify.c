@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/measuring/certificate.h"
 #include "app/commands/measuring/charted.h"
 #include "app/cores/pool.h"
+#include "app/ground/arguments.h"
 #include "app/output/json.h"
 #include "app/output/say.h"
 #include "app/output/scheme_json.h"

@@ -12,9 +12,9 @@
 #include <suitesparse/cholmod.h>
 
 #include "app/commands/reference/version.h"
+#include "app/ground/share.h"
 #include "app/native/compiler.h"
 #include "app/output/say.h"
-#include "app/share.h"
 #include "core/memory.h"
 #include "core/ode/kernel/loops.h"
 #include "render/vector/pdf.h"

@@ -11,8 +11,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "app/arguments.h"
 #include "app/explorer/background/job.h"
+#include "app/ground/arguments.h"
 #include "app/output/chart.h"
 #include "app/output/folder.h"
 #include "app/studies/kinds/study.h"

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 #include "app/output/folder.h"
 #include "app/output/still.h"
 #include "app/own/now.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where the data are that the program brings. */
-#include "app/share.h"
+#include "app/ground/share.h"
 
 #include <dirent.h>
 #include <dlfcn.h>

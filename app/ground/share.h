@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef GM_APP_SHARE_H
-#define GM_APP_SHARE_H
+#ifndef GM_APP_GROUND_SHARE_H
+#define GM_APP_GROUND_SHARE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Words as one owned list: split from a text, completed by what is usual, written so that they are read
    again. */
-#include "app/arguments.h"
+#include "app/ground/arguments.h"
 
 #include <stdlib.h>
 #include <string.h>
