@@ -35,7 +35,8 @@ void gm_own_model_close(struct gm_own_model *model);
 const char *gm_own_model_lacks(const struct gm_own_model *model);
 
 /* The problem with these values of the system's variables, those of parameters and where components start
-   (gm_equations_start), of which the latter tell whether it attracts there. The model outlives it. m is 1, and may be changed. False: out of memory. To be closed in both cases. */
+   (gm_equations_start), of which the latter tell whether it attracts there. The model outlives it. m is 1, and
+   may be changed. False: out of memory. To be closed in both cases. */
 bool gm_own_problem_open(struct gm_problem *problem, const struct gm_own_model *model, const double *values);
 void gm_own_problem_close(struct gm_problem *problem);
 
